@@ -1,0 +1,7 @@
+"""``python -m urdfkit``."""
+
+import sys
+
+from urdfkit.cli import main
+
+sys.exit(main())

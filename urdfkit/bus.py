@@ -1,0 +1,95 @@
+"""Bus: named, typed topics inside one process. No threads of its own: callbacks run in the publisher's thread."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from urdfkit.errors import UsageError
+
+
+@dataclass(slots=True)
+class Topic:
+    """What is known about one topic.
+
+    Attributes:
+        name: absolute, e.g. ``/simpleton/cmd_vel``.
+        type: ROS type name, e.g. ``geometry_msgs/msg/Twist``.
+        count: messages published so far.
+        latest: the last message; None before the first.
+    """
+
+    name: str
+    type: str
+    count: int = 0
+    latest: Any = None
+    subscribers: list[Callable[[Any], None]] = field(default_factory=list, repr=False)
+
+
+class Subscription:
+    """A running subscription; `close` ends it."""
+
+    def __init__(self, topic: Topic, callback: Callable[[Any], None]) -> None:
+        self._topic = topic
+        self._callback = callback
+
+    def close(self) -> None:
+        """Stop receiving; closing twice is harmless."""
+        if self._callback in self._topic.subscribers:
+            self._topic.subscribers.remove(self._callback)
+
+
+class Bus:
+    """Publish, subscribe, latest."""
+
+    def __init__(self) -> None:
+        self._topics: dict[str, Topic] = {}
+
+    def advertise(self, name: str, type: str) -> Topic:
+        """Declare a topic and return it; publishing or subscribing does so too.
+
+        Raises:
+            UsageError: the topic exists with another type.
+        """
+        name = absolute(name)
+        topic = self._topics.get(name)
+        if topic is None:
+            topic = self._topics[name] = Topic(name, type)
+        elif topic.type != type:
+            raise UsageError(f"topic `{name}` carries {topic.type}, not {type}")
+        return topic
+
+    def publish(self, name: str, type: str, message: Any) -> None:
+        """Hand a message to every subscriber, in the order they subscribed."""
+        topic = self.advertise(name, type)
+        topic.count += 1
+        topic.latest = message
+        for callback in tuple(topic.subscribers):
+            callback(message)
+
+    def subscribe(self, name: str, type: str, callback: Callable[[Any], None]) -> Subscription:
+        """Call `callback` with every message published from now on."""
+        topic = self.advertise(name, type)
+        topic.subscribers.append(callback)
+        return Subscription(topic, callback)
+
+    def latest(self, name: str) -> Any:
+        """Return the last message of a topic, None when there is none."""
+        topic = self._topics.get(absolute(name))
+        return None if topic is None else topic.latest
+
+    def has_subscribers(self, name: str) -> bool:
+        """Whether anybody listens: sensors compute nothing for nobody."""
+        topic = self._topics.get(absolute(name))
+        return topic is not None and bool(topic.subscribers)
+
+    @property
+    def topics(self) -> tuple[Topic, ...]:
+        """All topics in order of their first mention."""
+        return tuple(self._topics.values())
+
+
+def absolute(name: str) -> str:
+    """Return a topic name with exactly one leading slash and none doubled or trailing."""
+    return "/" + "/".join(part for part in name.split("/") if part)

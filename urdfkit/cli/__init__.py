@@ -1,0 +1,78 @@
+"""The command line: `main(argv) -> int`, one module per command, each imported only when it is called.
+
+A command module has two functions: ``configure(parser)`` adds its arguments, ``run(arguments) -> int`` does the work
+and returns the exit code (0 done, 1 done and something to report, 2 could not do it). Whatever it raises as an
+`UrdfkitError` is printed in one line.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+
+from urdfkit.cli.parser import Parser
+from urdfkit.errors import UrdfkitError
+
+COMMANDS = {
+    "new": "write description, Gazebo, control and bringup packages",
+    "lint": "find and mend the defects of a URDF or xacro",
+    "rule": "print the page of a lint rule, or the catalogue",
+    "expand": "xacro to URDF, without ROS installed",
+    "info": "links, joints, mass, sensors, drives",
+    "view": "look at a robot in the browser",
+    "tf": "compute a transform, or draw the frame tree",
+    "sim": "simulate a robot: teleop, run, warmup",
+}
+"""Command → what it does. The module ``urdfkit.cli.<command>`` implements it."""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command.
+
+    Args:
+        argv: the arguments after the program name; those of the process when None.
+
+    Returns:
+        The exit code.
+    """
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    try:
+        return _run(arguments)
+    except UrdfkitError as error:
+        print(f"urdfkit: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        # The reader of our output went away (`| head`); keep the interpreter from complaining at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 141
+
+
+def _run(arguments: list[str]) -> int:
+    command = next((a for a in arguments if not a.startswith("-")), None)
+    parser = Parser(
+        prog="urdfkit",
+        description="From a URDF or xacro to a robot you drive in the browser.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="examples:\n  urdfkit new robot scout\n  urdfkit sim teleop simpleton",
+    )
+    parser.add_argument("--version", action="version", version=f"urdfkit {_version()}")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    for name, summary in COMMANDS.items():
+        sub = commands.add_parser(
+            name, help=summary, description=summary, formatter_class=argparse.RawDescriptionHelpFormatter
+        )
+        if name == command:
+            import_module(f"urdfkit.cli.{name}").configure(sub)
+    parsed = parser.parse_args(arguments)
+    return int(import_module(f"urdfkit.cli.{parsed.command}").run(parsed))
+
+
+def _version() -> str:
+    from urdfkit import __version__
+
+    return __version__

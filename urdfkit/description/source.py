@@ -1,0 +1,122 @@
+"""Where a person wrote something: positions, spans, and the chain of macro calls that led there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Position:
+    """A place in a file. Lines and columns count from 1; columns count characters, not bytes."""
+
+    file: str
+    line: int
+    column: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}"
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Span:
+    """A stretch of one file, from `line`:`column` up to, not including, `end_line`:`end_column`."""
+
+    file: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+    @property
+    def start(self) -> Position:
+        """The first character."""
+        return Position(self.file, self.line, self.column)
+
+
+@dataclass(frozen=True, slots=True)
+class Expansion:
+    """One macro call that an expanded element went through."""
+
+    macro: str
+    position: Position
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """Where an expanded element comes from.
+
+    Attributes:
+        position: the start tag a person wrote.
+        expansions: the macro calls that produced it, innermost first (the call nearest to the element);
+            empty for what is not written inside a macro.
+    """
+
+    position: Position
+    expansions: tuple[Expansion, ...] = ()
+
+
+@dataclass(frozen=True)
+class Source:
+    """The text of one file.
+
+    Attributes:
+        file: the path as shown to the user.
+        text: the decoded content, with its line ends as they are.
+    """
+
+    file: str
+    text: str = field(repr=False)
+
+    @classmethod
+    def read(cls, path: Path, *, shown_as: str | None = None) -> Source:
+        """Read a file as UTF-8 (with or without BOM); undecodable bytes become U+FFFD.
+
+        Raises:
+            ResourceError: the file cannot be read.
+        """
+        from urdfkit.errors import ResourceError
+
+        try:
+            content = path.read_bytes()
+        except OSError as error:
+            raise ResourceError(f"cannot read {shown_as or path}: {error.strerror or error}") from error
+        return cls(shown_as or str(path), content.decode("utf-8-sig", errors="replace"))
+
+    @cached_property
+    def line_starts(self) -> list[int]:
+        """Offset of the first character of each line."""
+        starts = [0]
+        find = self.text.find
+        at = find("\n")
+        while at != -1:
+            starts.append(at + 1)
+            at = find("\n", at + 1)
+        return starts
+
+    def line(self, number: int) -> str:
+        """Return line `number` (from 1) without its line end; empty when there is no such line."""
+        if not 1 <= number <= len(self.line_starts):
+            return ""
+        start = self.line_starts[number - 1]
+        end = self.line_starts[number] if number < len(self.line_starts) else len(self.text)
+        return self.text[start:end].rstrip("\r\n")
+
+    def offset(self, line: int, column: int) -> int:
+        """Return the offset of a position, clamped to the text."""
+        if line > len(self.line_starts):
+            return len(self.text)
+        return min(self.line_starts[max(line, 1) - 1] + max(column, 1) - 1, len(self.text))
+
+    def position(self, offset: int) -> Position:
+        """Return the position of an offset."""
+        from bisect import bisect_right
+
+        line = bisect_right(self.line_starts, offset)
+        return Position(self.file, line, offset - self.line_starts[line - 1] + 1)
+
+    def span(self, start: int, end: int) -> Span:
+        """Return the span between two offsets."""
+        first, last = self.position(start), self.position(end)
+        return Span(self.file, first.line, first.column, last.line, last.column)

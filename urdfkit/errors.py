@@ -1,0 +1,93 @@
+"""What can go wrong, as a tree.
+
+::
+
+    UrdfkitError                 root of everything urdfkit raises on purpose; the CLI prints it in one line, exit 2
+    ├── UsageError               an argument or option makes no sense
+    ├── ResourceError            a robot, world, package or file name resolves to nothing
+    ├── DescriptionError         the description cannot be read as a robot
+    │   ├── XmlError             not well-formed XML, or XML that is hostile
+    │   ├── XacroError           xacro could not expand the file
+    │   └── ModelError           well-formed, but no tree of links and joints (two roots, a cycle, ...)
+    ├── KinematicsError          unknown frame or joint, a value outside the model
+    ├── SimulationError          the robot or the world cannot be simulated
+    └── MissingDependencyError   an optional package is not installed; carries the command to run
+
+A message is one line. It says what is wrong, the value with its unit, where (``file:line:column``) and the nearest
+right thing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from urdfkit.description.source import Position
+
+
+class UrdfkitError(Exception):
+    """Root of all errors meant for the user.
+
+    Args:
+        message: what is wrong and what would be right, without the place.
+        position: where a person wrote it, if anywhere.
+    """
+
+    def __init__(self, message: str, *, position: Position | None = None) -> None:
+        self.message = message
+        self.position = position
+        super().__init__(f"{position}: {message}" if position is not None else message)
+
+
+class UsageError(UrdfkitError):
+    """An argument or option makes no sense."""
+
+
+class ResourceError(UrdfkitError):
+    """A robot, world, package or file name resolves to nothing."""
+
+
+class DescriptionError(UrdfkitError):
+    """The description cannot be read as a robot."""
+
+
+class XmlError(DescriptionError):
+    """Not well-formed XML, or XML that is hostile (entity declarations, external entities)."""
+
+
+class XacroError(DescriptionError):
+    """xacro could not expand the file."""
+
+
+class ModelError(DescriptionError):
+    """Well-formed, but not one tree of links and joints that can be loaded."""
+
+
+class KinematicsError(UrdfkitError):
+    """An unknown frame or joint, or a joint value outside the model."""
+
+
+class SimulationError(UrdfkitError):
+    """The robot or the world cannot be simulated."""
+
+
+class MissingDependencyError(UrdfkitError):
+    """An optional dependency is not installed."""
+
+
+def did_you_mean(name: str, candidates: Iterable[str]) -> str:
+    """Return ``; did you mean `x`?`` for the candidate nearest to `name`, or an empty string.
+
+    Args:
+        name: what the user wrote.
+        candidates: what would have been right.
+    """
+    from difflib import get_close_matches
+
+    pool = list(dict.fromkeys(candidates))
+    lowered = {candidate.lower(): candidate for candidate in pool}
+    if name.lower() in lowered:
+        return f"; did you mean `{lowered[name.lower()]}`?"
+    near = get_close_matches(name, pool, n=1, cutoff=0.6)
+    return f"; did you mean `{near[0]}`?" if near else ""
