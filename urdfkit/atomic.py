@@ -1,0 +1,114 @@
+"""Write all or nothing: to a temporary place beside the target, then move."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from urdfkit.errors import ResourceError
+
+
+def write_text(path: Path, text: str) -> None:
+    r"""Replace the contents of a file, or leave it as it was.
+
+    The permissions of an existing file are kept, a symbolic link stays one, and line ends are written as given
+    (``\n`` is not translated).
+
+    Args:
+        path: the file; its folder has to exist.
+        text: what it shall hold, written as UTF-8.
+
+    Raises:
+        ResourceError: it cannot be written.
+    """
+    write_bytes(path, text.encode("utf-8"))
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """Replace the contents of a file, or leave it as it was; see `write_text`.
+
+    Args:
+        path: the file; its folder has to exist.
+        content: what it shall hold.
+
+    Raises:
+        ResourceError: it cannot be written.
+    """
+    target = path.resolve()
+    temporary: str | None = None
+    try:
+        mode = target.stat().st_mode & 0o7777 if target.exists() else 0o666 & ~_umask()
+        descriptor, temporary = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(content)
+        Path(temporary).chmod(mode)
+        Path(temporary).replace(target)
+        temporary = None
+    except OSError as error:
+        raise ResourceError(f"cannot write {path}: {error.strerror}") from error
+    finally:
+        if temporary is not None:
+            Path(temporary).unlink(missing_ok=True)
+
+
+@contextmanager
+def staging(folder: Path) -> Iterator[Path]:
+    """Provide a temporary folder inside `folder`, gone afterwards whatever happens.
+
+    It lies on the same file system, so that `move_into_place` is a rename.
+
+    Args:
+        folder: has to exist.
+
+    Raises:
+        ResourceError: nothing can be written there.
+    """
+    try:
+        place = Path(tempfile.mkdtemp(prefix=".urdfkit-", dir=folder))
+    except OSError as error:
+        raise ResourceError(f"cannot write into {folder}: {error.strerror}") from error
+    try:
+        yield place
+    finally:
+        shutil.rmtree(place, ignore_errors=True)
+
+
+def move_into_place(staged: Path, folder: Path) -> list[Path]:
+    """Move everything in `staged` into `folder`; nothing is overwritten, and if one move fails all are undone.
+
+    Args:
+        staged: a folder on the same file system.
+        folder: has to exist.
+
+    Returns:
+        The new paths, sorted.
+
+    Raises:
+        ResourceError: something of that name is there already, or it cannot be written.
+    """
+    moves = [(child, folder / child.name) for child in sorted(staged.iterdir())]
+    for _, target in moves:
+        if os.path.lexists(target):
+            raise ResourceError(f"{target} is already there; nothing is overwritten")
+    done: list[tuple[Path, Path]] = []
+    try:
+        for source, target in moves:
+            source.rename(target)
+            done.append((source, target))
+    except OSError as error:
+        raise ResourceError(f"cannot write {target}: {error.strerror}") from error
+    finally:
+        if len(done) < len(moves):
+            for source, target in reversed(done):
+                target.rename(source)
+    return [target for _, target in moves]
+
+
+def _umask() -> int:
+    current = os.umask(0o022)
+    os.umask(current)
+    return current

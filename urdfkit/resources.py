@@ -1,0 +1,254 @@
+"""Where templates and robots live, and which file a MODEL argument means.
+
+Nothing here parses XML: a look at the first tag tells a robot from a file of macros.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from urdfkit.errors import ResourceError, UsageError, did_you_mean
+
+MODEL_SUFFIXES = (".urdf", ".xacro")
+"""What the name of a model file ends in."""
+
+_WORLD_SUFFIXES = (".sdf", ".world")
+_SKIPPED_FOLDERS = {"build", "install", "devel", "log", "node_modules", "__pycache__", "test", "tests"}
+_IGNORE_MARKS = ("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE")
+_WORKSPACE_MARKS = (".git", ".catkin_workspace", ".catkin_tools", "src", ".colcon")
+_MAX_DEPTH = 6
+_LISTED = 8
+
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_ROOT = re.compile(r"""<robot\b((?:"[^"]*"|'[^']*'|[^>"'])*)>""")
+_NAME = re.compile(r"""(?<![\w:])name\s*=\s*(?:"([^"]*)"|'([^']*)')""")
+_INCLUDED = re.compile(r"""<xacro:include\b[^>]*?filename\s*=\s*["'][^"']*?([^/"'\\]+)["']""")
+
+
+@dataclass(frozen=True, slots=True)
+class ModelArgument:
+    """What MODEL and the words after it mean.
+
+    Attributes:
+        path: the file to load, absolute.
+        arguments: xacro arguments, from ``key:=value`` words.
+        package_path: folders to look for packages in first.
+        name: what to call the robot before it is loaded: its name if it is written out, else the file's stem.
+    """
+
+    path: Path
+    arguments: dict[str, str]
+    package_path: tuple[Path, ...]
+    name: str
+
+
+def robots_dir() -> Path:
+    """Return the folder of the robots we ship.
+
+    Raises:
+        ResourceError: the installation is incomplete.
+    """
+    return _shipped("robots")
+
+
+def templates_dir() -> Path:
+    """Return the folder of the templates of ``urdfkit new``.
+
+    Raises:
+        ResourceError: the installation is incomplete.
+    """
+    return _shipped("templates")
+
+
+def robot_names() -> list[str]:
+    """Return the names of the robots we ship, sorted.
+
+    Raises:
+        ResourceError: the installation is incomplete.
+    """
+    return sorted(path.name for path in robots_dir().iterdir() if path.is_dir() and not path.name.startswith("."))
+
+
+def find_model(words: Sequence[str], *, package_path: Iterable[str | Path] = ()) -> ModelArgument:
+    """Turn the words of a MODEL argument into a file.
+
+    Args:
+        words: MODEL (a path to a file or package folder, or the name of a robot we ship), if given, and ``key:=value``
+            xacro arguments. Without MODEL it is the one robot of the package or workspace the process stands in.
+        package_path: folders to look for packages in.
+
+    Raises:
+        UsageError: more than one MODEL, or an argument without a key.
+        ResourceError: nothing is meant, or several things are.
+    """
+    models = [word for word in words if ":=" not in word]
+    if len(models) > 1:
+        raise UsageError(f"one MODEL at a time, not {len(models)}: {' '.join(models)}; xacro arguments are key:=value")
+    arguments: dict[str, str] = {}
+    for word in words:
+        key, separator, value = word.partition(":=")
+        if separator and not key:
+            raise UsageError(f"`{word}` lacks its key: xacro arguments are key:=value")
+        if separator:
+            arguments[key] = value
+    folders = tuple(_existing_folder(folder) for folder in package_path)
+    path = _find(models[0]) if models else _find_here(Path.cwd())
+    return ModelArgument(path, arguments, folders, _robot_name(path) or _stem(path))
+
+
+def _shipped(kind: str) -> Path:
+    package = Path(__file__).resolve().parent
+    for folder in (package.parent / kind, package / "_data" / kind):
+        # A checkout has pyproject.toml beside it; a folder of that name in site-packages is somebody else's.
+        if folder.is_dir() and (folder.parent.name == "_data" or (package.parent / "pyproject.toml").is_file()):
+            return folder
+    raise ResourceError(
+        f"urdfkit is installed without its {kind}: reinstall it with pip install --force-reinstall urdfkit"
+    )
+
+
+def _existing_folder(folder: str | Path) -> Path:
+    path = Path(folder).expanduser()
+    if not path.is_dir():
+        raise ResourceError(f"--package-path {folder}: no such folder{_near(path)}")
+    return path.resolve()
+
+
+def _find(word: str) -> Path:
+    path = Path(word).expanduser()
+    if path.is_file():
+        if path.suffix in _WORLD_SUFFIXES:
+            raise ResourceError(f"{word} is an SDF file, not a robot description; a world goes after --world")
+        return path.resolve()
+    if path.is_dir():
+        entries = models_in(path)
+        if not entries and word in robot_names():
+            entries = models_in(robots_dir() / word)
+        return _the_one(entries, f"folder {word}")
+    if word in robot_names():
+        return _the_one(models_in(robots_dir() / word), f"robot `{word}`")
+    if _looks_like_a_path(word):
+        raise ResourceError(f"no such file or folder: {word}{_near(path)}")
+    here = [p.name for p in _children(Path.cwd()) if p.is_dir() or p.suffix in MODEL_SUFFIXES]
+    names = robot_names()
+    hint = did_you_mean(word, [*names, *here])
+    raise ResourceError(f"no robot, file or folder `{word}`{hint or '; robots: ' + ', '.join(names)}")
+
+
+def _looks_like_a_path(word: str) -> bool:
+    return (
+        "/" in word or os.sep in word or word.startswith((".", "~")) or Path(word).suffix in (*MODEL_SUFFIXES, ".xml")
+    )
+
+
+def _near(path: Path) -> str:
+    """Return a did-you-mean for the first part of `path` that is not there."""
+    missing, parent = path, path.parent
+    while not parent.is_dir() and parent != parent.parent:
+        missing, parent = parent, parent.parent
+    hint = did_you_mean(missing.name, [child.name for child in _children(parent)])
+    if not hint or str(parent) == ".":
+        return hint
+    return hint.replace("`", f"`{parent}/".replace("//", "/"), 1)
+
+
+def _find_here(start: Path) -> Path:
+    """Return the one model of the nearest enclosing folder that has any."""
+    home = Path.home()
+    for folder in (start, *start.parents):
+        if folder != start and (folder in (home, folder.parent) or not _is_package_or_workspace(folder)):
+            continue
+        if entries := models_in(folder):
+            return _the_one(entries, "the folder you stand in" if folder == start else str(folder))
+    raise ResourceError(
+        f"no MODEL given and no robot description in or above {start}; robots we ship: {', '.join(robot_names())}"
+    )
+
+
+def _is_package_or_workspace(folder: Path) -> bool:
+    return any((folder / mark).exists() for mark in ("package.xml", *_WORKSPACE_MARKS))
+
+
+def models_in(folder: Path) -> list[Path]:
+    """Return the model files of a package, of a folder of packages, or of a bare folder.
+
+    A model is a file whose root is ``<robot name=…>`` and which no other file there includes. A ``.urdf`` beside the
+    ``.xacro`` it was made from is left out.
+
+    Args:
+        folder: where to look.
+
+    Raises:
+        ResourceError: a file cannot be read.
+    """
+    texts: dict[Path, str] = {}
+    for path in _walk(folder, 0):
+        if path.suffix in MODEL_SUFFIXES or path.suffix == ".gazebo":
+            texts[path] = _text(path)
+    included = {name for text in texts.values() for name in _INCLUDED.findall(text)}
+    roots = {path: _ROOT.search(text) for path, text in texts.items() if path.suffix in MODEL_SUFFIXES}
+    candidates = [path for path, root in roots.items() if root and path.name not in included]
+    named = [path for path in candidates if _NAME.search(roots[path][1])]  # type: ignore[index]
+    chosen = named or candidates
+    sources = {(path.parent, _stem(path)) for path in chosen if path.suffix == ".xacro"}
+    return sorted(p.resolve() for p in chosen if p.suffix == ".xacro" or (p.parent, _stem(p)) not in sources)
+
+
+def _the_one(entries: list[Path], where: str) -> Path:
+    if not entries:
+        raise ResourceError(f"no robot description (.urdf or .xacro with <robot name=…>) in {where}")
+    if len(entries) > 1:
+        shown = ", ".join(_shortest(path) for path in entries[:_LISTED])
+        more = f" and {len(entries) - _LISTED} more" if len(entries) > _LISTED else ""
+        raise ResourceError(f"{len(entries)} robot descriptions in {where}, name one: {shown}{more}")
+    return entries[0]
+
+
+def _shortest(path: Path) -> str:
+    relative = os.path.relpath(path)
+    return relative if len(relative) < len(str(path)) else str(path)
+
+
+def _walk(folder: Path, depth: int) -> Iterator[Path]:
+    children = _children(folder)
+    if any(child.name in _IGNORE_MARKS for child in children):
+        return
+    for child in children:
+        if child.is_file():
+            yield child
+        elif depth < _MAX_DEPTH and _is_worth_a_look(child):
+            yield from _walk(child, depth + 1)
+
+
+def _is_worth_a_look(folder: Path) -> bool:
+    skipped = folder.name in _SKIPPED_FOLDERS or folder.name.startswith((".", "_"))
+    return not skipped and folder.is_dir() and not folder.is_symlink()
+
+
+def _children(folder: Path) -> list[Path]:
+    try:
+        return sorted(folder.iterdir())
+    except OSError:
+        return []
+
+
+def _text(path: Path) -> str:
+    try:
+        return _COMMENT.sub("", path.read_text(encoding="utf-8", errors="replace"))
+    except OSError as error:
+        raise ResourceError(f"{path}: {error.strerror}") from error
+
+
+def _robot_name(path: Path) -> str | None:
+    root = _ROOT.search(_text(path))
+    written = _NAME.search(root[1]) if root else None
+    name = (written[1] or written[2] or "") if written else ""
+    return name if name and "$" not in name else None
+
+
+def _stem(path: Path) -> str:
+    return path.name.removesuffix(".xacro").removesuffix(".urdf")
