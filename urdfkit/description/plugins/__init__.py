@@ -1,1 +1,10 @@
-"""PluginSpec tables: what each Gazebo plugin answers to and reads. Pure data, shared by linter, simulator and docs."""
+"""PluginSpec tables: what each Gazebo plugin answers to and reads. Pure data, shared by linter, simulator and docs.
+
+``match(plugin)`` finds the table, ``read(plugin, spec)`` gives meaning → text (``read_all`` for repeated parameters).
+"""
+
+from urdfkit.description.plugins.drives import DIFF_DRIVE
+from urdfkit.description.plugins.lookup import ALL_SPECS, match, read, read_all, values
+from urdfkit.description.plugins.spec import Parameter, PluginSpec
+
+__all__ = ["ALL_SPECS", "DIFF_DRIVE", "Parameter", "PluginSpec", "match", "read", "read_all", "values"]

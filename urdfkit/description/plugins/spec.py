@@ -22,6 +22,7 @@ class Parameter:
         unit: SI unit in brackets, or empty.
         names: what the value refers to, if to anything.
         repeats: may be given more than once.
+        separator: splits one value into several, e.g. ``,``; empty where the text is one value.
     """
 
     meaning: str
@@ -30,6 +31,7 @@ class Parameter:
     unit: str = ""
     names: Names | None = None
     repeats: bool = False
+    separator: str = ""
 
 
 @dataclass(frozen=True, slots=True)

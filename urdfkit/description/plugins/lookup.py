@@ -1,0 +1,81 @@
+"""Find the table of a plugin and read its parameters by meaning."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from urdfkit.description.element import Element
+from urdfkit.description.plugins.control import CONTROL
+from urdfkit.description.plugins.drives import DRIVES
+from urdfkit.description.plugins.spec import Parameter, PluginSpec
+from urdfkit.description.robot import Plugin
+
+ALL_SPECS: tuple[PluginSpec, ...] = (*DRIVES, *CONTROL)
+"""Every plugin we have a table of."""
+
+_VERSIONED = re.compile(r"^(gz-sim|ignition-gazebo)\d+-(.+-system)$")
+
+
+def stem(filename: str) -> str:
+    """Return a library's bare name: no directory, ``lib``, ``.so`` or Gazebo version."""
+    name = filename.strip().replace("\\", "/").rpartition("/")[2]
+    name = name.removesuffix(".so").rstrip().removeprefix("lib")
+    if versioned := _VERSIONED.match(name):
+        name = f"{versioned[1]}-{versioned[2]}"
+    return name
+
+
+def match(plugin: Plugin) -> PluginSpec | None:
+    """Return the table of a plugin, by file name; None where we know none.
+
+    ROS 1 and ROS 2 plugins of Gazebo Classic share file names and are told apart by spelling: a ``<ros>`` block or
+    more snake_case than camelCase parameters mean ROS 2. In the new Gazebo one library may hold several classes, so the
+    plugin's ``name`` decides where the class is known and the file name where it is not.
+    """
+    if plugin.filename is None:
+        return None
+    name = stem(plugin.filename)
+    candidates = [spec for spec in ALL_SPECS if name in spec.filenames]
+    if len(candidates) < 2:
+        return candidates[0] if candidates else None
+    by_class = [spec for spec in candidates if (plugin.name or "").strip() in spec.class_names]
+    if by_class:
+        return by_class[0]
+    ros2 = _is_ros2(plugin.element)
+    return next((spec for spec in candidates if (spec.generation == "ros2") is ros2), candidates[0])
+
+
+def _is_ros2(plugin: Element) -> bool:
+    tags = [child.tag for child in plugin.children]
+    if "ros" in tags:
+        return True
+    return sum("_" in tag for tag in tags) > sum(tag != tag.lower() and "_" not in tag for tag in tags)
+
+
+def values(plugin: Plugin, parameter: Parameter) -> Iterator[tuple[str, Element]]:
+    """Yield the values written for a parameter, each with its element; one by one where a separator joins them."""
+    for child in plugin.element.children:
+        if child.tag == parameter.tag:
+            words = child.text.split(parameter.separator) if parameter.separator else [child.text]
+            for word in words:
+                yield word.strip(), child
+            if not parameter.repeats:
+                return
+
+
+def read(plugin: Plugin, spec: PluginSpec) -> dict[str, str]:
+    """Return meaning → text: the first value written, else the default; left out where there is neither."""
+    found = read_all(plugin, spec)
+    return {meaning: texts[0] for meaning, texts in found.items() if texts}
+
+
+def read_all(plugin: Plugin, spec: PluginSpec) -> dict[str, tuple[str, ...]]:
+    """Return meaning → every text written, else the default; an empty tuple where there is neither."""
+    found: dict[str, tuple[str, ...]] = {}
+    for parameter in spec.parameters:
+        texts = tuple(text for text, _ in values(plugin, parameter) if text)
+        if not texts and parameter.default is not None:
+            texts = (parameter.default,)
+        found[parameter.meaning] = texts
+    return found
