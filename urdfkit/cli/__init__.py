@@ -13,7 +13,7 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 
-from urdfkit.cli.parser import Parser
+from urdfkit.cli.parser import Parser, add_common
 from urdfkit.errors import UrdfkitError
 
 COMMANDS = {
@@ -68,6 +68,7 @@ def _run(arguments: list[str]) -> int:
         )
         if name == command:
             import_module(f"urdfkit.cli.{name}").configure(sub)
+            add_common(sub)
     parsed = parser.parse_args(arguments)
     return int(import_module(f"urdfkit.cli.{parsed.command}").run(parsed))
 

@@ -49,3 +49,16 @@ def add_model(parser: argparse.ArgumentParser, *, optional: bool = True) -> None
         metavar="DIR",
         help="look for packages here too (repeatable)",
     )
+
+
+def add_common(parser: argparse.ArgumentParser) -> None:
+    """Add the options every command has: ``-q``, ``-v`` and ``--color``, where the command has none of its own."""
+    taken = parser._option_string_actions
+    if "--quiet" not in taken and "-q" not in taken:
+        parser.add_argument("-q", "--quiet", action="store_true", help="print results only, no notes")
+    if "--verbose" not in taken and "-v" not in taken:
+        parser.add_argument("-v", "--verbose", action="store_true", help="print more notes")
+    if "--color" not in taken:
+        parser.add_argument(
+            "--color", choices=("auto", "always", "never"), default="auto", help="colour the output (default: auto)"
+        )

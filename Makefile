@@ -1,0 +1,51 @@
+# Two commands: `make run` drives a robot in the browser, `make test` checks everything.
+
+PYTHON ?= python3
+VENV ?= .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check
+SOURCES := pyproject.toml tests/constraints.txt
+
+.DEFAULT_GOAL := help
+.PHONY: help run test lint typecheck bench clean
+
+help:
+	@echo "make run    install into $(VENV) and drive Simpleton in the browser"
+	@echo "make test   install the test tools too, then run every check and test"
+	@echo "make bench  run us and the peers side by side and print ratios"
+	@echo "make clean  remove $(VENV) and caches"
+
+run: $(VENV)/.run
+	@$(BIN)/urdfkit sim teleop simpleton $(ARGS)
+
+test: $(VENV)/.test
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/urdfkit sim warmup
+	$(BIN)/python -m pytest $(ARGS)
+
+bench: $(VENV)/.bench
+	$(BIN)/python tests/bench/bench_lint.py
+	$(BIN)/python tests/bench/bench_sim.py
+
+$(VENV)/bin/python:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' || { echo "urdfkit needs Python 3.10 or newer; name one: make PYTHON=python3.11 $(MAKECMDGOALS)"; exit 2; }
+	$(PYTHON) -m venv $(VENV)
+
+$(VENV)/.run: $(VENV)/bin/python $(SOURCES)
+	$(PIP) install --quiet --constraint tests/constraints.txt --editable '.[sim]'
+	@touch $@
+
+$(VENV)/.test: $(VENV)/bin/python $(SOURCES)
+	$(PIP) install --quiet --constraint tests/constraints.txt --editable '.[test]'
+	@touch $@ $(VENV)/.run
+
+$(VENV)/.bench: $(VENV)/bin/python $(SOURCES)
+	$(PIP) install --quiet --constraint tests/constraints.txt --editable '.[bench]'
+	@touch $@ $(VENV)/.run $(VENV)/.test
+
+clean:
+	rm -rf $(VENV) artifacts build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
+	find urdfkit tests -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,0 +1,93 @@
+"""The house holds: rooms know only the rooms below them, the light path stays light, modules stay readable."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import urdfkit
+
+ROOT = Path(urdfkit.__file__).parent
+HEAVY = ("numpy", "scipy", "pinocchio", "trimesh", "meshcat", "tornado", "numba", "rosbags", "torch")
+
+
+def modules_after(code: str) -> set[str]:
+    """Run `code` in a fresh interpreter and return the top-level modules it left loaded."""
+    script = f"import sys\n{code}\nprint('\\n'.join(sorted({{name.split('.')[0] for name in sys.modules}})))"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    return set(done.stdout.split())
+
+
+@pytest.mark.parametrize(
+    "module", ["urdfkit", "urdfkit.cli", "urdfkit.description", "urdfkit.lint", "urdfkit.scaffold", "urdfkit.resources"]
+)
+def test_light_rooms_import_nothing_heavy(module: str) -> None:
+    assert modules_after(f"import {module}").isdisjoint(HEAVY)
+
+
+def test_the_plain_lint_path_loads_nothing_heavy(tmp_path: Path) -> None:
+    model = tmp_path / "arm.urdf.xacro"
+    model.write_text(
+        '<?xml version="1.0"?>\n<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">\n  <link name="base"/>\n</robot>\n'
+    )
+    code = f"import contextlib, io\nfrom urdfkit.cli import main\nwith contextlib.redirect_stdout(io.StringIO()):\n    assert main(['lint', {str(model)!r}]) == 0"
+    assert modules_after(code).isdisjoint(HEAVY)
+
+
+def test_import_urdfkit_adds_only_a_handful_of_modules() -> None:
+    bare = modules_after("")
+    assert len(modules_after("import urdfkit") - bare) <= 3
+
+
+def owners(package: str) -> set[str]:
+    found = set()
+    for path in ROOT.rglob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        if any(
+            line.split()[1].split(".")[0] == package
+            for line in text.splitlines()
+            if line.strip().startswith(("import ", "from ")) and len(line.split()) > 1
+        ):
+            found.add(path.relative_to(ROOT).parts[0])
+    return found
+
+
+@pytest.mark.parametrize(
+    ("package", "rooms"),
+    [
+        ("pinocchio", {"kinematics", "sim"}),
+        ("meshcat", {"view"}),
+        ("xacro", {"description"}),
+        ("torch", {"kinematics"}),
+    ],
+)
+def test_a_dependency_is_used_only_in_its_rooms(package: str, rooms: set[str]) -> None:
+    assert owners(package) <= rooms
+
+
+def test_no_module_is_too_long() -> None:
+    long = {str(p.relative_to(ROOT)): n for p in ROOT.rglob("*.py") if (n := len(p.read_text().splitlines())) > 400}
+    assert not long
+
+
+def test_every_public_name_resolves() -> None:
+    for name in urdfkit.__all__:
+        assert getattr(urdfkit, name) is not None
+    with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
+        _ = urdfkit.nonsense
+
+
+def test_top_level_holds_what_the_house_draws() -> None:
+    allowed = {"urdfkit", "templates", "robots", "tests", "docs", "pyproject.toml"}
+    customary = {"README.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "Makefile"}
+    listed = subprocess.run(
+        ["git", "ls-files"], cwd=ROOT.parent, capture_output=True, text=True, check=False, env={**os.environ}
+    )
+    if listed.returncode:
+        pytest.skip("not a git checkout")
+    top = {line.split("/")[0] for line in listed.stdout.splitlines()}
+    assert {name for name in top if not name.startswith(".")} <= allowed | customary
