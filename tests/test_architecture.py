@@ -32,9 +32,13 @@ def test_light_rooms_import_nothing_heavy(module: str) -> None:
 def test_the_plain_lint_path_loads_nothing_heavy(tmp_path: Path) -> None:
     model = tmp_path / "arm.urdf.xacro"
     model.write_text(
-        '<?xml version="1.0"?>\n<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">\n  <link name="base"/>\n</robot>\n'
+        '<?xml version="1.0"?>\n'
+        '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">\n  <link name="base"/>\n</robot>\n'
     )
-    code = f"import contextlib, io\nfrom urdfkit.cli import main\nwith contextlib.redirect_stdout(io.StringIO()):\n    assert main(['lint', {str(model)!r}]) == 0"
+    code = (
+        "import contextlib, io\nfrom urdfkit.cli import main\n"
+        f"with contextlib.redirect_stdout(io.StringIO()):\n    assert main(['lint', {str(model)!r}]) == 0"
+    )
     assert modules_after(code).isdisjoint(HEAVY)
 
 
