@@ -6,13 +6,13 @@ remembers it in `Robot.problems`). SI units: [m] [rad] [kg] [kg·m²] [N] [N·m]
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from urdfkit.description.element import Element
 from urdfkit.description.source import Origin
+from urdfkit.record import field, record
 
 if TYPE_CHECKING:
     from urdfkit.description.packages import Packages
@@ -23,7 +23,7 @@ JOINT_TYPES = ("fixed", "revolute", "continuous", "prismatic", "planar", "floati
 """The six joint types of URDF (http://wiki.ros.org/urdf/XML/joint)."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Pose:
     """An ``<origin>``: translation [m] and fixed-axis roll, pitch, yaw [rad]."""
 
@@ -31,14 +31,14 @@ class Pose:
     rpy: Vector = (0.0, 0.0, 0.0)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Box:
     """Full edge lengths [m]."""
 
     size: Vector
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Cylinder:
     """Axis along z; `radius` and full `length` [m]."""
 
@@ -46,14 +46,14 @@ class Cylinder:
     length: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Sphere:
     """`radius` [m]."""
 
     radius: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Capsule:
     """Axis along z; `radius` and `length` of the cylindrical part [m]."""
 
@@ -61,7 +61,7 @@ class Capsule:
     length: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Mesh:
     """A mesh by URI as written (``package://…``, ``file://…``, relative path)."""
 
@@ -72,7 +72,7 @@ class Mesh:
 Geometry = Box | Cylinder | Sphere | Capsule | Mesh
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Material:
     """A colour and/or texture. `rgba` components are in 0..1."""
 
@@ -82,7 +82,7 @@ class Material:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Visual:
     """What a link looks like. `geometry` is None when it is missing or unreadable."""
 
@@ -93,7 +93,7 @@ class Visual:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Collision:
     """What a link collides with. `geometry` is None when it is missing or unreadable."""
 
@@ -103,7 +103,7 @@ class Collision:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Inertia:
     """The tensor about the centre of mass, in the inertial frame [kg·m²]."""
 
@@ -116,7 +116,7 @@ class Inertia:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Inertial:
     """Mass [kg], centre of mass (`origin`) and inertia tensor of a link."""
 
@@ -126,7 +126,7 @@ class Inertial:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Link:
     """A rigid body."""
 
@@ -137,7 +137,7 @@ class Link:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Limit:
     """`lower`, `upper` [rad or m], `effort` [N·m or N], `velocity` [rad/s or m/s]; None where not written."""
 
@@ -148,7 +148,7 @@ class Limit:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Dynamics:
     """`damping` [N·m·s/rad or N·s/m] and dry `friction` [N·m or N]; zero where not written."""
 
@@ -157,7 +157,7 @@ class Dynamics:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Mimic:
     """Position = multiplier · (position of `joint`) + offset."""
 
@@ -167,7 +167,7 @@ class Mimic:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class SafetyController:
     """Soft limits and gains of ros_control."""
 
@@ -178,7 +178,7 @@ class SafetyController:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Calibration:
     """Reference positions [rad or m]."""
 
@@ -187,7 +187,7 @@ class Calibration:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Joint:
     """Connects `child` to `parent`. `type` is as written, None when missing; `axis` is as written, not normalised."""
 
@@ -210,7 +210,7 @@ class Joint:
         return self.type in JOINT_TYPES and self.type != "fixed"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class TransmissionJoint:
     """A joint of a transmission and the hardware interfaces written inside it."""
 
@@ -219,7 +219,7 @@ class TransmissionJoint:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Actuator:
     """An actuator of a transmission."""
 
@@ -229,7 +229,7 @@ class Actuator:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Transmission:
     """A ``<transmission>`` of ros_control."""
 
@@ -240,7 +240,7 @@ class Transmission:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Plugin:
     """A ``<plugin>`` inside ``<gazebo>`` or inside a sensor; parameters are its element's children."""
 
@@ -249,7 +249,7 @@ class Plugin:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class SensorTag:
     """A ``<sensor>`` inside ``<gazebo reference=…>``."""
 
@@ -259,7 +259,7 @@ class SensorTag:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class GazeboBlock:
     """A ``<gazebo>`` extension. `reference` names a link or joint; None for model-level blocks."""
 
@@ -269,7 +269,7 @@ class GazeboBlock:
     element: Element = field(repr=False)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Ros2Control:
     """A ``<ros2_control>`` block; hardware and joints are read from its element."""
 
@@ -281,7 +281,7 @@ class Ros2Control:
 ProblemKind = Literal["bad-number", "wrong-arity", "missing", "unknown-value"]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@record(eq=False)
 class Problem:
     """Something the lenient reader could not use and went on without.
 
@@ -303,7 +303,7 @@ class Problem:
         return self.element.origin
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Robot:
     """A robot as written; may be broken (see `problems`, `roots`, `cycles`).
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
+from urdfkit.record import field, record
 
-@dataclass(frozen=True, slots=True, order=True)
+
+@record(order=True)
 class Position:
     """A place in a file. Lines and columns count from 1; columns count characters, not bytes."""
 
@@ -19,7 +20,7 @@ class Position:
         return f"{self.file}:{self.line}:{self.column}"
 
 
-@dataclass(frozen=True, slots=True, order=True)
+@record(order=True)
 class Span:
     """A stretch of one file, from `line`:`column` up to, not including, `end_line`:`end_column`."""
 
@@ -35,7 +36,7 @@ class Span:
         return Position(self.file, self.line, self.column)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Expansion:
     """One macro call that an expanded element went through."""
 
@@ -43,7 +44,7 @@ class Expansion:
     position: Position
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Origin:
     """Where an expanded element comes from.
 
@@ -57,7 +58,7 @@ class Origin:
     expansions: tuple[Expansion, ...] = ()
 
 
-@dataclass(frozen=True)
+@record
 class Source:
     """The text of one file.
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
+
+from urdfkit.record import record
 
 Generation = Literal["ros1", "ros2", "gz"]
 """ROS 1 with Gazebo Classic, ROS 2 with Gazebo Classic, and the new Gazebo."""
@@ -11,7 +12,7 @@ Generation = Literal["ros1", "ros2", "gz"]
 Names = Literal["joint", "link", "frame", "topic"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Parameter:
     """One XML child a plugin reads.
 
@@ -34,7 +35,7 @@ class Parameter:
     separator: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PluginSpec:
     """One plugin in one generation.
 
