@@ -1,0 +1,71 @@
+"""Mimic joints: which joint leads them, and by which law."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from urdfkit.description.robot import Joint, Robot
+from urdfkit.errors import KinematicsError, did_you_mean
+
+_SINGLE = ("revolute", "continuous", "prismatic")
+
+
+@dataclass(frozen=True, slots=True)
+class Coupling:
+    """position(joint) = multiplier · position(master) + offset, with chains of mimics followed to the end.
+
+    Attributes:
+        joint: the joint that mimics.
+        master: the joint that moves on its own; None when the chain ends at a fixed joint.
+        multiplier: factor; [1], [m/rad] or [rad/m] where the two joints are of different kinds.
+        offset: [rad] or [m].
+    """
+
+    joint: str
+    master: str | None
+    multiplier: float
+    offset: float
+
+
+def couplings(robot: Robot) -> dict[str, Coupling]:
+    """Return the coupling of every movable mimic joint, by name in document order.
+
+    Raises:
+        KinematicsError: a master does not exist, masters form a circle, or a joint that takes part has more than one
+            degree of freedom.
+    """
+    found: dict[str, Coupling] = {}
+    for joint in robot.joints:
+        if joint.mimic is not None and joint.is_movable:
+            found.setdefault(joint.name, _follow(robot, joint))
+    return found
+
+
+def _follow(robot: Robot, joint: Joint) -> Coupling:
+    multiplier, offset = 1.0, 0.0
+    at = joint
+    passed: list[str] = []
+    while at.is_movable:
+        place = (at.mimic or joint.mimic).element.origin.position  # type: ignore[union-attr]
+        if at.type not in _SINGLE:
+            raise KinematicsError(
+                f"joint `{at.name}` takes part in a <mimic> but is {at.type}: "
+                "only revolute, continuous and prismatic joints can",
+                position=place,
+            )
+        if at.mimic is None:
+            return Coupling(joint.name, at.name, multiplier, offset)
+        passed.append(at.name)
+        if at.mimic.joint in passed:
+            circle = " → ".join(f"`{name}`" for name in [*passed, at.mimic.joint])
+            raise KinematicsError(f"joints mimic each other in a circle: {circle}", position=place)
+        offset += multiplier * at.mimic.offset
+        multiplier *= at.mimic.multiplier
+        master = robot.joint_by_name.get(at.mimic.joint)
+        if master is None:
+            hint = did_you_mean(at.mimic.joint, robot.joint_by_name)
+            raise KinematicsError(
+                f"joint `{at.name}` mimics `{at.mimic.joint}`, which does not exist{hint}", position=place
+            )
+        at = master
+    return Coupling(joint.name, None, 0.0, offset)

@@ -1,0 +1,313 @@
+"""Kinematics: a robot's model, its configurations by name, and where its links are.
+
+``q`` and ``v`` are those of `Kinematics.model`: every movable joint has its place in them, in Pinocchio's order, mimic
+joints included. A continuous joint takes two numbers in ``q`` (cosine and sine), a planar joint four (x, y, cosine,
+sine), a floating joint and a floating base seven (x y z, quaternion x y z w). By name every joint is one number, and a
+planar or floating joint one number per variable, named as MoveIt names them (``joint/x``, ``joint/theta``,
+``joint/rot_w``, ...).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.description.robot import Robot
+from urdfkit.errors import KinematicsError, did_you_mean
+from urdfkit.kinematics.build import build_model, pin
+from urdfkit.kinematics.limits import JointLimitError, position_limits
+from urdfkit.kinematics.mimic import Coupling, couplings
+
+Array = NDArray[np.float64]
+
+VARIABLES = {
+    "planar": ("x", "y", "theta"),
+    "floating": ("trans_x", "trans_y", "trans_z", "rot_x", "rot_y", "rot_z", "rot_w"),
+}
+"""Names of the variables of joints with more than one (MoveIt: moveit_core, planar_joint_model.cpp and
+floating_joint_model.cpp)."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Variable:
+    """One number of a configuration by name: where in q it is, and whether as (cosine, sine)."""
+
+    index: int
+    is_angle: bool
+
+
+class Kinematics:
+    """A robot that can be placed.
+
+    Args:
+        robot: a robot that `urdfkit.description.load` found to be one tree.
+        floating_base: put a free-flyer above the root link; its frame is the root link's.
+
+    Raises:
+        KinematicsError: the robot is not one tree, or a mimic or an axis makes no sense.
+
+    Attributes:
+        robot: the robot as written.
+        model: ``pin.Model``.
+        data: ``pin.Data``, overwritten by every query.
+        root: name of the root link.
+        floating_base: whether q starts with the pose of the root link.
+        couplings: mimic joint → its `Coupling`.
+        joint_names: joints that move on their own in one degree of freedom, in the order of q.
+        mimic_names: joints that follow another one, in the order of q.
+        variable_names: what `configuration` takes: `joint_names` and the variables of planar and floating joints.
+        link_names: all links in document order.
+    """
+
+    def __init__(self, robot: Robot, *, floating_base: bool = False) -> None:
+        self.robot = robot
+        self.floating_base = floating_base
+        self.couplings: dict[str, Coupling] = couplings(robot)
+        self.model: Any = build_model(robot, floating_base=floating_base)
+        self.data: Any = self.model.createData()
+        self.root: str = robot.roots()[0].name
+        self.link_names: tuple[str, ...] = tuple(link.name for link in robot.link_by_name_in_order())
+        self._joint_ids = {name: i for i, name in enumerate(self.model.names) if i > (1 if floating_base else 0)}
+        self._variables = self._index_variables()
+        self.mimic_names: tuple[str, ...] = tuple(name for name in self._joint_ids if name in self.couplings)
+        self.joint_names: tuple[str, ...] = tuple(
+            name for name in self._joint_ids if name in self._variables and name not in self.couplings
+        )
+        self.variable_names: tuple[str, ...] = tuple(name for name in self._variables if name not in self.couplings)
+        self._frames = {name: int(self.model.getFrameId(name, pin.BODY)) for name in self.link_names}
+        self._link_frames = tuple(self._frames.values())
+
+    def _index_variables(self) -> dict[str, _Variable]:
+        found: dict[str, _Variable] = {}
+        for name, i in self._joint_ids.items():
+            kind = self.robot.joint_by_name[name].type
+            start = int(self.model.idx_qs[i])
+            if kind not in VARIABLES:
+                found[name] = _Variable(start, kind == "continuous")
+                continue
+            for k, part in enumerate(VARIABLES[kind]):
+                found[f"{name}/{part}"] = _Variable(start + k, part == "theta")
+        return found
+
+    # Configurations and velocities by name
+
+    def neutral(self) -> Array:
+        """Return the configuration with every joint at zero and mimic joints where they follow; shape (nq,)."""
+        return self.configuration()
+
+    def configuration(
+        self, positions: Mapping[str, float] | None = None, *, base: Array | None = None, check_limits: bool = False
+    ) -> Array:
+        """Return the configuration with these joint positions, the others at zero, mimic joints following; shape (nq,).
+
+        Args:
+            positions: joint or variable name → position [rad] or [m].
+            base: pose of a floating root link, x y z [m] and quaternion x y z w; the identity when None.
+            check_limits: refuse positions outside the limits, those of mimic joints included.
+
+        Raises:
+            KinematicsError: an unknown name, a mimic joint, a position that is no finite number.
+            JointLimitError: `check_limits` is set and a position is outside its limits.
+        """
+        values = dict.fromkeys(self.variable_names, 0.0)
+        for name in values:
+            if name.endswith("/rot_w"):
+                values[name] = 1.0
+        for name, position in (positions or {}).items():
+            values[self._own(name)] = self._finite(name, position)
+        for name, coupling in self.couplings.items():
+            values[name] = coupling.offset
+            if coupling.master is not None:
+                values[name] += coupling.multiplier * values[coupling.master]
+        if check_limits and (errors := self.limit_errors(values)):
+            raise errors[0]
+        q: Array = pin.neutral(self.model)
+        for name, value in values.items():
+            self._put(q, self._variables[name], value)
+        self._normalise(q)
+        if base is not None:
+            q[:7] = self._pose(base)
+        return q
+
+    def positions(self, q: Array) -> dict[str, float]:
+        """Return joint or variable name → position [rad] or [m], mimics included; a continuous joint in (-π, π]."""
+        return {
+            name: math.atan2(q[at.index + 1], q[at.index]) if at.is_angle else float(q[at.index])
+            for name, at in self._variables.items()
+        }
+
+    def velocities(self, v: Array) -> dict[str, float]:
+        """Return joint name → velocity [rad/s] or [m/s] of the joints of one degree of freedom, mimics included."""
+        return {name: float(v[self.model.idx_vs[i]]) for name, i in self._joint_ids.items() if name in self._variables}
+
+    def velocity(self, velocities: Mapping[str, float] | None = None, *, base: Array | None = None) -> Array:
+        """Return v for these joint velocities, the others at zero, mimic joints following; shape (nv,).
+
+        Args:
+            velocities: joint name → velocity [rad/s] or [m/s], joints of one degree of freedom.
+            base: twist of a floating root link in its own axes, linear first; zero when None.
+
+        Raises:
+            KinematicsError: an unknown name, a mimic joint, a velocity that is no finite number.
+        """
+        v = np.zeros(self.model.nv)
+        for name, value in (velocities or {}).items():
+            if self._own(name) not in self._joint_ids:
+                raise KinematicsError(f"`{name}` is a variable of a joint, not a joint of one degree of freedom")
+            v[self.velocity_index(name)] = self._finite(name, value)
+        for name, coupling in self.couplings.items():
+            if coupling.master is not None:
+                v[self.velocity_index(name)] = coupling.multiplier * v[self.velocity_index(coupling.master)]
+        if base is not None:
+            if not self.floating_base:
+                raise KinematicsError(f"the root link `{self.root}` does not float: it has no twist")
+            v[:6] = base
+        return v
+
+    def configuration_index(self, joint: str) -> int:
+        """Return the first index of a joint in q.
+
+        Raises:
+            KinematicsError: no such movable joint.
+        """
+        return int(self.model.idx_qs[self._joint_id(joint)])
+
+    def velocity_index(self, joint: str) -> int:
+        """Return the first index of a joint in v.
+
+        Raises:
+            KinematicsError: no such movable joint.
+        """
+        return int(self.model.idx_vs[self._joint_id(joint)])
+
+    # Mimic joints
+
+    @cached_property
+    def independent(self) -> NDArray[np.int64]:
+        """Indices in v of what moves on its own, i.e. all but mimic joints; shape (nv - number of mimics,)."""
+        follows = {self.velocity_index(name) for name in self.mimic_names}
+        return np.array([i for i in range(self.model.nv) if i not in follows], dtype=np.int64)
+
+    @cached_property
+    def mimic_matrix(self) -> Array:
+        """G with v = G·v[independent]; shape (nv, nv - number of mimics).
+
+        With M and h of the full model, Gᵀ·M·G and Gᵀ·h are those of the robot whose mimic joints follow exactly.
+        """
+        column = {int(i): k for k, i in enumerate(self.independent)}
+        G = np.zeros((self.model.nv, len(column)))
+        for i, k in column.items():
+            G[i, k] = 1.0
+        for name, coupling in self.couplings.items():
+            if coupling.master is not None:
+                G[self.velocity_index(name), column[self.velocity_index(coupling.master)]] = coupling.multiplier
+        G.flags.writeable = False
+        return G
+
+    # Limits
+
+    def limits(self, joint: str) -> tuple[float, float]:
+        """Return the lower and upper position of a joint [rad] or [m]; infinite where there is none.
+
+        Raises:
+            KinematicsError: no such movable joint.
+        """
+        self._joint_id(joint)
+        return position_limits(self.robot.joint_by_name[joint])
+
+    def limit_errors(self, positions: Mapping[str, float]) -> list[JointLimitError]:
+        """Return an error, not raised, for each position outside its limits (a joint may be at its limit)."""
+        found = []
+        for name, value in positions.items():
+            if name in self._joint_ids:
+                lower, upper = self.limits(name)
+                if not lower <= value <= upper:
+                    found.append(JointLimitError(self.robot.joint_by_name[name], value, lower, upper))
+        return found
+
+    # Frames
+
+    def frame(self, name: str) -> int:
+        """Return Pinocchio's frame id of a link.
+
+        Raises:
+            KinematicsError: no link of that name.
+        """
+        if name not in self._frames:
+            hint = did_you_mean(name, self.link_names)
+            if (joint := self.robot.joint_by_name.get(name)) is not None:
+                hint = f"; `{name}` is a joint, its frame is that of its child link `{joint.child}`"
+            raise KinematicsError(f"no frame `{name}` in robot `{self.robot.name}`{hint}")
+        return self._frames[name]
+
+    def link_poses(self, q: Array) -> Array:
+        """Return x y z [m] and quaternion x y z w of all links in the world, as `link_names` has them; shape (n, 7)."""
+        pin.framesForwardKinematics(self.model, self.data, q)
+        oMf = self.data.oMf
+        poses = np.empty((len(self._link_frames), 7))
+        for row, frame in enumerate(self._link_frames):
+            poses[row] = pin.SE3ToXYZQUAT(oMf[frame])
+        return poses
+
+    # Inner checks
+
+    def _joint_id(self, joint: str) -> int:
+        if joint not in self._joint_ids:
+            raise KinematicsError(self._unknown(joint))
+        return self._joint_ids[joint]
+
+    def _own(self, name: str) -> str:
+        """Return the name if it is a variable that moves on its own."""
+        if name in self.couplings:
+            coupling = self.couplings[name]
+            law = f"{coupling.multiplier:g} · `{coupling.master}` + {coupling.offset:g}"
+            way = f"set `{coupling.master}` instead" if coupling.master else "it cannot be set"
+            raise KinematicsError(f"joint `{name}` follows another ({law if coupling.master else 'fixed'}); {way}")
+        if name not in self._variables:
+            raise KinematicsError(self._unknown(name))
+        return name
+
+    def _unknown(self, name: str) -> str:
+        joint = self.robot.joint_by_name.get(name)
+        if joint is None:
+            hint = did_you_mean(name, self.variable_names)
+            return f"no movable joint `{name}` in robot `{self.robot.name}`{hint}"
+        if joint.type in VARIABLES:
+            parts = ", ".join(f"`{name}/{part}`" for part in VARIABLES[joint.type])
+            return f"joint `{name}` is {joint.type} and has more than one position: {parts}"
+        return f"joint `{name}` is {joint.type or 'without a type'}: it does not move"
+
+    @staticmethod
+    def _finite(name: str, value: float) -> float:
+        if not math.isfinite(value):
+            raise KinematicsError(f"joint `{name}` cannot be at {value}: it must be a finite number")
+        return float(value)
+
+    @staticmethod
+    def _put(q: Array, at: _Variable, value: float) -> None:
+        if at.is_angle:
+            q[at.index], q[at.index + 1] = math.cos(value), math.sin(value)
+        else:
+            q[at.index] = value
+
+    def _normalise(self, q: Array) -> None:
+        """Make the quaternions of floating joints unit quaternions."""
+        for name, i in self._joint_ids.items():
+            if self.robot.joint_by_name[name].type == "floating":
+                start = int(self.model.idx_qs[i])
+                q[start : start + 7] = self._pose(q[start : start + 7])
+
+    @staticmethod
+    def _pose(pose: Array) -> Array:
+        pose = np.array(pose, dtype=float)
+        norm = float(np.linalg.norm(pose[3:])) if pose.shape == (7,) else 0.0
+        if not math.isfinite(norm) or norm < 1e-12 or not np.isfinite(pose).all():
+            raise KinematicsError("a pose is x y z and a quaternion x y z w that is not zero")
+        pose[3:] /= norm
+        return pose

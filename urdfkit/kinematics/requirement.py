@@ -1,0 +1,44 @@
+"""Pinocchio, or the one line that says how to get it."""
+
+from __future__ import annotations
+
+import platform
+import sys
+from typing import Any
+
+from urdfkit.errors import MissingDependencyError
+
+INSTALL = "pip install 'urdfkit[view]'"
+
+
+def require_pinocchio(needed_by: str = "tf, view and sim") -> Any:
+    """Return the module ``pinocchio``.
+
+    Args:
+        needed_by: the subject of the error message.
+
+    Raises:
+        MissingDependencyError: Pinocchio is not installed, has no wheel for this platform, or another package of that
+            name shadows it.
+    """
+    verb = "need" if " and " in needed_by else "needs"
+    try:
+        import pinocchio
+    except ImportError as error:
+        raise MissingDependencyError(f"{needed_by} {verb} pinocchio: {_remedy()}") from error
+    if not hasattr(pinocchio, "SE3"):
+        raise MissingDependencyError(
+            f"{needed_by} {verb} pinocchio, but the package installed under that name is not the robotics library: "
+            f"pip uninstall pinocchio && {_remedy()}"
+        )
+    return pinocchio
+
+
+def _remedy() -> str:
+    """Return the command to run; ``pin`` has wheels for Linux x86-64 and arm64 and for macOS arm64."""
+    machine = platform.machine().lower()
+    if sys.platform == "win32":
+        return f"it has no wheels for Windows; inside WSL (wsl --install) run {INSTALL}"
+    if sys.platform == "darwin" and machine == "x86_64":
+        return f"it has no wheels for macOS on Intel; use Linux (a container; on Windows, WSL) and run {INSTALL}"
+    return INSTALL
