@@ -1,0 +1,7 @@
+"""The physics engine: rigid bodies, contacts, friction, joint limits and motors, compiled."""
+
+from urdfkit.sim.engine.engine import Engine
+from urdfkit.sim.engine.surface import Contact, Ground, Surface
+from urdfkit.sim.engine.warmup import warmup
+
+__all__ = ["Contact", "Engine", "Ground", "Surface", "warmup"]

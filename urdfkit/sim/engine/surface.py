@@ -1,0 +1,65 @@
+"""What bodies touch with: the ground, their surfaces, and the contacts that come of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Ground:
+    """A horizontal plane that fills the half space below it.
+
+    Attributes:
+        height: z of the plane in the world [m].
+        mu: its friction coefficient; a pair of surfaces meets with the smaller one (Gazebo's ground plane has 100).
+        name: what contacts call it.
+    """
+
+    height: float = 0.0
+    mu: float = 100.0
+    name: str = "ground_plane"
+
+
+@dataclass(frozen=True, slots=True)
+class Surface:
+    """How a link rubs.
+
+    Attributes:
+        mu1: friction coefficient along `fdir1`.
+        mu2: friction coefficient across `fdir1`.
+        fdir1: first friction direction in the link's frame; None when the writer gave none.
+
+    The cone of a contact is circular: its coefficient is the smaller of `mu1` and `mu2`.
+    """
+
+    mu1: float = 1.0
+    mu2: float = 1.0
+    fdir1: Vector | None = None
+
+    @property
+    def mu(self) -> float:
+        """Coefficient of the circular friction cone."""
+        return min(self.mu1, self.mu2)
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """A point where a link touched something in the last step.
+
+    Attributes:
+        a: the link.
+        b: what it touched.
+        position: in the world [m].
+        normal: unit vector in the world from `b` to `a`.
+        depth: how deep `a` is in `b` [m]; negative while there is still a gap.
+        force: on `a`, in the world [N].
+    """
+
+    a: str
+    b: str
+    position: Vector
+    normal: Vector
+    depth: float
+    force: Vector
