@@ -23,6 +23,12 @@ class Point:
         return self.x + self.y
 
 
+@record
+class Bag:
+    label: str = "bag"
+    items: list[int] = field(default_factory=list)
+
+
 @record(eq=False)
 class Node:
     name: str = field(repr=False)
@@ -48,6 +54,14 @@ def test_construction_and_defaults():
 def test_wrong_arguments_are_refused(make, complaint):
     with pytest.raises(TypeError, match=complaint):
         make()
+
+
+def test_factories_make_a_new_value_each_time():
+    first, second = Bag(), Bag(items=[1])
+    first.items.append(3)
+    assert (Bag().items, second.items) == ([], [1])
+    assert dataclasses.replace(second, label="b") == Bag("b", [1])
+    assert dataclasses.fields(Bag)[1].default_factory is list
 
 
 def test_frozen():

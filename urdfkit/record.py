@@ -24,18 +24,18 @@ else:
 class _Field:
     """What `field` was told about one attribute."""
 
-    __slots__ = ("default", "has_default", "repr")
+    __slots__ = ("default", "factory", "repr")
 
-    def __init__(self, default: Any, has_default: bool, repr: bool) -> None:
-        self.default, self.has_default, self.repr = default, has_default, repr
+    def __init__(self, default: Any, factory: Any, repr: bool) -> None:
+        self.default, self.factory, self.repr = default, factory, repr
 
 
 _MISSING = object()
 
 
-def field(*, default: Any = _MISSING, repr: bool = True) -> Any:
-    """Describe an attribute: its default, and whether `repr` shows it."""
-    return _Field(None if default is _MISSING else default, default is not _MISSING, repr)
+def field(*, default: Any = _MISSING, default_factory: Any = None, repr: bool = True) -> Any:
+    """Describe an attribute: its default or what makes it, and whether `repr` shows it."""
+    return _Field(default, default_factory, repr)
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
@@ -56,6 +56,7 @@ def _prepare(cls: Any, eq: bool, order: bool) -> Any:
     inherited = getattr(cls, "_record_names", ())
     own = [name for name, kind in cls.__annotations__.items() if not kind.startswith("ClassVar")]
     defaults: dict[str, Any] = dict(getattr(cls, "_record_defaults", {}))
+    factories: dict[str, Any] = dict(getattr(cls, "_record_factories", {}))
     hidden = set(getattr(cls, "_record_hidden", ()))
     for name in own:
         if name not in cls.__dict__:
@@ -64,14 +65,17 @@ def _prepare(cls: Any, eq: bool, order: bool) -> Any:
         if isinstance(value, _Field):
             if not value.repr:
                 hidden.add(name)
-            if not value.has_default:
+            if value.default is _MISSING:
                 delattr(cls, name)
+                if value.factory is not None:
+                    factories[name] = value.factory
                 continue
             value = value.default
             setattr(cls, name, value)
         defaults[name] = value
     cls._record_names = (*inherited, *own)
     cls._record_defaults = defaults
+    cls._record_factories = factories
     cls._record_hidden = frozenset(hidden)
     cls.__match_args__ = cls._record_names  # type: ignore[misc]
     cls.__dataclass_fields__ = _Fields()
@@ -96,11 +100,14 @@ class _Fields:
     def __get__(self, instance: object, owner: Any) -> Any:
         import dataclasses
 
-        body: dict[str, Any] = {name: owner._record_defaults[name] for name in owner._record_defaults}
-        for name in owner._record_hidden:
-            body[name] = (
-                dataclasses.field(default=body[name], repr=False) if name in body else dataclasses.field(repr=False)
-            )
+        body: dict[str, Any] = {}
+        for name in owner._record_names:
+            options: dict[str, Any] = {"repr": name not in owner._record_hidden}
+            if name in owner._record_defaults:
+                options["default"] = owner._record_defaults[name]
+            elif name in owner._record_factories:
+                options["default_factory"] = owner._record_factories[name]
+            body[name] = dataclasses.field(**options)
         body["__annotations__"] = dict.fromkeys(owner._record_names, "object")
         twin: Any = dataclasses.dataclass(type(owner.__name__, (), body))
         owner.__dataclass_fields__ = twin.__dataclass_fields__
@@ -115,6 +122,9 @@ def _init(self: Any, *args: Any, **kwargs: Any) -> None:
         values.update(cls._record_defaults)
     values.update(zip(names, args))  # noqa: B905 - the count is checked below
     values.update(kwargs)
+    for name, make in cls._record_factories.items():
+        if name not in values:
+            values[name] = make()
     doubled = args and kwargs and not kwargs.keys().isdisjoint(names[: len(args)])
     if doubled or len(args) > len(names) or len(values) != len(names):
         _refuse(cls, args, kwargs)
@@ -132,7 +142,7 @@ def _refuse(cls: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
             raise TypeError(f"{cls.__name__}() got an unexpected keyword argument {name!r}")
         if name in names[: len(args)]:
             raise TypeError(f"{cls.__name__}() got multiple values for argument {name!r}")
-    given = {*names[: len(args)], *kwargs, *cls._record_defaults}
+    given = {*names[: len(args)], *kwargs, *cls._record_defaults, *cls._record_factories}
     missing = ", ".join(repr(name) for name in names if name not in given)
     raise TypeError(f"{cls.__name__}() missing arguments: {missing}")
 
