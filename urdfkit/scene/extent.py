@@ -1,0 +1,77 @@
+"""How far a scene reaches: the lowest point and axis-aligned bounds.
+
+Exact: in closed form for boxes, spheres, cylinders and capsules; by all vertices for meshes.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from urdfkit.description.robot import Box, Capsule, Cylinder, Sphere
+from urdfkit.scene.placement import pose_matrices
+from urdfkit.scene.scene import Role, Scene, Shape
+
+Array = NDArray[np.float64]
+
+
+def bounds(scene: Scene, poses: ArrayLike, *, role: Role | None = None) -> Array | None:
+    """Return the lowest and highest corner of the box along the world's axes that holds the scene [m]; shape (2, 3).
+
+    Args:
+        scene: the shapes.
+        poses: of the bodies, x y z [m] and quaternion x y z w, shape (len(scene.bodies), 7).
+        role: only visuals or only collisions; both when None.
+
+    Returns:
+        None where there is no shape.
+    """
+    matrices = pose_matrices(poses)
+    found = [
+        shape_bounds(shape, matrices[scene.body_index[shape.body]])
+        for shape in scene.shapes
+        if role is None or shape.role == role
+    ]
+    if not found:
+        return None
+    corners = np.array(found)
+    return np.array([corners[:, 0].min(axis=0), corners[:, 1].max(axis=0)])
+
+
+def lowest_point(scene: Scene, poses: ArrayLike) -> float | None:
+    """Return the lowest z of all collision shapes [m]; None where there is none.
+
+    Args:
+        scene: the shapes.
+        poses: of the bodies, shape (len(scene.bodies), 7).
+    """
+    box = bounds(scene, poses, role="collision")
+    return None if box is None else float(box[0, 2])
+
+
+def shape_bounds(shape: Shape, body: Array) -> Array:
+    """Return the lowest and highest corner of one shape [m]; shape (2, 3).
+
+    Args:
+        shape: the shape.
+        body: placement of its body in the world, shape (4, 4).
+    """
+    placement = body @ shape.placement
+    R, center = placement[:3, :3], placement[:3, 3]
+    if shape.mesh is not None:
+        points = shape.mesh.vertices.astype(float) @ R.T + center
+        return np.array([points.min(axis=0), points.max(axis=0)])
+    # The support of a solid along ±e is its reach from the centre; along world axis k, R[k] is e in the solid's frame.
+    along = np.abs(R[:, 2])
+    match shape.geometry:
+        case Box(size=size):
+            reach = np.abs(R) @ (np.array(size) / 2)
+        case Sphere(radius=radius):
+            reach = np.full(3, radius)
+        case Cylinder(radius=radius, length=length):
+            reach = along * length / 2 + radius * np.sqrt(np.maximum(0.0, 1.0 - along**2))
+        case Capsule(radius=radius, length=length):
+            reach = along * length / 2 + radius
+        case _:
+            reach = np.zeros(3)
+    return np.array([center - reach, center + reach])

@@ -1,0 +1,278 @@
+"""Meshes: a file → triangles in metres, each file read once."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import logging
+import re
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.description.robot import Vector
+from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
+
+FORMATS = (".stl", ".obj", ".dae", ".glb", ".gltf", ".ply")
+"""The file formats that are read."""
+
+MAX_BYTES = 256 * 2**20
+"""Largest mesh file that is read."""
+
+MAX_TRIANGLES = 5_000_000
+"""Largest number of triangles in one mesh."""
+
+_LFS = b"version https://git-lfs.github.com/spec/"
+_UNIT = re.compile(rb"""<unit\b[^>]*?\bmeter\s*=\s*["']\s*([^"']+?)\s*["']""")
+
+
+@dataclass(frozen=True, eq=False)
+class TriMesh:
+    """Triangles in the frame of their shape; all arrays are read-only.
+
+    Attributes:
+        vertices: [m], shape (n, 3), float32.
+        faces: indices of vertices, counter-clockwise seen from outside, shape (m, 3), int32.
+        normals: unit normals of the vertices where the file has them, shape (n, 3), float32, or None (shade flat).
+        colors: colours of the vertices where the file has them, shape (n, 4), uint8, or None.
+        hash: hexadecimal digest of all of the above: equal meshes have equal hashes.
+    """
+
+    vertices: NDArray[np.float32] = field(repr=False)
+    faces: NDArray[np.int32] = field(repr=False)
+    normals: NDArray[np.float32] | None = field(default=None, repr=False)
+    colors: NDArray[np.uint8] | None = field(default=None, repr=False)
+    hash: str = ""
+
+    def __post_init__(self) -> None:
+        digest = hashlib.sha256()
+        for name in ("vertices", "faces", "normals", "colors"):
+            array = getattr(self, name)
+            if array is not None:
+                array.flags.writeable = False
+                digest.update(f"{name}{array.shape}".encode())
+                digest.update(np.ascontiguousarray(array).data)
+        object.__setattr__(self, "hash", digest.hexdigest()[:32])
+
+    @cached_property
+    def bounds(self) -> NDArray[np.float64]:
+        """Lowest and highest corner [m]; shape (2, 3)."""
+        return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)], dtype=float)
+
+
+class MeshLoader:
+    """Reads mesh files and remembers them by content, so that a mesh used ten times is read once.
+
+    Keep one over several scenes (live reload) to read again only what has changed.
+    """
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[str, str, Vector], TriMesh] = {}
+
+    def load(self, path: Path, scale: Vector = (1.0, 1.0, 1.0)) -> TriMesh:
+        """Return the triangles of a file.
+
+        A COLLADA file is brought to metres by its ``<unit meter="…">``; its ``<up_axis>`` is ignored, as RViz and
+        Gazebo do. Instances are flattened, the scale may mirror.
+
+        Args:
+            path: the mesh file.
+            scale: factors along x, y, z.
+
+        Raises:
+            ResourceError: the file is missing, too large, no mesh, a Git LFS pointer or broken.
+            MissingDependencyError: trimesh is not installed.
+        """
+        if path.suffix.lower() not in FORMATS:
+            raise ResourceError(
+                f"mesh {path.name} is of a format that is not read{did_you_mean(path.suffix, FORMATS)}; "
+                f"supported: {' '.join(FORMATS)}"
+            )
+        content = _read(path)
+        side_files = b"".join(_side_files(path, content))
+        key = (hashlib.sha256(content + side_files).hexdigest(), path.suffix.lower(), scale)
+        if key not in self._known:
+            self._known[key] = _parse(path, content, scale)
+        return self._known[key]
+
+
+def _read(path: Path) -> bytes:
+    """Return the content of a mesh file that can be one."""
+    try:
+        if not path.is_file():
+            raise ResourceError(f"no mesh file {path}{nearest_file(path)}")
+        if (size := path.stat().st_size) > MAX_BYTES:
+            raise ResourceError(
+                f"mesh {path.name} has {size / 2**20:.0f} MiB; at most {MAX_BYTES // 2**20} MiB are read: decimate it"
+            )
+        content = path.read_bytes()
+    except OSError as error:
+        raise ResourceError(f"cannot read mesh {path}: {error.strerror or error}") from error
+    if content.startswith(_LFS):
+        raise ResourceError(f"mesh {path.name} is a Git LFS pointer, not the mesh: run `git lfs pull`")
+    if path.suffix.lower() == ".dae" and re.search(rb"<!(DOCTYPE|ENTITY)", content):
+        raise ResourceError(f"mesh {path.name} declares a document type or XML entities: refused")
+    return content
+
+
+def nearest_file(path: Path) -> str:
+    """Return ``; did you mean `x`?`` for a mesh that exists beside the missing one, or an empty string."""
+    folder = path.parent
+    if not folder.is_dir():
+        return f"; there is no folder {folder}"
+    names = sorted(entry.name for entry in folder.iterdir() if entry.is_file())
+    same_stem = [name for name in names if Path(name).stem.lower() == path.stem.lower()]
+    hint = did_you_mean(path.name, names)
+    if same_stem and path.name.lower() not in (name.lower() for name in names):
+        hint = f"; did you mean `{same_stem[0]}`?"
+    elif not hint:
+        return hint
+    if f"`{path.name}`".lower() in hint.lower():
+        hint += " (file names are case-sensitive)"
+    return hint
+
+
+def _side_files(path: Path, content: bytes) -> Iterator[bytes]:
+    """Yield the material libraries of an OBJ file: its colours are in them."""
+    if path.suffix.lower() == ".obj":
+        for name in re.findall(rb"^\s*mtllib[ \t]+(.+?)\s*$", content, re.MULTILINE):
+            try:
+                yield _Beside(path)[name.decode(errors="replace")]
+            except KeyError:
+                continue
+
+
+class _Beside(dict[str, bytes]):
+    """The files a mesh may pull in: materials and buffers in its own folder or below; no pictures."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self._folder = path.parent.resolve()
+
+    def __missing__(self, name: str) -> bytes:
+        path = (self._folder / name).resolve()
+        allowed = path.suffix.lower() in (".mtl", ".bin") and path.is_relative_to(self._folder)
+        if not allowed or not path.is_file() or path.stat().st_size > MAX_BYTES:
+            raise KeyError(name)
+        return path.read_bytes()
+
+    get = __missing__  # type: ignore[assignment]  # trimesh asks a resolver by get(name)
+
+
+def _parse(path: Path, content: bytes, scale: Vector) -> TriMesh:
+    try:
+        import trimesh
+    except ImportError as error:
+        raise MissingDependencyError("meshes need trimesh: pip install 'urdfkit[view]'") from error
+    suffix = path.suffix.lower()
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            logging.getLogger("trimesh").setLevel(logging.CRITICAL)
+            scene = trimesh.load_scene(io.BytesIO(content), file_type=suffix[1:], resolver=_Beside(path), process=False)
+            parts = list(_parts(scene))
+    except ResourceError:
+        raise
+    except Exception as error:  # whatever the reader of the format stumbled over
+        reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
+        raise ResourceError(f"mesh {path.name} cannot be read: {reason}") from error
+    factor = 1.0
+    if suffix == ".dae" and (unit := _UNIT.search(content)):
+        try:
+            factor = float(unit[1])
+        except ValueError:
+            factor = 1.0
+    return _merge(path, parts, np.array(scale, dtype=float) * factor)
+
+
+def _parts(scene: Any) -> Iterator[tuple[Any, Any]]:
+    """Yield every instance of a mesh in a loaded scene, with its transform."""
+    total = 0
+    for node in scene.graph.nodes_geometry:
+        transform, name = scene.graph[node]
+        geometry = scene.geometry[name]
+        if hasattr(geometry, "faces"):
+            total += len(geometry.faces)
+            if total > MAX_TRIANGLES:
+                raise ResourceError(f"a mesh of more than {MAX_TRIANGLES} triangles is not read: decimate it")
+            yield geometry, np.asarray(transform, dtype=float)
+
+
+def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64]) -> TriMesh:
+    """Flatten the parts into one mesh, scaled; vertices that agree in everything become one."""
+    vertices, faces, normals, colors = [], [], [], []
+    start = 0
+    for part, transform in parts:
+        linear = scale[:, None] * transform[:3, :3]
+        points = np.asarray(part.vertices, dtype=float) @ linear.T + scale * transform[:3, 3]
+        triangles = np.asarray(part.faces, dtype=np.int64).reshape(-1, 3)
+        if triangles.size and (triangles.min() < 0 or triangles.max() >= len(points)):
+            raise ResourceError(f"mesh {path.name} is broken: a triangle names a vertex that is not there")
+        if np.linalg.det(linear) < 0:  # a mirror turns triangles inside out
+            triangles = triangles[:, ::-1]
+        vertices.append(points)
+        faces.append(triangles + start)
+        normals.append(_normals(part, linear))
+        colors.append(_colors(part))
+        start += len(points)
+    if not start or not sum(map(len, faces)):
+        raise ResourceError(f"mesh {path.name} holds no triangles")
+    columns = [np.concatenate(vertices).astype(np.float32) + np.float32(0)]  # -0.0 becomes 0.0: rows compare by bits
+    if not np.isfinite(columns[0]).all():
+        raise ResourceError(f"mesh {path.name} is broken: a vertex is not a finite number")
+    has_normals = all(n is not None for n in normals)
+    has_colors = any(c is not None for c in colors)
+    if has_normals:
+        columns.append(np.concatenate([n for n in normals if n is not None]).astype(np.float32))
+    if has_colors:
+        filled = [
+            np.full((len(v), 4), 255, np.uint8) if c is None else c for v, c in zip(vertices, colors, strict=True)
+        ]
+        columns.append(np.ascontiguousarray(np.concatenate(filled)).view(np.float32))
+    rows, index = _unique(np.ascontiguousarray(np.hstack(columns)))
+    return TriMesh(
+        vertices=np.ascontiguousarray(rows[:, :3]),
+        faces=np.ascontiguousarray(index[np.concatenate(faces)].astype(np.int32)),
+        normals=np.ascontiguousarray(rows[:, 3:6]) if has_normals else None,
+        colors=np.ascontiguousarray(rows[:, -1:]).view(np.uint8).reshape(-1, 4) if has_colors else None,
+    )
+
+
+def _unique(rows: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
+    """Return the distinct rows in order of first appearance, and for each row which of them it is."""
+    raw = rows.view(np.dtype((np.void, rows.shape[1] * 4))).ravel()
+    _, first, inverse = np.unique(raw, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    return rows[first[order]], rank[inverse.ravel()]
+
+
+def _normals(part: Any, linear: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """Return the vertex normals written in the file, turned and scaled with the part; None where there are none."""
+    if "vertex_normals" not in part._cache.cache:
+        return None
+    written = np.asarray(part.vertex_normals, dtype=float)
+    if written.shape != part.vertices.shape or np.linalg.det(linear) == 0:
+        return None
+    turned = written @ np.linalg.inv(linear)  # normals go with the inverse transpose
+    length = np.linalg.norm(turned, axis=1, keepdims=True)
+    unit: NDArray[np.float64] = np.divide(turned, length, out=np.zeros_like(turned), where=length > 0)
+    return unit
+
+
+def _colors(part: Any) -> NDArray[np.uint8] | None:
+    """Return colours per vertex written in the file; the main colour of a material counts, a picture does not."""
+    visual = part.visual
+    if visual.kind == "vertex":
+        return np.asarray(visual.vertex_colors, dtype=np.uint8)
+    if visual.kind == "texture":
+        color = np.asarray(visual.material.main_color, dtype=np.uint8)
+        return np.tile(color, (len(part.vertices), 1))
+    return None

@@ -1,0 +1,142 @@
+"""The scene table: every shape of every body, once, for sensors and viewer alike."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.description.robot import Collision, Geometry, Link, Mesh, Robot, Visual
+from urdfkit.errors import ResourceError
+from urdfkit.scene.colors import DEFAULT, Palette, Rgba
+from urdfkit.scene.mesh import MeshLoader, TriMesh
+from urdfkit.scene.placement import pose_matrix
+
+Role = Literal["visual", "collision"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shape:
+    """Something that can be seen or touched.
+
+    Attributes:
+        name: unique in the scene, ``body/role/…`` with the name written in the description or a number.
+        body: name of the body (link) it is fixed to.
+        role: ``visual`` or ``collision``.
+        geometry: box, cylinder, sphere, capsule or mesh as written.
+        placement: of the shape in its body, shape (4, 4), read-only.
+        rgba: colour, components in 0..1; `DEFAULT` where the description names none.
+        has_color: whether the description names a colour; if not, the mesh's own colours are to be shown.
+        mesh: the triangles of a mesh, its scale applied; None for the other geometries.
+    """
+
+    name: str
+    body: str
+    role: Role
+    geometry: Geometry
+    placement: NDArray[np.float64] = field(repr=False)
+    rgba: Rgba = DEFAULT
+    has_color: bool = False
+    mesh: TriMesh | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """What there is to see and to touch.
+
+    Attributes:
+        bodies: names of the bodies; poses come as arrays of shape (len(bodies), 7) in this order.
+        shapes: all shapes, body by body.
+        problems: what was left out, when it was not to raise.
+    """
+
+    bodies: tuple[str, ...]
+    shapes: tuple[Shape, ...]
+    problems: tuple[ResourceError, ...] = ()
+
+    @cached_property
+    def body_index(self) -> dict[str, int]:
+        """Body name → its row in an array of poses."""
+        return {name: row for row, name in enumerate(self.bodies)}
+
+    def with_role(self, role: Role) -> tuple[Shape, ...]:
+        """Return the visuals or the collisions."""
+        return tuple(shape for shape in self.shapes if shape.role == role)
+
+
+def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = None) -> Scene:
+    """Return the scene of one robot; its bodies are the links in document order.
+
+    Args:
+        robot: a loaded robot; its `packages` resolve the URIs of meshes.
+        strict: raise on the first mesh that cannot be had; otherwise leave the shape out and note it in `problems`.
+        meshes: reads the mesh files; pass the same one again to read only what has changed.
+
+    Raises:
+        ResourceError: a mesh is missing or broken (`strict`), with the place where it is named.
+    """
+    meshes = meshes or MeshLoader()
+    palette = Palette(robot)
+    links = robot.link_by_name_in_order()
+    shapes: list[Shape] = []
+    problems: list[ResourceError] = []
+    for link in links:
+        names: set[str] = set()
+        for role, number, item in _items(link):
+            if item.geometry is None:
+                continue
+            mesh = None
+            if isinstance(item.geometry, Mesh):
+                try:
+                    mesh = _load(robot, item, item.geometry, meshes)
+                except ResourceError as error:
+                    if strict:
+                        raise
+                    problems.append(error)
+                    continue
+            name = f"{link.name}/{role}/{item.name or number}"
+            while name in names:
+                name += "_"
+            names.add(name)
+            color = palette.of(link.name, item) if isinstance(item, Visual) else None
+            shapes.append(
+                Shape(
+                    name, link.name, role, item.geometry, pose_matrix(item.origin), color or DEFAULT, bool(color), mesh
+                )
+            )
+    return Scene(tuple(link.name for link in links), tuple(shapes), tuple(problems))
+
+
+def _items(link: Link) -> list[tuple[Role, int, Visual | Collision]]:
+    visuals: Sequence[Visual | Collision] = link.visuals
+    found: list[tuple[Role, int, Visual | Collision]] = [("visual", k, item) for k, item in enumerate(visuals)]
+    return [*found, *(("collision", k, item) for k, item in enumerate(link.collisions))]
+
+
+def _load(robot: Robot, item: Visual | Collision, geometry: Mesh, meshes: MeshLoader) -> TriMesh:
+    """Return the triangles of a mesh.
+
+    Raises:
+        ResourceError: with the position of the ``<mesh>`` element.
+    """
+    element = next((e for e in item.element.walk() if e.tag == "mesh"), item.element)
+    position = element.origin.position
+    try:
+        return meshes.load(_resolve(robot, geometry.uri), geometry.scale)
+    except ResourceError as error:
+        raise ResourceError(error.message, position=position) from error
+
+
+def _resolve(robot: Robot, uri: str) -> Path:
+    """Return the file a mesh URI means; a relative one is relative to the description's entry file."""
+    entry = robot.files[0] if robot.files else Path("robot.urdf")
+    if robot.packages is not None:
+        return robot.packages.resolve(uri, entry)
+    if uri.startswith(("package://", "model://")):
+        raise ResourceError(f"mesh `{uri}` cannot be found: the robot was not loaded from a file")
+    return entry.parent / uri.removeprefix("file://")
