@@ -17,14 +17,42 @@ class Topic:
         name: absolute, e.g. ``/simpleton/cmd_vel``.
         type: ROS type name, e.g. ``geometry_msgs/msg/Twist``.
         count: messages published so far.
-        latest: the last message; None before the first.
     """
 
     name: str
     type: str
     count: int = 0
-    latest: Any = None
     subscribers: list[Callable[[Any], None]] = field(default_factory=list, repr=False)
+    _latest: Any = field(default=None, repr=False)
+    _build: Callable[[], Any] | None = field(default=None, repr=False)
+
+    @property
+    def latest(self) -> Any:
+        """The last message; None before the first. A message that nobody listened to is built here, on first look."""
+        if self._build is not None:
+            self._latest, self._build = self._build(), None
+        return self._latest
+
+    def publish(self, message: Any) -> None:
+        """Hand a message to every subscriber, in the order they subscribed."""
+        self.count += 1
+        self._latest, self._build = message, None
+        for callback in tuple(self.subscribers):
+            callback(message)
+
+    def offer(self, build: Callable[[], Any], *, count: int = 1) -> None:
+        """Publish what `build` makes, but make it only when somebody listens or looks at `latest`.
+
+        Args:
+            build: makes the message; has to hold on to the values of now, for it may be called later.
+            count: how many publications this one stands for (those nobody listened to are not made).
+        """
+        if self.subscribers:
+            self.count += count - 1
+            self.publish(build())
+        else:
+            self.count += count
+            self._build = build
 
 
 class Subscription:
@@ -62,11 +90,7 @@ class Bus:
 
     def publish(self, name: str, type: str, message: Any) -> None:
         """Hand a message to every subscriber, in the order they subscribed."""
-        topic = self.advertise(name, type)
-        topic.count += 1
-        topic.latest = message
-        for callback in tuple(topic.subscribers):
-            callback(message)
+        self.advertise(name, type).publish(message)
 
     def subscribe(self, name: str, type: str, callback: Callable[[Any], None]) -> Subscription:
         """Call `callback` with every message published from now on."""

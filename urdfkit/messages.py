@@ -14,6 +14,7 @@ ODOMETRY = "nav_msgs/msg/Odometry"
 JOINT_STATE = "sensor_msgs/msg/JointState"
 TF = "tf2_msgs/msg/TFMessage"
 CLOCK = "rosgraph_msgs/msg/Clock"
+BOOL = "std_msgs/msg/Bool"
 
 
 @cache
@@ -69,3 +70,10 @@ def vector(xyz: Sequence[float]) -> Any:
 def twist(linear: Sequence[float], angular: Sequence[float]) -> Any:
     """Return a ``geometry_msgs/msg/Twist`` [m/s, rad/s]."""
     return message_type(TWIST)(vector(linear), vector(angular))
+
+
+def transform(t: float, frame: str, child: str, position: Sequence[float], quaternion: Sequence[float]) -> Any:
+    """Return a ``geometry_msgs/msg/TransformStamped``: where `child` is in `frame` [m; x y z w]."""
+    rotation = message_type("geometry_msgs/msg/Quaternion")(*(float(part) for part in quaternion))
+    placement = message_type("geometry_msgs/msg/Transform")(vector(position), rotation)
+    return message_type("geometry_msgs/msg/TransformStamped")(header(t, frame), child, placement)

@@ -1,0 +1,257 @@
+"""Differential drive: gazebo_ros_diff_drive (ROS 1, ROS 2) and the new Gazebo's DiffDrive system.
+
+Sources: gazebo_ros_pkgs noetic-devel and ros2, gazebo_plugins/src/gazebo_ros_diff_drive.cpp; gz-sim main,
+src/systems/diff_drive/DiffDrive.cc. ROS 1 ``legacyMode`` (left and right swapped, until Kinetic) is not emulated.
+"""
+
+from __future__ import annotations
+
+from copy import copy
+from math import inf, isfinite
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.errors import SimulationError
+from urdfkit.messages import BOOL, JOINT_STATE, TF, TWIST, header, message_type, transform
+from urdfkit.sim.drives.limits import SpeedLimiter
+from urdfkit.sim.drives.odometer import Estimate, Odometer, from_wheels, from_world
+from urdfkit.sim.odometry import WheelOdometry
+from urdfkit.sim.parameters import Parameters
+from urdfkit.sim.plugin import Drive, Setup
+from urdfkit.sim.topics import Topics
+
+if TYPE_CHECKING:
+    from urdfkit.description.plugins import PluginSpec
+    from urdfkit.description.robot import Plugin
+    from urdfkit.sim.motors import Motors
+    from urdfkit.sim.state import State
+
+CLOSE = 0.01
+"""Wheel speeds nearer to their target than this [m/s] are set directly, whatever the acceleration limit."""
+
+
+class DiffDrive(Drive):
+    """Two wheels (or pairs of them) turned at v ± w·separation/2.
+
+    A command holds until the next one. There is no correction for a wheel whose axis points the other way.
+    """
+
+    kind = "diff_drive"
+
+    def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
+        super().__init__(plugin, spec)
+        self._gz = spec.generation == "gz"
+        self._wanted = (0.0, 0.0)
+        self._enabled = True
+
+    def configure(self, setup: Setup) -> None:
+        """Read the parameters, advertise and subscribe.
+
+        Raises:
+            SimulationError: a parameter makes no sense, with its place.
+        """
+        read = Parameters(self.plugin, self.spec, setup.names)
+        topics = Topics(self.plugin, self.spec, namespace=setup.model)
+        self._setup = setup
+        self._read_wheels(setup, read)
+        self._torque = read.number("max_wheel_torque", inf)
+        self._acceleration = read.number("max_wheel_acceleration")
+        self._instructed = [0.0] * (2 * len(self._pairs))
+        if self._gz:
+            self.read_rate = read.number("odometry_rate")
+            self._limiters = (_limiter(read, "linear"), _limiter(read, "angular"))
+        else:
+            self.write_rate = self.read_rate = read.number("update_rate")
+        self._period = max(setup.dt, 1 / self.write_rate if self.write_rate > 0 else 0.0)
+        self._listen(setup, read, topics)
+        self._announce(setup, read, topics)
+
+    def _read_wheels(self, setup: Setup, read: Parameters) -> None:
+        """Find the joints, and separation and radius of each pair."""
+        left, right = read.texts("left_joint"), read.texts("right_joint")
+        pairs = int(read.number("wheel_pairs", len(left), positive=True)) if left and right else 0
+        if not pairs or len(left) != pairs or len(right) != pairs:
+            place = read.place("wheel_pairs" if read.has("wheel_pairs") else "left_joint")
+            wanted = f"{pairs} of each" if pairs else "as many of one as of the other, at least one"
+            raise SimulationError(
+                f"{len(left)} <{read.tag('left_joint')}> and {len(right)} <{read.tag('right_joint')}>; "
+                f"this drive needs {wanted}",
+                position=place,
+            )
+        names = {meaning: [setup.joint(n, read.place(meaning)) for n in texts]
+                 for meaning, texts in (("left_joint", left), ("right_joint", right))}  # fmt: skip
+        self._pairs = tuple(zip(names["left_joint"], names["right_joint"], strict=True))
+        separations = read.numbers("wheel_separation", positive=True)
+        if self._gz:
+            radii: tuple[float, ...] = read.numbers("wheel_radius", positive=True)
+        else:
+            radii = tuple(diameter / 2 for diameter in read.numbers("wheel_diameter", positive=True))
+        # The first value serves every pair in the new Gazebo; in ROS 2 what is missing takes the default.
+        rest = (separations[0], radii[0]) if self._gz else (0.34, 0.075)
+        self._separations = (separations + (rest[0],) * pairs)[:pairs]
+        self._radii = (radii + (rest[1],) * pairs)[:pairs]
+
+    def _listen(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        self.commands = (topics.resolve(read.text("command_topic", "cmd_vel")),)
+        setup.bus.subscribe(self.commands[0], TWIST, self._command)
+        if self._gz:
+            setup.bus.subscribe(f"/model/{setup.model}/enable", BOOL, self._enable)
+
+    def _announce(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        source = read.text("odometry_source", "encoder").strip()
+        if source not in ("encoder", "world", "0", "1"):
+            raise SimulationError(
+                f"<{read.tag('odometry_source')}> is `{source}`; it must be "
+                + ("`encoder` or `world`" if self.spec.generation == "ros1" else "0 (encoder) or 1 (world)"),
+                position=read.place("odometry_source"),
+            )
+        self._encoder = source in ("encoder", "0")
+        published = self._gz or read.flag("publish_odometry")
+        with_tf = self._gz or (read.flag("publish_odometry_tf") and (published or self.spec.generation == "ros2"))
+        covariance = (1e-5, 1e-5, 1e-3)
+        if self.spec.generation == "ros2":
+            covariance = (read.number("covariance_x"), read.number("covariance_y"), read.number("covariance_yaw"))
+        self._odometer = Odometer(
+            setup.bus,
+            topic=topics.resolve(read.text("odometry_topic", "odom")) if published else None,
+            tf_topic=(topics.resolve(read.text("tf_topic")) if self._gz else "/tf") if with_tf else None,
+            frame=read.text("odometry_frame"),
+            child=read.text("base_frame"),
+            covariance=None if self._gz else covariance,
+        )
+        self._odometry = WheelOdometry(self._separations[0], exact=self._gz)
+        self._last_read = 0.0
+        wheel_tf = not self._gz and read.flag("publish_wheel_tf")
+        wheel_states = self.spec.generation == "ros1" and read.flag("publish_wheel_joint_state")
+        self._wheel_tf = setup.bus.advertise("/tf", TF) if wheel_tf else None
+        states = topics.resolve("joint_states")
+        self._wheel_states = setup.bus.advertise(states, JOINT_STATE) if wheel_states else None
+
+    # Commands
+
+    def _command(self, message: Any) -> None:
+        v, w = float(message.linear.x), float(message.angular.z)
+        if not (isfinite(v) and isfinite(w)):
+            self._setup.note(f"dropped a command on {self.commands[0]}: {v:g} m/s, {w:g} rad/s is not finite")
+            return
+        self._wanted = (v, w)
+        self.resting = False
+
+    def _enable(self, message: Any) -> None:
+        self._enabled = bool(message.data)
+        if not self._enabled:
+            self._wanted = (0.0, 0.0)
+        self.resting = False
+
+    # Before the step
+
+    def write(self, state: State, motors: Motors) -> None:
+        """Set the wheels' velocity motors."""
+        if not self._odometry.started:
+            self._measure(state)
+        v, w = self._wanted
+        if self._gz:
+            if not self._enabled:
+                v = w = 0.0
+            linear, angular = self._limiters
+            granted = linear.limit(v, self._period), angular.limit(w, self._period)
+            self.resting = linear.settled(v) and angular.settled(w)
+            v, w = granted
+        else:
+            self.resting = self._acceleration == 0.0
+        for i, (pair, separation, radius) in enumerate(zip(self._pairs, self._separations, self._radii, strict=True)):
+            speeds = [v - w * separation / 2, v + w * separation / 2]
+            if self._acceleration != 0.0:
+                self._accelerate(i, pair, radius, speeds, state)
+            for joint, speed in zip(pair, speeds, strict=True):
+                motors.drive(joint, speed / radius, self._torque)
+
+    def _accelerate(self, i: int, pair: tuple[str, str], radius: float, speeds: list[float], state: State) -> None:
+        """Replace wheel speeds [m/s] by what the acceleration limit grants, as gazebo_ros_diff_drive does.
+
+        ROS 1 jumps to the target as soon as one wheel is close to its own, ROS 2 when both are.
+        """
+        now = [state.velocity(joint) * radius for joint in pair]
+        near = [abs(speed - current) < CLOSE for speed, current in zip(speeds, now, strict=True)]
+        if any(near) if self.spec.generation == "ros1" else all(near):
+            return
+        most = self._acceleration * self._period
+        for side in (0, 1):
+            self._instructed[2 * i + side] += max(-most, min(most, speeds[side] - now[side]))
+            speeds[side] = self._instructed[2 * i + side]
+
+    # After the step
+
+    def read(self, state: State) -> None:
+        """Publish odometry, wheel transforms and wheel states."""
+        t = state.t
+        if self._encoder:
+            self._measure(state)
+        now = self._estimate(state, t - self._last_read)
+        self._last_read = t
+        self._odometer.publish(t, lambda: now)
+        if self._wheel_tf is not None:
+            moved = state.snapshot()
+            self._wheel_tf.offer(lambda: self._wheel_transforms(t, moved))
+        if self._wheel_states is not None:
+            positions = [state.position(joint) for pair in self._pairs for joint in pair]
+            self._wheel_states.offer(lambda: self._wheel_message(t, positions))
+
+    def _measure(self, state: State) -> None:
+        """Bring the wheel odometry up to date. Only the first pair has encoders."""
+        self._odometry.update(*self._rolled(state))
+
+    def _rolled(self, state: State) -> tuple[float, float]:
+        (left, right), radius = self._pairs[0], self._radii[0]
+        return state.position(left) * radius, state.position(right) * radius
+
+    def _estimate(self, state: State, period: float) -> Estimate:
+        if self._encoder:
+            return from_wheels(self._odometry, period or self._setup.dt, signed=self._gz)
+        return from_world(state.base_pose, state.base_velocity)
+
+    def estimate(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
+        """Return where the drive believes the robot to be, whether or not it publishes that."""
+        if not self._encoder:
+            return {self._odometer.frame: (state.base_pose[:3], state.base_pose[3:])}
+        ahead = copy(self._odometry)
+        ahead.update(*self._rolled(state))
+        now = from_wheels(ahead, self._setup.dt, signed=True)
+        return {self._odometer.frame: (now.position, now.quaternion)}
+
+    def _wheel_transforms(self, t: float, moved: Any) -> Any:
+        links = []
+        for joint in (name for pair in self._pairs for name in pair):
+            written = self._setup.kinematics.robot.joint_by_name[joint]
+            position, quaternion = moved.placement(written.child, written.parent)
+            links.append(transform(t, written.parent or "", written.child or "", position, quaternion))
+        return message_type(TF)(links)
+
+    def _wheel_message(self, t: float, positions: list[float]) -> Any:
+        import numpy as np
+
+        names = [joint for pair in self._pairs for joint in pair]
+        return message_type(JOINT_STATE)(header(t, ""), names, np.array(positions), np.zeros(0), np.zeros(0))
+
+    def reset(self) -> None:
+        """Forget commands and odometry."""
+        self._wanted = (0.0, 0.0)
+        self._enabled = True
+        self.resting = False
+        self._instructed = [0.0] * len(self._instructed)
+        self._odometry = WheelOdometry(self._separations[0], exact=self._gz)
+        self._last_read = 0.0
+        if self._gz:
+            for limiter in self._limiters:
+                limiter.reset()
+
+
+def _limiter(read: Parameters, which: str) -> SpeedLimiter:
+    """Read the limits of the linear or angular velocity: its own where they are written, else the common ones."""
+    bounds = []
+    for quantity in ("velocity", "acceleration", "jerk"):
+        lower, upper = (
+            read.number(f"{end}_{which}_{quantity}", read.number(f"{end}_{quantity}", limit))
+            for end, limit in (("min", -inf), ("max", inf))
+        )
+        bounds.append((lower, upper))
+    return SpeedLimiter(*bounds)

@@ -1,0 +1,49 @@
+"""Velocity, acceleration and jerk limits of the new Gazebo's drives (gz-math, SpeedLimiter.cc)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+
+@dataclass(slots=True)
+class SpeedLimiter:
+    """Limits a velocity and its derivatives. Applied in the order jerk, acceleration, velocity, as gz-math does.
+
+    Attributes:
+        velocity: lowest and highest [m/s] or [rad/s].
+        acceleration: lowest and highest [m/s²] or [rad/s²].
+        jerk: lowest and highest [m/s³] or [rad/s³].
+        last: the velocity granted last.
+        before: the one granted before that.
+    """
+
+    velocity: tuple[float, float] = (-inf, inf)
+    acceleration: tuple[float, float] = (-inf, inf)
+    jerk: tuple[float, float] = (-inf, inf)
+    last: float = 0.0
+    before: float = 0.0
+
+    def limit(self, wanted: float, dt: float) -> float:
+        """Return the velocity granted `dt` [s] after the last one."""
+        granted = wanted
+        change = (self.last - self.before) / dt
+        granted = self.last + (change + _clamp(((granted - self.last) / dt - change) / dt, self.jerk) * dt) * dt
+        granted = self.last + _clamp((granted - self.last) / dt, self.acceleration) * dt
+        granted = _clamp(granted, self.velocity)
+        if abs(granted - wanted) < 1e-12:
+            granted = wanted
+        self.before, self.last = self.last, granted
+        return granted
+
+    def settled(self, wanted: float) -> bool:
+        """Whether going on wanting the same changes nothing any more."""
+        return self.last == self.before == _clamp(wanted, self.velocity)
+
+    def reset(self) -> None:
+        """Stand still."""
+        self.last = self.before = 0.0
+
+
+def _clamp(value: float, bounds: tuple[float, float]) -> float:
+    return max(bounds[0], min(bounds[1], value))

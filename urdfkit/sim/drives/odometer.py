@@ -1,0 +1,129 @@
+"""Where a wheeled robot believes it is: odometry from the wheels or from the world, as a message and a transform."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import atan2, cos, sin
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.messages import ODOMETRY, TF, header, message_type, transform, twist
+
+if TYPE_CHECKING:
+    from urdfkit.bus import Bus, Topic
+    from urdfkit.sim.odometry import WheelOdometry
+
+HUGE = 1e12
+"""Variance of what odometry does not measure, as gazebo_ros_diff_drive writes it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """A pose in the odometry frame and the twist in the base frame.
+
+    Attributes:
+        position: [m].
+        quaternion: x y z w.
+        linear: [m/s].
+        angular: [rad/s].
+    """
+
+    position: tuple[float, float, float]
+    quaternion: tuple[float, float, float, float]
+    linear: tuple[float, float, float]
+    angular: tuple[float, float, float]
+
+
+class Odometer:
+    """Publishes estimates.
+
+    Args:
+        bus: where to.
+        topic: of the odometry message; None to publish none.
+        tf_topic: of the transform; None to publish none.
+        frame: the odometry frame.
+        child: the base frame.
+        covariance: variances of x, y [m²] and yaw [rad²]; None leaves the matrix zero (the new Gazebo).
+    """
+
+    def __init__(
+        self,
+        bus: Bus,
+        *,
+        topic: str | None,
+        tf_topic: str | None,
+        frame: str,
+        child: str,
+        covariance: tuple[float, float, float] | None,
+    ) -> None:
+        self._odometry: Topic | None = bus.advertise(topic, ODOMETRY) if topic else None
+        self._tf: Topic | None = bus.advertise(tf_topic, TF) if tf_topic else None
+        self.frame = frame
+        self.child = child
+        self._covariance = covariance
+
+    def publish(self, t: float, estimate: Callable[[], Estimate]) -> None:
+        """Offer message and transform of this moment; `estimate` must hold on to the values of now."""
+        if self._odometry is not None:
+            self._odometry.offer(lambda: self._message(t, estimate()))
+        if self._tf is not None:
+            self._tf.offer(lambda: self._transform(t, estimate()))
+
+    def _message(self, t: float, estimate: Estimate) -> Any:
+        import numpy as np
+
+        pose = message_type("geometry_msgs/msg/Pose")(
+            message_type("geometry_msgs/msg/Point")(*estimate.position),
+            message_type("geometry_msgs/msg/Quaternion")(*estimate.quaternion),
+        )
+        covariance = np.zeros(36)
+        if self._covariance is not None:
+            x, y, yaw = self._covariance
+            covariance[::7] = (x, y, HUGE, HUGE, HUGE, yaw)
+        return message_type(ODOMETRY)(
+            header(t, self.frame),
+            self.child,
+            message_type("geometry_msgs/msg/PoseWithCovariance")(pose, covariance),
+            message_type("geometry_msgs/msg/TwistWithCovariance")(
+                twist(estimate.linear, estimate.angular), np.zeros(36)
+            ),
+        )
+
+    def _transform(self, t: float, estimate: Estimate) -> Any:
+        return message_type(TF)([transform(t, self.frame, self.child, estimate.position, estimate.quaternion)])
+
+
+def from_wheels(odometry: WheelOdometry, period: float, *, signed: bool) -> Estimate:
+    """Return the estimate of encoder odometry.
+
+    Args:
+        odometry: after its last update.
+        period: time since the update before [s].
+        signed: report driving backwards as negative; gazebo_ros_diff_drive reports the length of the displacement,
+            which is never negative.
+    """
+    speed = odometry.advanced if signed else odometry.distance
+    return Estimate(
+        (odometry.x, odometry.y, 0.0),
+        (0.0, 0.0, sin(odometry.heading / 2), cos(odometry.heading / 2)),
+        (speed / period, 0.0, 0.0),
+        (0.0, 0.0, odometry.turned / period),
+    )
+
+
+def from_world(pose: tuple[float, ...], velocity: tuple[float, ...]) -> Estimate:
+    """Return the estimate of world odometry: the model's true pose, not relative to where it was spawned.
+
+    Args:
+        pose: x y z and quaternion x y z w of the root link in the world.
+        velocity: of the root link along and about the world's axes, linear first.
+    """
+    x, y, z, qx, qy, qz, qw = pose
+    yaw = atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
+    vx, vy = velocity[0], velocity[1]
+    return Estimate(
+        (x, y, z),
+        (qx, qy, qz, qw),
+        (cos(yaw) * vx + sin(yaw) * vy, cos(yaw) * vy - sin(yaw) * vx, 0.0),
+        (0.0, 0.0, velocity[5]),
+    )

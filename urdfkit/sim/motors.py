@@ -1,0 +1,104 @@
+"""The joints' velocity motors: what drives and controllers may write."""
+
+from __future__ import annotations
+
+from math import inf, isfinite
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError
+from urdfkit.kinematics import Kinematics
+
+Array = NDArray[np.float64]
+
+APPROACH = 10.0
+"""A joint on its way to a position target closes the gap at this rate [1/s]: to 5e-5 of it in a second."""
+
+
+class Motors:
+    """Velocity motors with effort limits, one per joint of one degree of freedom.
+
+    Args:
+        kinematics: the robot's model.
+        velocity: the engine's motor velocities [rad/s] or [m/s]; shape (nv,).
+        effort: the engine's effort limits [N·m] or [N], zero where there is no motor; shape (nv,).
+    """
+
+    def __init__(self, kinematics: Kinematics, velocity: Array, effort: Array) -> None:
+        self._kinematics = kinematics
+        self._velocity = velocity
+        self._effort = effort
+        names = (*kinematics.joint_names, *kinematics.mimic_names)
+        self._index = {name: kinematics.velocity_index(name) for name in names}
+        self._goals: dict[str, float] = {}
+
+    def drive(self, joint: str, velocity: float, effort: float | None = None) -> None:
+        """Turn a joint at `velocity` [rad/s] or [m/s] with at most `effort` [N·m] or [N].
+
+        Args:
+            joint: its name.
+            velocity: target; stays until the next call.
+            effort: limit; the joint's ``<limit effort>`` when None, unlimited where there is none.
+
+        Raises:
+            SimulationError: no such joint, or a value that is no finite number.
+        """
+        self._goals.pop(joint, None)
+        self._set(joint, velocity, self._limit(joint) if effort is None else effort)
+
+    def hold(self, joint: str, position: float, effort: float | None = None) -> None:
+        """Bring a joint to `position` [rad] or [m] and keep it there, within its velocity and effort limits.
+
+        Raises:
+            SimulationError: no such joint, a value that is no finite number or outside the joint's limits.
+        """
+        self._set(joint, 0.0, self._limit(joint) if effort is None else effort)
+        if not isfinite(position):
+            raise SimulationError(f"joint `{joint}` cannot go to {position}: it must be a finite number")
+        lower, upper = self._kinematics.limits(joint)
+        if not lower <= position <= upper:
+            raise SimulationError(f"joint `{joint}` cannot go to {position:g}: its limits are {lower:g} … {upper:g}")
+        self._goals[joint] = position
+
+    def release(self, joint: str) -> None:
+        """Let a joint turn freely."""
+        self._goals.pop(joint, None)
+        self._set(joint, 0.0, 0.0)
+
+    def release_all(self) -> None:
+        """Let every joint turn freely."""
+        self._goals.clear()
+        self._velocity[:] = 0.0
+        self._effort[:] = 0.0
+
+    @property
+    def has_goals(self) -> bool:
+        """Whether a joint has a position target."""
+        return bool(self._goals)
+
+    def approach(self, positions: Any) -> None:
+        """Set the velocities of joints with a position target from where they are.
+
+        Args:
+            positions: joint name → position [rad] or [m], a function.
+        """
+        for joint, goal in self._goals.items():
+            limit = self._kinematics.robot.joint_by_name[joint].limit
+            fastest = limit.velocity if limit is not None and limit.velocity else inf
+            self._velocity[self._index[joint]] = max(-fastest, min(fastest, APPROACH * (goal - positions(joint))))
+
+    def _limit(self, joint: str) -> float:
+        written = self._kinematics.robot.joint_by_name.get(joint)
+        limit = written.limit if written is not None else None
+        return inf if limit is None or limit.effort is None else limit.effort
+
+    def _set(self, joint: str, velocity: float, effort: float) -> None:
+        if joint not in self._index:
+            self._kinematics.velocity_index(joint)  # raises, with the nearest name
+            raise SimulationError(f"joint `{joint}` has more than one degree of freedom: it has no motor")
+        if not isfinite(velocity) or effort != effort or effort < 0:
+            raise SimulationError(f"joint `{joint}`: {velocity} with effort {effort} is no motor target")
+        self._velocity[self._index[joint]] = velocity
+        self._effort[self._index[joint]] = effort

@@ -1,0 +1,179 @@
+"""Drive, Sensor, Controller: what a plugin of the simulator is, and what it is given.
+
+Three phases. `configure` once: read parameters, look up joints, advertise and subscribe. ``write``, before the engine
+advances: set motor targets. ``read``/``measure``, after it: look at the state, which nobody can change, and publish.
+A plugin class is named in `DRIVES`, `SENSORS` or `CONTROLLERS` and chosen by the ``kind`` of its `PluginSpec`.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from urdfkit.errors import SimulationError, did_you_mean
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from urdfkit.bus import Bus
+    from urdfkit.description.plugins import PluginSpec
+    from urdfkit.description.robot import Plugin
+    from urdfkit.description.source import Position
+    from urdfkit.kinematics import Kinematics
+    from urdfkit.sim.motors import Motors
+    from urdfkit.sim.state import State
+
+
+@dataclass(frozen=True)
+class Setup:
+    """What a plugin may use.
+
+    Attributes:
+        bus: where it publishes and subscribes.
+        kinematics: the robot's model.
+        model: the name the robot was spawned under.
+        world: the world's name.
+        dt: the simulation's step [s].
+        random: the generator of this plugin alone, from the simulation's seed.
+        note: tells the user something, once per text.
+    """
+
+    bus: Bus
+    kinematics: Kinematics
+    model: str
+    world: str
+    dt: float
+    random: np.random.Generator
+    note: Callable[[str], None]
+
+    @property
+    def names(self) -> dict[str, str]:
+        """What goes into the braces of a table's defaults."""
+        return {"model": self.model, "world": self.world, "root": self.kinematics.root}
+
+    def joint(self, name: str, position: Position) -> str:
+        """Return the name of a joint that moves in one degree of freedom.
+
+        Raises:
+            SimulationError: there is none, at the place where it was asked for.
+        """
+        known = (*self.kinematics.joint_names, *self.kinematics.mimic_names)
+        if name in known:
+            return name
+        robot = self.kinematics.robot
+        if name in robot.joint_by_name:
+            raise SimulationError(
+                f"joint `{name}` is {robot.joint_by_name[name].type}: nothing can drive it", position=position
+            )
+        raise SimulationError(
+            f"no joint `{name}` in robot `{robot.name}`{did_you_mean(name, known)}", position=position
+        )
+
+
+class Drive(ABC):
+    """Turns velocity commands into wheel motion, and wheel motion into odometry.
+
+    Attributes:
+        kind: the ``kind`` of the tables it answers to.
+        write_rate: how often `write` is due [Hz]; zero means every step.
+        read_rate: how often `read` is due [Hz]; zero means every step.
+        resting: `write` has nothing to do until something changes; the simulator then leaves it out.
+        commands: topics of type Twist it listens to.
+        odometry: frame → its odometer, for who asks where the robot thinks it is.
+    """
+
+    kind: ClassVar[str]
+    write_rate: float = 0.0
+    read_rate: float = 0.0
+    resting: bool = False
+    commands: tuple[str, ...] = ()
+
+    def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
+        self.plugin = plugin
+        self.spec = spec
+
+    @abstractmethod
+    def configure(self, setup: Setup) -> None:
+        """Read the parameters, advertise and subscribe.
+
+        Raises:
+            SimulationError: a parameter makes no sense, with its place.
+        """
+
+    @abstractmethod
+    def write(self, state: State, motors: Motors) -> None:
+        """Set motor targets for the time until the next call."""
+
+    @abstractmethod
+    def read(self, state: State) -> None:
+        """Publish what was measured."""
+
+    @abstractmethod
+    def reset(self) -> None:
+        """Forget commands and odometry."""
+
+    def estimate(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
+        """Return odometry frame → position [m] and quaternion x y z w the drive believes the robot to be at."""
+        return {}
+
+
+class Sensor(ABC):
+    """Measures and publishes.
+
+    Attributes:
+        kind: the ``kind`` of the tables it answers to.
+        rate: how often `measure` is due [Hz]; zero means every step.
+    """
+
+    kind: ClassVar[str]
+    rate: float = 0.0
+
+    def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
+        self.plugin = plugin
+        self.spec = spec
+
+    @abstractmethod
+    def configure(self, setup: Setup) -> None:
+        """Read the parameters and advertise.
+
+        Raises:
+            SimulationError: a parameter makes no sense, with its place.
+        """
+
+    @abstractmethod
+    def measure(self, state: State) -> None:
+        """Publish a measurement of this state."""
+
+
+class Controller(ABC):
+    """Moves joints to commanded positions, velocities or efforts.
+
+    Attributes:
+        kind: the ``kind`` of the tables it answers to.
+        rate: how often `write` and `read` are due [Hz]; zero means every step.
+    """
+
+    kind: ClassVar[str]
+    rate: float = 0.0
+
+    def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
+        self.plugin = plugin
+        self.spec = spec
+
+    @abstractmethod
+    def configure(self, setup: Setup) -> None:
+        """Read the parameters, advertise and subscribe.
+
+        Raises:
+            SimulationError: a parameter makes no sense, with its place.
+        """
+
+    @abstractmethod
+    def write(self, state: State, motors: Motors) -> None:
+        """Set motor targets for the time until the next call."""
+
+    @abstractmethod
+    def read(self, state: State) -> None:
+        """Publish what was measured."""

@@ -1,0 +1,42 @@
+"""Unit quaternions x y z w on plain floats: for single poses, numpy costs more than it saves."""
+
+from __future__ import annotations
+
+from math import asin, atan2, cos, sin
+from typing import Any
+
+
+def rotate(quaternion: Any, vector: Any) -> tuple[float, float, float]:
+    """Return v + 2w(u × v) + 2u × (u × v), the vector turned by the unit quaternion (u, w)."""
+    x, y, z, w = (float(part) for part in quaternion)
+    a, b, c = (float(part) for part in vector)
+    tx, ty, tz = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
+    return a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx
+
+
+def product(first: Any, second: Any) -> tuple[float, float, float, float]:
+    """Return the Hamilton product of two quaternions x y z w."""
+    ax, ay, az, aw = (float(part) for part in first)
+    bx, by, bz, bw = (float(part) for part in second)
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
+
+
+def from_rpy(roll: float, pitch: float, yaw: float) -> tuple[float, float, float, float]:
+    """Return the quaternion x y z w of fixed-axis roll, pitch, yaw [rad]."""
+    about_x = (sin(roll / 2), 0.0, 0.0, cos(roll / 2))
+    about_y = (0.0, sin(pitch / 2), 0.0, cos(pitch / 2))
+    about_z = (0.0, 0.0, sin(yaw / 2), cos(yaw / 2))
+    return product(about_z, product(about_y, about_x))
+
+
+def to_rpy(quaternion: Any) -> tuple[float, float, float]:
+    """Return fixed-axis roll, pitch, yaw [rad] of a unit quaternion x y z w."""
+    x, y, z, w = (float(part) for part in quaternion)
+    roll = atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+    pitch = asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
+    return roll, pitch, atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
