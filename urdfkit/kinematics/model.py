@@ -9,9 +9,7 @@ planar or floating joint one number per variable, named as MoveIt names them (``
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -23,23 +21,7 @@ from urdfkit.errors import KinematicsError, did_you_mean
 from urdfkit.kinematics.build import build_model, pin
 from urdfkit.kinematics.limits import JointLimitError, position_limits
 from urdfkit.kinematics.mimic import Coupling, couplings
-
-Array = NDArray[np.float64]
-
-VARIABLES = {
-    "planar": ("x", "y", "theta"),
-    "floating": ("trans_x", "trans_y", "trans_z", "rot_x", "rot_y", "rot_z", "rot_w"),
-}
-"""Names of the variables of joints with more than one (MoveIt: moveit_core, planar_joint_model.cpp and
-floating_joint_model.cpp)."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Variable:
-    """One number of a configuration by name: where in q it is, and whether as (cosine, sine)."""
-
-    index: int
-    is_angle: bool
+from urdfkit.kinematics.variables import PARTS, Array, finite, index_variables, unit_pose
 
 
 class Kinematics:
@@ -73,27 +55,14 @@ class Kinematics:
         self.data: Any = self.model.createData()
         self.root: str = robot.roots()[0].name
         self.link_names: tuple[str, ...] = tuple(link.name for link in robot.link_by_name_in_order())
-        self._joint_ids = {name: i for i, name in enumerate(self.model.names) if i > (1 if floating_base else 0)}
-        self._variables = self._index_variables()
-        self.mimic_names: tuple[str, ...] = tuple(name for name in self._joint_ids if name in self.couplings)
-        self.joint_names: tuple[str, ...] = tuple(
-            name for name in self._joint_ids if name in self._variables and name not in self.couplings
-        )
+        first = 2 if floating_base else 1  # after the universe and the free-flyer
+        self._joint_ids = {name: i for i, name in enumerate(self.model.names) if i >= first}
+        self._variables = index_variables(robot, self.model, self._joint_ids)
+        single = [name for name in self._joint_ids if name in self._variables]
+        self.joint_names: tuple[str, ...] = tuple(name for name in single if name not in self.couplings)
+        self.mimic_names: tuple[str, ...] = tuple(name for name in single if name in self.couplings)
         self.variable_names: tuple[str, ...] = tuple(name for name in self._variables if name not in self.couplings)
         self._frames = {name: int(self.model.getFrameId(name, pin.BODY)) for name in self.link_names}
-        self._link_frames = tuple(self._frames.values())
-
-    def _index_variables(self) -> dict[str, _Variable]:
-        found: dict[str, _Variable] = {}
-        for name, i in self._joint_ids.items():
-            kind = self.robot.joint_by_name[name].type
-            start = int(self.model.idx_qs[i])
-            if kind not in VARIABLES:
-                found[name] = _Variable(start, kind == "continuous")
-                continue
-            for k, part in enumerate(VARIABLES[kind]):
-                found[f"{name}/{part}"] = _Variable(start + k, part == "theta")
-        return found
 
     # Configurations and velocities by name
 
@@ -115,36 +84,45 @@ class Kinematics:
             KinematicsError: an unknown name, a mimic joint, a position that is no finite number.
             JointLimitError: `check_limits` is set and a position is outside its limits.
         """
-        values = dict.fromkeys(self.variable_names, 0.0)
-        for name in values:
-            if name.endswith("/rot_w"):
-                values[name] = 1.0
-        for name, position in (positions or {}).items():
-            values[self._own(name)] = self._finite(name, position)
+        q: Array = pin.neutral(self.model)
+        values = self.followed(positions or {})
+        if check_limits and (errors := self.limit_errors(values)):
+            raise errors[0]
+        for name, value in values.items():
+            self._variables[name].put(q, value)
+        for name, i in self._joint_ids.items():
+            if self.robot.joint_by_name[name].type == "floating":
+                start = int(self.model.idx_qs[i])
+                q[start : start + 7] = unit_pose(q[start : start + 7])
+        if base is not None:
+            self._require_floating()
+            q[:7] = unit_pose(base)
+        return q
+
+    def followed(self, positions: Mapping[str, float]) -> dict[str, float]:
+        """Return all joint and variable positions, mimic joints included, when these are set and the others at zero.
+
+        Unlike `positions` of a configuration, continuous joints keep the turns they were given.
+
+        Raises:
+            KinematicsError: an unknown name, a mimic joint, a position that is no finite number.
+        """
+        values = {name: variable.zero for name, variable in self._variables.items()}
+        for name, position in positions.items():
+            values[self._own(name)] = finite(name, position)
         for name, coupling in self.couplings.items():
             values[name] = coupling.offset
             if coupling.master is not None:
                 values[name] += coupling.multiplier * values[coupling.master]
-        if check_limits and (errors := self.limit_errors(values)):
-            raise errors[0]
-        q: Array = pin.neutral(self.model)
-        for name, value in values.items():
-            self._put(q, self._variables[name], value)
-        self._normalise(q)
-        if base is not None:
-            q[:7] = self._pose(base)
-        return q
+        return values
 
     def positions(self, q: Array) -> dict[str, float]:
         """Return joint or variable name → position [rad] or [m], mimics included; a continuous joint in (-π, π]."""
-        return {
-            name: math.atan2(q[at.index + 1], q[at.index]) if at.is_angle else float(q[at.index])
-            for name, at in self._variables.items()
-        }
+        return {name: variable.get(q) for name, variable in self._variables.items()}
 
     def velocities(self, v: Array) -> dict[str, float]:
         """Return joint name → velocity [rad/s] or [m/s] of the joints of one degree of freedom, mimics included."""
-        return {name: float(v[self.model.idx_vs[i]]) for name, i in self._joint_ids.items() if name in self._variables}
+        return {name: float(v[self.velocity_index(name)]) for name in self._joint_ids if name in self._variables}
 
     def velocity(self, velocities: Mapping[str, float] | None = None, *, base: Array | None = None) -> Array:
         """Return v for these joint velocities, the others at zero, mimic joints following; shape (nv,).
@@ -156,18 +134,16 @@ class Kinematics:
         Raises:
             KinematicsError: an unknown name, a mimic joint, a velocity that is no finite number.
         """
-        v = np.zeros(self.model.nv)
+        u = np.zeros(len(self.independent))
+        column = {int(i): k for k, i in enumerate(self.independent)}
         for name, value in (velocities or {}).items():
             if self._own(name) not in self._joint_ids:
-                raise KinematicsError(f"`{name}` is a variable of a joint, not a joint of one degree of freedom")
-            v[self.velocity_index(name)] = self._finite(name, value)
-        for name, coupling in self.couplings.items():
-            if coupling.master is not None:
-                v[self.velocity_index(name)] = coupling.multiplier * v[self.velocity_index(coupling.master)]
+                raise KinematicsError(f"`{name}` is one variable of several; only joints of one degree of freedom")
+            u[column[self.velocity_index(name)]] = finite(name, value, quantity="velocity")
         if base is not None:
-            if not self.floating_base:
-                raise KinematicsError(f"the root link `{self.root}` does not float: it has no twist")
-            v[:6] = base
+            self._require_floating()
+            u[:6] = base
+        v: Array = self.mimic_matrix @ u
         return v
 
     def configuration_index(self, joint: str) -> int:
@@ -196,7 +172,7 @@ class Kinematics:
 
     @cached_property
     def mimic_matrix(self) -> Array:
-        """G with v = G·v[independent]; shape (nv, nv - number of mimics).
+        """G with v = G·v[independent]; shape (nv, nv - number of mimics), read-only.
 
         With M and h of the full model, Gᵀ·M·G and Gᵀ·h are those of the robot whose mimic joints follow exactly.
         """
@@ -250,12 +226,12 @@ class Kinematics:
         """Return x y z [m] and quaternion x y z w of all links in the world, as `link_names` has them; shape (n, 7)."""
         pin.framesForwardKinematics(self.model, self.data, q)
         oMf = self.data.oMf
-        poses = np.empty((len(self._link_frames), 7))
-        for row, frame in enumerate(self._link_frames):
+        poses = np.empty((len(self._frames), 7))
+        for row, frame in enumerate(self._frames.values()):
             poses[row] = pin.SE3ToXYZQUAT(oMf[frame])
         return poses
 
-    # Inner checks
+    # What is asked for by name and is not there
 
     def _joint_id(self, joint: str) -> int:
         if joint not in self._joint_ids:
@@ -264,11 +240,11 @@ class Kinematics:
 
     def _own(self, name: str) -> str:
         """Return the name if it is a variable that moves on its own."""
-        if name in self.couplings:
-            coupling = self.couplings[name]
-            law = f"{coupling.multiplier:g} · `{coupling.master}` + {coupling.offset:g}"
-            way = f"set `{coupling.master}` instead" if coupling.master else "it cannot be set"
-            raise KinematicsError(f"joint `{name}` follows another ({law if coupling.master else 'fixed'}); {way}")
+        if (coupling := self.couplings.get(name)) is not None:
+            if coupling.master is None:
+                raise KinematicsError(f"joint `{name}` mimics a fixed joint: it stays at {coupling.offset:g}")
+            law = f"{coupling.multiplier:g} · {coupling.master} + {coupling.offset:g}"
+            raise KinematicsError(f"joint `{name}` mimics another ({law}); set `{coupling.master}` instead")
         if name not in self._variables:
             raise KinematicsError(self._unknown(name))
         return name
@@ -276,38 +252,12 @@ class Kinematics:
     def _unknown(self, name: str) -> str:
         joint = self.robot.joint_by_name.get(name)
         if joint is None:
-            hint = did_you_mean(name, self.variable_names)
-            return f"no movable joint `{name}` in robot `{self.robot.name}`{hint}"
-        if joint.type in VARIABLES:
-            parts = ", ".join(f"`{name}/{part}`" for part in VARIABLES[joint.type])
+            return f"no movable joint `{name}` in robot `{self.robot.name}`{did_you_mean(name, self.variable_names)}"
+        if joint.type in PARTS:
+            parts = ", ".join(f"`{name}/{part}`" for part in PARTS[joint.type])
             return f"joint `{name}` is {joint.type} and has more than one position: {parts}"
         return f"joint `{name}` is {joint.type or 'without a type'}: it does not move"
 
-    @staticmethod
-    def _finite(name: str, value: float) -> float:
-        if not math.isfinite(value):
-            raise KinematicsError(f"joint `{name}` cannot be at {value}: it must be a finite number")
-        return float(value)
-
-    @staticmethod
-    def _put(q: Array, at: _Variable, value: float) -> None:
-        if at.is_angle:
-            q[at.index], q[at.index + 1] = math.cos(value), math.sin(value)
-        else:
-            q[at.index] = value
-
-    def _normalise(self, q: Array) -> None:
-        """Make the quaternions of floating joints unit quaternions."""
-        for name, i in self._joint_ids.items():
-            if self.robot.joint_by_name[name].type == "floating":
-                start = int(self.model.idx_qs[i])
-                q[start : start + 7] = self._pose(q[start : start + 7])
-
-    @staticmethod
-    def _pose(pose: Array) -> Array:
-        pose = np.array(pose, dtype=float)
-        norm = float(np.linalg.norm(pose[3:])) if pose.shape == (7,) else 0.0
-        if not math.isfinite(norm) or norm < 1e-12 or not np.isfinite(pose).all():
-            raise KinematicsError("a pose is x y z and a quaternion x y z w that is not zero")
-        pose[3:] /= norm
-        return pose
+    def _require_floating(self) -> None:
+        if not self.floating_base:
+            raise KinematicsError(f"root link `{self.root}` of robot `{self.robot.name}` does not float")

@@ -8,7 +8,8 @@ from typing import Any
 
 from urdfkit.description.robot import Joint, Robot
 from urdfkit.kinematics.build import pin
-from urdfkit.kinematics.model import Array, Kinematics
+from urdfkit.kinematics.model import Kinematics
+from urdfkit.kinematics.variables import Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +22,7 @@ class Edge:
         joint: the joint that connects them.
         type: the joint's type as written.
         is_static: whether it never changes (published once, on ``/tf_static``).
+        mimics: the joint that leads this one, if it is a mimic joint.
     """
 
     parent: str
@@ -28,6 +30,28 @@ class Edge:
     joint: str
     type: str
     is_static: bool
+    mimics: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Transform:
+    """Where one frame is in another, in plain numbers (no negative zeros).
+
+    Attributes:
+        parent: the frame it is expressed in.
+        child: the frame it places.
+        translation: x y z [m].
+        quaternion: x y z w, w not negative.
+        rpy: fixed-axis roll, pitch, yaw [rad].
+        matrix: the four rows of the homogeneous matrix.
+    """
+
+    parent: str
+    child: str
+    translation: list[float]
+    quaternion: list[float]
+    rpy: list[float]
+    matrix: list[list[float]]
 
 
 class TransformTree:
@@ -72,6 +96,28 @@ class TransformTree:
         pin.framesForwardKinematics(kinematics.model, kinematics.data, q)
         return kinematics.data.oMf[there].actInv(kinematics.data.oMf[here])
 
+    def transform(self, parent: str | None, child: str, q: Array | Mapping[str, float] | None = None) -> Transform:
+        """Return `placement` of `child` in `parent` in plain numbers.
+
+        Raises:
+            KinematicsError: an unknown frame or joint.
+        """
+        placement = self.placement(child, parent, q)
+        quaternion = pin.SE3ToXYZQUAT(placement)[3:]
+        return Transform(
+            parent=parent or self.root,
+            child=child,
+            translation=_plain(placement.translation),
+            quaternion=_plain(-quaternion if quaternion[3] < 0.0 else quaternion),
+            rpy=_plain(pin.rpy.matrixToRpy(placement.rotation)),
+            matrix=[_plain(row) for row in placement.homogeneous],
+        )
+
+
+def _plain(numbers: Any) -> list[float]:
+    return [float(number) + 0.0 for number in numbers]
+
 
 def _edge(joint: Joint) -> Edge:
-    return Edge(joint.parent or "", joint.child or "", joint.name, joint.type or "", not joint.is_movable)
+    leader = joint.mimic.joint if joint.mimic is not None and joint.is_movable else None
+    return Edge(joint.parent or "", joint.child or "", joint.name, joint.type or "", not joint.is_movable, leader)

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.packages import near_path
 from urdfkit.description.robot import Vector
 from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
 
@@ -106,7 +107,7 @@ def _read(path: Path) -> bytes:
     """Return the content of a mesh file that can be one."""
     try:
         if not path.is_file():
-            raise ResourceError(f"no mesh file {path}{nearest_file(path)}")
+            raise ResourceError(f"no mesh file {path}{near_path(path)}")
         if (size := path.stat().st_size) > MAX_BYTES:
             raise ResourceError(
                 f"mesh {path.name} has {size / 2**20:.0f} MiB; at most {MAX_BYTES // 2**20} MiB are read: decimate it"
@@ -119,23 +120,6 @@ def _read(path: Path) -> bytes:
     if path.suffix.lower() == ".dae" and re.search(rb"<!(DOCTYPE|ENTITY)", content):
         raise ResourceError(f"mesh {path.name} declares a document type or XML entities: refused")
     return content
-
-
-def nearest_file(path: Path) -> str:
-    """Return ``; did you mean `x`?`` for a mesh that exists beside the missing one, or an empty string."""
-    folder = path.parent
-    if not folder.is_dir():
-        return f"; there is no folder {folder}"
-    names = sorted(entry.name for entry in folder.iterdir() if entry.is_file())
-    same_stem = [name for name in names if Path(name).stem.lower() == path.stem.lower()]
-    hint = did_you_mean(path.name, names)
-    if same_stem and path.name.lower() not in (name.lower() for name in names):
-        hint = f"; did you mean `{same_stem[0]}`?"
-    elif not hint:
-        return hint
-    if f"`{path.name}`".lower() in hint.lower():
-        hint += " (file names are case-sensitive)"
-    return hint
 
 
 def _side_files(path: Path, content: bytes) -> Iterator[bytes]:

@@ -1,0 +1,211 @@
+"""``urdfkit tf``: one transform, all of them, or the frame tree."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterable
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, did_you_mean
+
+if TYPE_CHECKING:
+    from urdfkit.kinematics.tf import Transform, TransformTree
+
+_DRAWINGS = (".svg", ".dot", ".pdf")
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of ``urdfkit tf``."""
+    parser.usage = (
+        "urdfkit tf MODEL [key:=value ...] [PARENT CHILD] [--joint name=value ...] [--json]\n"
+        "       urdfkit tf MODEL [key:=value ...] --tree [-o frames.svg|.pdf|.dot]"
+    )
+    parser.epilog = (
+        "examples:\n"
+        "  urdfkit tf simpleton base_footprint left_wheel --joint left_wheel_joint=1.57\n"
+        "  urdfkit tf simpleton --tree -o frames.svg"
+    )
+    parser.add_argument(
+        "words",
+        nargs="*",
+        metavar="MODEL [PARENT CHILD]",
+        help="a .urdf or .xacro file, a package folder or a robot name; key:=value xacro arguments; then the frame to "
+        "express the transform in and the frame looked for (all frames in the root frame when left out)",
+    )
+    parser.add_argument(
+        "--joint",
+        nargs="+",
+        action="extend",
+        default=[],
+        metavar="name=value",
+        help="joint positions in rad or m; joints left out are at zero (a planar or floating joint has several: "
+        "name/x, name/y, name/theta, ...)",
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON value")
+    parser.add_argument("--tree", action="store_true", help="print or draw the frame tree")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="with --tree: draw into a .svg, .dot or .pdf")
+    parser.add_argument(
+        "--package-path", action="append", default=[], metavar="DIR", help="look for packages here too (repeatable)"
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print what was asked for."""
+    model, frames = _split(arguments.words)
+    if len(frames) == 1:
+        raise UsageError(f"tf: a transform needs PARENT and CHILD; after `{frames[0]}` the CHILD is missing")
+    if len(frames) > 2:
+        raise UsageError(f"tf: one PARENT and one CHILD, not {len(frames)} frames: {' '.join(frames)}")
+    if arguments.output is not None:
+        if not arguments.tree:
+            raise UsageError("tf: -o draws the frame tree and needs --tree")
+        if arguments.output.suffix.lower() not in _DRAWINGS:
+            hint = did_you_mean(arguments.output.suffix, _DRAWINGS)
+            raise UsageError(f"tf: -o {arguments.output}: draws {', '.join(_DRAWINGS)} files{hint}")
+    positions = _positions(arguments.joint)
+
+    from urdfkit.kinematics.requirement import require_pinocchio
+
+    require_pinocchio("tf")
+    from urdfkit.description import load
+    from urdfkit.kinematics.tf import TransformTree
+    from urdfkit.resources import find_model
+
+    found = find_model(model, package_path=arguments.package_path)
+    tree = TransformTree(load(found.path, arguments=found.arguments, package_path=found.package_path))
+    for error in tree.kinematics.limit_errors(tree.kinematics.followed(positions)):
+        print(f"urdfkit: warning: {error}", file=sys.stderr)
+    if arguments.tree:
+        if frames:
+            raise UsageError("tf: either PARENT and CHILD or --tree")
+        _show_tree(tree, output=arguments.output, as_json=arguments.json)
+    elif frames:
+        transform = tree.transform(frames[0], frames[1], positions)
+        _write(json.dumps(asdict(transform)) + "\n" if arguments.json else _echo(transform))
+    else:
+        q = tree.kinematics.configuration(positions)
+        transforms = [tree.transform(tree.root, frame, q) for frame in tree.frames]
+        as_json = json.dumps([asdict(transform) for transform in transforms])
+        _write(as_json + "\n" if arguments.json else _table(tree.root, transforms))
+    return 0
+
+
+def _split(words: list[str]) -> tuple[list[str], list[str]]:
+    """Return the words that mean the model and the frames after it."""
+    plain = [word for word in words if ":=" not in word]
+    return [*plain[:1], *(word for word in words if ":=" in word)], plain[1:]
+
+
+def _positions(words: Iterable[str]) -> dict[str, float]:
+    """Read ``name=value`` words, several in one when separated by commas.
+
+    Raises:
+        UsageError: a word of another form, a name twice, a value that is no finite number.
+    """
+    found: dict[str, float] = {}
+    for word in (part for words_of_one in words for part in words_of_one.split(",") if part):
+        name, separator, text = word.partition("=")
+        if not separator or not name:
+            raise UsageError(f"tf: --joint takes name=value, not `{word}`")
+        if name in found:
+            raise UsageError(f"tf: --joint {name} is given twice")
+        try:
+            found[name] = float(text)
+        except ValueError:
+            raise UsageError(f"tf: --joint {name}: `{text}` is not a number [rad or m]") from None
+        if found[name] - found[name] != 0.0:  # NaN or infinite
+            raise UsageError(f"tf: --joint {name}: {text} is not a finite number")
+    return found
+
+
+def _echo(transform: Transform) -> str:
+    """Return a transform as ``tf2_echo`` prints it."""
+    degrees = [number * 57.29577951308232 for number in transform.rpy]
+    lines = [
+        f"{transform.parent} → {transform.child}",
+        f"- Translation: {_row(transform.translation)} m",
+        f"- Rotation: in Quaternion (xyzw) {_row(transform.quaternion)}",
+        f"- Rotation: in RPY (radian) {_row(transform.rpy)}",
+        f"- Rotation: in RPY (degree) {_row(degrees, 3)}",
+        "- Matrix:",
+        *("  " + " ".join(f"{_number(number):>10}" for number in row) for row in transform.matrix),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _table(root: str, transforms: list[Transform]) -> str:
+    """Return the transforms as a table, a frame in a row."""
+    widest = max(len(transform.child) for transform in transforms)
+    heads = ("x [m]", "y [m]", "z [m]", "roll [rad]", "pitch [rad]", "yaw [rad]")
+    lines = [f"frames in `{root}`", " ".join([" " * widest, *(f"{head:>11}" for head in heads)])]
+    for transform in transforms:
+        numbers = (f"{_number(number):>11}" for number in [*transform.translation, *transform.rpy])
+        lines.append(" ".join([f"{transform.child:<{widest}}", *numbers]))
+    return "\n".join(lines) + "\n"
+
+
+def _row(numbers: list[float], digits: int = 6) -> str:
+    return f"[{', '.join(_number(number, digits) for number in numbers)}]"
+
+
+def _number(number: float, digits: int = 6) -> str:
+    return f"{round(number, digits) + 0.0:.{digits}f}"
+
+
+def _show_tree(tree: TransformTree, *, output: Path | None, as_json: bool) -> None:
+    from urdfkit.atomic import write_bytes, write_text
+    from urdfkit.kinematics.drawing import as_dot, as_svg, as_text
+
+    if output is None and not as_json:
+        try:
+            "└├│".encode(sys.stdout.encoding or "utf-8")
+            _write(as_text(tree))
+        except UnicodeEncodeError:
+            _write(as_text(tree, ascii_only=True))
+    if as_json:
+        edges = [
+            {"parent": e.parent, "child": e.child, "joint": e.joint, "type": e.type, "static": e.is_static}
+            for e in tree.edges
+        ]
+        _write(json.dumps({"root": tree.root, "frames": list(tree.frames), "edges": edges}) + "\n")
+    if output is not None:
+        match output.suffix.lower():
+            case ".svg":
+                write_text(output, as_svg(tree))
+            case ".dot":
+                write_text(output, as_dot(tree))
+            case _:
+                write_bytes(output, _pdf(as_dot(tree)))
+        print(f"wrote {output}", file=sys.stderr)
+
+
+def _pdf(dot: str) -> bytes:
+    """Return a drawing by Graphviz.
+
+    Raises:
+        MissingDependencyError: Graphviz is not installed.
+        ResourceError: it failed.
+    """
+    program = shutil.which("dot")
+    if program is None:
+        raise MissingDependencyError(
+            "tf: a .pdf is drawn by Graphviz, which is not installed (apt install graphviz); -o frames.svg or "
+            "frames.dot need nothing"
+        )
+    drawn = subprocess.run([program, "-Tpdf"], input=dot.encode(), capture_output=True, check=False)
+    if drawn.returncode != 0:
+        reason = drawn.stderr.decode(errors="replace").strip().splitlines() or ["no reason given"]
+        raise ResourceError(f"tf: Graphviz could not draw the frame tree: {reason[0]}")
+    return drawn.stdout
+
+
+def _write(text: str) -> None:
+    """Write to standard output, whatever its encoding can show."""
+    encoding = sys.stdout.encoding or "utf-8"
+    sys.stdout.write(text.encode(encoding, errors="replace").decode(encoding))
