@@ -1,0 +1,111 @@
+"""What `view` and `sim teleop` share: the options of the server, saying where the page is, ending cleanly."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+import threading
+import webbrowser
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from urdfkit.errors import MissingDependencyError
+
+if TYPE_CHECKING:
+    from types import FrameType
+
+    from urdfkit.view.server import Server
+
+NEEDED = {"meshcat": "meshcat", "tornado": "tornado", "umsgpack": "u-msgpack-python", "trimesh": "trimesh"}
+"""Module → package, beside Pinocchio."""
+
+
+def add_page_options(parser: argparse.ArgumentParser) -> None:
+    """Add --port, --host and --no-browser."""
+    parser.add_argument("--port", type=int, metavar="N", help="serve on this port (0: any; default: 7007 or the next)")
+    parser.add_argument(
+        "--host",
+        default="127.0.0.1",
+        metavar="H",
+        help="listen on this address; 0.0.0.0 lets other machines in, who still need the key in the address",
+    )
+    parser.add_argument("--no-browser", action="store_true", help="do not open a browser, only print the address")
+
+
+def require_page(command: str, extra: str) -> None:
+    """Check that what the page needs is installed.
+
+    Args:
+        command: the subject of the message, e.g. ``view``.
+        extra: the extra that has it all.
+
+    Raises:
+        MissingDependencyError: naming what is missing and the command to run.
+    """
+    from importlib.util import find_spec
+
+    missing = [package for module, package in NEEDED.items() if find_spec(module) is None]
+    if find_spec("pinocchio") is None:
+        missing.append("pinocchio")
+    if not missing:
+        return
+    names = " and ".join([", ".join(missing[:-1]), missing[-1]] if len(missing) > 1 else missing)
+    if sys.platform == "win32":
+        raise MissingDependencyError(
+            f"{command} needs {names}, and Pinocchio has no wheels for Windows: in WSL (wsl --install) run "
+            f"pip install 'urdfkit[{extra}]'"
+        )
+    raise MissingDependencyError(f"{command} needs {names}: pip install 'urdfkit[{extra}]'")
+
+
+def announce(server: Server, *, host: str, browser: bool) -> None:
+    """Print the address on standard output and open it in a browser.
+
+    Args:
+        server: the running server.
+        host: the address asked for.
+        browser: open one, if this machine has a screen.
+    """
+    from urdfkit.view.security import is_loopback
+
+    print(server.url, flush=True)
+    if not is_loopback(host):
+        for url in server.urls[1:]:
+            print(url, flush=True)
+        note("warning: anybody on the network who has the address can watch and drive; the connection is not encrypted")
+    if browser and _has_screen():
+        # Some browsers keep the caller waiting until they are closed.
+        threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True, name="open-browser").start()
+    elif browser:
+        note("no screen here: open the address in a browser")
+
+
+def note(text: str) -> None:
+    """Print one line on standard error."""
+    print(text, file=sys.stderr, flush=True)
+
+
+@contextmanager
+def until_interrupted() -> Iterator[None]:
+    """Run a block that Ctrl-C and SIGTERM end quietly, as a server's way to be done."""
+
+    def stop(_signal: int, _frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, stop) if threading.current_thread() is threading.main_thread() else None
+    try:
+        yield
+    except KeyboardInterrupt:
+        note("")  # the terminal shows ^C
+    finally:
+        if before is not None:
+            signal.signal(signal.SIGTERM, before)
+
+
+def _has_screen() -> bool:
+    if sys.platform in ("win32", "darwin"):
+        return True
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or os.environ.get("BROWSER"))

@@ -1,0 +1,144 @@
+// What stands on the stage: takes meshcat commands, fetches meshes once, applies packed poses.
+/* global MeshCat */
+
+const THREE = MeshCat.THREE;
+const HEADER = 16;
+
+export class Scene {
+  constructor(stage) {
+    this.stage = stage;
+    this.viewer = stage.viewer;
+    this.meshes = new Map(); // content hash → promise of a BufferGeometry
+    this.waiting = new Set();
+    this.groups = { visual: new Map(), collision: new Map() };
+    this.shown = { visual: true, collision: false };
+    this.generation = 0;
+    this.nodes = [];
+    this.model = -1;
+    this.pending = null;
+    const original = this.viewer.handle_command.bind(this.viewer);
+    this.viewer.handle_command = (command) => this.#command(command, original);
+  }
+
+  command(bytes) {
+    this.viewer.handle_command_bytearray(bytes);
+  }
+
+  #command(command, original) {
+    const path = command.path.split("/").filter(Boolean);
+    if (command.type === "delete" && path.length === 1) {
+      this.generation += 1;
+      for (const groups of Object.values(this.groups)) groups.clear();
+    }
+    const geometry = command.type === "set_object" ? command.object.geometries?.[0] : null;
+    if (geometry?.type === "_shared") this.#shared(path, command.object, geometry.name);
+    else original(command);
+    if (command.type === "set_object") this.#group(path);
+  }
+
+  #group(path) {
+    const role = path[3];
+    if (path[0] !== "robot" || !(role in this.groups)) return;
+    const group = this.viewer.scene_tree.find(path.slice(0, 4)).object;
+    this.groups[role].set(path.slice(0, 4).join("/"), group);
+    group.visible = this.shown[role];
+    if (role === "collision") group.traverse((object) => (object.castShadow = false));
+  }
+
+  show(role, shown) {
+    this.shown[role] = shown;
+    for (const group of this.groups[role].values()) group.visible = shown;
+    this.stage.dirty();
+  }
+
+  #shared(path, object, name) {
+    const generation = this.generation;
+    const task = this.#mesh(name)
+      .then((geometry) => {
+        if (generation !== this.generation) return; // the robot was replaced meanwhile
+        const mesh = new THREE.Mesh(geometry, new THREE.MaterialLoader().parse(object.materials[0]));
+        mesh.castShadow = path[3] !== "collision";
+        mesh.receiveShadow = true;
+        this.viewer.set_object(path, mesh);
+        this.stage.dirty();
+      })
+      .catch((error) => console.warn(`mesh ${name.slice(0, 8)}: ${error.message}`))
+      .finally(() => this.waiting.delete(task));
+    this.waiting.add(task);
+  }
+
+  #mesh(name) {
+    if (!this.meshes.has(name)) {
+      const mesh = fetch(`/geometry/${name}`).then(async (answer) => {
+        if (!answer.ok) throw new Error(`${answer.status}`);
+        return unpack(await answer.arrayBuffer());
+      });
+      mesh.catch(() => this.meshes.delete(name));
+      this.meshes.set(name, mesh);
+    }
+    return this.meshes.get(name);
+  }
+
+  /** Resolves when all meshes asked for so far have come. */
+  async settled() {
+    while (this.waiting.size) await Promise.allSettled([...this.waiting]);
+  }
+
+  get robot() {
+    return this.viewer.scene_tree.find(["robot"]).object;
+  }
+
+  /** The nodes that poses move, in the order of the rows of a pose frame. */
+  use(model) {
+    this.model = model.number;
+    this.nodes = model.nodes.map((path) => this.viewer.scene_tree.find(path.split("/").filter(Boolean)).object);
+    this.pending = null;
+  }
+
+  /** Keep a pose frame until the next picture is drawn; `applied(sequence, time)` is called then. */
+  poses(frame, applied) {
+    const idle = this.pending === null;
+    this.pending = frame;
+    if (idle) requestAnimationFrame(() => this.#apply(applied));
+  }
+
+  #apply(applied) {
+    const frame = this.pending;
+    this.pending = null;
+    if (frame === null) return;
+    const view = new DataView(frame);
+    const sequence = view.getUint32(4, true);
+    const time = view.getFloat64(8, true);
+    if (view.getUint8(1) === this.model && view.getUint16(2, true) === this.nodes.length) {
+      const values = new Float32Array(frame, HEADER);
+      this.nodes.forEach((node, i) => {
+        const at = 7 * i;
+        node.position.set(values[at], values[at + 1], values[at + 2]);
+        node.quaternion.set(values[at + 3], values[at + 4], values[at + 5], values[at + 6]);
+      });
+      this.stage.dirty();
+    }
+    applied(sequence, time);
+  }
+}
+
+function unpack(buffer) {
+  const [vertices, triangles, coloured] = new Uint32Array(buffer, 0, 3);
+  const geometry = new THREE.BufferGeometry();
+  let at = 12;
+  const take = (Kind, size, count) => {
+    const attribute = new THREE.BufferAttribute(new Kind(buffer, at, size * count), size);
+    at += size * count * Kind.BYTES_PER_ELEMENT;
+    return attribute;
+  };
+  geometry.setAttribute("position", take(Float32Array, 3, vertices));
+  geometry.setAttribute("normal", take(Float32Array, 3, vertices));
+  const index = take(Uint32Array, 3, triangles);
+  geometry.setIndex(new THREE.BufferAttribute(index.array, 1));
+  if (coloured) {
+    const colours = take(Uint8Array, 4, vertices);
+    colours.normalized = true;
+    geometry.setAttribute("color", colours);
+  }
+  return geometry;
+}

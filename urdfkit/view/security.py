@@ -1,0 +1,126 @@
+"""Who may talk to the server: the token, the cookie, the Host and Origin rules, and the headers of every answer."""
+
+from __future__ import annotations
+
+import hmac
+import ipaddress
+import secrets
+from dataclasses import dataclass, field
+from urllib.parse import urlsplit
+
+LOOPBACK_NAMES = ("localhost", "127.0.0.1", "::1")
+
+EMPTY_STYLE = "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='"
+"""Hash of the empty string: meshcat's bundle makes one empty style element and fills it by the object model."""
+
+DAT_GUI_STYLES = ("'sha256-K7kXOYqP8pf16L5/PaLZ4u9Lt5q3nTyjCvyGtO/Af2k='",)
+"""Hashes of the style sheets that meshcat's bundle injects for its own (here hidden) control panel."""
+
+
+@dataclass(frozen=True)
+class Gate:
+    """Decides on every request.
+
+    Attributes:
+        port: the port served.
+        names: host names under which the server may be addressed, beside IP literals when `open_to_network`.
+        open_to_network: bound to more than the loopback interface.
+        token: goes into the URL that is printed; whoever has it gets the cookie.
+        session: value of the cookie.
+    """
+
+    port: int
+    names: tuple[str, ...] = LOOPBACK_NAMES
+    open_to_network: bool = False
+    token: str = field(default_factory=lambda: secrets.token_urlsafe(24), repr=False)
+    session: str = field(default_factory=lambda: secrets.token_urlsafe(24), repr=False)
+
+    @property
+    def cookie(self) -> str:
+        """Name of the cookie. Browsers do not part cookies by port, so the name does."""
+        return f"urdfkit-{self.port}"
+
+    def token_fits(self, token: str) -> bool:
+        """Whether this is the token, compared in constant time."""
+        return hmac.compare_digest(token.encode("utf-8", "surrogatepass"), self.token.encode())
+
+    def session_fits(self, cookie: str | None) -> bool:
+        """Whether this is the cookie's value, compared in constant time."""
+        return cookie is not None and hmac.compare_digest(
+            cookie.encode("utf-8", "surrogatepass"), self.session.encode()
+        )
+
+    def host_fits(self, host: str) -> bool:
+        """Whether the Host header names this server: the defence against DNS rebinding.
+
+        Any port is accepted, so that a port forwarded by ssh works; the Origin rule keeps other ports' pages out.
+        An IP literal cannot be rebound, so it is accepted where the network may connect at all.
+        """
+        name = host_name(host)
+        if name is None:
+            return False
+        return name in self.names or (self.open_to_network and is_ip_literal(name))
+
+    def origin_fits(self, origin: str | None, host: str) -> bool:
+        """Whether the Origin header is exactly the page this server handed out under `host`."""
+        return origin is not None and origin.lower() == f"http://{host.lower()}"
+
+
+def host_name(host: str) -> str | None:
+    """Return the name in a Host header without port and brackets, in lower case; None when it makes no sense."""
+    if not host or any(c in host for c in "/@?#\\ \t"):
+        return None
+    try:
+        parts = urlsplit(f"//{host}")
+        _ = parts.port  # raises when it is no number
+    except ValueError:
+        return None
+    return parts.hostname
+
+
+def is_ip_literal(name: str) -> bool:
+    """Whether `name` is an IPv4 or IPv6 address rather than a name."""
+    try:
+        ipaddress.ip_address(name)
+    except ValueError:
+        return False
+    return True
+
+
+def is_loopback(host: str) -> bool:
+    """Whether binding to `host` keeps the server on this machine."""
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False
+
+
+def headers(host: str) -> dict[str, str]:
+    """Return the headers of every answer.
+
+    Args:
+        host: the Host header, for the websocket's address (older Safari does not count it as 'self').
+    """
+    policy = {
+        "default-src": "'none'",
+        "script-src": "'self'",
+        "style-src": " ".join(("'self'", EMPTY_STYLE, *DAT_GUI_STYLES)),
+        "img-src": "'self' data: blob:",
+        "connect-src": f"'self' ws://{host}" if host_name(host) else "'self'",
+        "manifest-src": "'self'",
+        "base-uri": "'none'",
+        "form-action": "'none'",
+        "frame-ancestors": "'none'",
+    }
+    return {
+        "Content-Security-Policy": "; ".join(f"{name} {value}" for name, value in policy.items()),
+        "X-Content-Type-Options": "nosniff",
+        "X-Frame-Options": "DENY",
+        "Referrer-Policy": "no-referrer",
+        "Cross-Origin-Opener-Policy": "same-origin",
+        "Cross-Origin-Resource-Policy": "same-origin",
+        "Permissions-Policy": "camera=(), microphone=(), geolocation=(), gamepad=(self), fullscreen=(self)",
+        "Cache-Control": "no-store",
+    }

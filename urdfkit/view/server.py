@@ -1,0 +1,204 @@
+"""Server: one tornado process in a background thread; the caller's thread shows scenes, publishes poses, takes wishes."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import itertools
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
+from typing import TYPE_CHECKING, Any
+
+from tornado.httpserver import HTTPServer
+
+from urdfkit.view import protocol
+from urdfkit.view.driver import Driver
+from urdfkit.view.geometry import GeometryStore
+from urdfkit.view.hub import Hub, pack
+from urdfkit.view.inbox import Inbox
+from urdfkit.view.listen import bind, urls
+from urdfkit.view.security import LOOPBACK_NAMES, Gate, is_loopback
+from urdfkit.view.web import PING, application
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+    from tornado.web import Application
+
+
+class Server:
+    """The page and its websocket.
+
+    Every method may be called from the caller's thread at any time; none waits for a browser.
+
+    Args:
+        mode: ``view`` (sliders move joints) or ``sim`` (keys drive).
+        host: address to bind; anything but loopback lets the network in.
+        port: port to bind, 0 for any; None for the first free one from the usual one on.
+        settings: further values for the page's first message.
+
+    Raises:
+        UsageError: the port is busy or the address cannot be bound.
+    """
+
+    def __init__(
+        self, mode: str, *, host: str = "127.0.0.1", port: int | None = None, settings: dict[str, Any] | None = None
+    ) -> None:
+        self._sockets, self.port = bind(host, port)
+        loopback = is_loopback(host)
+        names = LOOPBACK_NAMES if loopback else (*LOOPBACK_NAMES, *local_names(host))
+        self.gate = Gate(self.port, names=names, open_to_network=not loopback)
+        self.urls = urls(host, self.port, self.gate.token)
+        self.inbox = Inbox()
+        self.driver = Driver()
+        self.hub = Hub()
+        self.geometries = GeometryStore()
+        self.joints: frozenset[str] = frozenset()
+        self.mode = mode
+        self._model = itertools.count(1)
+        self._model_number = 0
+        self._sequence = 0
+        self._latest: tuple[int, bytes] | None = None
+        self._latest_lock = threading.Lock()
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._serve, name="urdfkit-view", daemon=True)
+        self._started: Future[None] = Future()
+        self.hub.lasting("hello", protocol.write("hello", protocol=protocol.VERSION, mode=mode, **(settings or {})))
+
+    @property
+    def url(self) -> str:
+        """The address to open, with the token."""
+        return self.urls[0]
+
+    def start(self) -> None:
+        """Begin to serve."""
+        self._thread.start()
+        self._started.result()
+
+    def stop(self) -> None:
+        """Close all connections and end the thread; stopping twice is harmless."""
+        if self._thread.is_alive():
+            self._loop.call_soon_threadsafe(self._loop.stop)
+            self._thread.join()
+        for socket in self._sockets:
+            socket.close()
+        if not self._loop.is_closed():
+            self._loop.close()
+
+    def __enter__(self) -> Server:
+        self.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
+
+    # What the caller shows
+
+    def send(self, command: Any) -> None:
+        """Send a meshcat command: this makes the server the ``window`` of a ``meshcat.Visualizer``."""
+        packed = pack(command)
+        self._post(self.hub.command, *packed)
+
+    def show(
+        self,
+        *,
+        name: str,
+        nodes: Sequence[str],
+        joints: Sequence[dict[str, Any]] = (),
+        root: int = 0,
+        draw: Callable[[Server], None],
+    ) -> None:
+        """Replace the scene.
+
+        Args:
+            name: the robot's.
+            nodes: scene paths that poses move, in the order of the rows of `publish`.
+            joints: what the joint panel needs of each joint: name, type, lower, upper, position, mimic.
+            root: which of the nodes is the root link.
+            draw: sends the scene's commands through `send`, its meshes into `geometries`.
+        """
+        self._model_number = next(self._model)
+        self.joints = frozenset(joint["name"] for joint in joints if not joint.get("mimic"))
+        self._post(self.hub.forget_poses)
+        draw(self)
+        message = protocol.write(
+            "model", number=self._model_number & 0xFF, name=name, root=root, nodes=list(nodes), joints=list(joints)
+        )
+        self._post(self.hub.lasting, "model", message)
+
+    def publish(self, time: float, poses: NDArray[np.float64]) -> None:
+        """Send poses to all browsers; costs the caller microseconds, however many watch.
+
+        Args:
+            time: simulated time [s].
+            poses: shape (n, 7) in the order of the nodes shown, position [m] and quaternion x, y, z, w.
+        """
+        self._sequence = (self._sequence + 1) & 0xFFFFFFFF
+        frame = protocol.pack_poses(self._sequence, time, poses, model=self._model_number & 0xFF)
+        with self._latest_lock:
+            idle = self._latest is None
+            self._latest = self._sequence, frame
+        if idle:
+            self._post(self._send_latest)
+
+    def _send_latest(self) -> None:
+        with self._latest_lock:
+            latest, self._latest = self._latest, None
+        if latest is not None:
+            self.hub.poses(*latest)
+
+    def tell(self, type: str, **values: Any) -> None:
+        """Send a text that matters only until the next of its type, such as ``status``."""
+        self._post(self.hub.news, type, protocol.write(type, **values))
+
+    def declare(self, type: str, **values: Any) -> None:
+        """Send a text that holds until the next of its type; pages that open later get it too."""
+        self._post(self.hub.lasting, type, protocol.write(type, **values))
+
+    # The thread
+
+    def _post(self, function: Callable[..., None], *arguments: Any) -> None:
+        with contextlib.suppress(RuntimeError):  # the loop is closed: nobody is left to tell
+            self._loop.call_soon_threadsafe(function, *arguments)
+
+    def _serve(self) -> None:
+        asyncio.set_event_loop(self._loop)
+        try:
+            http = self._loop.run_until_complete(self._open())
+        except BaseException as error:
+            self._started.set_exception(error)
+            return
+        self._started.set_result(None)
+        try:
+            self._loop.run_forever()
+        finally:
+            self._loop.run_until_complete(self._close(http))
+
+    async def _open(self) -> HTTPServer:
+        app: Application = application(self)
+        http = HTTPServer(
+            app, max_header_size=16 * 1024, max_body_size=protocol.MAX_INBOUND, idle_connection_timeout=60
+        )
+        http.add_sockets(self._sockets)
+        return http
+
+    async def _close(self, http: HTTPServer) -> None:
+        http.stop()
+        tasks = [task for task in asyncio.all_tasks() if task is not asyncio.current_task()]
+        with contextlib.suppress(TimeoutError, asyncio.TimeoutError):
+            await asyncio.wait_for(http.close_all_connections(), timeout=1.0)
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+
+def local_names(host: str) -> tuple[str, ...]:
+    """Return the names under which the network may address this machine."""
+    import socket
+
+    name = socket.gethostname().lower()
+    return (name, f"{name.split('.')[0]}.local", host.lower())
+
+
+__all__ = ["PING", "Server"]
