@@ -1,15 +1,38 @@
-"""Expand a xacro file, traced: every expanded element knows its file, line, column and chain of macro calls."""
+"""Expand a xacro file, traced: every expanded element knows its file, line, column and chain of macro calls.
+
+This is stock xacro; nothing of its language is written anew. The files are parsed by a builder that stamps each
+element with its place (minidom keeps the stamp as user data and hands it to clones), and a macro call renews the
+stamps of the body it clones. This module is the only owner of xacro's module globals: it sets them for one expansion
+and puts them back, under a lock, so that expansions can follow each other in any order, from any thread, after any
+error.
+
+Files come from strangers. xacro evaluates ``${…}`` and ``$(eval …)`` as Python, and its own precautions can be got
+round (nested functions hide their names from its check; ``$(eval …)`` sees every builtin). Here the check covers
+nested code, frames and ``vars``, and ``$(eval …)`` gets harmless builtins only; see `evaluation`. What stays possible,
+as it is part of the language: reading YAML files anywhere (``load_yaml``), reading environment variables, including
+XML files anywhere, and expressions that take for ever or fill the memory (``${9**9**9}``).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import os
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
+from threading import RLock
 from typing import TYPE_CHECKING
 
 from urdfkit.description.expanded import Expanded
+from urdfkit.description.packages import Packages
+from urdfkit.description.reading import document_of, read_source, shown_path
+from urdfkit.errors import ResourceError, XmlError
 
 if TYPE_CHECKING:
-    from urdfkit.description.packages import Packages
+    from urdfkit.description.run import Run
+
+_LOCK = RLock()
+_RECURSION_LIMIT = 10_000
 
 
 def expand(
@@ -32,7 +55,21 @@ def expand(
         XmlError: it, or a file it includes, is not well-formed or is hostile.
         XacroError: xacro could not expand it.
     """
-    raise NotImplementedError
+    packages = packages if packages is not None else Packages(near=path)
+    if not (is_xacro(path) if run_xacro is None else run_xacro):
+        return _read_plain(path, packages)
+    from urdfkit.description.diagnosis import error_of
+    from urdfkit.description.run import Run
+
+    run = Run(str(path), arguments or {}, packages)
+    with _xacro_for(run):
+        try:
+            run.expand()
+        except XmlError:
+            raise
+        except Exception as error:
+            raise error_of(error, run) from None
+    return run.outcome()
 
 
 def expand_leniently(
@@ -58,4 +95,88 @@ def expand_leniently(
     Raises:
         ResourceError: no such file (the entry; a missing include is a fault).
     """
-    raise NotImplementedError
+    packages = packages if packages is not None else Packages(near=path)
+    if not (is_xacro(path) if run_xacro is None else run_xacro):
+        return _read_plain_leniently(path, packages)
+    from urdfkit.description.recovery import RecoveringRun
+
+    run = RecoveringRun(str(path), arguments or {}, packages, mend_prefixes=mend_prefixes)
+    for _ in range(3):
+        with _xacro_for(run):
+            run.expand()
+        if (again := run.with_hindsight()) is None:
+            break
+        run = again
+    return run.outcome()
+
+
+def is_xacro(path: str | Path) -> bool:
+    """Whether a file is run through xacro: all but ``.urdf`` files are (which xacro leaves as they are if plain)."""
+    return not str(path).lower().endswith(".urdf")
+
+
+@contextmanager
+def _xacro_for(run: Run) -> Iterator[None]:
+    """Lend xacro's module globals to one run."""
+    import xacro
+
+    with _LOCK:
+        lent = run.take(xacro)
+        saved = {name: getattr(xacro, name) for name in lent}
+        recursion_limit = sys.getrecursionlimit()
+        vars(xacro).update(lent)
+        # The hooks add frames to every level of macro calls; what stock xacro can nest must still fit.
+        sys.setrecursionlimit(max(recursion_limit, _RECURSION_LIMIT))
+        try:
+            yield
+        finally:
+            sys.setrecursionlimit(recursion_limit)
+            vars(xacro).update(saved)
+
+
+def _read_plain(path: str | Path, packages: Packages) -> Expanded:
+    shown = shown_path(path)
+    source = read_source(_existing(path), shown_as=shown)
+    return Expanded(
+        path=Path(path),
+        root=document_of(source),
+        files=(Path(os.path.abspath(path)),),
+        sources={shown: source},
+        packages=packages,
+        _print=lambda: expand(path, packages=packages, run_xacro=True).xml,
+    )
+
+
+def _read_plain_leniently(path: str | Path, packages: Packages) -> Expanded:
+    from urdfkit.description.faults import Fault
+
+    try:
+        return _read_plain(path, packages)
+    except XmlError as error:
+        if error.position is None:
+            raise
+        shown = shown_path(path)
+        return Expanded(
+            path=Path(path),
+            root=None,
+            files=(Path(os.path.abspath(path)),),
+            sources={shown: read_source(Path(path), shown_as=shown)},
+            packages=packages,
+            faults=(Fault("xml", error.message, error.position),),
+        )
+
+
+def _existing(path: str | Path) -> Path:
+    """Return the path of a file.
+
+    Raises:
+        ResourceError: it is a folder or not there, with the nearest name.
+    """
+    from urdfkit.description.packages import near_path
+
+    path = Path(path)
+    if path.is_dir():
+        raise ResourceError(f"{path} is a folder, not a description")
+    if not path.exists():
+        raise ResourceError(f"no such file: {path}{near_path(path)}")
+    return path

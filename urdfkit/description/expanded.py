@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from urdfkit.description.element import Element
 from urdfkit.description.faults import Fault, MacroDefinition, Unprefixed, Warned
 from urdfkit.description.source import Position, Source
+from urdfkit.record import field, record
 
 if TYPE_CHECKING:
     from urdfkit.description.packages import Packages
 
 
-@dataclass(frozen=True, eq=False)
+@record(eq=False)
 class Expanded:
     """The outcome of `expand` and `expand_leniently`.
 
@@ -43,8 +44,8 @@ class Expanded:
     faults: tuple[Fault, ...] = ()
     unprefixed: tuple[Unprefixed, ...] = ()
     unresolved: frozenset[tuple[Position, str | None]] = frozenset()
-    macros: Mapping[str, MacroDefinition] = field(default_factory=dict)
-    properties: Mapping[str, Position] = field(default_factory=dict)
+    macros: Mapping[str, MacroDefinition] = MappingProxyType({})
+    properties: Mapping[str, Position] = MappingProxyType({})
     warnings: tuple[Warned, ...] = ()
     _print: Callable[[], str] = field(default=str, repr=False)
 

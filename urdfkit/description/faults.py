@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any, Literal
 
 from urdfkit.description.source import Expansion, Position
+from urdfkit.record import record
 
 FaultKind = Literal[
     "xml",
@@ -24,7 +25,7 @@ FaultKind = Literal[
 ]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Fault:
     """One thing xacro could not expand.
 
@@ -52,10 +53,10 @@ class Fault:
     candidates: tuple[str, ...] = ()
     expression: str | None = None
     defined_at: Position | None = None
-    details: Mapping[str, Any] = field(default_factory=dict)
+    details: Mapping[str, Any] = MappingProxyType({})
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Unprefixed:
     """A xacro directive or macro call written without ``xacro:``, which was read as if it had the prefix.
 
@@ -72,16 +73,17 @@ class Unprefixed:
     expansions: tuple[Expansion, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Warned:
-    """Something xacro, or ``xacro.warning()`` in a file, warned about."""
+    """Something xacro said, or ``xacro.message()``, ``.warning()`` or ``.error()`` in a file."""
 
     message: str
     position: Position
     expansions: tuple[Expansion, ...] = ()
+    level: Literal["message", "warning", "error"] = "warning"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MacroDefinition:
     """A ``<xacro:macro>`` that was read.
 

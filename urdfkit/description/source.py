@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from urdfkit.record import field, record
+
+if TYPE_CHECKING:
+    from urdfkit.description.tags import StartTag
 
 
 @record(order=True)
@@ -72,7 +76,7 @@ class Source:
 
     @classmethod
     def read(cls, path: Path, *, shown_as: str | None = None) -> Source:
-        """Read a file as UTF-8 (with or without BOM); undecodable bytes become U+FFFD.
+        """Read a file; see `decode`.
 
         Raises:
             ResourceError: the file cannot be read.
@@ -83,7 +87,13 @@ class Source:
             content = path.read_bytes()
         except OSError as error:
             raise ResourceError(f"cannot read {shown_as or path}: {error.strerror or error}") from error
-        return cls(shown_as or str(path), content.decode("utf-8-sig", errors="replace"))
+        return cls.decode(shown_as or str(path), content)
+
+    @classmethod
+    def decode(cls, file: str, content: bytes) -> Source:
+        """Decode UTF-8 (with or without byte order mark) or UTF-16 (with one); undecodable bytes become U+FFFD."""
+        encoding = "utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
+        return cls(file, content.decode(encoding, errors="replace"))
 
     @cached_property
     def line_starts(self) -> list[int]:
@@ -121,3 +131,15 @@ class Source:
         """Return the span between two offsets."""
         first, last = self.position(start), self.position(end)
         return Span(self.file, first.line, first.column, last.line, last.column)
+
+    def start_tag(self, position: Position) -> StartTag | None:
+        """Return the parts of the start tag at `position` (an `Origin`'s), or None when there is none."""
+        from urdfkit.description.tags import start_tag
+
+        return start_tag(self, position)
+
+    def element_span(self, position: Position) -> Span | None:
+        """Return the span of the whole element whose start tag is at `position`, end tag included."""
+        from urdfkit.description.tags import element_span
+
+        return element_span(self, position)

@@ -1,0 +1,268 @@
+"""Packages: ``$(find …)``, ``package://``, ``model://``, ``file://`` and relative paths, with or without ROS installed."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+from urdfkit.errors import ResourceError, did_you_mean
+
+_NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
+_SKIPPED = {"build", "install", "devel", "log", "node_modules", "__pycache__", "site-packages"}
+_IGNORE_MARKS = {"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE", "NO_SUBMODULES"}
+_WORKSPACE_MARKS = {".git", ".catkin_workspace", ".catkin_tools", ".colcon", ".hg", "colcon.meta"}
+_MAX_DEPTH = 5
+_MAX_FOLDERS = 5_000
+_PREFIX_VARIABLES = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH")
+_MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH", "SDF_PATH")
+
+
+class Packages:
+    """Finds packages by name; looks only when asked, and remembers.
+
+    The order is: `search`, the package around `near`, its workspace, ``ROS_PACKAGE_PATH``, ``AMENT_PREFIX_PATH``,
+    ``CMAKE_PREFIX_PATH``, the model paths of Gazebo, the robots we ship, and last a folder of that name around `near`
+    although it has no package.xml.
+
+    Args:
+        search: folders to look in first: packages, folders of packages, or install prefixes.
+        near: a file or folder of the workspace to look in.
+        environment: the variables to use; those of the process when None.
+    """
+
+    def __init__(
+        self,
+        search: Iterable[str | Path] = (),
+        near: str | Path | None = None,
+        *,
+        environment: Mapping[str, str] | None = None,
+    ) -> None:
+        self.search = tuple(Path(os.path.abspath(folder)) for folder in search)
+        self.near = None if near is None else Path(os.path.abspath(near))
+        self._environment = os.environ if environment is None else environment
+        self._found: dict[str, Path] = {}
+        self._seen: dict[str, Path] = {}
+        self._crawled: dict[Path, dict[str, Path]] = {}
+
+    def find(self, name: str) -> Path:
+        """Return the folder of a package: where its package.xml is, or its share folder when installed.
+
+        Args:
+            name: as in ``$(find name)``.
+
+        Raises:
+            ResourceError: there is no such package; says where it looked and the nearest name.
+        """
+        if name not in self._found:
+            found = self._look_up(name) if _is_plain(name) else None
+            if found is None:
+                hint = did_you_mean(name, self._seen)
+                raise ResourceError(f"no package `{name}` in {self._looked_in()}{hint or '; see --package-path'}")
+            self._found[name] = found
+        return self._found[name]
+
+    def resolve(self, uri: str, relative_to: str | Path) -> Path:
+        """Return the file that a mesh or texture URI means.
+
+        Args:
+            uri: ``package://name/path``, ``model://name/path``, ``file:///path``, or a path.
+            relative_to: the description file (or its folder) that a relative path starts from.
+
+        Raises:
+            ResourceError: there is no such package or file; names the nearest file.
+        """
+        path = self._path_of(uri, Path(relative_to))
+        if path.exists():
+            return path
+        if (moved := self.relocate(path)) is not None:
+            return moved
+        if "%" in uri:
+            from urllib.parse import unquote
+
+            decoded = Path(unquote(str(path)))
+            if decoded.exists():
+                return decoded
+        raise ResourceError(f"no file {uri}{near_path(path)}")
+
+    def relocate(self, path: str | Path) -> Path | None:
+        """Return where a path that an installed package would have lies in its source folder.
+
+        Packages whose CMake installs ``description/*`` into the share folder are read from source all the same:
+        ``$(find pkg)/urdf/x`` is ``<source>/description/urdf/x`` there.
+
+        Args:
+            path: a path that does not exist.
+
+        Returns:
+            A path that does, or None.
+        """
+        wanted = Path(os.path.abspath(path))
+        for folder in dict.fromkeys(self._found.values()):
+            if folder in wanted.parents:
+                moved = folder / "description" / wanted.relative_to(folder)
+                if moved.exists():
+                    return moved
+        return None
+
+    def _path_of(self, uri: str, relative_to: Path) -> Path:
+        scheme, separator, rest = uri.partition("://")
+        if not separator:
+            base = relative_to if relative_to.is_dir() else relative_to.parent
+            return base / uri
+        if scheme in ("package", "model"):
+            name, _, inside = rest.partition("/")
+            return self.find(name) / inside
+        if scheme == "file":
+            return Path(rest.removeprefix("localhost"))
+        raise ResourceError(f"{uri}: files are read from this machine only; use package://, model:// or a path")
+
+    def _look_up(self, name: str) -> Path | None:
+        for folder in self._places():
+            if folder is None:
+                continue
+            direct = folder / name
+            if _package_name(direct) == name or (direct / "model.config").is_file():
+                return direct
+            if (found := self._crawl(folder).get(name)) is not None:
+                return found
+        if self.near is not None:
+            for around in (self.near, *self.near.parents):
+                if around.name == name and around.is_dir():
+                    return around
+                if len(around.parts) > 2 and (around / name).is_dir() and around != self.near:
+                    return around / name
+        return None
+
+    def _places(self) -> Iterator[Path | None]:
+        """Yield the folders to look in, best first; each is scanned only when the ones before did not do."""
+        for folder in self.search:
+            yield from (folder, *_share(folder))
+        if (package := self._enclosing_package()) is not None:
+            self._seen[_package_name(package) or package.name] = package
+            yield package
+            yield package.parent
+            yield self._workspace(package)
+            for level in (package, *package.parents[:4]):
+                yield from (*_share(level / "install"), *_share(level / "devel"))
+        yield from self._listed("ROS_PACKAGE_PATH")
+        for variable in _PREFIX_VARIABLES:
+            for prefix in self._listed(variable):
+                yield from _share(prefix)
+        for variable in _MODEL_VARIABLES:
+            yield from self._listed(variable)
+        yield _shipped_robots()
+
+    def _listed(self, variable: str) -> list[Path]:
+        return [Path(word) for word in self._environment.get(variable, "").split(os.pathsep) if word]
+
+    def _looked_in(self) -> str:
+        places = ["--package-path"] if self.search else []
+        package = self._enclosing_package()
+        if package is not None:
+            places.append(f"the workspace {self._workspace(package) or package.parent}")
+        elif self.near is not None:
+            places.append(f"the folders around {self.near}")
+        places += [v for v in ("ROS_PACKAGE_PATH", *_PREFIX_VARIABLES, *_MODEL_VARIABLES) if self._listed(v)]
+        return ", ".join([*places, "the robots we ship"])
+
+    def _enclosing_package(self) -> Path | None:
+        if self.near is None:
+            return None
+        return next((f for f in (self.near, *self.near.parents) if (f / "package.xml").is_file()), None)
+
+    def _workspace(self, package: Path) -> Path | None:
+        """Return the folder of the workspace's sources: ``src`` above the package, or the top of the repository."""
+        for folder in package.parents[:6]:
+            if folder == Path.home() or folder == folder.parent:
+                return None
+            if folder.name == "src":
+                return folder
+            if any((folder / mark).exists() for mark in _WORKSPACE_MARKS):
+                return folder / "src" if (folder / "src").is_dir() else folder
+        return None
+
+    def _crawl(self, top: Path) -> dict[str, Path]:
+        """Return the packages in and below a folder, by name; does not look inside packages, as catkin and colcon."""
+        if top not in self._crawled:
+            found: dict[str, Path] = {}
+            budget = _MAX_FOLDERS
+            level = [top]
+            for _ in range(_MAX_DEPTH + 1):
+                below: list[Path] = []
+                for folder in level:
+                    budget -= 1
+                    if budget < 0:
+                        break
+                    below += _enter(folder, found)
+                level = below
+            self._crawled[top] = found
+            for name, folder in found.items():
+                self._seen.setdefault(name, folder)
+        return self._crawled[top]
+
+
+def near_path(path: Path) -> str:
+    """Return a did-you-mean for the first part of `path` that is not there; cases are compared loosely."""
+    missing, parent = path, path.parent
+    while not parent.is_dir() and parent != parent.parent:
+        missing, parent = parent, parent.parent
+    try:
+        names = sorted(child.name for child in parent.iterdir())
+    except OSError:
+        return ""
+    return did_you_mean(missing.name, names)
+
+
+def _enter(folder: Path, found: dict[str, Path]) -> list[Path]:
+    """Note the package a folder is, or return the folders in it that are worth a look."""
+    try:
+        with os.scandir(folder) as entries:
+            children = sorted(entries, key=lambda entry: entry.name)
+    except OSError:
+        return []
+    names = {child.name for child in children}
+    if names & _IGNORE_MARKS:
+        return []
+    if "package.xml" in names:
+        found.setdefault(_package_name(folder) or folder.name, folder)
+        return []
+    if "model.config" in names:
+        found.setdefault(folder.name, folder)
+        return []
+    return [
+        Path(child.path)
+        for child in children
+        if child.name not in _SKIPPED and not child.name.startswith(".") and child.is_dir(follow_symlinks=False)
+    ]
+
+
+def _package_name(folder: Path) -> str | None:
+    try:
+        manifest = (folder / "package.xml").read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return None
+    written = _NAME.search(manifest)
+    return written[1] if written else folder.name
+
+
+def _share(prefix: Path) -> list[Path]:
+    """Return the share folders of an install prefix, merged or isolated (colcon)."""
+    if not prefix.is_dir():
+        return []
+    isolated = [child / "share" for child in sorted(prefix.iterdir()) if (child / "share").is_dir()]
+    return [share for share in (prefix / "share", *isolated) if share.is_dir()]
+
+
+def _shipped_robots() -> Path | None:
+    from urdfkit.resources import robots_dir
+
+    try:
+        return robots_dir()
+    except ResourceError:
+        return None
+
+
+def _is_plain(name: str) -> bool:
+    return bool(name) and "/" not in name and "\\" not in name and name not in (".", "..")

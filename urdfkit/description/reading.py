@@ -1,0 +1,229 @@
+"""XML from strangers, read safely: into `Element`, or into a minidom whose elements are stamped with their place.
+
+A file may come from anywhere, so document types that declare entities or name external files are refused (they can
+grow without end or read other files), and size and nesting are bounded.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+from xml.parsers import expat
+
+from urdfkit.description.element import Element
+from urdfkit.description.source import Expansion, Origin, Position, Source
+from urdfkit.errors import ResourceError, XmlError
+
+if TYPE_CHECKING:
+    from xml.dom import minidom
+
+MAX_BYTES = 64 * 2**20
+"""A description is refused when it is larger [bytes]."""
+
+MAX_DEPTH = 200
+"""A description is refused when its elements are nested deeper; people's nest less than 20 deep."""
+
+STAMP = "urdfkit.origin"
+"""The key under which the elements of a minidom carry their `Stamp` (as DOM user data)."""
+
+Stamp = tuple[str, int, int, tuple[Expansion, ...]]
+"""File, line, column and chain of macro calls: an `Origin` before anybody asks for it."""
+
+_TAG_NAME = re.compile(r"</?\s*([^\s<>/]*)")
+
+
+def read_source(path: Path, *, shown_as: str | None = None) -> Source:
+    """Read a file of bounded size.
+
+    Args:
+        path: the file.
+        shown_as: what messages call it.
+
+    Raises:
+        ResourceError: it cannot be read or is too large.
+    """
+    shown = shown_as or str(path)
+    try:
+        with path.open("rb") as file:
+            content = file.read(MAX_BYTES + 1)
+    except OSError as error:
+        raise ResourceError(f"cannot read {shown}: {error.strerror or error}") from error
+    if len(content) > MAX_BYTES:
+        raise ResourceError(f"{shown} is larger than {MAX_BYTES // 2**20} MiB; that is no robot description")
+    return Source.decode(shown, content)
+
+
+def shown_path(path: str | Path) -> str:
+    """Return what messages call a file: relative to the working folder when inside it."""
+    absolute = os.path.abspath(path)
+    here = os.getcwd()
+    if absolute.startswith(here + os.sep):
+        return absolute[len(here) + 1 :]
+    return absolute
+
+
+def document_of(source: Source) -> Element:
+    """Read a file as it is written, without xacro. Prefixes need not be declared.
+
+    Args:
+        source: the text.
+
+    Raises:
+        XmlError: it is not well-formed, or hostile.
+    """
+    file = source.file
+    starts: list[tuple[str, dict[str, str], Origin]] = []
+    families: list[list[Element]] = [[]]
+    texts: list[list[str]] = [[]]
+    parser = expat.ParserCreate()
+    parser.buffer_text = True
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        line, column = parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
+        starts.append((tag, attributes, Origin(Position(file, line, column))))
+        families.append([])
+        texts.append([])
+        if len(starts) > MAX_DEPTH:
+            _too_deep(source, parser)
+
+    def end(_: str) -> None:
+        tag, attributes, origin = starts.pop()
+        element = Element(tag, attributes, families.pop(), "".join(texts.pop()).strip(), origin)
+        families[-1].append(element)
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = end
+    parser.CharacterDataHandler = lambda data: texts[-1].append(data)
+    parser.EntityDeclHandler = lambda name, *_: _refuse_entity(source, parser, name)
+    parser.StartDoctypeDeclHandler = lambda _, system, public, __: _check_doctype(source, parser, system, public)
+    _parse(parser, source, lambda: [(tag, origin.position.line) for tag, _, origin in starts])
+    return families[0][0]
+
+
+def stamped_document(source: Source, on_clone: Callable[..., None]) -> minidom.Document:
+    """Read a file into the minidom that xacro works on.
+
+    It is the same tree as ``minidom.parseString`` makes, but every element carries its `Stamp`.
+
+    Args:
+        source: the text.
+        on_clone: DOM user data handler, called for every clone of a stamped element.
+
+    Raises:
+        XmlError: it is not well-formed, or hostile.
+    """
+    from urdfkit.description.stamping import StampingBuilder
+
+    builder = StampingBuilder(source.file, on_clone, partial(_too_deep, source))
+    parser = builder.getParser()
+    parser.EntityDeclHandler = lambda name, *_: _refuse_entity(source, parser, name)
+    inherited: Any = parser.StartDoctypeDeclHandler
+
+    def doctype(name: str, system: str | None, public: str | None, has_subset: bool) -> None:
+        _check_doctype(source, parser, system, public)
+        inherited(name, system, public, has_subset)
+
+    parser.StartDoctypeDeclHandler = doctype
+    _parse(parser, source, builder.open_tags)
+    return builder.document
+
+
+def element_of(node: minidom.Element) -> Element:
+    """Turn a stamped minidom element, and all below it, into an `Element`.
+
+    Args:
+        node: an element that `stamped_document` made, or a clone of one.
+    """
+    file, line, column, expansions = node.getUserData(STAMP)
+    children: list[Element] = []
+    text = ""
+    for child in node.childNodes:
+        kind = child.nodeType
+        if kind == 1:
+            children.append(element_of(child))
+        elif kind in (3, 4):
+            text += child.data
+    attributes = {name: attribute.value for name, attribute in (node._attrs or {}).items()}
+    return Element(node.tagName, attributes, children, text.strip(), Origin(Position(file, line, column), expansions))
+
+
+def position_of(node: minidom.Element) -> Position:
+    """Return where the start tag of a stamped minidom element was written."""
+    file, line, column, _ = node.getUserData(STAMP)
+    return Position(file, line, column)
+
+
+def _parse(parser: Any, source: Source, open_tags: Callable[[], list[tuple[str, int]]]) -> None:
+    if not source.text.strip():
+        raise XmlError("the file is empty", position=Position(source.file, 1, 1))
+    try:
+        parser.Parse(source.text, True)
+    except expat.ExpatError as error:
+        position = Position(source.file, error.lineno, error.offset + 1)
+        raise XmlError(_explain(error, source, position, open_tags()), position=position) from None
+    except UnicodeEncodeError as error:
+        raise XmlError("the text holds half a character", position=source.position(error.start)) from None
+
+
+def _explain(error: expat.ExpatError, source: Source, position: Position, opened: list[tuple[str, int]]) -> str:
+    text = expat.ErrorString(error.code) or "not well-formed"
+    offset = source.offset(position.line, position.column)
+    tag = opened[-1] if opened else None
+    unclosed = f"`<{tag[0]}>` of line {tag[1]} is not closed" if tag else ""
+    if text == "mismatched tag" and tag:
+        found = _TAG_NAME.match(source.text, source.text.rfind("<", 0, offset + 1))
+        return f"mismatched tag: {unclosed} before `</{found[1] if found else ''}>`"
+    if text == "no element found":
+        return f"the file ends too early: {unclosed}" if tag else "this is not XML: there is no element"
+    if text == "unclosed token":
+        return f"a tag, comment or quote is opened here and never closed{'; ' + unclosed if tag else ''}"
+    if text == "unbound prefix":
+        found = _TAG_NAME.match(source.text, source.text.rfind("<", 0, offset + 1))
+        prefix = found[1].split(":")[0] if found and ":" in found[1] else "xacro"
+        uri = "http://www.ros.org/wiki/xacro" if prefix == "xacro" else "…"
+        return f'unbound prefix: `{prefix}:` needs xmlns:{prefix}="{uri}" on the root element of this file'
+    if text == "syntax error" and tag is None:
+        return "this is not XML: it does not start with `<`"
+    if text == "junk after document element":
+        return "there is more after the root element is closed"
+    if text == "XML or text declaration not at start of entity":
+        return "`<?xml …?>` has to be the very first thing in the file"
+    if text == "undefined entity":
+        return "undefined entity: write `&amp;` for an ampersand"
+    if text == "duplicate attribute":
+        return "duplicate attribute: the same name twice in one tag"
+    if text == "not well-formed (invalid token)":
+        near = source.text[offset : offset + 1]
+        if near == "<":
+            return f"`<` where it must not be: a quote or `>` is missing before it{', or write `&lt;`' if tag else ''}"
+        if near == "&":
+            return "a bare `&`: write `&amp;`"
+        return f"not well-formed near {source.text[offset : offset + 12].splitlines()[0]!r}" if near.strip() else text
+    return text
+
+
+def _here(source: Source, parser: Any) -> Position:
+    return Position(source.file, parser.CurrentLineNumber, parser.CurrentColumnNumber + 1)
+
+
+def _too_deep(source: Source, parser: Any) -> NoReturn:
+    raise XmlError(f"elements are nested deeper than {MAX_DEPTH}", position=_here(source, parser))
+
+
+def _refuse_entity(source: Source, parser: Any, name: str) -> NoReturn:
+    raise XmlError(
+        f"declares the entity `{name}`: entity declarations are refused, they can grow without end or read other files",
+        position=_here(source, parser),
+    )
+
+
+def _check_doctype(source: Source, parser: Any, system: str | None, public: str | None) -> None:
+    if system or public:
+        raise XmlError(
+            f"the document type names `{system or public}`: external entities are refused",
+            position=_here(source, parser),
+        )

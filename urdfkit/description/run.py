@@ -1,0 +1,342 @@
+"""One run of xacro: the functions and variables it is lent, and the notes it takes."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.description.evaluation import Evaluator
+from urdfkit.description.expanded import Expanded
+from urdfkit.description.faults import Fault, MacroDefinition, Warned
+from urdfkit.description.reading import STAMP, Stamp, element_of, read_source, shown_path, stamped_document
+from urdfkit.description.source import Expansion, Position, Source
+from urdfkit.errors import ResourceError
+
+if TYPE_CHECKING:
+    from types import ModuleType
+    from xml.dom import minidom
+
+    from urdfkit.description.packages import Packages
+
+MAX_MACRO_DEPTH = 400
+"""Macro calls inside one another; stock xacro gives up at about 300, with Python's RecursionError."""
+
+MAX_INCLUDE_DEPTH = 60
+"""Files that include one another."""
+
+MAX_MACRO_CALLS = 200_000
+"""Macro calls in one run, against macros that multiply each other; a large robot needs some hundreds."""
+
+_FIND = re.compile(r"\$\(find\s+([^\s()$]+)\s*\)")
+_ARG = re.compile(r"\$\(arg\s+([^\s()$]+)\s*\)")
+
+
+class Endless(Exception):  # noqa: N818 - not an error of this program: diagnosed and reported as a fault
+    """Macros or files call each other without end.
+
+    Args:
+        cycle: the names of those in the loop.
+        what: ``macro`` or ``file``.
+    """
+
+    def __init__(self, cycle: tuple[str, ...], what: str) -> None:
+        super().__init__(" → ".join(cycle))
+        self.cycle, self.what = cycle, what
+
+
+class Run:
+    """One expansion of one file.
+
+    Args:
+        path: as the user named it; appears in the banner of the output.
+        arguments: values for ``$(arg …)``.
+        packages: resolves ``$(find …)``.
+    """
+
+    def __init__(self, path: str, arguments: Mapping[str, str], packages: Packages) -> None:
+        self.path = path
+        self.arguments = arguments
+        self.packages = packages
+        self.sources: dict[str, Source] = {}
+        self.files: dict[Path, None] = {}
+        self.macros: dict[str, MacroDefinition] = {}
+        self.properties: dict[str, Position] = {}
+        self.warnings: list[Warned] = []
+        self.faults: dict[Any, Fault] = {}
+        self.document: minidom.Document | None = None
+        self.missing_package: str | None = None
+        self._written: dict[tuple[str, str], Stamp] = {}
+        self._calling: minidom.Element | None = None
+        self._body: minidom.Element | None = None
+        self._chain: tuple[Expansion, ...] | None = None
+        self._calls = 0
+
+    def take(self, xacro: ModuleType) -> dict[str, Any]:
+        """Take stock of xacro and return what its globals shall be during this run."""
+        from xml.dom import minidom
+
+        self.xacro: Any = xacro
+        self.evaluator = Evaluator(xacro.XacroException)
+        hooks = {
+            name: getattr(self, name)
+            for name in (
+                "abs_filename_spec eval_extension eval_text grab_macro grab_property handle_macro_call parse "
+                "print_location resolve_macro safe_eval warning"
+            ).split()
+        }
+        self.stock = {name: getattr(xacro, name) for name in hooks}
+        symbols = xacro.create_global_symbols()
+        dict.__setitem__(symbols["python"], "vars", self._refuse_vars)
+        for level in ("message", "warning", "error"):
+            dict.__setitem__(symbols["xacro"], level, self._speaker(level))
+        dict.__setitem__(symbols["xacro"], "print_location", lambda *_, **__: "")
+        empty = minidom.Text()
+        empty.data = "\n\n"
+        empty.ownerDocument = xacro._empty_text_node.ownerDocument
+        return {
+            "filestack": [self.path],
+            "macrostack": [],
+            "root_dir": os.curdir,
+            "all_includes": [],
+            "verbosity": 1,
+            "substitution_args_context": {"arg": {}},
+            "_empty_text_node": empty,
+            "_global_symbols": symbols,
+            **hooks,
+        }
+
+    def expand(self) -> None:
+        """Expand the file; xacro's globals have to be lent.
+
+        Raises:
+            ResourceError: the file cannot be read.
+            XmlError: it is no safe XML.
+        """
+        self.document = stamped_document(self._read(Path(self.path)), self._restamp)
+        self.xacro.process_doc(self.document, mappings=dict(self.arguments), verbosity=1)
+        for included in self.xacro.all_includes:
+            self.files.setdefault(Path(os.path.abspath(included)))
+
+    def outcome(self) -> Expanded:
+        """Return what came of it."""
+        document = self.document
+        return Expanded(
+            path=Path(self.path),
+            root=element_of(document.documentElement) if document is not None else None,
+            files=tuple(self.files),
+            sources=self.sources,
+            packages=self.packages,
+            faults=tuple(self.faults.values()),
+            macros=MappingProxyType(self.macros),
+            properties=MappingProxyType(self.properties),
+            warnings=tuple(self.warnings),
+            _print=self.printed,
+        )
+
+    def printed(self) -> str:
+        """Return the document as stock xacro prints it, under its banner."""
+        from xml.dom import minidom
+
+        document = self.document
+        if document is None:
+            return ""
+        rule = f" {'=' * 83} "
+        shown = re.sub(r"-+", "-", self.path)
+        banner = (
+            rule,
+            f" |    This document was autogenerated by xacro from {shown:<30s} | ",
+            f" |    EDITING THIS FILE BY HAND IS NOT RECOMMENDED  {'':<30s} | ",
+            rule,
+        )
+        first = document.firstChild
+        for line in banner:
+            document.insertBefore(minidom.Comment(line), first)
+        return str(document.toprettyxml(indent="  "))
+
+    def position_of(self, node: minidom.Element | None) -> tuple[Position, tuple[Expansion, ...]]:
+        """Return where an element was written and its chain of calls; the top of the file when there is no element."""
+        stamp: Stamp | None = node.getUserData(STAMP) if node is not None else None
+        if stamp is None:
+            return Position(shown_path(self.path), 1, 1), ()
+        return Position(*stamp[:3]), stamp[3]
+
+    def definition(self, name: str, value: object) -> Stamp | None:
+        """Return the stamp of the property that has this value."""
+        return self._written.get((name, str(value)))
+
+    # What xacro calls instead of its own functions of the same name.
+
+    def parse(self, inp: Any, filename: str | None = None) -> Any:
+        """Parse an included file with the stamping builder."""
+        if inp is not None or filename is None:
+            return self.stock["parse"](inp, filename)
+        stack = self.xacro.filestack
+        if len(stack) > MAX_INCLUDE_DEPTH:
+            raise Endless(_cycle([shown_path(name) for name in stack]), "file")
+        try:
+            source = self._read(Path(filename))
+        except (OSError, ResourceError) as error:
+            stack.pop()
+            missing = OSError(str(error))
+            missing.filename = filename
+            raise self.xacro.XacroException(f"No such file or directory: {filename}", exc=missing) from error
+        return stamped_document(source, self._restamp)
+
+    def abs_filename_spec(self, filename_spec: str) -> str:
+        """Find an included or YAML file, also in a source folder that only its installation puts in place."""
+        found: str = self.stock["abs_filename_spec"](filename_spec)
+        if not os.path.exists(found) and (moved := self.packages.relocate(found)) is not None:
+            return str(moved)
+        return found
+
+    def eval_text(self, text: str, symbols: Any) -> Any:
+        """Spare the lexer what holds no expression."""
+        return text if type(text) is str and "$" not in text else self.stock["eval_text"](text, symbols)
+
+    def safe_eval(self, expr: str, globals: Any, locals: Any = None) -> Any:
+        """Evaluate ``${…}``, kept from reaching the machine."""
+        return self.evaluator.safe_eval(expr, globals, locals)
+
+    def eval_extension(self, s: str) -> Any:
+        """Evaluate ``$(…)``: ``find`` through our packages, the rest as xacro does."""
+        # The two frequent ones directly: xacro's module for them imports PyYAML, which takes longer than most files.
+        if found := _FIND.fullmatch(s):
+            path = self._find(found[1])
+            if "$" not in path:
+                return path
+        elif argument := _ARG.fullmatch(s):
+            value = self.xacro.substitution_args_context["arg"].get(argument[1])
+            if isinstance(value, str) and "$" not in value:
+                return value
+        from xacro import substitution_args
+
+        saved = substitution_args._eval_find, substitution_args._eval, substitution_args._eval_dict["find"]
+        substitution_args._eval_find = substitution_args._eval_dict["find"] = self._find
+        substitution_args._eval = self._eval_command
+        try:
+            return self.stock["eval_extension"](s)
+        finally:
+            substitution_args._eval_find, substitution_args._eval = saved[:2]
+            substitution_args._eval_dict["find"] = saved[2]
+
+    def resolve_macro(self, fullname: str, macros: Any, symbols: Any) -> Any:
+        """Resolve a macro; its body is cloned next."""
+        found = self.stock["resolve_macro"](fullname, macros, symbols)
+        if self._calling is not None:
+            position, outer = self.position_of(self._calling)
+            self._chain, self._body = (Expansion(fullname, position), *outer), found[2].body
+        return found
+
+    def handle_macro_call(self, node: minidom.Element, macros: Any, symbols: Any) -> Any:
+        """Expand a macro call and keep the chain of calls."""
+        if not node.tagName.startswith("xacro:"):
+            return False
+        if node.tagName == "xacro:call":
+            return self.stock["handle_macro_call"](node, macros, symbols)
+        self._calls += 1
+        stack = self.xacro.macrostack
+        if len(stack) >= MAX_MACRO_DEPTH:
+            raise Endless(_cycle([macro.body.getAttribute("name") for macro in stack]), "macro")
+        if self._calls > MAX_MACRO_CALLS:
+            raise self.xacro.XacroException(f"more than {MAX_MACRO_CALLS} macro calls: do macros multiply each other?")
+        outer, self._calling = self._calling, node
+        try:
+            return self.stock["handle_macro_call"](node, macros, symbols)
+        finally:
+            self._calling = outer
+
+    def grab_macro(self, elt: minidom.Element, macros: Any) -> None:
+        """Note where a macro is defined."""
+        self.stock["grab_macro"](elt, macros)
+        name = elt.getAttribute("name").removeprefix("xacro:")
+        macro = macros[name]
+        self.macros[name] = MacroDefinition(
+            name, self.position_of(elt)[0], tuple(macro.params), frozenset(macro.defaultmap)
+        )
+
+    def grab_property(self, elt: minidom.Element, table: Any) -> None:
+        """Note where a property is defined."""
+        name, stamp = elt.getAttribute("name"), elt.getUserData(STAMP)
+        self.properties[name] = Position(*stamp[:3])
+        for attribute in ("value", "default"):
+            if elt.hasAttribute(attribute):
+                self._written[(name, elt.getAttribute(attribute))] = stamp
+        self.stock["grab_property"](elt, table)
+
+    def warning(self, *words: object, **_: object) -> None:
+        """Note a warning."""
+        self._speak("warning", words)
+
+    def print_location(self) -> None:
+        """Keep silent: a warning has its position."""
+
+    def _read(self, path: Path) -> Source:
+        if path.is_dir():
+            raise ResourceError(f"{path} is a folder, not a description")
+        shown = shown_path(path)
+        self.files.setdefault(Path(os.path.abspath(path)))
+        source = self.sources.get(shown)
+        if source is None:
+            source = read_source(path, shown_as=shown)
+            self.sources[shown] = source
+        return source
+
+    def _restamp(self, _: int, key: str, stamp: Stamp, node: Any, clone: Any) -> None:
+        if self._chain is None:
+            clone.setUserData(key, stamp, self._restamp)
+            return
+        clone.setUserData(key, (*stamp[:3], self._chain), self._restamp)
+        # minidom tells of an element after all below it, so with the body itself its clone is complete.
+        if node is self._body:
+            self._chain = self._body = None
+
+    def _find(self, name: str) -> str:
+        try:
+            return str(self.packages.find(name))
+        except ResourceError as error:
+            self.missing_package = name
+            raise self.xacro.XacroException(exc=error) from error
+
+    def _eval_command(self, expression: str, context: dict[str, Any]) -> str:
+        from xacro import substitution_args as stock
+
+        arguments = context.setdefault("arg", {})
+        functions = {
+            **stock._eval_dict,
+            "arg": lambda name: stock.convert_value(stock._eval_arg(name, args=arguments), "auto"),
+            "dirname": lambda: stock._eval_dirname(context.get("filename")),
+        }
+        functions.pop("__builtins__", None)
+        return self.evaluator.eval_command(expression, stock._DictWrapper(arguments, functions))
+
+    def _refuse_vars(self, *_: object) -> None:
+        raise self.xacro.XacroException("vars() is not available: it looks inside Python's own objects")
+
+    def _speaker(self, level: str) -> Any:
+        def speak(*words: object, **_: object) -> str:
+            self._speak(level, words)
+            return ""
+
+        return speak
+
+    def _speak(self, level: Any, words: tuple[object, ...]) -> None:
+        import sys
+
+        from urdfkit.description.frames import place_of_call
+
+        place = place_of_call(sys._getframe(1))
+        position, expansions = self.position_of(place.node)
+        self.warnings.append(Warned(" ".join(map(str, words)), position, expansions, level))
+
+
+def _cycle(names: list[str]) -> tuple[str, ...]:
+    """Return the loop at the end of a stack of names, first name repeated."""
+    last = names[-1]
+    for distance in range(1, len(names)):
+        if names[-1 - distance] == last:
+            return tuple(names[-1 - distance :])
+    return tuple(names[-3:])
