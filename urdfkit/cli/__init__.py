@@ -50,6 +50,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         # The reader of our output went away (`| head`); keep the interpreter from complaining at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 141
+    except OSError as error:
+        place = f" {error.filename}" if error.filename else ""
+        print(f"urdfkit:{place}: {error.strerror or error}", file=sys.stderr)
+        return 2
+    except Exception as error:
+        if {"-v", "--verbose"} & set(arguments):
+            raise
+        print(f"urdfkit: {_bug(error)}", file=sys.stderr)
+        return 2
 
 
 def _run(arguments: list[str]) -> int:
@@ -71,6 +80,16 @@ def _run(arguments: list[str]) -> int:
             add_common(sub)
     parsed = parser.parse_args(arguments)
     return int(import_module(f"urdfkit.cli.{parsed.command}").run(parsed))
+
+
+def _bug(error: Exception) -> str:
+    """Say in one line that this is our fault, and where; ``-v`` shows the traceback."""
+    frame = error.__traceback__
+    while frame is not None and frame.tb_next is not None:
+        frame = frame.tb_next
+    place = f"{frame.tb_frame.f_code.co_filename}:{frame.tb_lineno}" if frame is not None else "unknown place"
+    what = " ".join(str(error).split())
+    return f"a bug in urdfkit, not in your files: {type(error).__name__}: {what} ({place}); -v shows the traceback"
 
 
 def _version() -> str:

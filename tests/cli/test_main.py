@@ -1,0 +1,66 @@
+"""`urdfkit` itself: help, typos, and what happens when something goes wrong underneath."""
+
+from __future__ import annotations
+
+import pytest
+
+import urdfkit
+from urdfkit.cli import COMMANDS, main
+
+
+def test_version(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stopped:
+        main(["--version"])
+    assert stopped.value.code == 0
+    assert capsys.readouterr().out == f"urdfkit {urdfkit.__version__}\n"
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_helps_with_two_examples(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stopped:
+        main([command, "--help"])
+    assert stopped.value.code == 0
+    printed = capsys.readouterr().out
+    assert printed.count(f"\n  urdfkit {command}") >= 2
+
+
+def test_a_typo_gets_the_nearest_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["lnit"]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.endswith("did you mean `lint`?\n")
+    assert captured.err.count("\n") == 1
+
+
+def test_a_misspelt_option_gets_the_nearest_one(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["tf", "simpleton", "--jsn"]) == 2
+    assert "did you mean `--json`?" in capsys.readouterr().err
+
+
+def test_no_command_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_bug_is_one_line_and_verbose_shows_it(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(arguments: object) -> int:
+        raise ZeroDivisionError("division\nby zero")
+
+    monkeypatch.setattr("urdfkit.cli.rule.run", broken)
+    assert main(["rule"]) == 2
+    line = capsys.readouterr().err
+    assert "a bug in urdfkit" in line
+    assert line.count("\n") == 1
+    with pytest.raises(ZeroDivisionError):
+        main(["rule", "-v"])
+
+
+def test_an_unwritable_place_is_one_line(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(arguments: object) -> int:
+        raise PermissionError(13, "Permission denied", "/robots/arm.urdf")
+
+    monkeypatch.setattr("urdfkit.cli.rule.run", refused)
+    assert main(["rule"]) == 2
+    assert capsys.readouterr().err == "urdfkit: /robots/arm.urdf: Permission denied\n"
