@@ -14,7 +14,7 @@ MAX_WAITING = 64 * 1024 * 1024
 """Bytes of scene commands that may wait for one browser before it is cut off (it reconnects and starts afresh)."""
 
 
-class Overflow(Exception):
+class ChannelFullError(Exception):
     """A browser does not read what it must not miss."""
 
 
@@ -38,11 +38,11 @@ class Channel:
         """Send this, in order, without fail.
 
         Raises:
-            Overflow: too much is waiting already.
+            ChannelFullError: too much is waiting already.
         """
         self._waiting += len(frame)
         if self._waiting > MAX_WAITING and self._lines:
-            raise Overflow(f"{self._waiting} bytes wait for the browser")
+            raise ChannelFullError(f"{self._waiting} bytes wait for the browser")
         self._lines.append(frame)
         self._ready.set()
 

@@ -9,7 +9,7 @@ from threading import Lock
 from urdfkit.view.protocol import Axes
 
 DEADMAN = 0.4
-"""Seconds without a word from the driver after which the robot is stopped. Pages repeat what is held 20 times a second."""
+"""Seconds of silence after which the robot is stopped; pages repeat what is held twenty times a second."""
 
 
 class Driver:

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from urdfkit.scene import TriMesh
 
 HEADER = struct.Struct("<III")
-"""Vertices, triangles, whether there are colours; then per vertex 3 × float32 position and 3 × float32 normal, per triangle
-3 × uint32, and per vertex 4 × uint8 colour if there are any."""
+"""Vertices, triangles, whether there are colours. Then per vertex 3 × float32 position and 3 × float32 normal, per
+triangle 3 × uint32, and per vertex 4 × uint8 colour if there are any."""
 
 CREASE = np.deg2rad(35.0)
 """Neighbouring faces that meet at less than this angle are shaded as one smooth surface [rad]."""
@@ -72,7 +72,7 @@ def pack(mesh: TriMesh) -> bytes:
 
 
 def _flat(sides: NDArray[Any]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return twice the area along the normal, and the unit normal (zero where there is no area), of triangles (m, 3, 3)."""
+    """Return the area vectors (twice the area long) and unit normals (or zero) of triangles of shape (m, 3, 3)."""
     sides = sides.astype(float)
     area = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
     length = np.linalg.norm(area, axis=1, keepdims=True)

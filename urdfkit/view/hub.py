@@ -7,7 +7,7 @@ from typing import Any
 
 import umsgpack
 
-from urdfkit.view.channel import Channel, Frame, Overflow
+from urdfkit.view.channel import Channel, Frame, ChannelFullError
 
 
 class Hub:
@@ -83,7 +83,7 @@ class Hub:
     def _line(self, channel: Channel, frame: Frame) -> None:
         try:
             channel.line(frame)
-        except Overflow:
+        except ChannelFullError:
             self.leave(channel)
             channel.cut()
 

@@ -1,4 +1,4 @@
-"""Server: one tornado process in a background thread; the caller's thread shows scenes, publishes poses, takes wishes."""
+"""Server: tornado in a background thread; the caller's thread shows scenes, publishes poses, takes wishes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from urdfkit.view.hub import Hub, pack
 from urdfkit.view.inbox import Inbox
 from urdfkit.view.listen import bind, urls
 from urdfkit.view.security import LOOPBACK_NAMES, Gate, is_loopback
-from urdfkit.view.web import PING, application
+from urdfkit.view.web import application
 
 if TYPE_CHECKING:
     import numpy as np
@@ -200,5 +200,3 @@ def local_names(host: str) -> tuple[str, ...]:
     name = socket.gethostname().lower()
     return (name, f"{name.split('.')[0]}.local", host.lower())
 
-
-__all__ = ["PING", "Server"]

@@ -57,7 +57,7 @@ const on = {
     $("position").textContent = `${x.toFixed(2)}, ${y.toFixed(2)} m`;
     $("heading").textContent = `${((yaw * 180) / Math.PI).toFixed(0)}°`.replace("-0°", "0°");
     $("velocity").textContent = `${message.speed.toFixed(2)} m/s`;
-    $("pause").textContent = message.paused ? "Go on" : "Pause";
+    $("pause").querySelector("span").textContent = message.paused ? "Go on" : "Pause";
     $("pause").setAttribute("aria-pressed", message.paused);
     const other = message.driver !== null && message.driver !== me;
     document.body.dataset.watching = other;
@@ -95,7 +95,7 @@ function applied(sequence) {
 
 function fit() {
   // In the simulation from behind, so that forward is away from the driver and left is left.
-  const done = mode === "sim" ? stage.fit(scene.robot, [-1, -0.55, 0.75], 2.2) : stage.fit(scene.robot, [1, 0.75, 0.6]);
+  const done = mode === "sim" ? stage.fit(scene.robot, [-1, -0.55, 0.75], 1.9) : stage.fit(scene.robot, [1, 0.75, 0.6]);
   document.body.dataset.ready = done;
 }
 

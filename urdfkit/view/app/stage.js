@@ -50,17 +50,16 @@ export class Stage {
     const theme = THEMES[dark ? "dark" : "light"];
     const scene = this.viewer.scene;
     scene.background = new THREE.Color(theme.sky);
-    scene.fog = new THREE.Fog(theme.sky, 1, 10);
     this.hemisphere.intensity = theme.hemisphere;
     this.shade.material.opacity = theme.shadow;
-    this.major.material.color.set(theme.major);
-    this.minor.material.color.set(theme.minor);
-    this.#haze();
+    const { major, minor } = this.grid.material.uniforms;
+    major.value.set(theme.major);
+    minor.value.set(theme.minor);
     this.dirty();
   }
 
   visible(name, shown) {
-    if (name === "Grid") this.major.visible = this.minor.visible = shown;
+    if (name === "Grid") this.grid.visible = shown;
     else this.viewer.scene_tree.find([name]).object.visible = shown;
     this.dirty();
   }
@@ -83,45 +82,18 @@ export class Stage {
   #ground() {
     this.ground = new THREE.Group();
     this.viewer.scene.add(this.ground);
-    this.shade = new THREE.Mesh(new THREE.PlaneGeometry(60, 60), new THREE.ShadowMaterial({ opacity: 0.25, fog: false }));
+    this.shade = new THREE.Mesh(new THREE.PlaneGeometry(60, 60), new THREE.ShadowMaterial({ opacity: 0.25 }));
     this.shade.receiveShadow = true;
-    this.shade.position.z = -0.001;
-    this.ground.add(this.shade);
-    this.#grid(1);
-  }
-
-  // Squares of `cell` metres, every fifth line stronger.
-  #grid(cell) {
-    if (cell === this.cell) return;
-    const colours = this.cell ? [this.major.material.color, this.minor.material.color] : [0x888888, 0xbbbbbb];
-    const shown = this.cell ? this.major.visible : true;
-    for (const old of [this.major, this.minor]) {
-      if (old) this.ground.remove(old), old.geometry.dispose(), old.material.dispose();
-    }
-    this.cell = cell;
-    const lines = (step, count, colour, z) => {
-      const points = [];
-      const half = (step * count) / 2;
-      for (let i = 0; i <= count; i++) {
-        const at = i * step - half;
-        points.push(-half, at, z, half, at, z, at, -half, z, at, half, z);
-      }
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
-      const grid = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colour }));
-      grid.visible = shown;
-      this.ground.add(grid);
-      return grid;
-    };
-    this.minor = lines(cell, 250, colours[1], -0.0004);
-    this.major = lines(cell * 5, 50, colours[0], 0);
+    this.grid = new THREE.Mesh(new THREE.PlaneGeometry(2000, 2000), gridMaterial());
+    this.grid.renderOrder = -1;
+    this.ground.add(this.shade, this.grid);
+    this.cell = 1;
   }
 
   // Lines fade with distance, so that the ground has no end and no flicker.
   #haze() {
     const distance = this.viewer.camera.position.distanceTo(this.viewer.controls.target);
-    this.viewer.scene.fog.near = distance * 1.6;
-    this.viewer.scene.fog.far = Math.min(distance * 6 + 4 * this.cell, this.cell * 100);
+    this.grid.material.uniforms.reach.value = distance * 5 + 4 * this.cell;
   }
 
   /** Look at the robot from a good distance. `direction` points from it to the camera, z up. */
@@ -131,7 +103,7 @@ export class Stage {
     if (box.isEmpty()) return false;
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const radius = (this.radius = Math.max(sphere.radius, 0.02));
-    this.#grid(radius < 1.2 ? 0.2 : radius < 6 ? 1 : 5);
+    this.cell = this.grid.material.uniforms.cell.value = radius < 1.2 ? 0.2 : radius < 6 ? 1 : 5;
     const { camera, controls } = this.viewer;
     const narrow = Math.min(1, camera.aspect);
     const distance = (radius / Math.sin((FOV * Math.PI) / 360) / narrow) * 1.12 * zoom;
@@ -168,4 +140,46 @@ export class Stage {
     this.followed = [x, y, z];
     this.dirty();
   }
+}
+
+// Squares of `cell` metres, every fifth line stronger; lines one pixel wide however far away, fading with distance.
+function gridMaterial() {
+  return new THREE.ShaderMaterial({
+    transparent: true,
+    depthWrite: false,
+    side: THREE.DoubleSide,
+    extensions: { derivatives: true },
+    uniforms: {
+      cell: { value: 1 },
+      reach: { value: 10 },
+      major: { value: new THREE.Color() },
+      minor: { value: new THREE.Color() },
+    },
+    vertexShader: `
+      varying vec2 at;
+      varying vec3 seen;
+      void main() {
+        at = position.xy;
+        vec4 view = modelViewMatrix * vec4(position, 1.0);
+        seen = view.xyz;
+        gl_Position = projectionMatrix * view;
+      }`,
+    fragmentShader: `
+      uniform float cell, reach;
+      uniform vec3 major, minor;
+      varying vec2 at;
+      varying vec3 seen;
+      float lines(vec2 p) {
+        vec2 width = fwidth(p);
+        vec2 off = abs(fract(p - 0.5) - 0.5) / width;
+        float line = 1.0 - min(min(off.x, off.y), 1.0);
+        return line * (1.0 - smoothstep(0.15, 0.45, max(width.x, width.y)));
+      }
+      void main() {
+        float strong = lines(at / (5.0 * cell));
+        float weak = lines(at / cell);
+        float near = 1.0 - smoothstep(0.3 * reach, reach, length(seen));
+        gl_FragColor = vec4(mix(minor, major, strong), max(strong, weak) * near);
+      }`,
+  });
 }
