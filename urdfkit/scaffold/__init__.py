@@ -1,0 +1,8 @@
+"""Write packages from templates: questions, answers, files, all or nothing."""
+
+from urdfkit.scaffold.names import check_package_name, sanitised
+from urdfkit.scaffold.new import create
+from urdfkit.scaffold.question import Question
+from urdfkit.scaffold.template import Template, load_template, template_names
+
+__all__ = ["Question", "Template", "check_package_name", "create", "load_template", "sanitised", "template_names"]

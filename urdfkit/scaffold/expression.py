@@ -1,0 +1,79 @@
+"""Sums and comparisons in a template: ``base_width + wheel_width + 0.02``. Nothing else is understood."""
+
+from __future__ import annotations
+
+import ast
+import operator
+from collections.abc import Callable, Mapping
+
+from urdfkit.errors import ResourceError
+
+_BINARY: dict[type[ast.operator], Callable[[float, float], float]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
+_COMPARISONS: dict[type[ast.cmpop], Callable[[float, float], bool]] = {
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
+}
+_FUNCTIONS: dict[str, Callable[..., float]] = {"min": min, "max": max}
+# `base_width + wheel_width` and a typed-in sum of the two differ in the last bit.
+_TOLERANCE = 1e-9
+
+
+def value_of(text: str, names: Mapping[str, float]) -> float:
+    """Return what an arithmetic expression of a template comes to.
+
+    Args:
+        text: numbers, names, ``+ - * /``, parentheses, ``min(…)`` and ``max(…)``.
+        names: what the names stand for.
+
+    Raises:
+        ResourceError: the template is wrong.
+    """
+    return _value(_parsed(text), names, text)
+
+
+def holds(text: str, names: Mapping[str, float]) -> bool:
+    """Return whether a comparison of a template holds, to nine digits.
+
+    Args:
+        text: two expressions with ``<``, ``<=``, ``>`` or ``>=`` between them.
+        names: what the names stand for.
+
+    Raises:
+        ResourceError: the template is wrong.
+    """
+    node = _parsed(text)
+    if not isinstance(node, ast.Compare) or len(node.ops) != 1 or type(node.ops[0]) not in _COMPARISONS:
+        raise ResourceError(f"template: `{text}` is no comparison of two values")
+    left, right = (_value(side, names, text) for side in (node.left, node.comparators[0]))
+    slack = _TOLERANCE * max(abs(left), abs(right))
+    kind = type(node.ops[0])
+    return _COMPARISONS[kind](left, right + slack if kind in (ast.Lt, ast.LtE) else right - slack)
+
+
+def _parsed(text: str) -> ast.expr:
+    try:
+        return ast.parse(text.strip(), mode="eval").body
+    except SyntaxError as error:
+        raise ResourceError(f"template: `{text}` is no expression: {error.msg}") from error
+
+
+def _value(node: ast.expr, names: Mapping[str, float], text: str) -> float:
+    match node:
+        case ast.Constant(value=int() | float() as number):
+            return float(number)
+        case ast.Name(id=name) if name in names:
+            return names[name]
+        case ast.UnaryOp(op=ast.USub(), operand=operand):
+            return -_value(operand, names, text)
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in _BINARY:
+            return _BINARY[type(op)](_value(left, names, text), _value(right, names, text))
+        case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]) if name in _FUNCTIONS and arguments:
+            return _FUNCTIONS[name](*(_value(argument, names, text) for argument in arguments))
+    raise ResourceError(f"template: cannot compute `{ast.unparse(node)}` in `{text}`")

@@ -1,0 +1,63 @@
+"""Render a template into a folder: all of it or nothing, and nothing is overwritten."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from urdfkit.atomic import move_into_place, staging
+from urdfkit.errors import ResourceError
+from urdfkit.scaffold.template import Template
+
+Checker = Callable[[Path], Sequence[str]]
+"""Looks at the rendered folder before it is moved into place; returns what is wrong with it, a line each."""
+
+
+def create(template: Template, answers: Mapping[str, str], folder: Path, *, check: Checker | None = None) -> list[Path]:
+    """Write what a template makes into `folder`.
+
+    It is rendered into a temporary folder there, checked, and moved into place. Whatever goes wrong, an interrupt
+    included, leaves `folder` as it was.
+
+    Args:
+        template: what to write.
+        answers: answers by question, with the built-in ones.
+        folder: made if it is not there.
+        check: has to find nothing.
+
+    Returns:
+        The files, absolute, sorted.
+
+    Raises:
+        ResourceError: something of that name is there, the result does not pass `check`, or it cannot be written.
+    """
+    for name in sorted({target.parts[0] for _, target in template.files(answers)}):
+        if os.path.lexists(folder / name):
+            raise ResourceError(f"{folder / name} is already there; nothing is overwritten")
+    with _made(folder), staging(folder) as stage:
+        targets = template.render(answers, stage)
+        if check is not None and (found := check(stage)):
+            more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+            raise ResourceError(f"nothing was written: the result would not be clean: {found[0]}{more}")
+        move_into_place(stage, folder)
+    return sorted((folder / target).resolve() for target in targets)
+
+
+@contextmanager
+def _made(folder: Path) -> Iterator[None]:
+    """Make `folder` and the ones above it; take those made away again if the body fails."""
+    missing = [path for path in (folder, *folder.parents) if not path.exists()]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        yield
+    except BaseException as error:
+        for path in missing:
+            if path.is_dir() and not any(path.iterdir()):
+                path.rmdir()
+        if isinstance(error, FileExistsError | NotADirectoryError):
+            raise ResourceError(f"cannot write into {folder}: it is no folder") from error
+        if isinstance(error, OSError):
+            raise ResourceError(f"cannot write into {folder}: {error.strerror}") from error
+        raise

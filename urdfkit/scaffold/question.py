@@ -1,0 +1,117 @@
+"""What a template asks, and what counts as an answer."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from urdfkit.errors import UsageError, did_you_mean
+from urdfkit.scaffold.expression import value_of
+from urdfkit.scaffold.names import check_package_name
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """One question of a template; its answer replaces ``@name@`` in the files.
+
+    Attributes:
+        name: the placeholder and, with dashes, the option.
+        prompt: what a person is asked.
+        kind: what sort of answer.
+        default: the answer when none is given; computed from earlier ones when it begins with ``=``; None: a must.
+        unit: SI unit of a number.
+        choices: the answers there are.
+        range: least and greatest number.
+        pattern: what a text has to match as a whole.
+        suffixes: what the packages' names end in.
+        help: one more line for ``--help``.
+        ask: whether a person is asked, or the default goes without saying.
+    """
+
+    name: str
+    prompt: str
+    kind: Literal["package", "choice", "number", "text"]
+    default: str | None = None
+    unit: str = ""
+    choices: tuple[str, ...] = ()
+    range: tuple[float, float] = (-math.inf, math.inf)
+    pattern: str = ".*"
+    suffixes: tuple[str, ...] = ()
+    help: str = ""
+    ask: bool = True
+
+    @property
+    def option(self) -> str:
+        """The option of the command line."""
+        return "--" + self.name.replace("_", "-")
+
+    def default_given(self, answers: Mapping[str, str]) -> str | None:
+        """Return the default, computed where it depends on earlier answers (to four digits).
+
+        Args:
+            answers: the answers to the questions before this one.
+
+        Raises:
+            ResourceError: the template is wrong.
+        """
+        if self.default is None or not self.default.startswith("="):
+            return self.default
+        return f"{value_of(self.default[1:], numbers(answers)):.4g}"
+
+    def accept(self, answer: str) -> str:
+        """Return the answer as it goes into the files.
+
+        Args:
+            answer: as typed.
+
+        Raises:
+            UsageError: it is none; says what would be.
+        """
+        answer = answer.strip()
+        if self.kind == "package":
+            return check_package_name(answer, suffixes=self.suffixes)
+        if self.kind == "number":
+            return self._number(answer)
+        if self.kind == "choice" and answer not in self.choices:
+            near = did_you_mean(answer, self.choices)
+            raise UsageError(f"{self.option} `{answer}` is not available{near}; there is: {', '.join(self.choices)}")
+        if self.kind == "text" and not re.fullmatch(self.pattern, answer):
+            raise UsageError(f"{self.option} `{answer}` cannot be written into the files: {self._text_rule()}")
+        return answer
+
+    def _text_rule(self) -> str:
+        return (
+            "it is not of the form name@host"
+            if "@[" in self.pattern
+            else "it is empty or has one of < > & \" ' \\ @ $ %"
+        )
+
+    def _number(self, answer: str) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        try:
+            value = float(answer)
+        except ValueError:
+            in_unit = f" (in {self.unit})" if self.unit else ""
+            raise UsageError(f"{self.option} `{answer}` is no number{in_unit}") from None
+        least, greatest = self.range
+        if not least <= value <= greatest:
+            raise UsageError(f"{self.option} {answer}{unit} is out of range: {least:g} to {greatest:g}{unit}")
+        return f"{value:.10g}"
+
+
+def numbers(answers: Mapping[str, str]) -> dict[str, float]:
+    """Return the answers that are numbers, as such.
+
+    Args:
+        answers: answers by question.
+    """
+    found: dict[str, float] = {}
+    for name, answer in answers.items():
+        try:
+            found[name] = float(answer)
+        except ValueError:
+            continue
+    return found
