@@ -104,14 +104,14 @@ def document_of(source: Source) -> Element:
     return families[0][0]
 
 
-def stamped_document(source: Source, on_clone: Callable[..., None]) -> minidom.Document:
+def stamped_document(source: Source, on_clone: Any) -> minidom.Document:
     """Read a file into the minidom that xacro works on.
 
     It is the same tree as ``minidom.parseString`` makes, but every element carries its `Stamp`.
 
     Args:
         source: the text.
-        on_clone: DOM user data handler, called for every clone of a stamped element.
+        on_clone: DOM user data handler: its `handle` is called for every clone of a stamped element.
 
     Raises:
         XmlError: it is not well-formed, or hostile.

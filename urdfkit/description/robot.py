@@ -278,7 +278,7 @@ class Ros2Control:
     element: Element = field(repr=False)
 
 
-ProblemKind = Literal["bad-number", "wrong-arity", "missing", "unknown-value"]
+ProblemKind = Literal["bad-number", "wrong-arity", "not-finite", "missing", "unknown-value"]
 
 
 @record(eq=False)

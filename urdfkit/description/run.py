@@ -116,7 +116,7 @@ class Run:
             ResourceError: the file cannot be read.
             XmlError: it is no safe XML.
         """
-        self.document = stamped_document(self._read(Path(self.path)), self._restamp)
+        self.document = stamped_document(self._read(Path(self.path)), self)
         self.xacro.process_doc(self.document, mappings=dict(self.arguments), verbosity=1)
         for included in self.xacro.all_includes:
             self.files.setdefault(Path(os.path.abspath(included)))
@@ -184,7 +184,7 @@ class Run:
             missing = OSError(str(error))
             missing.filename = filename
             raise self.xacro.XacroException(f"No such file or directory: {filename}", exc=missing) from error
-        return stamped_document(source, self._restamp)
+        return stamped_document(source, self)
 
     def abs_filename_spec(self, filename_spec: str) -> str:
         """Find an included or YAML file, also in a source folder that only its installation puts in place."""
@@ -249,6 +249,16 @@ class Run:
         finally:
             self._calling = outer
 
+    def handle(self, _: int, key: str, stamp: Stamp, node: Any, clone: Any) -> None:
+        """Stamp a clone: DOM user data handler of the stamps."""
+        if self._chain is None:
+            clone.setUserData(key, stamp, self)
+            return
+        clone.setUserData(key, (*stamp[:3], self._chain), self)
+        # minidom tells of an element after all below it, so with the body itself its clone is complete.
+        if node is self._body:
+            self._chain = self._body = None
+
     def grab_macro(self, elt: minidom.Element, macros: Any) -> None:
         """Note where a macro is defined."""
         self.stock["grab_macro"](elt, macros)
@@ -284,15 +294,6 @@ class Run:
             source = read_source(path, shown_as=shown)
             self.sources[shown] = source
         return source
-
-    def _restamp(self, _: int, key: str, stamp: Stamp, node: Any, clone: Any) -> None:
-        if self._chain is None:
-            clone.setUserData(key, stamp, self._restamp)
-            return
-        clone.setUserData(key, (*stamp[:3], self._chain), self._restamp)
-        # minidom tells of an element after all below it, so with the body itself its clone is complete.
-        if node is self._body:
-            self._chain = self._body = None
 
     def _find(self, name: str) -> str:
         try:

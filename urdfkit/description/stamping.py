@@ -18,7 +18,7 @@ class StampingBuilder(ExpatBuilderNS):
         too_deep: called with the parser when elements nest too deep; raises.
     """
 
-    def __init__(self, file: str, on_clone: Callable[..., None], too_deep: Callable[[Any], None]) -> None:
+    def __init__(self, file: str, on_clone: Any, too_deep: Callable[[Any], None]) -> None:
         self._file, self._on_clone, self._too_deep = file, on_clone, too_deep
         self._depth = 0
         super().__init__()

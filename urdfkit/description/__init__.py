@@ -1,0 +1,20 @@
+"""The robot as written: xacro and URDF in, links and joints out, every element with its place. No mathematics."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.description.robot import Robot
+
+if TYPE_CHECKING:
+    from urdfkit.description.loading import load as load
+
+__all__ = ["Robot", "load"]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "load":
+        from urdfkit.description.loading import load
+
+        return load
+    raise AttributeError(f"module 'urdfkit.description' has no attribute {name!r}")

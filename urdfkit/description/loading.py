@@ -1,0 +1,203 @@
+"""load: the strict reader; the first error by importance, in one line, with its place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+from urdfkit.description.element import Element
+from urdfkit.description.expand import expand
+from urdfkit.description.expanded import Expanded
+from urdfkit.description.packages import Packages
+from urdfkit.description.parse import parse
+from urdfkit.description.robot import Joint, Link, Problem, Robot
+from urdfkit.errors import ModelError, did_you_mean
+
+_HARMLESS = frozenset({"unknown-value", "missing"})
+_OTHER_ROOTS = {
+    "sdf": "an SDF file",
+    "gazebo": "an SDF file",
+    "mujoco": "an MJCF file (MuJoCo)",
+    "mujocoinclude": "an MJCF file (MuJoCo)",
+    "collada": "a COLLADA mesh",
+    "launch": "a launch file",
+    "package": "a package manifest",
+}
+
+
+def load(
+    path: str | Path,
+    *,
+    arguments: Mapping[str, str] | None = None,
+    package_path: Iterable[str | Path] = (),
+) -> Robot:
+    """Load a robot that is one tree of links and joints.
+
+    Args:
+        path: a ``.urdf`` or ``.xacro`` file.
+        arguments: xacro arguments.
+        package_path: folders to look for packages in first.
+
+    Raises:
+        ResourceError: no such file.
+        XmlError: it, or a file it includes, is not well-formed or is hostile.
+        XacroError: xacro could not expand it.
+        ModelError: it is not a robot, or not one tree, or a value cannot be used.
+    """
+    packages = Packages(package_path, path)
+    return robot_of(expand(path, arguments=arguments, packages=packages))
+
+
+def robot_of(expanded: Expanded) -> Robot:
+    """Return the robot that an expanded file describes, checked.
+
+    Args:
+        expanded: from `expand`.
+
+    Raises:
+        ModelError: see `load`.
+    """
+    root = expanded.root
+    if root is None:
+        raise ModelError(f"{expanded.path} could not be read")
+    check_is_robot(root)
+    robot = parse(root)
+    robot = Robot(*[getattr(robot, name) for name in _PARSED], files=expanded.files, packages=expanded.packages)
+    check(robot)
+    return robot
+
+
+_PARSED = "name links joints materials transmissions gazebo ros2_control problems element".split()
+
+
+def check_is_robot(root: Element) -> None:
+    """Refuse what is not a ``<robot>``.
+
+    Args:
+        root: the document element.
+
+    Raises:
+        ModelError: it is something else; says what.
+    """
+    if root.tag == "robot":
+        return
+    kind = _OTHER_ROOTS.get(root.tag.lower())
+    what = f"this is {kind}, not a robot description" if kind else f"the root element is <{root.tag}>, not <robot>"
+    raise ModelError(f"{what}{'' if kind else did_you_mean(root.tag, ['robot'])}", position=root.origin.position)
+
+
+def check(robot: Robot) -> None:
+    """Raise the most important reason why a robot is not one tree that can be computed with.
+
+    Args:
+        robot: as `parse` read it.
+
+    Raises:
+        ModelError: the reason, with its place.
+    """
+    for found in _reasons(robot):
+        raise found
+
+
+def _reasons(robot: Robot) -> Iterator[ModelError]:
+    if not robot.links:
+        yield _error("the robot has no link", robot.element)
+    yield from _unusable_values(robot)
+    yield from _nameless(robot)
+    yield from _duplicates("link", robot.links)
+    yield from _duplicates("joint", robot.joints)
+    for joint in robot.joints:
+        yield from _ill_defined(robot, joint)
+    for link in robot.links:
+        if len(parents := robot.parents_of.get(link.name, [])) > 1:
+            yield _error(
+                f"link `{link.name}` is the child of two joints, `{parents[0].name}` ({parents[0].element.origin.position}) "
+                f"and `{parents[1].name}`",
+                parents[1].element,
+            )
+    for loop in robot.cycles():
+        yield _error(f"the joints form a loop: {' → '.join(_loop_links(loop))}", loop[0].element)
+    roots = robot.roots()
+    if len(roots) > 1:
+        yield _two_roots(robot, roots)
+    for joint in robot.joints:
+        if joint.mimic is not None and joint.mimic.joint not in robot.joint_by_name:
+            hint = did_you_mean(joint.mimic.joint, robot.joint_by_name)
+            yield _error(f"joint `{joint.name}` mimics `{joint.mimic.joint}`, which is no joint{hint}", joint.mimic.element)
+
+
+def _unusable_values(robot: Robot) -> Iterator[ModelError]:
+    for problem in robot.problems:
+        if problem.kind not in _HARMLESS or _is_needed(problem):
+            yield _error(problem.message, problem.element)
+
+
+def _is_needed(problem: Problem) -> bool:
+    """Whether nothing sensible can take the place of what is missing (urdfdom refuses these too)."""
+    tag = problem.element.tag
+    if problem.kind == "unknown-value":
+        return tag == "joint"
+    return (tag, problem.attribute) in {("joint", "type"), ("parent", "link"), ("child", "link"), ("mimic", "joint")} or (
+        tag in ("limit", "inertia") or (tag == "mass" and problem.attribute == "value")
+    )
+
+
+def _nameless(robot: Robot) -> Iterator[ModelError]:
+    for thing in (*robot.links, *robot.joints):
+        if not thing.name:
+            yield _error(f"a <{thing.element.tag}> has no name", thing.element)
+
+
+def _duplicates(kind: str, things: tuple[Link, ...] | tuple[Joint, ...]) -> Iterator[ModelError]:
+    first: dict[str, Element] = {}
+    for thing in things:
+        if thing.name in first:
+            at = first[thing.name].origin.position
+            yield _error(f"two {kind}s are called `{thing.name}`; the first is at {at}", thing.element)
+        first.setdefault(thing.name, thing.element)
+
+
+def _ill_defined(robot: Robot, joint: Joint) -> Iterator[ModelError]:
+    for end, name in (("parent", joint.parent), ("child", joint.child)):
+        if name is None:
+            yield _error(f"joint `{joint.name}` lacks <{end} link=…>", joint.element)
+        elif name not in robot.link_by_name:
+            hint = did_you_mean(name, robot.link_by_name)
+            element = joint.element.find(end) or joint.element
+            yield _error(f"joint `{joint.name}`: its {end} link `{name}` does not exist{hint}", element)
+    if joint.type in ("revolute", "prismatic") and joint.limit is None:
+        wanted = '<limit lower="…" upper="…" effort="…" velocity="…"/>'
+        yield _error(f"{joint.type} joint `{joint.name}` lacks {wanted}", joint.element)
+    if joint.is_movable and joint.type != "floating" and not any(joint.axis):
+        yield _error(f"the axis of joint `{joint.name}` is zero", joint.element.find("axis") or joint.element)
+
+
+def _two_roots(robot: Robot, roots: list[Link]) -> ModelError:
+    below: dict[str, int] = {}
+    for root in roots:
+        reached, stack = 0, [root.name]
+        while stack:
+            reached += 1
+            stack += [j.child for j in robot.children_of.get(stack.pop(), []) if j.child is not None]
+        below[root.name] = reached
+    main = max(roots, key=lambda link: below[link.name])
+    others = [link for link in roots if link is not main]
+    names = ", ".join(f"`{link.name}`" for link in others[:3]) + (f" and {len(others) - 3} more" if len(others) > 3 else "")
+    verb = "is" if len(others) == 1 else "are"
+    return _error(
+        f"{len(roots)} root links: {names} {verb} joined to nothing; a joint to the tree of `{main.name}` "
+        f"({main.element.origin.position}) is missing",
+        others[0].element,
+    )
+
+
+def _loop_links(loop: list[Joint]) -> list[str]:
+    names = [joint.parent or "" for joint in loop]
+    return [*names, names[0]]
+
+
+def _error(message: str, element: Element) -> ModelError:
+    from urdfkit.description.diagnosis import chain_words
+
+    return ModelError(message + chain_words(element.origin.expansions), position=element.origin.position)

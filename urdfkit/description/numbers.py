@@ -1,0 +1,44 @@
+"""Numbers as urdfdom reads them."""
+
+from __future__ import annotations
+
+import re
+
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
+
+
+def number(text: str) -> float | None:
+    """Return the number that `text` is, white space around it allowed; None when it is none.
+
+    Unlike `float`, underscores and digits of other scripts are no numbers.
+    """
+    stripped = text.strip()
+    return float(stripped) if _NUMBER.fullmatch(stripped) else None
+
+
+def numbers(text: str) -> list[float] | None:
+    """Return the numbers that `text` lists, separated by white space; None when one of them is none."""
+    found: list[float] = []
+    for word in text.split():
+        value = number(word)
+        if value is None:
+            return None
+        found.append(value)
+    return found
+
+
+def why_not(text: str) -> str:
+    """Return what is probably wrong with a text that should be numbers, in a few words; empty when unclear."""
+    if "${" in text or "$(" in text or "{$" in text:
+        return "an expression that was not evaluated"
+    if re.search(r"\d,\d", text) and not re.search(r",\s", text):
+        return "a decimal comma: write a point"
+    if "," in text:
+        return "separate numbers by blanks, not commas"
+    if not text.strip():
+        return "empty"
+    if re.fullmatch(r"\s*[+-]?[\d.]+\s*[a-zA-Z°]+\s*", text):
+        return "units are not written: SI is meant"
+    if "\u2212" in text or "\u2013" in text:
+        return "a dash instead of a minus sign"
+    return ""
