@@ -79,8 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     found = find_model(model, package_path=arguments.package_path)
     tree = TransformTree(load(found.path, arguments=found.arguments, package_path=found.package_path))
-    for error in tree.kinematics.limit_errors(tree.kinematics.followed(positions)):
-        print(f"urdfkit: warning: {error}", file=sys.stderr)
+    _warn_of_limits(tree, positions)
     if arguments.tree:
         if frames:
             raise UsageError("tf: either PARENT and CHILD or --tree")
@@ -122,6 +121,19 @@ def _positions(words: Iterable[str]) -> dict[str, float]:
         if found[name] - found[name] != 0.0:  # NaN or infinite
             raise UsageError(f"tf: --joint {name}: {text} is not a finite number")
     return found
+
+
+def _warn_of_limits(tree: TransformTree, positions: dict[str, float]) -> None:
+    """Say which joints that were set, or follow one that was, are outside their limits; they are placed all the same.
+
+    Raises:
+        KinematicsError: an unknown joint, or a mimic joint.
+    """
+    kinematics = tree.kinematics
+    moved = set(positions) | {name for name, c in kinematics.couplings.items() if c.master in positions}
+    values = kinematics.followed(positions)
+    for error in kinematics.limit_errors({name: value for name, value in values.items() if name in moved}):
+        print(f"urdfkit: warning: {error}", file=sys.stderr)
 
 
 def _echo(transform: Transform) -> str:

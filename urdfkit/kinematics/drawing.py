@@ -12,22 +12,17 @@ from urdfkit.kinematics.tf import Edge, TransformTree
 _CHAR, _FONT = 7.3, 12  # [px] a monospaced character at that font size; rather too wide than too narrow
 _BOX, _ROW, _MARGIN, _ELBOW = 26, 46, 16, 14  # [px] heights of a box and a row, outer margin, width of a bend
 
+# Lines and their labels are of middle brightness, boxes bring their own ground: readable on light and dark pages.
 _STYLE = """
-  text { font: 12px ui-monospace, 'DejaVu Sans Mono', Menlo, Consolas, monospace; fill: #1f2933; }
+  text { font: 12px ui-monospace, 'DejaVu Sans Mono', Menlo, Consolas, monospace; }
+  .frame { fill: #1f2933; }
+  .joint { fill: #6f7b88; }
+  .type { fill: #6f7b88; font-size: 10px; }
   .box { fill: #eef2f6; stroke: #7b8794; }
-  .root { fill: #d9e8f7; stroke: #2f6fb0; }
+  .root { fill: #cfe3f6; stroke: #2f6fb0; }
   path { fill: none; stroke: #7b8794; stroke-width: 1.4; }
-  .moves { stroke: #2f6fb0; stroke-width: 2; }
-  .mimics { stroke: #2f6fb0; stroke-width: 2; stroke-dasharray: 5 3; }
-  .type { fill: #616e7c; font-size: 10px; }
-  @media (prefers-color-scheme: dark) {
-    text { fill: #e4e7eb; }
-    .box { fill: #27323d; stroke: #9aa5b1; }
-    .root { fill: #17395b; stroke: #63a4e0; }
-    path { stroke: #9aa5b1; }
-    .moves, .mimics { stroke: #63a4e0; }
-    .type { fill: #9aa5b1; }
-  }
+  .moves { stroke: #3b82c4; stroke-width: 2; }
+  .mimics { stroke: #3b82c4; stroke-width: 2; stroke-dasharray: 5 3; }
 """
 
 
@@ -62,11 +57,12 @@ def as_dot(tree: TransformTree) -> str:
 
 @dataclass(slots=True)
 class _Box:
-    """A frame in the drawing: left edge, centre line and width [px]."""
+    """A frame in the drawing: left edge, centre line, width, and where the line from its parent bends [px]."""
 
     x: float
     y: float
     width: float
+    bend: float
 
 
 def as_svg(tree: TransformTree) -> str:
@@ -93,7 +89,7 @@ def as_svg(tree: TransformTree) -> str:
             f'width="{box.width:.1f}" height="{_BOX}" rx="5"/>'
         )
         parts.append(
-            f'<text x="{box.x + box.width / 2:.1f}" y="{box.y + 4:.1f}" text-anchor="middle">{_xml(frame)}</text>'
+            f'<text class="frame" x="{box.x + box.width / 2:.1f}" y="{box.y + 4:.1f}" text-anchor="middle">{_xml(frame)}</text>'
         )
     return "\n".join([*parts, "</svg>"]) + "\n"
 
@@ -109,11 +105,14 @@ def _layout(tree: TransformTree) -> dict[str, _Box]:
         widths[column] = max(widths[column], _length(frame) + 20)
     for edge in tree.edges:
         label = max(_length(edge.joint), _length(_kind(edge)) * 0.85)
-        gaps[depth[edge.child]] = max(gaps[depth[edge.child]], label + 2 * _ELBOW + 8)
+        gaps[depth[edge.child]] = max(gaps[depth[edge.child]], label + 3 * _ELBOW)
     left = [float(_MARGIN)]
     for column in range(1, columns):
         left.append(left[-1] + widths[column - 1] + gaps[column])
-    boxes = {frame: _Box(left[column], 0.0, _length(frame) + 20) for frame, column in depth.items()}
+    boxes = {
+        frame: _Box(left[column], 0.0, _length(frame) + 20, left[column] - gaps[column] + _ELBOW)
+        for frame, column in depth.items()
+    }
     row = 0
     for frame in _bottom_up(tree, below):
         if children := below.get(frame):
@@ -125,16 +124,12 @@ def _layout(tree: TransformTree) -> dict[str, _Box]:
 
 
 def _draw_edge(edge: Edge, parent: _Box, child: _Box) -> Iterator[str]:
-    start, bend = parent.x + parent.width, child.x - _edge_width(edge)
+    start = parent.x + parent.width
     look = ' class="mimics"' if edge.mimics else "" if edge.is_static else ' class="moves"'
-    yield f'<path{look} d="M{start:.1f} {parent.y:.1f}H{bend:.1f}V{child.y:.1f}H{child.x:.1f}"/>'
-    middle = (bend + child.x) / 2
-    yield f'<text x="{middle:.1f}" y="{child.y - 5:.1f}" text-anchor="middle">{_xml(edge.joint)}</text>'
+    yield f'<path{look} d="M{start:.1f} {parent.y:.1f}H{child.bend:.1f}V{child.y:.1f}H{child.x:.1f}"/>'
+    middle = (child.bend + child.x) / 2
+    yield f'<text class="joint" x="{middle:.1f}" y="{child.y - 5:.1f}" text-anchor="middle">{_xml(edge.joint)}</text>'
     yield f'<text class="type" x="{middle:.1f}" y="{child.y + 13:.1f}" text-anchor="middle">{_xml(_kind(edge))}</text>'
-
-
-def _edge_width(edge: Edge) -> float:
-    return max(_length(edge.joint), _length(_kind(edge)) * 0.85) + _ELBOW
 
 
 def _below(tree: TransformTree) -> dict[str, list[Edge]]:
