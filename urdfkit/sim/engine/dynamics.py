@@ -1,0 +1,217 @@
+"""Mass matrix, bias forces and motion subspaces of all bodies in two sweeps.
+
+All spatial quantities of a step have the directions of the world's axes and are of one point, `P`: the origin of the
+floating base. So they need no transforms from body to body, a contact Jacobian is read off the subspaces, and nothing
+loses precision far from the world's origin. M, bias and v are in Pinocchio's convention.
+
+Sources: R. Featherstone, Rigid Body Dynamics Algorithms, 2008: tables 5.1 (recursive Newton-Euler), 6.2 (composite
+rigid bodies), 6.3 (factorisation M = LᵀL that keeps the tree's sparsity) and 6.5 (its solves).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.spatial import (
+    IDENTITY,
+    ZERO,
+    add,
+    compose,
+    cross,
+    dot,
+    force_cross,
+    load_rotation,
+    load_spatial,
+    load_tensor,
+    load_vector,
+    momentum,
+    motion_cross,
+    rotate,
+    scale,
+    spatial_add,
+    spatial_dot,
+    store_rotation,
+    store_spatial,
+    store_tensor,
+    store_vector,
+    sub,
+    tensor_turned,
+    turn_about,
+    turn_of,
+)
+
+REVOLUTE, PRISMATIC, PLANAR, FREE = range(4)
+"""Kinds of joint. Coordinates: an angle; a length; x, y, angle; x, y, z and quaternion x, y, z, w."""
+
+
+@inlined
+def forward_sweep(
+    bodies: int,
+    kind: Any,
+    parent: Any,
+    first_s: Any,
+    first_v: Any,
+    place_R: Any,
+    place_p: Any,
+    subspace: Any,
+    mass: Any,
+    centre: Any,
+    tensor: Any,
+    gravity: Any,
+    P: Any,
+    s: Any,
+    v: Any,
+    R: Any,
+    r: Any,
+    S: Any,
+    twist: Any,
+    bias_acceleration: Any,
+    composite_mass: Any,
+    composite_h: Any,
+    composite_T: Any,
+    force: Any,
+) -> None:
+    """Place the bodies; compute velocities, inertias and the forces that make them follow at zero joint acceleration."""
+    point = load_vector(P, 0)
+    g = load_vector(gravity, 0)
+    for i in range(bodies):
+        above = parent[i]
+        if above < 0:
+            R0, r0 = IDENTITY, sub(ZERO, point)
+            velocity, acceleration = (ZERO, ZERO), (ZERO, ZERO)
+        else:
+            R0, r0 = load_rotation(R, above), load_vector(r, above)
+            velocity, acceleration = load_spatial(twist, above), load_spatial(bias_acceleration, above)
+        r0 = add(r0, rotate(R0, load_vector(place_p, i)))
+        R0 = compose(R0, load_rotation(place_R, i))
+        at, dof, beyond = first_s[i], first_v[i], first_v[i + 1]
+        lin, ang = load_spatial(subspace, dof)
+        if kind[i] == REVOLUTE:
+            R0 = compose(R0, turn_about(ang, s[at]))
+        elif kind[i] == PRISMATIC:
+            r0 = add(r0, rotate(R0, scale(s[at], lin)))
+        elif kind[i] == PLANAR:
+            r0 = add(r0, rotate(R0, (s[at], s[at + 1], 0.0)))
+            R0 = compose(R0, turn_about((0.0, 0.0, 1.0), s[at + 2]))
+        else:
+            r0 = add(r0, rotate(R0, load_vector(s[at : at + 3], 0)))
+            R0 = compose(R0, turn_of(s[at + 3], s[at + 4], s[at + 5], s[at + 6]))
+        store_rotation(R, i, R0)
+        store_vector(r, i, r0)
+        joint = (ZERO, ZERO)
+        for d in range(dof, beyond):
+            lin, ang = load_spatial(subspace, d)
+            ang = rotate(R0, ang)
+            lin = add(rotate(R0, lin), cross(r0, ang))
+            store_spatial(S, d, (lin, ang))
+            joint = spatial_add(joint, (scale(v[d], lin), scale(v[d], ang)))
+        velocity = spatial_add(velocity, joint)
+        acceleration = spatial_add(acceleration, motion_cross(velocity, joint))
+        store_spatial(twist, i, velocity)
+        store_spatial(bias_acceleration, i, acceleration)
+        m = mass[i]
+        c = add(r0, rotate(R0, load_vector(centre, i)))
+        h = scale(m, c)
+        T = tensor_turned(R0, load_tensor(tensor, i))
+        square = dot(h, c)
+        T = (
+            T[0] + square - h[0] * c[0],
+            T[1] - h[0] * c[1],
+            T[2] - h[0] * c[2],
+            T[3] + square - h[1] * c[1],
+            T[4] - h[1] * c[2],
+            T[5] + square - h[2] * c[2],
+        )
+        composite_mass[i] = m
+        store_vector(composite_h, i, h)
+        store_tensor(composite_T, i, T)
+        needed = spatial_add(momentum(m, h, T, acceleration), force_cross(velocity, momentum(m, h, T, velocity)))
+        weight = scale(m, g)
+        store_spatial(force, i, (sub(needed[0], weight), sub(needed[1], cross(c, weight))))
+
+
+@inlined
+def backward_sweep(
+    bodies: int,
+    dofs: int,
+    parent: Any,
+    first_v: Any,
+    dof_parent: Any,
+    S: Any,
+    composite_mass: Any,
+    composite_h: Any,
+    composite_T: Any,
+    force: Any,
+    M: Any,
+    bias: Any,
+) -> None:
+    """Gather inertias and forces from the tips to the root: the lower triangle of M, and bias."""
+    for i in range(bodies - 1, -1, -1):
+        m, h, T = composite_mass[i], load_vector(composite_h, i), load_tensor(composite_T, i)
+        f = load_spatial(force, i)
+        for d in range(first_v[i], first_v[i + 1]):
+            subspace = load_spatial(S, d)
+            bias[d] = spatial_dot(subspace, f)
+            F = momentum(m, h, T, subspace)
+            e = d
+            while e >= 0:
+                M[d * dofs + e] = spatial_dot(load_spatial(S, e), F)
+                e = dof_parent[e]
+        above = parent[i]
+        if above >= 0:
+            composite_mass[above] += m
+            store_vector(composite_h, above, add(load_vector(composite_h, above), h))
+            U = load_tensor(composite_T, above)
+            store_tensor(
+                composite_T,
+                above,
+                (U[0] + T[0], U[1] + T[1], U[2] + T[2], U[3] + T[3], U[4] + T[4], U[5] + T[5]),
+            )
+            store_spatial(force, above, spatial_add(load_spatial(force, above), f))
+
+
+@inlined
+def factor(dofs: int, dof_parent: Any, L: Any, inverse_diagonal: Any) -> None:
+    """Factor M = LᵀL in place, lower triangle; entries between branches are never touched."""
+    for k in range(dofs - 1, -1, -1):
+        inverse = 1.0 / math.sqrt(L[k * dofs + k])
+        inverse_diagonal[k] = inverse
+        i = dof_parent[k]
+        while i >= 0:
+            L[k * dofs + i] *= inverse
+            i = dof_parent[i]
+        i = dof_parent[k]
+        while i >= 0:
+            ki = L[k * dofs + i]
+            j = i
+            while j >= 0:
+                L[i * dofs + j] -= ki * L[k * dofs + j]
+                j = dof_parent[j]
+            i = dof_parent[i]
+
+
+@inlined
+def solve_transposed(dofs: int, dof_parent: Any, L: Any, inverse_diagonal: Any, x: Any, start: int) -> None:
+    """Turn x = x[start : start + dofs] into L⁻ᵀ·x."""
+    for i in range(dofs - 1, -1, -1):
+        xi = x[start + i] * inverse_diagonal[i]
+        x[start + i] = xi
+        if xi != 0.0:
+            j = dof_parent[i]
+            while j >= 0:
+                x[start + j] -= L[i * dofs + j] * xi
+                j = dof_parent[j]
+
+
+@inlined
+def solve_forward(dofs: int, dof_parent: Any, L: Any, inverse_diagonal: Any, x: Any) -> None:
+    """Turn x into L⁻¹·x."""
+    for i in range(dofs):
+        xi = x[i]
+        j = dof_parent[i]
+        while j >= 0:
+            xi -= L[i * dofs + j] * x[j]
+            j = dof_parent[j]
+        x[i] = xi * inverse_diagonal[i]

@@ -1,0 +1,376 @@
+"""The step: from one configuration and velocity to the next, all in one compiled call."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from urdfkit.sim.engine.arrays import (
+    BODIES,
+    CONTACTS,
+    COORDINATES,
+    DOFS,
+    DT,
+    FLOATING,
+    FLOOR,
+    FOUND_CONTACTS,
+    FOUND_ROWS,
+    GUESSES,
+    HAS_FLOOR,
+    ITERATED,
+    MIMICS,
+    SHAPES,
+    SLOTS,
+    STEPS,
+    At,
+)
+from urdfkit.sim.engine.collide import collide_with_plane
+from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.dynamics import (
+    backward_sweep,
+    factor,
+    forward_sweep,
+    solve_forward,
+    solve_transposed,
+)
+from urdfkit.sim.engine.integrate import move
+from urdfkit.sim.engine.rows import contact_rows, friction_beside_motor, joint_rows, whiten
+from urdfkit.sim.engine.solve import solve
+
+
+@inlined
+def field(block: Any, integers: Any, at: int) -> Any:
+    """Return the part of a block that holds one field."""
+    return block[integers[at] : integers[at + 1]]
+
+
+@inlined
+def servo_effort_at(
+    d: int, position: float, velocity: float, position_target: Any, velocity_target: Any, kp: Any, kd: Any, dt: float
+) -> float:
+    """Return what the servo of a dof exerts when the step ends at `velocity` [N·m or N]."""
+    return kp[d] * (position_target[d] - position - dt * velocity) + kd[d] * (velocity_target[d] - velocity)
+
+
+@inlined
+def smooth_motion(
+    dofs: int,
+    dof_parent: Any,
+    dof_s: Any,
+    s: Any,
+    v: Any,
+    M: Any,
+    bias: Any,
+    damping: Any,
+    friction: Any,
+    applied: Any,
+    motor_velocity: Any,
+    motor_effort: Any,
+    position_target: Any,
+    velocity_target: Any,
+    kp: Any,
+    kd: Any,
+    servo_effort: Any,
+    saturated: Any,
+    dt: float,
+    L: Any,
+    inverse_diagonal: Any,
+    u: Any,
+) -> bool:
+    """Factor M + dt·D + dt²·K = LᵀL and leave L⁻ᵀ·(impulse) in u; the change of v without rows is L⁻¹·u.
+
+    Damping and servos act on the velocity at the end of the step, so no stiffness makes them unstable. Returns whether
+    there is a servo.
+    """
+    has_servo = False
+    for d in range(dofs):
+        for e in range(d + 1):
+            L[d * dofs + e] = M[d * dofs + e]
+        effort = applied[d] - bias[d] - damping[d] * v[d]
+        effort += friction_beside_motor(d, v, friction, motor_velocity, motor_effort)
+        softness = damping[d]
+        if kp[d] != 0.0 or kd[d] != 0.0:
+            has_servo = True
+            if saturated[d] == 0:
+                effort += servo_effort_at(d, s[dof_s[d]], v[d], position_target, velocity_target, kp, kd, dt)
+                softness += kd[d] + dt * kp[d]
+            else:
+                effort += saturated[d] * servo_effort[d]
+        L[d * dofs + d] += dt * softness
+        u[d] = dt * effort
+    factor(dofs, dof_parent, L, inverse_diagonal)
+    solve_transposed(dofs, dof_parent, L, inverse_diagonal, u, 0)
+    return has_servo
+
+
+@inlined
+def limited(rows: int, dofs: int, slot: Any) -> bool:
+    """Return whether one of the rows is a joint limit."""
+    for k in range(rows):
+        if dofs <= slot[k] < 2 * dofs:
+            return True
+    return False
+
+
+@inlined
+def overloaded(
+    dofs: int,
+    dof_s: Any,
+    s: Any,
+    v: Any,
+    position_target: Any,
+    velocity_target: Any,
+    kp: Any,
+    kd: Any,
+    servo_effort: Any,
+    saturated: Any,
+    dt: float,
+) -> bool:
+    """Mark the servos that would exert more than they can; return whether there are new ones."""
+    found = False
+    for d in range(dofs):
+        if saturated[d] == 0 and (kp[d] != 0.0 or kd[d] != 0.0):
+            needed = servo_effort_at(d, s[dof_s[d]], v[d], position_target, velocity_target, kp, kd, dt)
+            if abs(needed) > servo_effort[d]:
+                saturated[d] = 1 if needed > 0.0 else -1
+                found = True
+    return found
+
+
+@inlined
+def account(
+    dofs: int,
+    dof_s: Any,
+    s: Any,
+    v: Any,
+    damping: Any,
+    friction: Any,
+    applied: Any,
+    motor_velocity: Any,
+    motor_effort: Any,
+    position_target: Any,
+    velocity_target: Any,
+    kp: Any,
+    kd: Any,
+    servo_effort: Any,
+    saturated: Any,
+    memory: Any,
+    dt: float,
+    effort: Any,
+    tau: Any,
+) -> None:
+    """Write what motors and servos exerted (`effort`), and with damping, friction and `applied` (`tau`)."""
+    for d in range(dofs):
+        row = memory[d] / dt
+        most = motor_effort[d]
+        beside = friction_beside_motor(d, v, friction, motor_velocity, motor_effort)
+        if most == 0.0:
+            motor = 0.0
+        elif friction[d] > 0.0 and most <= friction[d] and motor_velocity[d] != 0.0:
+            motor = beside
+        else:
+            motor = min(most, max(-most, row))
+        if saturated[d] != 0:
+            servo = saturated[d] * servo_effort[d]
+        else:
+            servo = servo_effort_at(d, s[dof_s[d]], v[d], position_target, velocity_target, kp, kd, dt)
+        effort[d] = motor + servo
+        tau[d] = row + beside + servo + applied[d] - damping[d] * v[d]
+
+
+@inlined
+def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
+    """Advance by `steps`; return how many were done: fewer only if the state stopped being finite.
+
+    With `only_terms`, compute poses, M and bias of the state as it is, and advance nothing.
+    """
+    bodies, dofs, coordinates = integers[BODIES], integers[DOFS], integers[COORDINATES]
+    shapes, mimics, most_contacts = integers[SHAPES], integers[MIMICS], integers[CONTACTS]
+    slots, floating = integers[SLOTS], integers[FLOATING]
+    place_R = field(floats, integers, At.place_R)
+    place_p = field(floats, integers, At.place_p)
+    mass = field(floats, integers, At.mass)
+    centre = field(floats, integers, At.centre)
+    tensor = field(floats, integers, At.tensor)
+    subspace = field(floats, integers, At.subspace)
+    damping = field(floats, integers, At.damping)
+    friction = field(floats, integers, At.friction)
+    lower = field(floats, integers, At.lower)
+    upper = field(floats, integers, At.upper)
+    mimic_factor = field(floats, integers, At.mimic_factor)
+    mimic_offset = field(floats, integers, At.mimic_offset)
+    shape_R = field(floats, integers, At.shape_R)
+    shape_p = field(floats, integers, At.shape_p)
+    shape_size = field(floats, integers, At.shape_size)
+    shape_radius = field(floats, integers, At.shape_radius)
+    shape_mu = field(floats, integers, At.shape_mu)
+    vertices = field(floats, integers, At.vertices)
+    base = field(floats, integers, At.base)
+    gravity = field(floats, integers, At.gravity)
+    numbers = field(floats, integers, At.numbers)
+    motor_velocity = field(floats, integers, At.motor_velocity)
+    motor_effort = field(floats, integers, At.motor_effort)
+    applied = field(floats, integers, At.applied)
+    position_target = field(floats, integers, At.position_target)
+    velocity_target = field(floats, integers, At.velocity_target)
+    kp = field(floats, integers, At.kp)
+    kd = field(floats, integers, At.kd)
+    servo_effort = field(floats, integers, At.servo_effort)
+    s = field(floats, integers, At.s)
+    v = field(floats, integers, At.v)
+    memory = field(floats, integers, At.memory)
+    effort = field(floats, integers, At.effort)
+    tau = field(floats, integers, At.tau)
+    R = field(floats, integers, At.R)
+    r = field(floats, integers, At.r)
+    P = field(floats, integers, At.P)
+    S = field(floats, integers, At.S)
+    twist = field(floats, integers, At.twist)
+    bias_acceleration = field(floats, integers, At.bias_acceleration)
+    composite_mass = field(floats, integers, At.composite_mass)
+    composite_h = field(floats, integers, At.composite_h)
+    composite_T = field(floats, integers, At.composite_T)
+    force = field(floats, integers, At.force)
+    M = field(floats, integers, At.M)
+    bias = field(floats, integers, At.bias)
+    L = field(floats, integers, At.L)
+    inverse_diagonal = field(floats, integers, At.inverse_diagonal)
+    u = field(floats, integers, At.u)
+    v_free = field(floats, integers, At.v_free)
+    s_start = field(floats, integers, At.s_start)
+    v_start = field(floats, integers, At.v_start)
+    contact_origin = field(floats, integers, At.contact_origin)
+    contact_point = field(floats, integers, At.contact_point)
+    contact_frame = field(floats, integers, At.contact_frame)
+    contact_gap = field(floats, integers, At.contact_gap)
+    contact_mu = field(floats, integers, At.contact_mu)
+    Y = field(floats, integers, At.Y)
+    row_bias = field(floats, integers, At.row_bias)
+    g = field(floats, integers, At.g)
+    low = field(floats, integers, At.low)
+    high = field(floats, integers, At.high)
+    mu = field(floats, integers, At.mu)
+    before = field(floats, integers, At.before)
+    slip = field(floats, integers, At.slip)
+    x = field(floats, integers, At.x)
+    y = field(floats, integers, At.y)
+    A = field(floats, integers, At.A)
+    B = field(floats, integers, At.B)
+    kind = field(integers, integers, At.kind)
+    parent = field(integers, integers, At.parent)
+    first_s = field(integers, integers, At.first_s)
+    first_v = field(integers, integers, At.first_v)
+    body_last_dof = field(integers, integers, At.body_last_dof)
+    dof_parent = field(integers, integers, At.dof_parent)
+    dof_s = field(integers, integers, At.dof_s)
+    mimic_dof = field(integers, integers, At.mimic_dof)
+    mimic_master = field(integers, integers, At.mimic_master)
+    shape_kind = field(integers, integers, At.shape_kind)
+    shape_body = field(integers, integers, At.shape_body)
+    shape_feature = field(integers, integers, At.shape_feature)
+    shape_vertex = field(integers, integers, At.shape_vertex)
+    contact_body = field(integers, integers, At.contact_body)
+    contact_feature = field(integers, integers, At.contact_feature)
+    contact_row = field(integers, integers, At.contact_row)
+    slot = field(integers, integers, At.slot)
+    state = field(integers, integers, At.state)
+    index = field(integers, integers, At.index)
+    saturated = field(integers, integers, At.saturated)
+    counts = field(integers, integers, At.counts)
+    dt, floor = numbers[DT], numbers[FLOOR]
+    first_contact_slot = 2 * dofs + mimics
+    for done in range(steps):
+        for k in range(coordinates):
+            s_start[k] = s[k]
+        for d in range(dofs):
+            v_start[d] = v[d]
+            saturated[d] = 0
+        contacts = rows = 0
+        smooth = False
+        # Once where the step starts; in free motion once more, half a step on; again where a servo turns out too weak.
+        halfway = False
+        attempt = 0
+        while True:
+            if attempt == 0:
+                for k in range(3):
+                    P[k] = s[k] if floating else base[k]
+                forward_sweep(
+                    bodies, kind, parent, first_s, first_v, place_R, place_p, subspace, mass, centre, tensor, gravity,
+                    P, s, v, R, r, S, twist, bias_acceleration, composite_mass, composite_h, composite_T, force,
+                )
+                backward_sweep(
+                    bodies, dofs, parent, first_v, dof_parent, S, composite_mass, composite_h, composite_T, force, M,
+                    bias,
+                )
+                if only_terms:
+                    return 0
+                if not halfway:
+                    for k in range(3):
+                        contact_origin[k] = P[k]
+                if not halfway and numbers[HAS_FLOOR] != 0.0:
+                    contacts = collide_with_plane(
+                        shapes, most_contacts, shape_kind, shape_body, shape_feature, shape_vertex, shape_R, shape_p,
+                        shape_size, shape_radius, shape_mu, vertices, floor - P[2], dt, R, r, twist,
+                        contact_body, contact_feature, contact_point, contact_frame, contact_gap, contact_mu,
+                    )
+            has_servo = smooth_motion(
+                dofs, dof_parent, dof_s, s_start, v_start, M, bias, damping, friction, applied, motor_velocity,
+                motor_effort, position_target, velocity_target, kp, kd, servo_effort, saturated, dt, L,
+                inverse_diagonal, u,
+            )
+            rows = joint_rows(
+                dofs, mimics, mimic_dof, mimic_master, mimic_factor, mimic_offset, dof_s, s_start, v_start, friction,
+                lower, upper, motor_velocity, motor_effort, dt, Y, row_bias, low, high, mu, slot,
+            )
+            if not halfway:
+                smooth = contacts == 0 and not has_servo and not limited(rows, dofs, slot)
+                if smooth:
+                    solve_forward(dofs, dof_parent, L, inverse_diagonal, u)
+                    for d in range(dofs):
+                        v[d] = v_start[d] + 0.5 * u[d]
+                    move(bodies, kind, first_s, first_v, s_start, v_start, 0.5 * dt, s)
+                    halfway = True
+                    continue
+            rows = contact_rows(
+                rows, contacts, dofs, first_contact_slot, body_last_dof, dof_parent, S, contact_body, contact_feature,
+                contact_point, contact_frame, contact_gap, contact_mu, contact_row, dt, Y, row_bias, low, high, mu,
+                slot,
+            )
+            if rows > 0:
+                whiten(rows, dofs, dof_parent, L, inverse_diagonal, v_start, u, Y, row_bias, g, A)
+                for k in range(rows):
+                    before[k] = memory[slot[k]]
+                guesses = solve(rows, A, g, low, high, mu, before, state, slip, B, y, index, x)
+                for k in range(rows):
+                    xk = x[k]
+                    for d in range(dofs):
+                        u[d] += Y[k * dofs + d] * xk
+                counts[GUESSES] = guesses
+                counts[ITERATED] += guesses < 0
+            solve_forward(dofs, dof_parent, L, inverse_diagonal, u)
+            for d in range(dofs):
+                v[d] = v_start[d] + u[d]
+            attempt += 1
+            if not has_servo or attempt > 3 or not overloaded(
+                dofs, dof_s, s_start, v, position_target, velocity_target, kp, kd, servo_effort, saturated, dt
+            ):
+                break
+        for k in range(slots):
+            memory[k] = 0.0
+        for k in range(rows):
+            memory[slot[k]] = x[k]
+        account(
+            dofs, dof_s, s_start, v, damping, friction, applied, motor_velocity, motor_effort, position_target,
+            velocity_target, kp, kd, servo_effort, saturated, memory, dt, effort, tau,
+        )
+        total = 0.0
+        for d in range(dofs):
+            total += v[d]
+            # In free motion the middle of the velocities moves a falling body exactly.
+            u[d] = 0.5 * (v_start[d] + v[d]) if smooth else v[d]
+        move(bodies, kind, first_s, first_v, s_start, u, dt, s)
+        counts[FOUND_CONTACTS], counts[FOUND_ROWS] = contacts, rows
+        if not math.isfinite(total):
+            return done
+        counts[STEPS] += 1
+    return steps

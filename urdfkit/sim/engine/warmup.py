@@ -1,0 +1,80 @@
+"""Compiling the kernel: once per machine and version, then from numba's cache."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+Kernel = Callable[[Any, Any, int, bool], int]
+Progress = Callable[[int], None]
+"""Told how many functions have been compiled so far; first with 0, only when there is something to compile."""
+
+
+@lru_cache(maxsize=1)
+def kernel() -> Kernel:
+    """Return the compiled `advance`, from the cache where there is one."""
+    return _load(None)
+
+
+def warmup(progress: Progress | None = None) -> bool:
+    """Make the kernel ready to run; return whether it had to be compiled (some 20 s) rather than loaded.
+
+    Args:
+        progress: called with 0 before a compilation starts and with a growing count while it runs.
+    """
+    from numba.core import event
+
+    compiled: list[str] = []
+
+    class Listener(event.Listener):  # type: ignore[misc]
+        def on_start(self, event: Any) -> None:
+            if progress is not None:
+                progress(len(compiled))
+            compiled.append(str(event.data["dispatcher"]))
+
+        def on_end(self, event: Any) -> None:
+            pass
+
+    with event.install_listener("numba:compile", Listener()):
+        kernel()
+    return bool(compiled)
+
+
+def sources_digest() -> str:
+    """Return a digest of the kernel's sources."""
+    digest = hashlib.sha256()
+    for path in sorted(Path(__file__).parent.glob("*.py")):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def _load(digest: str | None) -> Kernel:
+    """Compile `advance`, or load it.
+
+    numba keys its cache by the code of the function and by what it closes over, not by the functions it calls. So the
+    entry point closes over a digest of them all: no change of a source can meet a stale kernel.
+    """
+    import numba
+
+    from urdfkit.sim.engine.compilation import OPTIONS
+    from urdfkit.sim.engine.step import advance
+
+    version = digest or sources_digest()
+
+    def entry(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
+        version  # noqa: B018
+        return advance(floats, integers, steps, only_terms)
+
+    signature = numba.int64(numba.float64[::1], numba.int64[::1], numba.int64, numba.boolean)
+    try:
+        dispatcher = numba.njit(entry, cache=True, **OPTIONS)
+        dispatcher.compile(signature.args)
+    except (RuntimeError, OSError, EOFError, ValueError, TypeError, AttributeError):
+        # No writable place for the cache, or a broken one: compile for this process alone.
+        dispatcher = numba.njit(entry, **OPTIONS)
+        dispatcher.compile(signature.args)
+    dispatcher.disable_compile()
+    return dispatcher  # type: ignore[no-any-return]
