@@ -77,7 +77,7 @@ def as_svg(tree: TransformTree) -> str:
     size = f'width="{width:.0f}" height="{height:.0f}" viewBox="0 0 {width:.0f} {height:.0f}"'
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" {size} role="img">',
-        f"<title>Frames of {_xml(tree.kinematics.robot.name or 'robot')}</title>",
+        f"<title>Frames of {escape(tree.kinematics.robot.name or 'robot')}</title>",
         f"<style>{_STYLE}</style>",
     ]
     for edge in tree.edges:
@@ -88,9 +88,7 @@ def as_svg(tree: TransformTree) -> str:
             f'<rect class="{look}" x="{box.x:.1f}" y="{box.y - _BOX / 2:.1f}" '
             f'width="{box.width:.1f}" height="{_BOX}" rx="5"/>'
         )
-        parts.append(
-            f'<text class="frame" x="{box.x + box.width / 2:.1f}" y="{box.y + 4:.1f}" text-anchor="middle">{_xml(frame)}</text>'
-        )
+        parts.append(_label("frame", box.x + box.width / 2, box.y + 4, frame))
     return "\n".join([*parts, "</svg>"]) + "\n"
 
 
@@ -128,8 +126,12 @@ def _draw_edge(edge: Edge, parent: _Box, child: _Box) -> Iterator[str]:
     look = ' class="mimics"' if edge.mimics else "" if edge.is_static else ' class="moves"'
     yield f'<path{look} d="M{start:.1f} {parent.y:.1f}H{child.bend:.1f}V{child.y:.1f}H{child.x:.1f}"/>'
     middle = (child.bend + child.x) / 2
-    yield f'<text class="joint" x="{middle:.1f}" y="{child.y - 5:.1f}" text-anchor="middle">{_xml(edge.joint)}</text>'
-    yield f'<text class="type" x="{middle:.1f}" y="{child.y + 13:.1f}" text-anchor="middle">{_xml(_kind(edge))}</text>'
+    yield _label("joint", middle, child.y - 5, edge.joint)
+    yield _label("type", middle, child.y + 13, _kind(edge))
+
+
+def _label(look: str, x: float, y: float, text: str) -> str:
+    return f'<text class="{look}" x="{x:.1f}" y="{y:.1f}" text-anchor="middle">{escape(text)}</text>'
 
 
 def _below(tree: TransformTree) -> dict[str, list[Edge]]:
@@ -161,7 +163,3 @@ def _length(text: str) -> float:
 def _quote(text: str) -> str:
     escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", " ")
     return f'"{escaped}"'
-
-
-def _xml(text: str) -> str:
-    return escape(text)

@@ -65,7 +65,7 @@ def _follow(robot: Robot, joint: Joint) -> Coupling:
         if master is None:
             hint = did_you_mean(at.mimic.joint, robot.joint_by_name)
             raise KinematicsError(
-                f"joint `{at.name}` mimics `{at.mimic.joint}`, which does not exist{hint}", position=place
+                f"joint `{at.name}` mimics `{at.mimic.joint}`, which is no joint{hint}", position=place
             )
         at = master
     return Coupling(joint.name, None, 0.0, offset)
