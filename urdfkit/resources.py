@@ -26,6 +26,8 @@ _LISTED = 8
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _ROOT = re.compile(r"""<robot\b((?:"[^"]*"|'[^']*'|[^>"'])*)>""")
 _NAME = re.compile(r"""(?<![\w:])name\s*=\s*(?:"([^"]*)"|'([^']*)')""")
+# A file of colours or properties is no robot, whatever it is called: that has a link, or something that may bring one.
+_SUBSTANCE = re.compile(r"<link\b|<xacro:(?!macro\b|property\b|arg\b)")
 _INCLUDED = re.compile(r"""<xacro:include\b[^>]*?filename\s*=\s*["'][^"']*?([^/"'\\]+)["']""")
 
 
@@ -176,8 +178,8 @@ def _is_package_or_workspace(folder: Path) -> bool:
 def models_in(folder: Path) -> list[Path]:
     """Return the model files of a package, of a folder of packages, or of a bare folder.
 
-    A model is a file whose root is ``<robot name=…>`` and which no other file there includes. A ``.urdf`` beside the
-    ``.xacro`` it was made from is left out.
+    A model is a file whose root is ``<robot name=…>``, which has links or includes, and which no other file includes.
+    A ``.urdf`` beside the ``.xacro`` it was made from is left out.
 
     Args:
         folder: where to look.
@@ -191,7 +193,11 @@ def models_in(folder: Path) -> list[Path]:
             texts[path] = _text(path)
     included = {name for text in texts.values() for name in _INCLUDED.findall(text)}
     roots = {path: _ROOT.search(text) for path, text in texts.items() if path.suffix in MODEL_SUFFIXES}
-    candidates = [path for path, root in roots.items() if root and path.name not in included]
+    candidates = [
+        path
+        for path, root in roots.items()
+        if root and path.name not in included and _SUBSTANCE.search(texts[path], root.end())
+    ]
     named = [path for path in candidates if _NAME.search(roots[path][1])]  # type: ignore[index]
     chosen = named or candidates
     sources = {(path.parent, _stem(path)) for path in chosen if path.suffix == ".xacro"}

@@ -1,0 +1,103 @@
+import os
+from pathlib import Path
+
+import pytest
+
+from urdfkit.atomic import move_into_place, staging, write_bytes, write_text
+from urdfkit.errors import ResourceError
+
+
+def test_write_new_and_replace(tmp_path):
+    path = tmp_path / "a.txt"
+    write_text(path, "one\n")
+    write_text(path, "zwei ü\r\n")
+    assert path.read_bytes() == "zwei ü\r\n".encode()
+    assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
+
+
+def test_permissions_and_links_are_kept(tmp_path):
+    path = tmp_path / "a.sh"
+    write_text(path, "1")
+    path.chmod(0o754)
+    link = tmp_path / "link"
+    link.symlink_to(path)
+    write_bytes(link, b"2")
+    assert link.is_symlink()
+    assert path.read_text() == "2"
+    assert path.stat().st_mode & 0o777 == 0o754
+
+
+def test_new_files_follow_the_umask(tmp_path):
+    before = os.umask(0o027)
+    try:
+        write_text(tmp_path / "a", "")
+    finally:
+        os.umask(before)
+    assert (tmp_path / "a").stat().st_mode & 0o777 == 0o640
+
+
+def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path, monkeypatch):
+    path = tmp_path / "a"
+    write_text(path, "old")
+
+    def full(self, target):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "replace", full)
+    with pytest.raises(ResourceError, match="cannot write .*: No space left on device"):
+        write_text(path, "new")
+    assert path.read_text() == "old"
+    assert [p.name for p in tmp_path.iterdir()] == ["a"]
+
+
+def test_no_folder(tmp_path):
+    with pytest.raises(ResourceError, match="No such file"):
+        write_text(tmp_path / "no" / "a", "")
+
+
+def test_staging_is_gone_afterwards(tmp_path):
+    with pytest.raises(KeyboardInterrupt), staging(tmp_path) as stage:
+        (stage / "a").write_text("x")
+        raise KeyboardInterrupt
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_staging_needs_a_folder_it_can_write(tmp_path):
+    with pytest.raises(ResourceError, match="cannot write into"), staging(tmp_path / "no"):
+        pass
+
+
+def test_move_into_place(tmp_path):
+    with staging(tmp_path) as stage:
+        (stage / "b").mkdir()
+        (stage / "b" / "f").write_text("x")
+        (stage / "a").write_text("y")
+        assert move_into_place(stage, tmp_path) == [tmp_path / "a", tmp_path / "b"]
+    assert (tmp_path / "b" / "f").read_text() == "x"
+
+
+def test_nothing_is_overwritten(tmp_path):
+    (tmp_path / "b").mkdir()
+    with staging(tmp_path) as stage:
+        (stage / "a").write_text("y")
+        (stage / "b").mkdir()
+        with pytest.raises(ResourceError, match="b is already there; nothing is overwritten"):
+            move_into_place(stage, tmp_path)
+    assert [p.name for p in tmp_path.iterdir()] == ["b"]
+
+
+def test_moves_are_undone_when_one_fails(tmp_path, monkeypatch):
+    rename = Path.rename
+
+    def fail_on_b(self, target):
+        if self.name == "b":
+            raise OSError(30, "Read-only file system")
+        return rename(self, target)
+
+    with staging(tmp_path) as stage:
+        (stage / "a").write_text("y")
+        (stage / "b").write_text("y")
+        monkeypatch.setattr(Path, "rename", fail_on_b)
+        with pytest.raises(ResourceError, match="Read-only"):
+            move_into_place(stage, tmp_path)
+    assert list(tmp_path.iterdir()) == []
