@@ -40,12 +40,7 @@ def fault_of(error: BaseException, run: Run) -> Fault:
     if isinstance(error, XmlError) and error.position is not None:
         return Fault("xml", error.message, error.position)
     place = place_of_error(error)
-    position, expansions = run.position_of(place.node)
-    attribute = place.attribute
-    if place.property is not None:
-        name, table = place.property
-        if (stamp := run.definition(name, dict.get(table, name))) is not None:
-            position, expansions, attribute = Position(*stamp[:3]), stamp[3], "value"
+    position, expansions, attribute = run.where(place)
     facts = _facts(error, place, run)
     return Fault(position=position, expansions=expansions, attribute=attribute, expression=place.expression, **facts)
 

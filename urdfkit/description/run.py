@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from types import ModuleType
     from xml.dom import minidom
 
+    from urdfkit.description.frames import Place
     from urdfkit.description.packages import Packages
 
 MAX_MACRO_DEPTH = 400
@@ -116,7 +117,7 @@ class Run:
             ResourceError: the file cannot be read.
             XmlError: it is no safe XML.
         """
-        self.document = stamped_document(self._read(Path(self.path)), self)
+        self.document = self.stamped(self._read(Path(self.path)))
         self.xacro.process_doc(self.document, mappings=dict(self.arguments), verbosity=1)
         for included in self.xacro.all_includes:
             self.files.setdefault(Path(os.path.abspath(included)))
@@ -164,9 +165,17 @@ class Run:
             return Position(shown_path(self.path), 1, 1), ()
         return Position(*stamp[:3]), stamp[3]
 
-    def definition(self, name: str, value: object) -> Stamp | None:
-        """Return the stamp of the property that has this value."""
-        return self._written.get((name, str(value)))
+    def where(self, place: Place) -> tuple[Position, tuple[Expansion, ...], str | None]:
+        """Return position, chain of calls and attribute of what xacro was at; a property's value is at the property."""
+        if place.property is not None:
+            name, table = place.property
+            if (stamp := self._written.get((name, str(dict.get(table, name))))) is not None:
+                return Position(*stamp[:3]), stamp[3], "value"
+        return (*self.position_of(place.node), place.attribute)
+
+    def stamped(self, source: Source) -> minidom.Document:
+        """Read a file into the document that xacro works on."""
+        return stamped_document(source, self)
 
     # What xacro calls instead of its own functions of the same name.
 
@@ -184,7 +193,7 @@ class Run:
             missing = OSError(str(error))
             missing.filename = filename
             raise self.xacro.XacroException(f"No such file or directory: {filename}", exc=missing) from error
-        return stamped_document(source, self)
+        return self.stamped(source)
 
     def abs_filename_spec(self, filename_spec: str) -> str:
         """Find an included or YAML file, also in a source folder that only its installation puts in place."""
@@ -226,9 +235,7 @@ class Run:
     def resolve_macro(self, fullname: str, macros: Any, symbols: Any) -> Any:
         """Resolve a macro; its body is cloned next."""
         found = self.stock["resolve_macro"](fullname, macros, symbols)
-        if self._calling is not None:
-            position, outer = self.position_of(self._calling)
-            self._chain, self._body = (Expansion(fullname, position), *outer), found[2].body
+        self._begin_call(fullname, found[2])
         return found
 
     def handle_macro_call(self, node: minidom.Element, macros: Any, symbols: Any) -> Any:
@@ -294,6 +301,11 @@ class Run:
             source = read_source(path, shown_as=shown)
             self.sources[shown] = source
         return source
+
+    def _begin_call(self, name: str, macro: Any) -> None:
+        if self._calling is not None:
+            position, outer = self.position_of(self._calling)
+            self._chain, self._body = (Expansion(name, position), *outer), macro.body
 
     def _find(self, name: str) -> str:
         try:

@@ -1,0 +1,86 @@
+"""xacro written without its prefix: which elements are meant as directives and macro calls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.description.vocabulary import TAGS
+
+if TYPE_CHECKING:
+    from xml.dom import minidom
+
+_DIRECTIVES: dict[str, tuple[str, ...]] = {
+    "macro": ("name",),
+    "property": ("name",),
+    "include": ("filename",),
+    "arg": ("name", "default"),
+    "if": ("value",),
+    "unless": ("value",),
+    "insert_block": ("name",),
+}
+"""Directive → the attributes without which an element of that name is something else."""
+
+_PROPERTY_VALUES = ("value", "default", "remove", "scope")
+
+
+def is_directive(tag: str, attributes: Any) -> bool:
+    """Whether an element without prefix is meant as a directive of xacro.
+
+    Args:
+        tag: its name.
+        attributes: the names of its attributes, or a mapping from them.
+    """
+    needed = _DIRECTIVES.get(tag)
+    if needed is None or not all(name in attributes for name in needed):
+        return False
+    return tag != "property" or any(name in attributes for name in _PROPERTY_VALUES)
+
+
+def mend_directives(root: minidom.Element) -> Iterator[tuple[minidom.Element, str]]:
+    """Give the directives in a document their prefix; yield each with the tag as it was written.
+
+    Args:
+        root: the document element; changed in place.
+    """
+    for element in list(_elements(root)):
+        tag = element.tagName
+        if tag in _DIRECTIVES and is_directive(tag, element.attributes):
+            rename(element)
+            yield element, tag
+
+
+def looks_like_a_call(node: minidom.Element, macro: Any) -> bool:
+    """Whether an element without prefix is meant as a call of the macro of its name.
+
+    Elements of URDF and SDF are not, whatever macros are called. Inside ``<gazebo>``, where plugins name their
+    parameters as they like, only what has attributes and fits the macro's parameters is.
+
+    Args:
+        node: the element.
+        macro: xacro's macro of that name, None when there is none.
+    """
+    if macro is None or node.tagName in TAGS:
+        return False
+    above = node.parentNode
+    while above is not None and above.nodeType == above.ELEMENT_NODE:
+        if above.tagName in ("gazebo", "ros2_control"):
+            given = node.attributes.keys()
+            return bool(given) and all(name in macro.params for name in given)
+        above = above.parentNode
+    return True
+
+
+def rename(node: minidom.Element) -> str:
+    """Give an element the prefix ``xacro:``; return its new tag."""
+    renamed: Any = node
+    renamed.tagName = renamed.nodeName = f"xacro:{node.tagName}"
+    return str(node.tagName)
+
+
+def _elements(node: minidom.Element) -> Iterator[minidom.Element]:
+    for child in node.childNodes:
+        if child.nodeType == child.ELEMENT_NODE:
+            element: Any = child
+            yield element
+            yield from _elements(element)

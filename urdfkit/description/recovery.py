@@ -1,0 +1,372 @@
+"""A run of xacro that goes on after errors: every fault is noted, mended in memory, and the rest expanded.
+
+What could not be evaluated becomes `Unknown`, which holds its expression and silently spoils what is computed from it,
+so that one cause makes one fault. What is defined too late is known by hindsight: the file is expanded again with the
+values that the first pass came to in the end.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.description.diagnosis import defined_in, fault_of, macro_arguments, undefined_macro, undefined_property
+from urdfkit.description.evaluation import names_in
+from urdfkit.description.expanded import Expanded
+from urdfkit.description.faults import Fault, FaultKind, Unprefixed
+from urdfkit.description.frames import Place, place_of_call
+from urdfkit.description.prefixes import looks_like_a_call, mend_directives, rename
+from urdfkit.description.run import Run
+from urdfkit.description.source import Expansion, Position, Source
+from urdfkit.description.vocabulary import TAGS
+from urdfkit.errors import XmlError
+
+if TYPE_CHECKING:
+    from types import ModuleType
+    from xml.dom import minidom
+
+    from urdfkit.description.packages import Packages
+
+_LEFT_OUT = "\0left out: "
+"""Marks the value of a parameter that a call left out; cannot occur in XML."""
+
+_MAX_DROPPED = 1_000
+"""Give up on an element after so many of its children had to be dropped."""
+
+
+class Unknown(str):
+    """The value of what could not be evaluated; its text is the expression."""
+
+    __slots__ = ()
+
+
+class RecoveringRun(Run):
+    """One expansion that goes on after errors.
+
+    Args:
+        path: as the user named it.
+        arguments: values for ``$(arg …)``.
+        packages: resolves ``$(find …)``.
+        mend_prefixes: read directives and macro calls without ``xacro:`` as if they had it.
+        hindsight: values of properties, and macros, that an earlier run found defined too late.
+    """
+
+    def __init__(
+        self,
+        path: str,
+        arguments: Mapping[str, str],
+        packages: Packages,
+        *,
+        mend_prefixes: bool,
+        hindsight: tuple[Mapping[str, Any], Mapping[str, Any]] = ({}, {}),
+    ) -> None:
+        super().__init__(path, arguments, packages)
+        self._mend_prefixes = mend_prefixes
+        self._late_properties, self._late_macros = hindsight
+        self._unprefixed: dict[Unprefixed, None] = {}
+        self._unresolved: set[tuple[Position, str | None]] = set()
+        self._strangers: set[str] = set()
+        self._tables: tuple[Any, Any] | None = None
+        self._evaluating = 0
+        self._found_unknown = False
+
+    def take(self, xacro: ModuleType) -> dict[str, Any]:
+        """Lend the recovering functions too."""
+        lent = super().take(xacro)
+        for name in ("eval_all", "get_boolean_value", "process_include"):
+            self.stock[name] = getattr(xacro, name)
+            lent[name] = getattr(self, name)
+        lent["_global_symbols"] = _Symbols(lent["_global_symbols"], self)
+        return lent
+
+    def expand(self) -> None:
+        """Expand the file as far as it goes; xacro's globals have to be lent.
+
+        Raises:
+            ResourceError: the file cannot be read.
+        """
+        try:
+            super().expand()
+        except XmlError as error:
+            self._note(fault_of(error, self))
+        self._learn()
+
+    def with_hindsight(self) -> RecoveringRun | None:
+        """Return a run that knows what this one found defined too late; None when there is nothing new."""
+        properties, macros = self._learned
+        if properties.keys() <= self._late_properties.keys() and macros.keys() <= self._late_macros.keys():
+            return None
+        return RecoveringRun(
+            self.path,
+            self.arguments,
+            self.packages,
+            mend_prefixes=self._mend_prefixes,
+            hindsight=({**self._late_properties, **properties}, {**self._late_macros, **macros}),
+        )
+
+    def outcome(self) -> Expanded:
+        """Return what came of it, with the faults."""
+        plain = super().outcome()
+        return Expanded(
+            **{**vars(plain), "unprefixed": tuple(self._unprefixed), "unresolved": frozenset(self._unresolved)}
+        )
+
+    # What xacro calls instead of its own functions of the same name.
+
+    def stamped(self, source: Source) -> minidom.Document:
+        """Read a file, directives without prefix as if they had one."""
+        document = super().stamped(source)
+        if self._mend_prefixes:
+            for element, tag in mend_directives(document.documentElement):
+                position, expansions = self.position_of(element)
+                self._unprefixed.setdefault(Unprefixed("directive", tag, position, expansions))
+        return document
+
+    def eval_all(self, node: minidom.Element, macros: Any, symbols: Any) -> None:
+        """Evaluate an element; drop the children that cannot be."""
+        if self._tables is None:
+            self._tables = macros, symbols
+        for _ in range(_MAX_DROPPED):
+            depth = len(self.xacro.filestack), len(self.xacro.macrostack)
+            try:
+                self.stock["eval_all"](node, macros, symbols)
+                return
+            except Exception as error:
+                self._note(fault_of(error, self))
+                self._unwind(depth)
+                if not _drop(_child_at_fault(error, node), node):
+                    return
+
+    def eval_text(self, text: str, symbols: Any) -> Any:
+        """Evaluate text, to `Unknown` when that fails."""
+        if "$" not in text:
+            return Unknown(f"${{{text[len(_LEFT_OUT) :]}}}") if text.startswith(_LEFT_OUT) else text
+        outer, self._found_unknown = self._found_unknown, False
+        try:
+            value = super().eval_text(text, symbols)
+            if self._found_unknown and not isinstance(value, Unknown):
+                value = Unknown(value)
+        except Exception as error:
+            if not self._found_unknown:
+                self._note(fault_of(error, self))
+            value = Unknown(text)
+        finally:
+            self._found_unknown = outer
+        if isinstance(value, Unknown):
+            self._found_unknown = True
+            self._mark_unresolved()
+        return value
+
+    def safe_eval(self, expr: str, globals: Any, locals: Any = None) -> Any:
+        """Evaluate an expression, to `Unknown` when it needs something unknown."""
+        names = dict.fromkeys(names_in(self.evaluator.compile(expr)))
+        for name in names:
+            if isinstance(value := _peek(globals, name), Unknown):
+                self._found_unknown = True
+                return value if len(names) == 1 and name == expr.strip() else Unknown(f"${{{expr}}}")
+        missed, self._missed = self._missed, False
+        self._evaluating += 1
+        try:
+            value = super().safe_eval(expr, globals, locals)
+        except Exception:
+            if not self._missed:
+                raise
+            value = None
+        finally:
+            self._evaluating -= 1
+            was_missed, self._missed = self._missed, missed
+        if was_missed or isinstance(value, Unknown):
+            self._found_unknown = True
+            return Unknown(f"${{{expr}}}")
+        return value
+
+    _missed = False
+
+    def missing_symbol(self, name: str) -> Any:
+        """Return the value of a property that is not defined (yet), and note it.
+
+        Raises:
+            KeyError: nothing is being evaluated; somebody only asks whether it is there.
+        """
+        if not self._evaluating or name.startswith("__"):
+            raise KeyError(name)
+        place = place_of_call(sys._getframe(1))
+        facts = undefined_property(name, place)
+        if name in self._late_properties:
+            at = self.properties.get(name) or defined_in(self, "undefined-property", name)
+            self._note_at(place, {**facts, "defined_at": at, "message": _too_late("property", name, at)})
+            return self._late_properties[name]
+        self._note_at(place, facts)
+        self._missed = True
+        return Unknown(f"${{{name}}}")
+
+    def get_boolean_value(self, value: Any, condition: Any) -> bool:
+        """Take an unknown condition as true."""
+        if condition is not None and isinstance(value, Unknown):
+            return True
+        return bool(self.stock["get_boolean_value"](value, condition))
+
+    def process_include(self, elt: minidom.Element, macros: Any, symbols: Any, func: Any) -> None:
+        """Include a file, or drop the include when that fails."""
+        depth = len(self.xacro.filestack), len(self.xacro.macrostack)
+        parent = elt.parentNode
+        try:
+            self.stock["process_include"](elt, macros, symbols, func)
+        except Exception as error:
+            fault = fault_of(error, self)
+            if not (fault.kind == "include-not-found" and "${" in (fault.name or "")):
+                self._note(fault)
+            self._unwind(depth)
+            _drop(elt, parent)
+
+    def handle_macro_call(self, node: minidom.Element, macros: Any, symbols: Any) -> Any:
+        """Expand a macro call, mended where it does not fit its macro."""
+        tag = node.tagName
+        if not tag.startswith("xacro:"):
+            if not self._mend_prefixes or tag in TAGS:
+                return False
+            macro = self._macro(tag, macros, symbols)
+            if macro is None:
+                self._strangers.add(tag)
+            if not looks_like_a_call(node, macro):
+                return False
+            position, expansions = self.position_of(node)
+            self._unprefixed.setdefault(Unprefixed("call", tag, position, expansions))
+            tag = rename(node)
+        depth = len(self.xacro.filestack), len(self.xacro.macrostack)
+        parent = node.parentNode
+        try:
+            if tag != "xacro:call":
+                macro = self._macro(tag[6:], macros, symbols)
+                if macro is not None:
+                    self._fit(node, macro)
+            return super().handle_macro_call(node, macros, symbols)
+        except Exception as error:
+            self._note(fault_of(error, self))
+            self._unwind(depth)
+            _drop(node, parent)
+            return True
+
+    def resolve_macro(self, fullname: str, macros: Any, symbols: Any) -> Any:
+        """Resolve a macro, also one that is defined only later."""
+        try:
+            return super().resolve_macro(fullname, macros, symbols)
+        except KeyError:
+            if fullname not in self._late_macros or self._tables is None:
+                raise
+            at = self.position_of(self._late_macros[fullname].body)[0]
+            place = place_of_call(sys._getframe(1))
+            facts = {**undefined_macro(fullname, place), "defined_at": at, "message": _too_late("macro", fullname, at)}
+            self._note_at(place, facts)
+            self._begin_call(fullname, self._late_macros[fullname])
+            return (*self._tables, self._late_macros[fullname])
+
+    def _macro(self, name: str, macros: Any, symbols: Any) -> Any:
+        try:
+            return self.stock["resolve_macro"](name, macros, symbols)[2]
+        except (KeyError, TypeError):
+            return self._late_macros.get(name)
+
+    def _fit(self, node: minidom.Element, macro: Any) -> None:
+        """Take away what the macro has no parameter for, and mark what the call leaves out."""
+        given = list(node.attributes.keys())
+        unknown = tuple(name for name in given if name not in macro.params)
+        for name in unknown:
+            node.removeAttribute(name)
+        missing = tuple(
+            name for name in macro.params if not name.startswith("*") and name not in (*macro.defaultmap, *given)
+        )
+        for name in missing:
+            node.setAttribute(name, _LEFT_OUT + name)
+        wrong = [((), (name,)) for name in unknown] + ([(missing, ())] if missing else [])
+        position, expansions = self.position_of(node)
+        for left_out, odd in wrong:
+            facts = macro_arguments(macro.body.getAttribute("name"), left_out, odd, list(macro.params))
+            attribute = odd[0] if odd else None
+            self._note(Fault(position=position, expansions=expansions, attribute=attribute, **facts))
+
+    def _learn(self) -> None:
+        """Remember the values of what was undefined when used and is defined by now."""
+        properties: dict[str, Any] = {}
+        macros: dict[str, Any] = {}
+        self._learned = properties, macros
+        if self._tables is None:
+            return
+        table_of_macros, table = self._tables
+        for kind, name in {(fault.kind, fault.name): None for fault in self.faults.values() if fault.name}:
+            if kind == "undefined-property" and dict.__contains__(table, name):
+                value = table[name]
+                if not isinstance(value, Unknown):
+                    properties[name] = value
+            elif kind == "undefined-macro" and dict.__contains__(table_of_macros, name):
+                macros[name] = dict.__getitem__(table_of_macros, name)
+        for name in self._strangers:
+            if dict.__contains__(table_of_macros, name):
+                macros[name] = dict.__getitem__(table_of_macros, name)
+
+    def _note(self, fault: Fault) -> None:
+        key = (fault.kind, fault.position, fault.attribute, fault.name, fault.message, fault.expansions)
+        self.faults.setdefault(key, fault)
+
+    def _note_at(self, place: Place, facts: dict[str, Any]) -> None:
+        position, expansions, attribute = self.where(place)
+        expression = place.expression
+        self._note(
+            Fault(position=position, expansions=expansions, attribute=attribute, expression=expression, **facts)
+        )
+
+    def _mark_unresolved(self) -> None:
+        place = place_of_call(sys._getframe(2))
+        if place.node is not None and place.property is None:
+            self._unresolved.add((self.position_of(place.node)[0], place.attribute))
+
+    def _unwind(self, depth: tuple[int, int]) -> None:
+        """Forget the files and macros that an error left open."""
+        del self.xacro.filestack[depth[0] :]
+        del self.xacro.macrostack[depth[1] :]
+        self._chain = self._body = None
+
+
+class _Symbols(dict[str, Any]):
+    """xacro's global symbols, which ask the run for what is not there."""
+
+    def __init__(self, symbols: dict[str, Any], run: RecoveringRun) -> None:
+        super().__init__(symbols)
+        self._run = run
+
+    def __missing__(self, name: str) -> Any:
+        return self._run.missing_symbol(name)
+
+
+def _peek(table: Any, name: str) -> Any:
+    """Return the value of a name in a chain of xacro's tables, None when it is not there."""
+    while table is not None and hasattr(table, "parent"):
+        if dict.__contains__(table, name):
+            return table[name]
+        table = table.parent
+    return None
+
+
+def _child_at_fault(error: BaseException, parent: minidom.Element) -> Any:
+    """Return the child of `parent` that xacro was at, from the frames of the exception."""
+    traceback = error.__traceback__
+    while traceback is not None:
+        frame = traceback.tb_frame
+        if frame.f_code.co_name == "eval_all" and "next" in frame.f_locals:
+            node = frame.f_locals.get("node")
+            if node is not None and node.parentNode is parent:
+                return node
+        traceback = traceback.tb_next
+    return None
+
+
+def _drop(node: Any, parent: Any) -> bool:
+    if node is None or node.parentNode is None or node.parentNode is not parent:
+        return False
+    parent.removeChild(node)
+    return True
+
+
+def _too_late(what: str, name: str, at: Position | None) -> str:
+    return f"{what} `{name}` is used before it is defined{f', at {at}' if at else ''}"
