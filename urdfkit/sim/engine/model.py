@@ -206,7 +206,7 @@ def _fill_dofs(arrays: Arrays, model: Any) -> None:
     arrays["lower"][:] = -np.inf
     arrays["upper"][:] = np.inf
     arrays["servo_effort"][:] = np.inf
-    for joint in model.joints:
+    for joint in list(model.joints)[1:]:
         if joint.nq == joint.nv == 1:
             arrays["lower"][joint.idx_v] = model.lowerPositionLimit[joint.idx_q]
             arrays["upper"][joint.idx_v] = model.upperPositionLimit[joint.idx_q]
