@@ -8,7 +8,7 @@ import signal
 import sys
 import threading
 import webbrowser
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -35,19 +35,21 @@ def add_page_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--no-browser", action="store_true", help="do not open a browser, only print the address")
 
 
-def require_page(command: str, extra: str) -> None:
+def require_page(command: str, extra: str, *, beside: Sequence[str] = ()) -> None:
     """Check that what the page needs is installed.
 
     Args:
         command: the subject of the message, e.g. ``view``.
         extra: the extra that has it all.
+        beside: further modules.
 
     Raises:
         MissingDependencyError: naming what is missing and the command to run.
     """
     from importlib.util import find_spec
 
-    missing = [package for module, package in NEEDED.items() if find_spec(module) is None]
+    needed = NEEDED | {module: module for module in beside}
+    missing = [package for module, package in needed.items() if find_spec(module) is None]
     if find_spec("pinocchio") is None:
         missing.append("pinocchio")
     if not missing:
@@ -61,26 +63,40 @@ def require_page(command: str, extra: str) -> None:
     raise MissingDependencyError(f"{command} needs {names}: pip install 'urdfkit[{extra}]'")
 
 
-def announce(server: Server, *, host: str, browser: bool) -> None:
-    """Print the address on standard output and open it in a browser.
+class Page:
+    """Starts a server and says where it is, once.
 
     Args:
-        server: the running server.
+        server: not started yet.
         host: the address asked for.
         browser: open one, if this machine has a screen.
     """
-    from urdfkit.view.security import is_loopback
 
-    print(server.url, flush=True)
-    if not is_loopback(host):
-        for url in server.urls[1:]:
-            print(url, flush=True)
-        note("warning: anybody on the network who has the address can watch and drive; the connection is not encrypted")
-    if browser and _has_screen():
-        # Some browsers keep the caller waiting until they are closed.
-        threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True, name="open-browser").start()
-    elif browser:
-        note("no screen here: open the address in a browser")
+    def __init__(self, server: Server, *, host: str, browser: bool) -> None:
+        self._server = server
+        self._host = host
+        self._browser = browser
+        self._opened = False
+
+    def open(self) -> None:
+        """Start, print the address on standard output, open it in a browser; the second time do nothing."""
+        from urdfkit.view.security import is_loopback
+
+        if self._opened:
+            return
+        self._opened = True
+        server = self._server
+        server.start()
+        print(server.url, flush=True)
+        if not is_loopback(self._host):
+            for url in server.urls[1:]:
+                print(url, flush=True)
+            note("warning: anybody on the network who has the address can watch and drive; it is not encrypted")
+        if self._browser and _has_screen():
+            # Some browsers keep the caller waiting until they are closed.
+            threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True, name="open-browser").start()
+        elif self._browser:
+            note("no screen here: open the address in a browser")
 
 
 def note(text: str) -> None:

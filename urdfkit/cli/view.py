@@ -6,7 +6,7 @@ import argparse
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.cli.page import add_page_options, announce, note, require_page, until_interrupted
+from urdfkit.cli.page import Page, add_page_options, note, require_page, until_interrupted
 from urdfkit.cli.parser import add_model
 from urdfkit.errors import UrdfkitError
 
@@ -34,17 +34,22 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Serve until interrupted."""
-    require_page("view", "view")
+    require_page("view", "view", beside=("rosbags",))
     from urdfkit.resources import find_model
     from urdfkit.view.server import Server
 
     model = find_model(arguments.model, package_path=arguments.package_path)
-    figure = Figure.read(model)
-    server = Server("view", host=arguments.host, port=arguments.port)
-    with until_interrupted(), server:
-        Session(server, model, figure).run(
-            lambda: announce(server, host=arguments.host, browser=not arguments.no_browser)
-        )
+    with until_interrupted():
+        figure = Figure.read(model)
+        server = Server("view", host=arguments.host, port=arguments.port)
+        page = Page(server, host=arguments.host, browser=not arguments.no_browser)
+        try:
+            session = Session(server, model, figure)
+            session.show()
+            page.open()
+            session.run()
+        finally:
+            server.stop()
     return 0
 
 
@@ -86,10 +91,8 @@ class Session:
         self.bus = Bus()
         self.bus.subscribe(JOINT_STATES, "sensor_msgs/msg/JointState", self._place)
 
-    def run(self, ready: Any) -> None:
-        """Show the robot, call `ready`, then follow sliders and files for ever."""
-        self._show()
-        ready()
+    def run(self) -> None:
+        """Follow sliders and files for ever."""
         while True:
             wishes = self.server.inbox.wait(LOOK)
             if wishes.joints:
@@ -107,10 +110,10 @@ class Session:
             self.server.declare("fault", message=str(error))
             return
         self.watch.follow(self.figure.files)
-        self._show()
+        self.show()
         note(f"reloaded {self.model.path.name}")
 
-    def _show(self) -> None:
+    def show(self) -> None:
         """Put the robot on the page, its joints where they were by name."""
         from urdfkit.view.joints import home, joint_rows
         from urdfkit.view.nodes import draw, link_path

@@ -52,7 +52,10 @@ class GeometryStore:
 
 def pack(mesh: TriMesh) -> bytes:
     """Return a mesh as it travels; where the file has no normals they are made so that creases stay sharp."""
-    points, faces, colors = np.asarray(mesh.vertices), np.asarray(mesh.faces), mesh.colors
+    points: NDArray[Any] = mesh.vertices
+    faces: NDArray[Any] = mesh.faces
+    normals: NDArray[Any]
+    colors = mesh.colors
     if mesh.normals is not None:
         normals = mesh.normals
     elif colors is not None:

@@ -7,7 +7,7 @@ from typing import Any
 
 import umsgpack
 
-from urdfkit.view.channel import Channel, Frame, ChannelFullError
+from urdfkit.view.channel import Channel, ChannelFullError, Frame
 
 
 class Hub:

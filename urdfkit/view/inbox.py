@@ -31,7 +31,6 @@ class Inbox:
         self._changed = Condition()
         self._joints: dict[str, float] = {}
         self._actions: list[str] = []
-        self._woken = False
 
     def put_joints(self, positions: dict[str, float]) -> None:
         """Remember joint positions; of several for one joint the last."""
@@ -46,21 +45,15 @@ class Inbox:
             del self._actions[:-MAX_ACTIONS]
             self._changed.notify()
 
-    def wake(self) -> None:
-        """Let `wait` return."""
-        with self._changed:
-            self._woken = True
-            self._changed.notify()
-
     def take(self) -> Wishes:
         """Return what came in and forget it; never waits."""
         with self._changed:
             wishes = Wishes(self._joints, tuple(self._actions))
-            self._joints, self._actions, self._woken = {}, [], False
+            self._joints, self._actions = {}, []
         return wishes
 
     def wait(self, timeout: float) -> Wishes:
         """Return what came in; when there is nothing, wait up to `timeout` [s] for it."""
         with self._changed:
-            self._changed.wait_for(lambda: self._woken or self._joints or self._actions, timeout)
+            self._changed.wait_for(lambda: self._joints or self._actions, timeout)
         return self.take()

@@ -97,7 +97,8 @@ def read(text: str | bytes) -> Message:
         raise ProtocolError("unknown type") from None
     if message.keys() != keys:
         raise ProtocolError(f"`{kind}` takes {', '.join(sorted(keys))} and nothing else")
-    return reader(message)
+    wish: Message = reader(message)
+    return wish
 
 
 def _refuse(constant: str) -> NoReturn:

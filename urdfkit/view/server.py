@@ -199,4 +199,3 @@ def local_names(host: str) -> tuple[str, ...]:
 
     name = socket.gethostname().lower()
     return (name, f"{name.split('.')[0]}.local", host.lower())
-

@@ -46,12 +46,13 @@ def application(server: Server) -> Application:
     return Application(
         [
             (r"/", Page, {"server": server}),
-            (r"/app/([\w.-]+)", AppFile, {"server": server, "files": files}),
+            (r"/app/([\w.-]+)", AppFile, {"server": server}),
             (r"/geometry/([0-9a-f]{64})", Geometry, {"server": server}),
             (r"/ws", Socket, {"server": server}),
         ],
         default_handler_class=Nothing,
         default_handler_args={"server": server},
+        files=files,
         compress_response=True,
         websocket_max_message_size=protocol.MAX_INBOUND,
         websocket_ping_interval=PING,
@@ -157,10 +158,11 @@ class AppFile(Guarded):
 
     open_to_all = True  # nothing in them is anybody's secret, and the refusal page wants its style
 
-    def initialize(self, server: Server, files: dict[str, Path]) -> None:
-        """Take what the route hands over."""
-        super().initialize(server)
-        self.files = files
+    @property
+    def files(self) -> dict[str, Path]:
+        """File name → file."""
+        found: dict[str, Path] = self.settings["files"]
+        return found
 
     def get(self, name: str) -> None:
         """Serve one file."""
@@ -236,7 +238,6 @@ class Socket(Guarded, WebSocketHandler):
             )
         elif isinstance(wish, protocol.Axes):
             self.server.driver.offer(self.client, wish)
-            self.server.inbox.wake()
         else:
             self.server.inbox.put_action(wish.action)
 

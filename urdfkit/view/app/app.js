@@ -24,7 +24,10 @@ const on = {
     if (message.protocol !== PROTOCOL) return location.reload(); // the server is of another version than this page
     mode = message.mode;
     for (const element of document.querySelectorAll("[data-mode]")) element.hidden = element.dataset.mode !== mode;
-    if (message.teleop) drive.use(message.teleop);
+  },
+  teleop(message) {
+    if (message.drives) drive.use(message);
+    else for (const element of [$("drive-section"), $("pad")]) element.hidden = true;
   },
   you(message) {
     me = message.client;

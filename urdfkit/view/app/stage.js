@@ -84,7 +84,7 @@ export class Stage {
     this.viewer.scene.add(this.ground);
     this.shade = new THREE.Mesh(new THREE.PlaneGeometry(60, 60), new THREE.ShadowMaterial({ opacity: 0.25 }));
     this.shade.receiveShadow = true;
-    this.grid = new THREE.Mesh(new THREE.PlaneGeometry(2000, 2000), gridMaterial());
+    this.grid = new THREE.Mesh(new THREE.PlaneGeometry(400, 400), gridMaterial());
     this.grid.renderOrder = -1;
     this.ground.add(this.shade, this.grid);
     this.cell = 1;
