@@ -13,11 +13,11 @@ from urdfkit.description.source import Expansion, Position
 from urdfkit.errors import ResourceError, UrdfkitError, XacroError, XmlError, did_you_mean
 
 if TYPE_CHECKING:
+    from types import FrameType
+
     from urdfkit.description.run import Run
 
-_DIRECTIVES = (
-    "arg attribute call element if include insert_block macro property unless".split()  # what is not a macro
-)
+_DIRECTIVES = ("arg", "attribute", "call", "element", "if", "include", "insert_block", "macro", "property", "unless")
 _UNDEFINED_NAME = re.compile(r"name '([^']*)' is not defined")
 _UNKNOWN_MACRO = re.compile(r"unknown macro name: xacro:(\S+)")
 _UNDEFINED_PARAMETERS = re.compile(r"Undefined parameters \[(.*)\]")
@@ -30,16 +30,17 @@ _FORWARDED = re.compile(r"Undefined property to forward: (\S+)")
 _MISSING_ATTRIBUTE = re.compile(r"(\S+): missing attribute '(.*)'")
 
 
-def fault_of(error: BaseException, run: Run) -> Fault:
+def fault_of(error: BaseException, run: Run, caught_in: FrameType | None = None) -> Fault:
     """Diagnose what xacro raised.
 
     Args:
         error: the exception, with its traceback.
         run: the run it was raised in.
+        caught_in: the frame that caught it, when xacro is still running below.
     """
     if isinstance(error, XmlError) and error.position is not None:
         return Fault("xml", error.message, error.position)
-    place = place_of_error(error)
+    place = place_of_error(error, caught_in)
     position, expansions, attribute = run.where(place)
     facts = _facts(error, place, run)
     return Fault(position=position, expansions=expansions, attribute=attribute, expression=place.expression, **facts)
@@ -203,7 +204,11 @@ def _undefined_block(found: re.Match[str], place: Place, _: Any) -> dict[str, An
 
 def _unused_block(found: re.Match[str], place: Place, root: Any) -> dict[str, Any]:
     macro = root.macros[0].body.getAttribute("name")
-    return {"kind": "macro-arguments", "message": f"macro `{macro}` takes no further block `<{found[1]}>`", "name": macro}
+    return {
+        "kind": "macro-arguments",
+        "message": f"macro `{macro}` takes no further block `<{found[1]}>`",
+        "name": macro,
+    }
 
 
 def _too_few_blocks(_: re.Match[str], place: Place, root: Any) -> dict[str, Any]:

@@ -24,7 +24,7 @@ _FRAMES = frozenset(
 )
 """Attributes by which generators, coroutines and tracebacks lead to frames, and frames to everything."""
 
-_HARMLESS = (
+_HARMLESS = (  # noqa: SIM905
     "abs all any bool complex dict divmod enumerate filter float frozenset hash int isinstance issubclass len list "
     "map max min ord range repr reversed round set slice sorted str sum tuple zip True False None"
 ).split()

@@ -15,7 +15,6 @@ XML files anywhere, and expressions that take for ever or fill the memory (``${9
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -25,7 +24,7 @@ from typing import TYPE_CHECKING
 
 from urdfkit.description.expanded import Expanded
 from urdfkit.description.packages import Packages
-from urdfkit.description.reading import document_of, read_source, shown_path
+from urdfkit.description.reading import absolute, document_of, read_source, shown_path
 from urdfkit.errors import ResourceError, XmlError
 
 if TYPE_CHECKING:
@@ -79,6 +78,7 @@ def expand_leniently(
     packages: Packages | None = None,
     run_xacro: bool | None = None,
     mend_prefixes: bool = True,
+    texts: Mapping[str, str] | None = None,
 ) -> Expanded:
     """Expand a file and go on after errors, which are in `Expanded.faults`.
 
@@ -91,16 +91,17 @@ def expand_leniently(
         packages: resolves ``$(find …)``.
         run_xacro: see `expand`.
         mend_prefixes: read directives and macro calls without ``xacro:`` as if they had it.
+        texts: contents to read instead of those on disk, by absolute path.
 
     Raises:
         ResourceError: no such file (the entry; a missing include is a fault).
     """
     packages = packages if packages is not None else Packages(near=path)
     if not (is_xacro(path) if run_xacro is None else run_xacro):
-        return _read_plain_leniently(path, packages)
+        return _read_plain_leniently(path, packages, texts or {})
     from urdfkit.description.recovery import RecoveringRun
 
-    run = RecoveringRun(str(path), arguments or {}, packages, mend_prefixes=mend_prefixes)
+    run = RecoveringRun(str(path), arguments or {}, packages, mend_prefixes=mend_prefixes, texts=texts)
     for _ in range(3):
         with _xacro_for(run):
             run.expand()
@@ -134,24 +135,23 @@ def _xacro_for(run: Run) -> Iterator[None]:
             vars(xacro).update(saved)
 
 
-def _read_plain(path: str | Path, packages: Packages) -> Expanded:
-    shown = shown_path(path)
-    source = read_source(_existing(path), shown_as=shown)
+def _read_plain(path: str | Path, packages: Packages, texts: Mapping[str, str] | None = None) -> Expanded:
+    source = read_source(_existing(path), shown_as=shown_path(path), texts=texts)
     return Expanded(
         path=Path(path),
         root=document_of(source),
-        files=(Path(os.path.abspath(path)),),
-        sources={shown: source},
+        files=(absolute(path),),
+        sources={source.file: source},
         packages=packages,
         _print=lambda: expand(path, packages=packages, run_xacro=True).xml,
     )
 
 
-def _read_plain_leniently(path: str | Path, packages: Packages) -> Expanded:
+def _read_plain_leniently(path: str | Path, packages: Packages, texts: Mapping[str, str]) -> Expanded:
     from urdfkit.description.faults import Fault
 
     try:
-        return _read_plain(path, packages)
+        return _read_plain(path, packages, texts)
     except XmlError as error:
         if error.position is None:
             raise
@@ -159,8 +159,8 @@ def _read_plain_leniently(path: str | Path, packages: Packages) -> Expanded:
         return Expanded(
             path=Path(path),
             root=None,
-            files=(Path(os.path.abspath(path)),),
-            sources={shown: read_source(Path(path), shown_as=shown)},
+            files=(absolute(path),),
+            sources={shown: read_source(Path(path), shown_as=shown, texts=texts)},
             packages=packages,
             faults=(Fault("xml", error.message, error.position),),
         )

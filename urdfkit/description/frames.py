@@ -8,12 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from types import FrameType
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from xml.dom import minidom
-
-    from urdfkit.description.reading import Stamp
+from typing import Any
 
 _SKIPPED_NAMES = ("__builtins__",)
 
@@ -31,7 +26,7 @@ class Place:
     """
 
     def __init__(self) -> None:
-        self.node: minidom.Element | None = None
+        self.node: Any = None
         self.attribute: str | None = None
         self.expression: str | None = None
         self.property: tuple[str, Any] | None = None
@@ -47,9 +42,14 @@ class Place:
         return _names(self.macros)
 
 
-def place_of_error(error: BaseException) -> Place:
-    """Return where xacro was when it raised `error`."""
-    frames: list[FrameType] = []
+def place_of_error(error: BaseException, caught_in: FrameType | None = None) -> Place:
+    """Return where xacro was when it raised `error`.
+
+    Args:
+        error: the exception, with its traceback.
+        caught_in: the frame that caught it, when xacro is still running below.
+    """
+    frames = _frames_above(caught_in)
     seen: set[int] = set()
     cause: Any = error
     while isinstance(cause, BaseException) and id(cause) not in seen:
@@ -64,13 +64,7 @@ def place_of_error(error: BaseException) -> Place:
 
 def place_of_call(frame: FrameType | None) -> Place:
     """Return where xacro is, from the frame of a function it called."""
-    frames: list[FrameType] = []
-    while frame is not None:
-        frames.append(frame)
-        if frame.f_code.co_name == "process_doc":
-            break
-        frame = frame.f_back
-    return place_of_frames(reversed(frames))
+    return place_of_frames(_frames_above(frame))
 
 
 def place_of_frames(frames: Iterable[FrameType]) -> Place:
@@ -82,6 +76,16 @@ def place_of_frames(frames: Iterable[FrameType]) -> Place:
         local = frame.f_locals
         _LOOK.get(frame.f_code.co_name, _look_at_nothing)(place, local)
     return place
+
+
+def _frames_above(frame: FrameType | None) -> list[FrameType]:
+    frames: list[FrameType] = []
+    while frame is not None:
+        frames.append(frame)
+        if frame.f_code.co_name == "process_doc":
+            break
+        frame = frame.f_back
+    return frames[::-1]
 
 
 def _look_at_nothing(place: Place, local: dict[str, Any]) -> None:
@@ -149,10 +153,3 @@ def _names(table: Any) -> list[str]:
         found += [key for key in dict.keys(table) if not key.startswith("*") and key not in _SKIPPED_NAMES]
         table = table.parent
     return list(dict.fromkeys(found))
-
-
-def stamp_of(node: Any) -> Stamp | None:
-    """Return the stamp of a DOM node, None when it has none."""
-    from urdfkit.description.reading import STAMP
-
-    return node.getUserData(STAMP) if node is not None else None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from urdfkit.description.robot import Joint, Link, Problem, Robot
 from urdfkit.errors import ModelError, did_you_mean
 
 _HARMLESS = frozenset({"unknown-value", "missing"})
+_NEEDED = {("joint", "type"), ("parent", "link"), ("child", "link"), ("mimic", "joint")}
 _OTHER_ROOTS = {
     "sdf": "an SDF file",
     "gazebo": "an SDF file",
@@ -62,13 +62,9 @@ def robot_of(expanded: Expanded) -> Robot:
     if root is None:
         raise ModelError(f"{expanded.path} could not be read")
     check_is_robot(root)
-    robot = parse(root)
-    robot = Robot(*[getattr(robot, name) for name in _PARSED], files=expanded.files, packages=expanded.packages)
+    robot = parse(root, files=expanded.files, packages=expanded.packages)
     check(robot)
     return robot
-
-
-_PARSED = "name links joints materials transmissions gazebo ros2_control problems element".split()
 
 
 def check_is_robot(root: Element) -> None:
@@ -112,8 +108,8 @@ def _reasons(robot: Robot) -> Iterator[ModelError]:
     for link in robot.links:
         if len(parents := robot.parents_of.get(link.name, [])) > 1:
             yield _error(
-                f"link `{link.name}` is the child of two joints, `{parents[0].name}` ({parents[0].element.origin.position}) "
-                f"and `{parents[1].name}`",
+                f"link `{link.name}` is the child of two joints, `{parents[0].name}` "
+                f"({parents[0].element.origin.position}) and `{parents[1].name}`",
                 parents[1].element,
             )
     for loop in robot.cycles():
@@ -124,7 +120,9 @@ def _reasons(robot: Robot) -> Iterator[ModelError]:
     for joint in robot.joints:
         if joint.mimic is not None and joint.mimic.joint not in robot.joint_by_name:
             hint = did_you_mean(joint.mimic.joint, robot.joint_by_name)
-            yield _error(f"joint `{joint.name}` mimics `{joint.mimic.joint}`, which is no joint{hint}", joint.mimic.element)
+            yield _error(
+                f"joint `{joint.name}` mimics `{joint.mimic.joint}`, which is no joint{hint}", joint.mimic.element
+            )
 
 
 def _unusable_values(robot: Robot) -> Iterator[ModelError]:
@@ -138,15 +136,13 @@ def _is_needed(problem: Problem) -> bool:
     tag = problem.element.tag
     if problem.kind == "unknown-value":
         return tag == "joint"
-    return (tag, problem.attribute) in {("joint", "type"), ("parent", "link"), ("child", "link"), ("mimic", "joint")} or (
-        tag in ("limit", "inertia") or (tag == "mass" and problem.attribute == "value")
-    )
+    return tag in ("limit", "inertia", "mass") or (tag, problem.attribute) in _NEEDED
 
 
 def _nameless(robot: Robot) -> Iterator[ModelError]:
-    for thing in (*robot.links, *robot.joints):
-        if not thing.name:
-            yield _error(f"a <{thing.element.tag}> has no name", thing.element)
+    for name, element in [(x.name, x.element) for x in robot.links] + [(x.name, x.element) for x in robot.joints]:
+        if not name:
+            yield _error(f"a <{element.tag}> has no name", element)
 
 
 def _duplicates(kind: str, things: tuple[Link, ...] | tuple[Joint, ...]) -> Iterator[ModelError]:
@@ -183,7 +179,8 @@ def _two_roots(robot: Robot, roots: list[Link]) -> ModelError:
         below[root.name] = reached
     main = max(roots, key=lambda link: below[link.name])
     others = [link for link in roots if link is not main]
-    names = ", ".join(f"`{link.name}`" for link in others[:3]) + (f" and {len(others) - 3} more" if len(others) > 3 else "")
+    more = f" and {len(others) - 3} more" if len(others) > 3 else ""
+    names = ", ".join(f"`{link.name}`" for link in others[:3]) + more
     verb = "is" if len(others) == 1 else "are"
     return _error(
         f"{len(roots)} root links: {names} {verb} joined to nothing; a joint to the tree of `{main.name}` "

@@ -1,4 +1,4 @@
-"""Packages: ``$(find …)``, ``package://``, ``model://``, ``file://`` and relative paths, with or without ROS installed."""
+"""Packages: ``$(find …)``, ``package://``, ``model://``, ``file://`` and relative paths, with or without ROS."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
+from urdfkit.description.reading import absolute
 from urdfkit.errors import ResourceError, did_you_mean
 
 _NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
@@ -39,8 +40,8 @@ class Packages:
         *,
         environment: Mapping[str, str] | None = None,
     ) -> None:
-        self.search = tuple(Path(os.path.abspath(folder)) for folder in search)
-        self.near = None if near is None else Path(os.path.abspath(near))
+        self.search = tuple(absolute(folder) for folder in search)
+        self.near = None if near is None else absolute(near)
         self._environment = os.environ if environment is None else environment
         self._found: dict[str, Path] = {}
         self._seen: dict[str, Path] = {}
@@ -98,7 +99,7 @@ class Packages:
         Returns:
             A path that does, or None.
         """
-        wanted = Path(os.path.abspath(path))
+        wanted = absolute(path)
         for folder in dict.fromkeys(self._found.values()):
             if folder in wanted.parents:
                 moved = folder / "description" / wanted.relative_to(folder)

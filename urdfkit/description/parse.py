@@ -6,6 +6,9 @@ space around numbers, the first of repeated elements.
 
 from __future__ import annotations
 
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 from urdfkit.description.element import Element
 from urdfkit.description.parse_extensions import gazebo_block, ros2_control, transmission
 from urdfkit.description.robot import (
@@ -33,17 +36,22 @@ from urdfkit.description.robot import (
 from urdfkit.description.values import Reader
 from urdfkit.errors import did_you_mean
 
+if TYPE_CHECKING:
+    from urdfkit.description.packages import Packages
+
 SHAPES = ("box", "cylinder", "sphere", "capsule", "mesh")
 """What a ``<geometry>`` may hold."""
 
 _TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
-def parse(root: Element) -> Robot:
+def parse(root: Element, *, files: tuple[Path, ...] = (), packages: Packages | None = None) -> Robot:
     """Read a robot.
 
     Args:
         root: the ``<robot>`` element after expansion. Any other element gives a robot without links.
+        files: what was read, for `Robot.files`.
+        packages: for `Robot.packages`.
     """
     reader = Reader()
     name = reader.text(root, "name") if root.tag == "robot" else root.get("name")
@@ -71,6 +79,8 @@ def parse(root: Element) -> Robot:
         tuple(controls),
         tuple(reader.problems),
         root,
+        files,
+        packages,
     )
 
 
@@ -101,7 +111,11 @@ def _inertial(reader: Reader, element: Element) -> Inertial:
 
 def _inertia(reader: Reader, element: Element) -> Inertia | None:
     values = [reader.number(element, name, required=True) for name in _TENSOR]
-    return None if None in values else Inertia(*[value or 0.0 for value in values], element)
+    known = [value for value in values if value is not None]
+    if len(known) < len(_TENSOR):
+        return None
+    ixx, ixy, ixz, iyy, iyz, izz = known
+    return Inertia(ixx, ixy, ixz, iyy, iyz, izz, element)
 
 
 def _visual(reader: Reader, element: Element) -> Visual:
@@ -206,9 +220,7 @@ def _limit(reader: Reader, element: Element | None, kind: str | None) -> Limit |
         return None
     needed = kind in ("revolute", "prismatic", "continuous")
     lower, upper = (reader.number(element, name, infinite=True) for name in ("lower", "upper"))
-    effort, velocity = (
-        reader.number(element, name, required=needed, infinite=True) for name in ("effort", "velocity")
-    )
+    effort, velocity = (reader.number(element, name, required=needed, infinite=True) for name in ("effort", "velocity"))
     return Limit(lower, upper, effort, velocity, element)
 
 

@@ -37,13 +37,13 @@ def is_directive(tag: str, attributes: Any) -> bool:
     return tag != "property" or any(name in attributes for name in _PROPERTY_VALUES)
 
 
-def mend_directives(root: minidom.Element) -> Iterator[tuple[minidom.Element, str]]:
+def mend_directives(document: minidom.Document) -> Iterator[tuple[minidom.Element, str]]:
     """Give the directives in a document their prefix; yield each with the tag as it was written.
 
     Args:
-        root: the document element; changed in place.
+        document: changed in place.
     """
-    for element in list(_elements(root)):
+    for element in list(_elements(document)):
         tag = element.tagName
         if tag in _DIRECTIVES and is_directive(tag, element.attributes):
             rename(element)
@@ -78,9 +78,8 @@ def rename(node: minidom.Element) -> str:
     return str(node.tagName)
 
 
-def _elements(node: minidom.Element) -> Iterator[minidom.Element]:
+def _elements(node: Any) -> Iterator[minidom.Element]:
     for child in node.childNodes:
         if child.nodeType == child.ELEMENT_NODE:
-            element: Any = child
-            yield element
-            yield from _elements(element)
+            yield child
+            yield from _elements(child)

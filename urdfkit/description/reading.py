@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -36,17 +36,20 @@ Stamp = tuple[str, int, int, tuple[Expansion, ...]]
 _TAG_NAME = re.compile(r"</?\s*([^\s<>/]*)")
 
 
-def read_source(path: Path, *, shown_as: str | None = None) -> Source:
+def read_source(path: Path, *, shown_as: str | None = None, texts: Mapping[str, str] | None = None) -> Source:
     """Read a file of bounded size.
 
     Args:
         path: the file.
         shown_as: what messages call it.
+        texts: contents to take instead of those on disk, by absolute path.
 
     Raises:
         ResourceError: it cannot be read or is too large.
     """
     shown = shown_as or str(path)
+    if texts and (text := texts.get(str(absolute(path)))) is not None:
+        return Source(shown, text)
     try:
         with path.open("rb") as file:
             content = file.read(MAX_BYTES + 1)
@@ -59,11 +62,13 @@ def read_source(path: Path, *, shown_as: str | None = None) -> Source:
 
 def shown_path(path: str | Path) -> str:
     """Return what messages call a file: relative to the working folder when inside it."""
-    absolute = os.path.abspath(path)
-    here = os.getcwd()
-    if absolute.startswith(here + os.sep):
-        return absolute[len(here) + 1 :]
-    return absolute
+    whole, here = str(absolute(path)), str(Path.cwd())
+    return whole[len(here) + 1 :] if whole.startswith(here + os.sep) else whole
+
+
+def absolute(path: str | Path) -> Path:
+    """Return a path from the root, without ``..``, symbolic links as they are."""
+    return Path(os.path.normpath(Path(path).absolute()))
 
 
 def document_of(source: Source) -> Element:
@@ -104,7 +109,7 @@ def document_of(source: Source) -> Element:
     return families[0][0]
 
 
-def stamped_document(source: Source, on_clone: Any) -> minidom.Document:
+def stamped_document(source: Source, on_clone: Any, *, namespaces: bool = True) -> minidom.Document:
     """Read a file into the minidom that xacro works on.
 
     It is the same tree as ``minidom.parseString`` makes, but every element carries its `Stamp`.
@@ -112,13 +117,14 @@ def stamped_document(source: Source, on_clone: Any) -> minidom.Document:
     Args:
         source: the text.
         on_clone: DOM user data handler: its `handle` is called for every clone of a stamped element.
+        namespaces: refuse prefixes that are not declared, as minidom does.
 
     Raises:
         XmlError: it is not well-formed, or hostile.
     """
-    from urdfkit.description.stamping import StampingBuilder
+    from urdfkit.description.stamping import PrefixBlindBuilder, StampingBuilder
 
-    builder = StampingBuilder(source.file, on_clone, partial(_too_deep, source))
+    builder = (StampingBuilder if namespaces else PrefixBlindBuilder)(source.file, on_clone, partial(_too_deep, source))
     parser = builder.getParser()
     parser.EntityDeclHandler = lambda name, *_: _refuse_entity(source, parser, name)
     inherited: Any = parser.StartDoctypeDeclHandler
@@ -132,13 +138,13 @@ def stamped_document(source: Source, on_clone: Any) -> minidom.Document:
     return builder.document
 
 
-def element_of(node: minidom.Element) -> Element:
+def element_of(node: Any) -> Element:
     """Turn a stamped minidom element, and all below it, into an `Element`.
 
     Args:
         node: an element that `stamped_document` made, or a clone of one.
     """
-    file, line, column, expansions = node.getUserData(STAMP)
+    file, line, column, expansions = stamp_of(node)
     children: list[Element] = []
     text = ""
     for child in node.childNodes:
@@ -151,10 +157,10 @@ def element_of(node: minidom.Element) -> Element:
     return Element(node.tagName, attributes, children, text.strip(), Origin(Position(file, line, column), expansions))
 
 
-def position_of(node: minidom.Element) -> Position:
-    """Return where the start tag of a stamped minidom element was written."""
-    file, line, column, _ = node.getUserData(STAMP)
-    return Position(file, line, column)
+def stamp_of(node: Any) -> Stamp:
+    """Return the stamp of a minidom element that `stamped_document` made, or of a clone of one."""
+    stamp: Stamp = node.getUserData(STAMP)
+    return stamp
 
 
 def _parse(parser: Any, source: Source, open_tags: Callable[[], list[tuple[str, int]]]) -> None:

@@ -14,11 +14,13 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.description.diagnosis import defined_in, fault_of, macro_arguments, undefined_macro, undefined_property
 from urdfkit.description.evaluation import names_in
 from urdfkit.description.expanded import Expanded
-from urdfkit.description.faults import Fault, FaultKind, Unprefixed
+from urdfkit.description.faults import Fault, Unprefixed
 from urdfkit.description.frames import Place, place_of_call
 from urdfkit.description.prefixes import looks_like_a_call, mend_directives, rename
+from urdfkit.description.reading import stamped_document
 from urdfkit.description.run import Run
-from urdfkit.description.source import Expansion, Position, Source
+from urdfkit.description.source import Position, Source
+from urdfkit.description.unknown import FallbackSymbols, Unknown, peek
 from urdfkit.description.vocabulary import TAGS
 from urdfkit.errors import XmlError
 
@@ -35,12 +37,6 @@ _MAX_DROPPED = 1_000
 """Give up on an element after so many of its children had to be dropped."""
 
 
-class Unknown(str):
-    """The value of what could not be evaluated; its text is the expression."""
-
-    __slots__ = ()
-
-
 class RecoveringRun(Run):
     """One expansion that goes on after errors.
 
@@ -50,7 +46,10 @@ class RecoveringRun(Run):
         packages: resolves ``$(find …)``.
         mend_prefixes: read directives and macro calls without ``xacro:`` as if they had it.
         hindsight: values of properties, and macros, that an earlier run found defined too late.
+        texts: contents to read instead of those on disk, by absolute path.
     """
+
+    HOOKS = (*Run.HOOKS, "eval_all", "get_boolean_value", "process_include")
 
     def __init__(
         self,
@@ -60,13 +59,15 @@ class RecoveringRun(Run):
         *,
         mend_prefixes: bool,
         hindsight: tuple[Mapping[str, Any], Mapping[str, Any]] = ({}, {}),
+        texts: Mapping[str, str] | None = None,
     ) -> None:
-        super().__init__(path, arguments, packages)
+        super().__init__(path, arguments, packages, texts=texts)
         self._mend_prefixes = mend_prefixes
         self._late_properties, self._late_macros = hindsight
         self._unprefixed: dict[Unprefixed, None] = {}
         self._unresolved: set[tuple[Position, str | None]] = set()
         self._strangers: set[str] = set()
+        self._included = ""
         self._tables: tuple[Any, Any] | None = None
         self._evaluating = 0
         self._found_unknown = False
@@ -74,10 +75,7 @@ class RecoveringRun(Run):
     def take(self, xacro: ModuleType) -> dict[str, Any]:
         """Lend the recovering functions too."""
         lent = super().take(xacro)
-        for name in ("eval_all", "get_boolean_value", "process_include"):
-            self.stock[name] = getattr(xacro, name)
-            lent[name] = getattr(self, name)
-        lent["_global_symbols"] = _Symbols(lent["_global_symbols"], self)
+        lent["_global_symbols"] = FallbackSymbols(lent["_global_symbols"], self.missing_symbol)
         return lent
 
     def expand(self) -> None:
@@ -89,7 +87,7 @@ class RecoveringRun(Run):
         try:
             super().expand()
         except XmlError as error:
-            self._note(fault_of(error, self))
+            self._note(fault_of(error, self, sys._getframe()))
         self._learn()
 
     def with_hindsight(self) -> RecoveringRun | None:
@@ -103,6 +101,7 @@ class RecoveringRun(Run):
             self.packages,
             mend_prefixes=self._mend_prefixes,
             hindsight=({**self._late_properties, **properties}, {**self._late_macros, **macros}),
+            texts=self.texts,
         )
 
     def outcome(self) -> Expanded:
@@ -114,11 +113,22 @@ class RecoveringRun(Run):
 
     # What xacro calls instead of its own functions of the same name.
 
+    def abs_filename_spec(self, filename_spec: str) -> str:
+        """Remember whether the path could be evaluated."""
+        self._included = filename_spec
+        return super().abs_filename_spec(filename_spec)
+
     def stamped(self, source: Source) -> minidom.Document:
         """Read a file, directives without prefix as if they had one."""
-        document = super().stamped(source)
+        try:
+            document = super().stamped(source)
+        except XmlError as error:
+            if not error.message.startswith("unbound prefix"):
+                raise
+            self._note(fault_of(error, self))
+            document = stamped_document(source, self, namespaces=False)
         if self._mend_prefixes:
-            for element, tag in mend_directives(document.documentElement):
+            for element, tag in mend_directives(document):
                 position, expansions = self.position_of(element)
                 self._unprefixed.setdefault(Unprefixed("directive", tag, position, expansions))
         return document
@@ -133,7 +143,7 @@ class RecoveringRun(Run):
                 self.stock["eval_all"](node, macros, symbols)
                 return
             except Exception as error:
-                self._note(fault_of(error, self))
+                self._note(fault_of(error, self, sys._getframe()))
                 self._unwind(depth)
                 if not _drop(_child_at_fault(error, node), node):
                     return
@@ -149,7 +159,7 @@ class RecoveringRun(Run):
                 value = Unknown(value)
         except Exception as error:
             if not self._found_unknown:
-                self._note(fault_of(error, self))
+                self._note(fault_of(error, self, sys._getframe()))
             value = Unknown(text)
         finally:
             self._found_unknown = outer
@@ -162,7 +172,7 @@ class RecoveringRun(Run):
         """Evaluate an expression, to `Unknown` when it needs something unknown."""
         names = dict.fromkeys(names_in(self.evaluator.compile(expr)))
         for name in names:
-            if isinstance(value := _peek(globals, name), Unknown):
+            if isinstance(value := peek(globals, name), Unknown):
                 self._found_unknown = True
                 return value if len(names) == 1 and name == expr.strip() else Unknown(f"${{{expr}}}")
         missed, self._missed = self._missed, False
@@ -214,8 +224,9 @@ class RecoveringRun(Run):
         try:
             self.stock["process_include"](elt, macros, symbols, func)
         except Exception as error:
-            fault = fault_of(error, self)
-            if not (fault.kind == "include-not-found" and "${" in (fault.name or "")):
+            fault = fault_of(error, self, sys._getframe())
+            # A path that could not be evaluated has its fault already.
+            if fault.kind != "include-not-found" or not isinstance(self._included, Unknown):
                 self._note(fault)
             self._unwind(depth)
             _drop(elt, parent)
@@ -243,7 +254,7 @@ class RecoveringRun(Run):
                     self._fit(node, macro)
             return super().handle_macro_call(node, macros, symbols)
         except Exception as error:
-            self._note(fault_of(error, self))
+            self._note(fault_of(error, self, sys._getframe()))
             self._unwind(depth)
             _drop(node, parent)
             return True
@@ -312,9 +323,7 @@ class RecoveringRun(Run):
     def _note_at(self, place: Place, facts: dict[str, Any]) -> None:
         position, expansions, attribute = self.where(place)
         expression = place.expression
-        self._note(
-            Fault(position=position, expansions=expansions, attribute=attribute, expression=expression, **facts)
-        )
+        self._note(Fault(position=position, expansions=expansions, attribute=attribute, expression=expression, **facts))
 
     def _mark_unresolved(self) -> None:
         place = place_of_call(sys._getframe(2))
@@ -326,26 +335,6 @@ class RecoveringRun(Run):
         del self.xacro.filestack[depth[0] :]
         del self.xacro.macrostack[depth[1] :]
         self._chain = self._body = None
-
-
-class _Symbols(dict[str, Any]):
-    """xacro's global symbols, which ask the run for what is not there."""
-
-    def __init__(self, symbols: dict[str, Any], run: RecoveringRun) -> None:
-        super().__init__(symbols)
-        self._run = run
-
-    def __missing__(self, name: str) -> Any:
-        return self._run.missing_symbol(name)
-
-
-def _peek(table: Any, name: str) -> Any:
-    """Return the value of a name in a chain of xacro's tables, None when it is not there."""
-    while table is not None and hasattr(table, "parent"):
-        if dict.__contains__(table, name):
-            return table[name]
-        table = table.parent
-    return None
 
 
 def _child_at_fault(error: BaseException, parent: minidom.Element) -> Any:

@@ -361,36 +361,22 @@ class Robot:
 
     def cycles(self) -> list[list[Joint]]:
         """Return kinematic loops: each a list of joints that lead from a link back to itself."""
-        loops: list[list[Joint]] = []
-        settled: set[str] = set()
-        for joint in self.joints:
-            path: list[Joint] = []
-            on_path: dict[str, int] = {}
-            at = joint.child
-            while at is not None and at not in settled and at not in on_path:
-                on_path[at] = len(path)
-                above = self.parents_of.get(at, [])
-                if not above:
-                    break
-                path.append(above[0])
-                at = above[0].parent
-            if at is not None and at in on_path and at not in settled and self.parents_of.get(at):
-                loops.append(list(reversed(path[on_path[at] :])))
-            settled.update(on_path)
-        return loops
+        from urdfkit.description.queries import cycles
+
+        return cycles(self)
 
     def tree_order(self) -> list[Joint]:
         """Return the joints reachable from the roots, parents before children, depth first in document order."""
-        order: list[Joint] = []
-        seen: set[str] = set()
-        stack = [link.name for link in reversed(self.roots())]
-        while stack:
-            link = stack.pop()
-            if link in seen:
-                continue
-            seen.add(link)
-            joint = next(iter(self.parents_of.get(link, [])), None)
-            if joint is not None:
-                order.append(joint)
-            stack.extend(j.child for j in reversed(self.children_of.get(link, [])) if j.child is not None)
-        return order
+        from urdfkit.description.queries import tree_order
+
+        return tree_order(self)
+
+    def massless_moving_links(self, *, floating_base: bool = False) -> list[Link]:
+        """Return the links that must move but have no mass; see `urdfkit.description.queries`.
+
+        Args:
+            floating_base: the root moves too.
+        """
+        from urdfkit.description.queries import massless_moving_links
+
+        return massless_moving_links(self, floating_base=floating_base)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.description.evaluation import Evaluator
 from urdfkit.description.expanded import Expanded
 from urdfkit.description.faults import Fault, MacroDefinition, Warned
-from urdfkit.description.reading import STAMP, Stamp, element_of, read_source, shown_path, stamped_document
+from urdfkit.description.reading import Stamp, absolute, element_of, read_source, shown_path, stamp_of, stamped_document
 from urdfkit.description.source import Expansion, Position, Source
 from urdfkit.errors import ResourceError
 
@@ -56,12 +56,31 @@ class Run:
         path: as the user named it; appears in the banner of the output.
         arguments: values for ``$(arg …)``.
         packages: resolves ``$(find …)``.
+        texts: contents to read instead of those on disk, by absolute path.
     """
 
-    def __init__(self, path: str, arguments: Mapping[str, str], packages: Packages) -> None:
+    HOOKS: tuple[str, ...] = (
+        "abs_filename_spec",
+        "eval_extension",
+        "eval_text",
+        "grab_macro",
+        "grab_property",
+        "handle_macro_call",
+        "parse",
+        "print_location",
+        "resolve_macro",
+        "safe_eval",
+        "warning",
+    )
+    """The functions of xacro that the methods of the same name stand in for."""
+
+    def __init__(
+        self, path: str, arguments: Mapping[str, str], packages: Packages, *, texts: Mapping[str, str] | None = None
+    ) -> None:
         self.path = path
         self.arguments = arguments
         self.packages = packages
+        self.texts = texts
         self.sources: dict[str, Source] = {}
         self.files: dict[Path, None] = {}
         self.macros: dict[str, MacroDefinition] = {}
@@ -82,13 +101,7 @@ class Run:
 
         self.xacro: Any = xacro
         self.evaluator = Evaluator(xacro.XacroException)
-        hooks = {
-            name: getattr(self, name)
-            for name in (
-                "abs_filename_spec eval_extension eval_text grab_macro grab_property handle_macro_call parse "
-                "print_location resolve_macro safe_eval warning"
-            ).split()
-        }
+        hooks = {name: getattr(self, name) for name in self.HOOKS}
         self.stock = {name: getattr(xacro, name) for name in hooks}
         symbols = xacro.create_global_symbols()
         dict.__setitem__(symbols["python"], "vars", self._refuse_vars)
@@ -120,14 +133,14 @@ class Run:
         self.document = self.stamped(self._read(Path(self.path)))
         self.xacro.process_doc(self.document, mappings=dict(self.arguments), verbosity=1)
         for included in self.xacro.all_includes:
-            self.files.setdefault(Path(os.path.abspath(included)))
+            self.files.setdefault(absolute(included))
 
     def outcome(self) -> Expanded:
         """Return what came of it."""
-        document = self.document
+        root = self.document.documentElement if self.document is not None else None
         return Expanded(
             path=Path(self.path),
-            root=element_of(document.documentElement) if document is not None else None,
+            root=element_of(root) if root is not None else None,
             files=tuple(self.files),
             sources=self.sources,
             packages=self.packages,
@@ -160,9 +173,9 @@ class Run:
 
     def position_of(self, node: minidom.Element | None) -> tuple[Position, tuple[Expansion, ...]]:
         """Return where an element was written and its chain of calls; the top of the file when there is no element."""
-        stamp: Stamp | None = node.getUserData(STAMP) if node is not None else None
-        if stamp is None:
+        if node is None:
             return Position(shown_path(self.path), 1, 1), ()
+        stamp = stamp_of(node)
         return Position(*stamp[:3]), stamp[3]
 
     def where(self, place: Place) -> tuple[Position, tuple[Expansion, ...], str | None]:
@@ -198,7 +211,7 @@ class Run:
     def abs_filename_spec(self, filename_spec: str) -> str:
         """Find an included or YAML file, also in a source folder that only its installation puts in place."""
         found: str = self.stock["abs_filename_spec"](filename_spec)
-        if not os.path.exists(found) and (moved := self.packages.relocate(found)) is not None:
+        if not Path(found).exists() and (moved := self.packages.relocate(found)) is not None:
             return str(moved)
         return found
 
@@ -277,7 +290,7 @@ class Run:
 
     def grab_property(self, elt: minidom.Element, table: Any) -> None:
         """Note where a property is defined."""
-        name, stamp = elt.getAttribute("name"), elt.getUserData(STAMP)
+        name, stamp = elt.getAttribute("name"), stamp_of(elt)
         self.properties[name] = Position(*stamp[:3])
         for attribute in ("value", "default"):
             if elt.hasAttribute(attribute):
@@ -295,10 +308,10 @@ class Run:
         if path.is_dir():
             raise ResourceError(f"{path} is a folder, not a description")
         shown = shown_path(path)
-        self.files.setdefault(Path(os.path.abspath(path)))
+        self.files.setdefault(absolute(path))
         source = self.sources.get(shown)
         if source is None:
-            source = read_source(path, shown_as=shown)
+            source = read_source(path, shown_as=shown, texts=self.texts)
             self.sources[shown] = source
         return source
 

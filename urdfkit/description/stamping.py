@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
-from xml.dom.expatbuilder import ExpatBuilderNS
+from xml.dom.expatbuilder import ExpatBuilder, ExpatBuilderNS
 
-from urdfkit.description.reading import MAX_DEPTH, STAMP
+from urdfkit.description.reading import MAX_DEPTH, STAMP, stamp_of
 
 
-class StampingBuilder(ExpatBuilderNS):
-    """Builds what ``minidom.parseString`` builds.
+class _Stamping(ExpatBuilder):
+    """Stamps each element a builder makes.
 
     Args:
         file: the name to stamp.
@@ -23,12 +23,16 @@ class StampingBuilder(ExpatBuilderNS):
         self._depth = 0
         super().__init__()
 
+    @property
+    def _node(self) -> Any:
+        return self.curNode
+
     def start_element_handler(self, name: str, attributes: Any) -> None:
         """Stamp the element."""
         super().start_element_handler(name, attributes)
-        parser = self._parser
+        parser = self.getParser()
         stamp = (self._file, parser.CurrentLineNumber, parser.CurrentColumnNumber + 1, ())
-        self.curNode.setUserData(STAMP, stamp, self._on_clone)
+        self._node.setUserData(STAMP, stamp, self._on_clone)
         self._depth += 1
         if self._depth > MAX_DEPTH:
             self._too_deep(parser)
@@ -40,9 +44,17 @@ class StampingBuilder(ExpatBuilderNS):
 
     def open_tags(self) -> list[tuple[str, int]]:
         """Return tag and line of the elements that are open, outermost first."""
-        found = []
-        node = self.curNode
+        found: list[tuple[str, int]] = []
+        node = self._node
         while node is not None and node.nodeType == 1:
-            found.append((node.tagName, node.getUserData(STAMP)[1]))
+            found.append((node.tagName, stamp_of(node)[1]))
             node = node.parentNode
         return found[::-1]
+
+
+class StampingBuilder(_Stamping, ExpatBuilderNS):
+    """Builds what ``minidom.parseString`` builds."""
+
+
+class PrefixBlindBuilder(_Stamping):
+    """Takes prefixes for a part of the name, declared or not."""

@@ -10,7 +10,9 @@ from urdfkit.record import record
 _NAME = re.compile(r"<([^\s/>=\"'<]+)")
 _ATTRIBUTE = re.compile(r"(\s*)([^\s/>=\"'<]+)(\s*=\s*)(\"[^\"]*\"|'[^']*')")
 _CLOSE = re.compile(r"\s*(/?)>")
-_MARKUP = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<(/?)([^\s/>=\"'<]+)(?:[^>\"']|\"[^\"]*\"|'[^']*')*?(/?)>", re.S)
+_MARKUP = re.compile(
+    r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<(/?)([^\s/>=\"'<]+)(?:[^>\"']|\"[^\"]*\"|'[^']*')*?(/?)>", re.S
+)
 
 
 @record
