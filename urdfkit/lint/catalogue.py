@@ -1,0 +1,57 @@
+"""The catalogue: every rule, and its page made from its docstring."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rules import RULES
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.rule import Rule
+
+_FIXES = {
+    "safe": "mended by `urdfkit lint --fix`",
+    "unsafe": "mended by `urdfkit lint --fix --unsafe-fixes`",
+    "none": "mended by hand",
+}
+
+
+def rules() -> tuple[type[Rule], ...]:
+    """Return all rules, those of other packages included, in the order of their codes.
+
+    Raises:
+        ResourceError: a third-party rule cannot be imported.
+    """
+    from urdfkit.registry import load
+
+    return tuple(sorted((*RULES, *load("urdfkit.rules")), key=lambda rule: rule.code))
+
+
+def page(rule: type[Rule]) -> str:
+    """Return the page of a rule as Markdown."""
+    summary, body = _parts(rule)
+    head = f"# {rule.name} ({rule.code})\n\n{summary}\n\nSeverity: {rule.severity}; {_FIXES[rule.fix]}."
+    return f"{head}\n\n{body}" if body else head
+
+
+def title(rule: type[Rule]) -> str:
+    """Return the first line of a rule's page."""
+    return _parts(rule)[0].replace("``", "`")
+
+
+def sections(rule: type[Rule]) -> dict[str, str]:
+    """Return the sections of a rule's page by heading."""
+    found: dict[str, list[str]] = {}
+    heading = ""
+    for line in _parts(rule)[1].splitlines():
+        if line.startswith("## "):
+            heading = line.removeprefix("## ")
+        found.setdefault(heading, []).append(line)
+    return {name: "\n".join(lines[1:]).strip() for name, lines in found.items()}
+
+
+def _parts(rule: type[Rule]) -> tuple[str, str]:
+    lines = (rule.__doc__ or "").strip().splitlines()
+    indents = [len(line) - len(line.lstrip()) for line in lines[1:] if line.strip()]
+    cut = min(indents, default=0)
+    body = "\n".join(line[cut:] for line in lines[1:]).strip()
+    return lines[0] if lines else "", body

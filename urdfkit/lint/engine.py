@@ -1,0 +1,240 @@
+"""From files to findings: expand with recovery, ask the rules, suppress, merge, sort."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from urdfkit.description.element import Element
+from urdfkit.description.expand import expand_leniently
+from urdfkit.description.packages import Packages
+from urdfkit.description.parse import parse
+from urdfkit.description.source import Origin, Position
+from urdfkit.lint.entries import Entry, find_entries
+from urdfkit.lint.finding import SEVERITIES, Finding
+from urdfkit.lint.model import Model
+from urdfkit.lint.rule import FaultRule, RobotRule, Rule, SourceRule
+from urdfkit.lint.rules import fault_rules, robot_rules, source_rules
+from urdfkit.lint.select import selection
+from urdfkit.record import field, record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+    from urdfkit.description.robot import Robot
+    from urdfkit.description.source import Source, Span
+    from urdfkit.lint.suppress import Suppression
+
+TARGETS = ("ros1", "ros2", "gz", "classic", "mujoco", "isaac", "drake", "moveit")
+"""Consumers that ``--target`` may name; without it every rule counts that holds for any of them."""
+
+
+@record
+class Options:
+    """What to look for, and how to expand.
+
+    Attributes:
+        select: codes, or beginnings of codes, to report; all where it is empty.
+        ignore: codes, or beginnings, not to report.
+        target: the consumer the robot is meant for, one of `TARGETS`.
+        arguments: values for ``$(arg …)``.
+        package_path: folders to look for packages in first.
+        texts: contents to lint instead of those on disk, by absolute path.
+    """
+
+    select: tuple[str, ...] = ()
+    ignore: tuple[str, ...] = ()
+    target: str | None = None
+    arguments: Mapping[str, str] = field(default_factory=dict)
+    package_path: tuple[Path, ...] = ()
+    texts: Mapping[str, str] = field(default_factory=dict)
+
+
+@record(eq=False)
+class Outcome:
+    """What came of linting.
+
+    Attributes:
+        findings: sorted by place.
+        sources: the text of every file that was read, by the name findings use.
+        files: every file that was read, absolute; by the same name.
+    """
+
+    findings: tuple[Finding, ...]
+    sources: Mapping[str, Source]
+    files: Mapping[str, Path]
+
+
+def lint(
+    paths: str | Path | Iterable[str | Path],
+    *,
+    select: Iterable[str] = (),
+    ignore: Iterable[str] = (),
+    target: str | None = None,
+    arguments: Mapping[str, str] | None = None,
+    package_path: Iterable[str | Path] = (),
+) -> list[Finding]:
+    """Lint files, packages or workspaces.
+
+    Args:
+        paths: one or more files or folders, or names of robots we ship.
+        select: codes, or beginnings of codes, to report; all where it is empty.
+        ignore: codes, or beginnings, not to report.
+        target: the consumer the robot is meant for, one of `TARGETS`.
+        arguments: values for ``$(arg …)``.
+        package_path: folders to look for packages in first.
+
+    Returns:
+        The findings, sorted by place. Faults in the files are findings, not exceptions.
+
+    Raises:
+        UsageError: a code or the target is not known.
+        ResourceError: a path is not there, or holds no description.
+    """
+    several = [paths] if isinstance(paths, (str, Path)) else list(paths)
+    folders = tuple(Path(folder) for folder in package_path)
+    options = Options(tuple(select), tuple(ignore), target, arguments or {}, folders)
+    return list(run(find_entries(several), options).findings)
+
+
+def run(entries: Iterable[Entry], options: Options) -> Outcome:
+    """Lint entry files.
+
+    Raises:
+        UsageError: a code or the target is not known.
+        ResourceError: an entry cannot be read, or a third-party rule cannot be imported.
+    """
+    if options.target is not None and options.target not in TARGETS:
+        from urdfkit.errors import UsageError, did_you_mean
+
+        hint = did_you_mean(options.target, TARGETS) or f"; one of {', '.join(TARGETS)}"
+        raise UsageError(f"--target {options.target} is not known{hint}")
+    checker = _Checker(options)
+    for entry in entries:
+        checker.check(entry)
+    return checker.outcome()
+
+
+class _Checker:
+    """One run over several entries."""
+
+    def __init__(self, options: Options) -> None:
+        self.options = options
+        self.sources: dict[str, Source] = {}
+        self.files: dict[str, Path] = {}
+        self.findings: list[Finding] = []
+        self.foreign = _third_party()
+        self.wanted = selection(options.select, options.ignore, self._codes)
+
+    def _codes(self) -> tuple[str, ...]:
+        return (*codes(), *(rule.code for rule in self.foreign))
+
+    def _applies(self, rule: type[Rule]) -> bool:
+        return self.wanted(rule.code) and self.options.target not in rule.not_for
+
+    def check(self, entry: Entry) -> None:
+        """Lint one entry file and everything it includes."""
+        model = self._model(entry.path)
+        findings: list[Finding] = []
+        for file in model.expanded.sources:
+            findings += self._ask_source_rules(file, model)
+        findings += self._ask_fault_rules(model, entry)
+        if model.expanded.root is not None and not entry.is_library:
+            for rule in (*robot_rules(), *(rule for rule in self.foreign if issubclass(rule, RobotRule))):
+                if self._applies(rule):
+                    findings += rule().check(model)
+        if any("urdfkit:" in source.text for source in model.expanded.sources.values()):
+            findings = self._suppress(findings, model)
+        if entry.only:
+            names = {name for name, path in self.files.items() if any(path == only.resolve() for only in entry.only)}
+            findings = [finding for finding in findings if finding.file in names]
+        self.findings += findings
+
+    def _model(self, path: Path) -> Model:
+        options = self.options
+        packages = Packages(options.package_path, near=path)
+
+        def as_written() -> Robot:
+            expanded = expand_leniently(
+                path, arguments=options.arguments, packages=packages, mend_prefixes=False, texts=options.texts
+            )
+            return parse(expanded.root) if expanded.root is not None else robot
+
+        expanded = expand_leniently(path, arguments=options.arguments, packages=packages, texts=options.texts)
+        robot = parse(expanded.root if expanded.root is not None else _nothing(path))
+        self.sources.update(expanded.sources)
+        self.files.update({name: Path(name).resolve() for name in expanded.sources})
+        return Model(expanded, robot, options.target, as_written)
+
+    def _ask_source_rules(self, file: str, model: Model) -> Iterator[Finding]:
+        for rule in (*source_rules(), *(rule for rule in self.foreign if issubclass(rule, SourceRule))):
+            if self._applies(rule):
+                yield from rule().check(model.document(file), model)
+
+    def _ask_fault_rules(self, model: Model, entry: Entry) -> Iterator[Finding]:
+        if not model.expanded.faults:
+            return
+        rules = [rule() for rule in (*fault_rules(), *(rule for rule in self.foreign if issubclass(rule, FaultRule)))]
+        for fault in model.expanded.faults:
+            if entry.is_library and fault.kind != "xml":
+                continue
+            for rule in rules:
+                if rule.claims(fault) and self._applies(type(rule)):
+                    yield from rule.check(fault, model)
+
+    def _suppress(self, findings: list[Finding], model: Model) -> list[Finding]:
+        from urdfkit.lint.rules import suppression_rules
+        from urdfkit.lint.suppress import suppressed, suppressions
+
+        comments: dict[str, list[Suppression]] = {}
+        for file, source in model.expanded.sources.items():
+            if "urdfkit:" in source.text:
+                comments[file] = suppressions(model.document(file))
+                for rule in suppression_rules():
+                    if self._applies(rule):
+                        findings += rule().check(comments[file], self._codes(), model)  # type: ignore[attr-defined]
+        return suppressed(findings, comments)
+
+    def outcome(self) -> Outcome:
+        """Return what was found, each thing once."""
+        return Outcome(tuple(merged(self.findings)), self.sources, self.files)
+
+
+def merged(findings: Iterable[Finding]) -> list[Finding]:
+    """Return the findings sorted by place; what was found at one place in several expansions becomes one finding."""
+    groups: dict[tuple[str, Span], list[Finding]] = {}
+    for finding in findings:
+        together = groups.setdefault((finding.code, finding.span), [])
+        for index, known in enumerate(together):
+            if known.message == finding.message or (not set(known.chains) & set(finding.chains) and finding.chains):
+                together[index] = _together(known, finding)
+                break
+        else:
+            together.append(finding)
+    return sorted(
+        (finding for group in groups.values() for finding in group), key=lambda f: (f.span, f.code, f.message)
+    )
+
+
+def _together(first: Finding, second: Finding) -> Finding:
+    worse = first if SEVERITIES.index(first.severity) <= SEVERITIES.index(second.severity) else second
+    chains = tuple(dict.fromkeys((*first.chains, *second.chains)))
+    return worse if chains == worse.chains else Finding(**{**worse.__dict__, "chains": chains})
+
+
+def codes() -> tuple[str, ...]:
+    """Return the codes of all our rules, sorted."""
+    from urdfkit.lint.rules import RULES
+
+    return tuple(rule.code for rule in RULES)
+
+
+def _third_party() -> tuple[type[Rule], ...]:
+    from urdfkit.registry import load
+
+    return tuple(load("urdfkit.rules"))
+
+
+def _nothing(path: Path) -> Element:
+    """Return the root of a robot that could not be read."""
+    return Element("robot", {}, [], "", Origin(Position(str(path), 1, 1)))

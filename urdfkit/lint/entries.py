@@ -1,0 +1,169 @@
+"""Which files to lint: models, the fragments they include, and libraries of macros that nothing includes."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+from urdfkit.errors import ResourceError
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+SUFFIXES = (".urdf", ".xacro")
+_SKIPPED = frozenset(("build", "install", "devel", "log", "node_modules", "__pycache__"))
+_IGNORE_MARKS = frozenset(("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"))
+_MAX_DEPTH = 12
+
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_ROOT = re.compile(r"<(robot)\b((?:\"[^\"]*\"|'[^']*'|[^>\"'])*)>|<([A-Za-z_][\w:.-]*)")
+_NAMED = re.compile(r"(?<![\w:])name\s*=")
+_INCLUDE = re.compile(r"<(?:xacro:)?include\b[^<>]*?filename\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
+_MACRO = re.compile(r"<(?:xacro:)?macro\b.*?</(?:xacro:)?macro\s*>", re.DOTALL)
+_CONTENT = re.compile(r"<(?:link|joint|xacro:(?!macro|property|arg)\w)")
+_VARIABLE = re.compile(r"\$\([^()]*\)|\$\{[^{}]*\}")
+
+
+@record(order=True)
+class Entry:
+    """One file to expand and lint.
+
+    Attributes:
+        path: the file.
+        only: report what is in these files; everything where it is empty.
+        is_library: it only defines macros: what it lacks, its users bring.
+    """
+
+    path: Path
+    only: tuple[Path, ...] = ()
+    is_library: bool = False
+
+
+def find_entries(paths: Iterable[str | Path]) -> list[Entry]:
+    """Return what to lint for the paths a user named.
+
+    Args:
+        paths: files, package folders, workspaces, or names of robots we ship.
+
+    Raises:
+        ResourceError: a path is not there, or there is no description in it.
+    """
+    found: dict[Entry, None] = {}
+    for path in paths:
+        named = Path(path)
+        if named.is_file():
+            found.update(dict.fromkeys(_of_file(named)))
+        elif named.is_dir():
+            found.update(dict.fromkeys(_of_folder(named)))
+        else:
+            found.update(dict.fromkeys(_of_name(str(path))))
+    return list(found)
+
+
+def _of_name(name: str) -> list[Entry]:
+    from urdfkit.resources import find_model, robot_names, robots_dir
+
+    if name in robot_names():
+        return _of_folder(robots_dir() / name)
+    # Says what is not there and the nearest right thing.
+    return [Entry(find_model([name]).path)]
+
+
+def _of_folder(folder: Path) -> list[Entry]:
+    texts = {path: _text(path) for path in _walk(folder, 0)}
+    robots = {path: text for path, text in texts.items() if _is_robot(text)}
+    if not robots:
+        raise ResourceError(f"no robot description (.urdf or .xacro with a <robot> in it) in {folder}")
+    included = _included(robots)
+    return [Entry(path, (), _is_library(robots[path])) for path in robots if path not in included]
+
+
+def _of_file(path: Path) -> list[Entry]:
+    """Return the file itself, or for a fragment the models that include it."""
+    text = _text(path)
+    root = _ROOT.search(text)
+    if root is None or root[1] is None or _NAMED.search(root[2]):
+        return [Entry(path)]
+    package = next((folder for folder in path.absolute().parents if (folder / "package.xml").is_file()), None)
+    if package is not None:
+        robots = {other: text for other in _walk(package, 0) if _is_robot(text := _text(other))}
+        above = _includers(path.resolve(), robots)
+        if above:
+            return [Entry(_relative(model), (path,)) for model in above]
+    return [Entry(path, (), _is_library(text))]
+
+
+def _relative(path: Path) -> Path:
+    here = Path.cwd()
+    return path.relative_to(here) if path.is_relative_to(here) else path
+
+
+def _includers(path: Path, robots: dict[Path, str]) -> list[Path]:
+    """Return the files nobody includes that reach `path` through includes."""
+    reached = {path}
+    while True:
+        more = {other for other, text in robots.items() if any(_matches(text, known) for known in reached)}
+        if more <= reached:
+            break
+        reached |= more
+    included = _included(robots)
+    return sorted(other for other in reached - {path} if other not in included)
+
+
+def _included(robots: dict[Path, str]) -> set[Path]:
+    patterns = {other: _patterns(text) for other, text in robots.items()}
+    return {
+        path
+        for path in robots
+        if any(pattern.search(path.as_posix()) for other in robots if other != path for pattern in patterns[other])
+    }
+
+
+def _matches(text: str, path: Path) -> bool:
+    return any(pattern.search(path.as_posix()) for pattern in _patterns(text))
+
+
+def _patterns(text: str) -> list[re.Pattern[str]]:
+    """Return what the paths of included files look like: the part after the last ``$(…)`` or ``..``, if any."""
+    found = []
+    for double, single in _INCLUDE.findall(text):
+        written = (double or single).replace("\\", "/").rpartition("../")[2].removeprefix("./")
+        written = re.sub(r"^\$\(find[^()]*\)/", "", written)
+        parts = [re.escape(part) for part in _VARIABLE.split(written)]
+        if any(parts):
+            found.append(re.compile(f"(^|/){'.*'.join(parts)}$"))
+    return found
+
+
+def _is_robot(text: str) -> bool:
+    root = _ROOT.search(text)
+    return root is not None and root[1] is not None
+
+
+def _is_library(text: str) -> bool:
+    return not _CONTENT.search(_MACRO.sub("", text))
+
+
+def _walk(folder: Path, depth: int) -> Iterator[Path]:
+    try:
+        with os.scandir(folder) as scan:
+            children = sorted(scan, key=lambda child: child.name)
+    except OSError:
+        return
+    if any(child.name in _IGNORE_MARKS for child in children):
+        return
+    for child in children:
+        if child.is_dir(follow_symlinks=False):
+            if depth < _MAX_DEPTH and child.name not in _SKIPPED and not child.name.startswith("."):
+                yield from _walk(folder / child.name, depth + 1)
+        elif child.name.endswith(SUFFIXES):
+            yield folder / child.name
+
+
+def _text(path: Path) -> str:
+    from urdfkit.description.source import Source
+
+    return _COMMENT.sub("", Source.read(path).text)

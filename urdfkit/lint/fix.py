@@ -1,0 +1,246 @@
+"""Mend files: edit literal source text, lint the result, and keep it only if nothing got worse.
+
+Bytes that no edit touches stay as they are: line ends, byte order marks, encodings, comments. Nothing is written before
+the mended text has been linted, and then each file is replaced in one move. Files outside the folders that were linted
+(installed packages, other people's) are never touched.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from urdfkit.errors import ResourceError
+from urdfkit.lint.engine import Options, Outcome, run
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from urdfkit.description.source import Source, Span
+    from urdfkit.lint.entries import Entry
+    from urdfkit.lint.finding import Edit, Finding
+
+_ROUNDS = 10
+_INSTALLED = ("site-packages", "dist-packages")
+
+
+@record(eq=False)
+class Change:
+    """One file that fixes change.
+
+    Attributes:
+        path: the file, resolved.
+        shown: what findings call it.
+        before: its bytes as they were read.
+        after: its bytes as they are to be.
+    """
+
+    path: Path
+    shown: str
+    before: bytes
+    after: bytes
+
+    def write(self) -> None:
+        """Replace the file in one move.
+
+        Raises:
+            ResourceError: it cannot be written, or somebody changed it since it was read.
+        """
+        from urdfkit.atomic import write_bytes
+
+        if self.path.read_bytes() != self.before:
+            raise ResourceError(f"{self.shown} was changed while it was being fixed; nothing was written to it")
+        write_bytes(self.path, self.after)
+
+    def diff(self) -> str:
+        """Return the change as a unified diff."""
+        from difflib import unified_diff
+
+        old, new = (_Text(content).text.splitlines(keepends=True) for content in (self.before, self.after))
+        lines = unified_diff(old, new, self.shown, self.shown)
+        return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)
+
+
+@record(eq=False)
+class Fixed:
+    """What fixing came to.
+
+    Attributes:
+        outcome: what is left, linted on the mended text.
+        changes: the files to write.
+        fixed: how many findings were mended, by code.
+        notes: why something that could be fixed was not, one line each.
+    """
+
+    outcome: Outcome
+    changes: tuple[Change, ...]
+    fixed: dict[str, int]
+    notes: tuple[str, ...]
+
+
+def fix(entries: Sequence[Entry], options: Options, *, within: Iterable[Path], unsafe: bool = False) -> Fixed:
+    """Mend what can be mended, in memory; see `Change.write`.
+
+    Args:
+        entries: what to lint.
+        options: how to lint it.
+        within: folders (or files) whose files may be changed.
+        unsafe: apply unsafe fixes too.
+
+    Raises:
+        UsageError: a code or the target is not known.
+        ResourceError: an entry cannot be read.
+    """
+    return _Fixer(entries, options, tuple(path.resolve() for path in within), unsafe).fix()
+
+
+def may_be_changed(paths: Iterable[Path]) -> list[Path]:
+    """Return the folders that fixes may change files in, for the paths a user named.
+
+    That is a named folder itself, and for a named file its package, or the file alone where it is in none.
+    """
+    folders = []
+    for path in paths:
+        if path.is_dir():
+            folders.append(path.resolve())
+        elif path.is_file():
+            resolved = path.resolve()
+            package = next((folder for folder in resolved.parents if (folder / "package.xml").is_file()), None)
+            folders.append(package or resolved.parent)
+    return folders
+
+
+class _Text:
+    """The text of a file and the way back to its exact bytes."""
+
+    def __init__(self, content: bytes) -> None:
+        if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+            self.codec, self.mark = ("utf-16-le" if content[:2] == b"\xff\xfe" else "utf-16-be"), content[:2]
+        else:
+            self.codec, self.mark = "utf-8", b"\xef\xbb\xbf" if content[:3] == b"\xef\xbb\xbf" else b""
+        # Bytes that are no UTF-8 (Latin-1 comments) come back as they were.
+        self.text = content[len(self.mark) :].decode(self.codec, errors="surrogateescape")
+
+    def encoded(self, text: str) -> bytes:
+        """Return the bytes of a text that was made from `text` by edits."""
+        return self.mark + text.encode(self.codec, errors="surrogateescape")
+
+    def agrees_with(self, source: Source) -> bool:
+        """Return whether offsets into the text that was linted hold in this one."""
+        return len(self.text) == len(source.text) and all(
+            ours == theirs or theirs == "�" for ours, theirs in zip(self.text, source.text, strict=True)
+        )
+
+
+class _Fixer:
+    """One call of `fix`."""
+
+    def __init__(self, entries: Sequence[Entry], options: Options, within: tuple[Path, ...], unsafe: bool) -> None:
+        self.entries, self.options, self.within, self.unsafe = entries, options, within, unsafe
+        self.originals: dict[Path, _Text] = {}
+        self.contents: dict[Path, bytes] = {}
+        self.shown: dict[Path, str] = {}
+        self.texts: dict[Path, str] = {}
+        self.refused: set[str] = set()
+        self.notes: dict[str, None] = {}
+
+    def fix(self) -> Fixed:
+        outcome = first = self._lint(self.texts)
+        for _ in range(_ROUNDS):
+            texts, mended = self._attempt(outcome)
+            if mended is None:
+                break
+            self.texts, outcome = texts, mended
+        changes = tuple(
+            Change(path, self.shown[path], self.contents[path], self.originals[path].encoded(text))
+            for path, text in sorted(self.texts.items())
+            if text != self.originals[path].text
+        )
+        left = _counts(outcome)
+        fixed = {code: count - left.get(code, 0) for code, count in _counts(first).items()}
+        fixed = {code: count for code, count in fixed.items() if count > 0} if changes else {}
+        return Fixed(outcome, changes, fixed, tuple(self.notes))
+
+    def _lint(self, texts: dict[Path, str]) -> Outcome:
+        overlay = {str(path): text for path, text in texts.items()}
+        return run(self.entries, Options(**{**self.options.__dict__, "texts": overlay}))
+
+    def _attempt(self, outcome: Outcome) -> tuple[dict[Path, str], Outcome | None]:
+        """Apply all fixes at once; if that makes something worse, rule by rule."""
+        findings = [finding for finding in outcome.findings if self._is_wanted(finding)]
+        codes = list(dict.fromkeys(finding.code for finding in findings))
+        for group in (codes, *([code] for code in codes if len(codes) > 1)):
+            texts = self._edited([finding for finding in findings if finding.code in group], outcome)
+            if texts == self.texts:
+                continue
+            mended = self._lint(texts)
+            worse = _worse(outcome, mended)
+            if not worse:
+                return texts, mended
+            if len(group) == 1:
+                self.refused.add(group[0])
+                self.notes[f"{group[0]} was not fixed: that would have caused {', '.join(worse)}"] = None
+        return self.texts, None
+
+    def _is_wanted(self, finding: Finding) -> bool:
+        fix = finding.fix
+        return fix is not None and (fix.safety == "safe" or self.unsafe) and finding.code not in self.refused
+
+    def _edited(self, findings: list[Finding], outcome: Outcome) -> dict[Path, str]:
+        """Return the texts with the fixes applied that do not overlap; the rest has its turn in the next round."""
+        taken: dict[str, dict[Edit, None]] = {}
+        for finding in findings:
+            edits = finding.fix.edits if finding.fix is not None else ()
+            if all(self._is_editable(edit.span.file, outcome) for edit in edits) and not any(
+                _overlaps(edit, other) for edit in edits for other in taken.get(edit.span.file, ())
+            ):
+                for edit in edits:
+                    taken.setdefault(edit.span.file, {})[edit] = None
+        texts = dict(self.texts)
+        for file, accepted in taken.items():
+            path, source = outcome.files[file], outcome.sources[file]
+            text = self.texts.get(path, self.originals[path].text)
+            for edit in sorted(accepted, key=lambda edit: edit.span, reverse=True):
+                start, end = _offsets(source, edit.span)
+                text = text[:start] + edit.text + text[end:]
+            texts[path] = text
+        return texts
+
+    def _is_editable(self, file: str, outcome: Outcome) -> bool:
+        path = outcome.files[file]
+        if not any(path == folder or folder in path.parents for folder in self.within):
+            self.notes[f"{file} was not fixed: it is outside of what was linted"] = None
+            return False
+        if path not in self.originals:
+            content = path.read_bytes()
+            text = _Text(content)
+            if not text.agrees_with(outcome.sources[file]):
+                self.notes[f"{file} was not fixed: its encoding is not UTF-8 or UTF-16"] = None
+                return False
+            self.contents[path], self.originals[path], self.shown[path] = content, text, file
+        return True
+
+
+def _offsets(source: Source, span: Span) -> tuple[int, int]:
+    return source.offset(span.line, span.column), source.offset(span.end_line, span.end_column)
+
+
+def _overlaps(edit: Edit, other: Edit) -> bool:
+    if edit == other:
+        return False
+    (a, b), (c, d) = (((e.span.line, e.span.column), (e.span.end_line, e.span.end_column)) for e in (edit, other))
+    return a == c or (a < d and c < b)
+
+
+def _counts(outcome: Outcome) -> dict[str, int]:
+    counts: dict[str, int] = {}
+    for finding in outcome.findings:
+        counts[finding.code] = counts.get(finding.code, 0) + 1
+    return counts
+
+
+def _worse(before: Outcome, after: Outcome) -> list[str]:
+    """Return the codes found more often than before."""
+    known = _counts(before)
+    return [code for code, count in _counts(after).items() if count > known.get(code, 0)]

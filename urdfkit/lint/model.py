@@ -1,0 +1,97 @@
+"""Model: the robot being linted and every file it was read from."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from urdfkit.description.source import Position, Source, Span
+from urdfkit.lint.syntax import Attribute, Document, Tag
+from urdfkit.record import field, record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from urdfkit.description.element import Element
+    from urdfkit.description.expanded import Expanded
+    from urdfkit.description.robot import Robot
+
+
+_DROPPING = frozenset(
+    (
+        "xml",
+        "undefined-macro",
+        "undefined-block",
+        "include-not-found",
+        "package-not-found",
+        "macro-arguments",
+        "recursion",
+    )
+)
+"""Kinds of faults after which elements are missing."""
+
+
+@record(eq=False)
+class Model:
+    """What the rules see.
+
+    Attributes:
+        expanded: the outcome of the recovering expansion, read as if no ``xacro:`` prefix were missing.
+        robot: the robot in it; empty where there is none.
+        target: the consumer it is meant for; None for all of them.
+        expand_as_written: makes the robot without mending prefixes; see `as_written`.
+    """
+
+    expanded: Expanded
+    robot: Robot
+    target: str | None = None
+    expand_as_written: Callable[[], Robot] | None = field(default=None, repr=False)
+
+    @cached_property
+    def as_written(self) -> Robot:
+        """The robot that other tools see: what lacks its ``xacro:`` prefix is not expanded."""
+        if self.expand_as_written is None or not self.expanded.unprefixed:
+            return self.robot
+        return self.expand_as_written()
+
+    @cached_property
+    def is_incomplete(self) -> bool:
+        """Whether elements were dropped because of a fault: what is not there may be in them."""
+        return any(fault.kind in _DROPPING for fault in self.expanded.faults)
+
+    @cached_property
+    def _documents(self) -> dict[str, Document]:
+        return {}
+
+    def document(self, file: str) -> Document:
+        """Return the tags of one file, as written."""
+        if file not in self._documents:
+            self._documents[file] = Document(self.expanded.sources.get(file) or Source(file, ""))
+        return self._documents[file]
+
+    def tag(self, position: Position) -> Tag | None:
+        """Return the tag a person wrote there."""
+        return self.document(position.file).tag_at(position.line, position.column)
+
+    def span(self, position: Position, attribute: str | None = None) -> Span:
+        """Return the span of an attribute of the tag at `position`; else of the tag; else the position itself."""
+        tag = self.tag(position)
+        if tag is not None:
+            return self.document(position.file).span_of(tag, attribute)
+        return Span(position.file, position.line, position.column, position.line, position.column + 1)
+
+    def is_unresolved(self, element: Element, attribute: str | None = None) -> bool:
+        """Return whether xacro could not evaluate the attribute (or text): a fault says so already."""
+        return (element.origin.position, attribute) in self.expanded.unresolved
+
+    def literal(self, element: Element, attribute: str) -> Attribute | None:
+        """Return the attribute as written if it is written out: no expression, no entity, value as after expansion."""
+        tag = self.tag(element.origin.position)
+        written = tag.attributes.get(attribute) if tag is not None else None
+        if written is None or written.value != element.get(attribute) or "&" in written.value:
+            return None
+        return written
+
+    def shown(self, position: Position) -> str:
+        """Return a place as the user is shown it, without the column."""
+        return f"{position.file}:{position.line}"

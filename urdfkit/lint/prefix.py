@@ -1,0 +1,93 @@
+"""The ``xacro:`` prefix: where it is missing, and the edits that add it."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.lint.finding import Edit
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.syntax import Document, Tag
+
+NAMESPACE = "http://www.ros.org/wiki/xacro"
+"""What ``xmlns:xacro`` is bound to."""
+
+DIRECTIVES = {
+    "macro": "name",
+    "property": "name",
+    "include": "filename",
+    "if": "value",
+    "unless": "value",
+    "arg": "name",
+    "insert_block": "name",
+}
+"""xacro's directives and the attribute each cannot do without."""
+
+FOREIGN = frozenset(("gazebo", "plugin", "sensor", "ros2_control", "transmission", "mujoco", "world", "model"))
+"""Elements inside which other formats than URDF rule, with elements of their own."""
+
+URDF_CHILDREN: dict[str, frozenset[str]] = {
+    "robot": frozenset(("link", "joint", "material", "transmission", "gazebo", "ros2_control", "sensor")),
+    "link": frozenset(("inertial", "visual", "collision", "contact")),
+    "inertial": frozenset(("origin", "mass", "inertia")),
+    "visual": frozenset(("origin", "geometry", "material")),
+    "collision": frozenset(("origin", "geometry", "material", "verbose")),
+    "geometry": frozenset(("box", "cylinder", "sphere", "capsule", "mesh")),
+    "material": frozenset(("color", "texture")),
+    "joint": frozenset(
+        ("origin", "parent", "child", "axis", "limit", "dynamics", "mimic", "safety_controller", "calibration")
+    ),
+}
+"""The elements of URDF and what each may hold (http://wiki.ros.org/urdf/XML)."""
+
+URDF_ELEMENTS = frozenset(URDF_CHILDREN).union(*URDF_CHILDREN.values())
+
+_XACRO_URI = re.compile(r"https?://(www\.)?(wiki\.)?ros\.org/(wiki/)?xacro/?")
+
+
+def has_foreign_ancestor(tag: Tag) -> bool:
+    """Return whether the tag is inside an element where URDF does not rule."""
+    return any(above.name in FOREIGN for above in tag.ancestors())
+
+
+def is_unprefixed_directive(tag: Tag) -> bool:
+    """Return whether the tag is a xacro directive that lacks its prefix."""
+    wanted = DIRECTIVES.get(tag.name)
+    if wanted is None or wanted not in tag.attributes:
+        return False
+    if tag.name == "insert_block" or not has_foreign_ancestor(tag):
+        return True
+    # Formats inside <gazebo> know `include`, `property` … themselves; a condition with an expression is xacro's.
+    value = tag.attributes[wanted].value
+    return tag.name in ("if", "unless") and ("${" in value or "$(" in value)
+
+
+def declares_xacro(document: Document) -> bool:
+    """Return whether the root element binds the prefix."""
+    return any("xmlns:xacro" in root.attributes for root in document.roots[:1])
+
+
+def declaration(document: Document) -> tuple[Edit, ...]:
+    """Return the edit that binds the prefix on the root element; none where it is bound.
+
+    A default namespace that was meant to bind it (``xmlns="http://www.ros.org/wiki/xacro"``) is renamed.
+    """
+    if declares_xacro(document) or not document.roots:
+        return ()
+    root, source = document.roots[0], document.source
+    attributes = root.attributes
+    default = attributes.get("xmlns")
+    if default is not None and _XACRO_URI.fullmatch(default.value):
+        return (Edit(source.span(default.start, default.start + len("xmlns")), "xmlns:xacro"),)
+    end = max((attribute.end for attribute in attributes.values()), default=root.start + 1 + len(root.name))
+    return (Edit(source.span(end, end), f' xmlns:xacro="{NAMESPACE}"'),)
+
+
+def prefixing(document: Document, tag: Tag) -> tuple[Edit, ...]:
+    """Return the edits that prefix a tag, its end tag included, and bind the prefix where it is not."""
+    source = document.source
+    edits = [*declaration(document), Edit(source.span(tag.start + 1, tag.start + 1), "xacro:")]
+    if tag.close is not None:
+        edits.append(Edit(source.span(tag.close + 2, tag.close + 2), "xacro:"))
+    return tuple(edits)

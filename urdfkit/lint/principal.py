@@ -1,0 +1,93 @@
+"""Principal moments of an inertia tensor, in plain Python."""
+
+from __future__ import annotations
+
+from math import isfinite, sqrt
+
+from urdfkit.description.numbers import number
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from urdfkit.description.element import Element
+    from urdfkit.description.robot import Link
+
+_COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+def principal_moments(link: Link) -> Iterator[tuple[tuple[float, float, float], Element]]:
+    """Yield the principal moments [kg·m²] of each ``<inertia>`` of a link, smallest first, and its element.
+
+    Readers differ in which of several they take, so each is looked at. One that cannot be read is left out.
+    """
+    if link.inertial is None:
+        return
+    for element in link.inertial.element.find_all("inertia"):
+        values = [number(element.attributes.get(name, "")) for name in _COMPONENTS]
+        known = [value for value in values if value is not None and isfinite(value)]
+        if len(known) == len(_COMPONENTS):
+            xx, xy, xz, yy, yz, zz = known
+            yield eigenvalues(xx, xy, xz, yy, yz, zz), element
+
+
+def eigenvalues(xx: float, xy: float, xz: float, yy: float, yz: float, zz: float) -> tuple[float, float, float]:
+    """Return the eigenvalues of a symmetric 3 × 3 matrix, smallest first.
+
+    Relative to the largest entry they are exact to about 1e-15: Jacobi's rotations on the matrix scaled to 1 (Golub and
+    Van Loan, Matrix Computations, 8.5).
+
+    Args:
+        xx: an entry, which has to be finite.
+        xy: another.
+        xz: another.
+        yy: another.
+        yz: another.
+        zz: another.
+    """
+    scale = max(abs(xx), abs(xy), abs(xz), abs(yy), abs(yz), abs(zz))
+    if scale == 0.0:
+        return 0.0, 0.0, 0.0
+    a = [
+        [xx / scale, xy / scale, xz / scale],
+        [xy / scale, yy / scale, yz / scale],
+        [xz / scale, yz / scale, zz / scale],
+    ]
+    for _ in range(20):
+        if a[0][1] ** 2 + a[0][2] ** 2 + a[1][2] ** 2 < 1e-36:
+            break
+        for p, q in ((0, 1), (0, 2), (1, 2)):
+            _rotate(a, p, q)
+    first, second, third = sorted((a[0][0] * scale, a[1][1] * scale, a[2][2] * scale))
+    return first, second, third
+
+
+def _rotate(a: list[list[float]], p: int, q: int) -> None:
+    """Zero the entry p, q by one Jacobi rotation."""
+    if a[p][q] == 0.0:
+        return
+    tau = (a[q][q] - a[p][p]) / (2.0 * a[p][q])
+    t = (1.0 if tau >= 0 else -1.0) / (abs(tau) + sqrt(1.0 + tau * tau))
+    c = 1.0 / sqrt(1.0 + t * t)
+    s = t * c
+    r = 3 - p - q
+    a[p][p], a[q][q] = a[p][p] - t * a[p][q], a[q][q] + t * a[p][q]
+    a[p][q] = a[q][p] = 0.0
+    rp, rq = a[r][p], a[r][q]
+    a[r][p] = a[p][r] = c * rp - s * rq
+    a[r][q] = a[q][r] = s * rp + c * rq
+
+
+def shown(values: Sequence[float], *, digits: int = 3) -> list[str]:
+    """Return the values with as few significant digits (at least `digits`) as tell unlike sums of them apart."""
+    first, second, third = values
+    for enough in range(digits, 17):
+        texts = [f"{value:.{enough}g}" for value in values]
+        if (float(texts[0]) + float(texts[1]) < float(texts[2])) == (first + second < third):
+            return [_padded(value, enough) for value in values]
+    return [repr(value) for value in values]
+
+
+def _padded(value: float, digits: int) -> str:
+    text = f"{value:#.{digits}g}"
+    return text.rstrip(".") if "e" not in text else f"{value:.{digits}g}"

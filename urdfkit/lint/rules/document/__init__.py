@@ -1,0 +1,1 @@
+"""Rules on the XML document and the values in it."""

@@ -1,0 +1,88 @@
+"""E010 bad-number."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.description.numbers import number
+from urdfkit.lint.finding import Edit, Fix
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.robot import Problem
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+_COMMA = re.compile(r"\s*,\s*")
+_COUNTS = {"xyz": 3, "rpy": 3, "size": 3, "scale": 3, "rgba": 4}
+
+
+class BadNumber(RobotRule):
+    """A value that has to be a number, or several, is none.
+
+    ## What it does
+    Checks every attribute that holds numbers (``xyz``, ``rpy``, ``size``, ``radius``, ``value``, ``lower`` …): commas
+    between the numbers, units after them, or an expression that was never evaluated do not parse.
+
+    ## Why is this bad?
+    check_urdf, Pinocchio and MuJoCo refuse the whole robot; more lenient readers take zero.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <visual>
+          <origin xyz="-0.1, 0, 0"/>
+          <geometry><sphere radius="0.1"/></geometry>
+        </visual>
+      </link>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <visual>
+          <origin xyz="-0.1 0 0"/>
+          <geometry><sphere radius="0.1"/></geometry>
+        </visual>
+      </link>
+    </robot>
+    ```
+
+    ## Fix safety
+    Safe where commas between numbers are the only fault; anything else is left to you.
+    """
+
+    code = "E010"
+    name = "bad-number"
+    fix = "safe"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each number the reader could not read."""
+        for problem in model.robot.problems:
+            if problem.kind != "bad-number" or model.is_unresolved(problem.element, problem.attribute):
+                continue
+            fix = self._without_commas(problem, model)
+            yield self.at(
+                model,
+                problem.element,
+                problem.message,
+                attribute=problem.attribute,
+                fix=fix,
+            )
+
+    def _without_commas(self, problem: Problem, model: Model) -> Fix | None:
+        written = model.literal(problem.element, problem.attribute) if problem.attribute else None
+        if written is None:
+            return None
+        # A decimal comma ("0,5 0 0") is no separator: there has to be one between any two numbers.
+        words = _COMMA.split(written.value.strip())
+        if len(words) != _COUNTS.get(written.name) or any(number(word) is None for word in words):
+            return None
+        span = model.document(problem.origin.position.file).source.span(written.value_start, written.value_end)
+        return Fix("safe", "Replace commas by blanks", (Edit(span, " ".join(words)),))

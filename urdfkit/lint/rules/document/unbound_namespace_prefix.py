@@ -1,0 +1,78 @@
+"""E002 unbound-namespace-prefix."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.lint.finding import Fix
+from urdfkit.lint.prefix import declaration
+from urdfkit.lint.rule import SourceRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+    from urdfkit.lint.syntax import Document
+
+_PREFIXED = re.compile(r"[<\s]([A-Za-z_][\w.-]*):[A-Za-z_][\w.-]*(?=[\s/>=])")
+
+
+class UnboundNamespacePrefix(SourceRule):
+    """A prefix is used that the file does not bind.
+
+    ## What it does
+    Looks for prefixes (``xacro:``) that no element around them binds with ``xmlns:…``. Every file has to bind the
+    prefixes it uses itself, included files too.
+
+    ## Why is this bad?
+    XML parsers stop with "unbound prefix" and do not say how to mend it.
+
+    ## Example
+    ```xml
+    <robot name="arm" xmlns="http://www.ros.org/wiki/xacro">
+      <xacro:property name="length" value="0.4"/>
+      <link name="base"/>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+      <xacro:property name="length" value="0.4"/>
+      <link name="base"/>
+    </robot>
+    ```
+
+    ## Fix safety
+    Safe for ``xacro:``, which has one meaning. Other prefixes are left to you.
+    """
+
+    code = "E002"
+    name = "unbound-namespace-prefix"
+    fix = "safe"
+
+    def check(self, document: Document, model: Model) -> Iterator[Finding]:
+        """Yield one finding for each unbound prefix, at the root element."""
+        text = document.source.text
+        used = {prefix for prefix in _PREFIXED.findall(text) if f"xmlns:{prefix}" not in text} - {"xml", "xmlns"}
+        if not used or not document.roots:
+            return
+        root = document.roots[0]
+        for tag in document.walk():
+            names = (tag.name, *tag.attributes) if ":" in text[tag.start : tag.end] else ()
+            for prefix in [name.partition(":")[0] for name in names if ":" in name]:
+                if prefix not in used:
+                    continue
+                used.discard(prefix)
+                first = document.source.position(tag.start)
+                edits = declaration(document) if prefix == "xacro" else ()
+                bound = f'xmlns:{prefix}="{"http://www.ros.org/wiki/xacro" if prefix == "xacro" else "…"}"'
+                yield self.at(
+                    model,
+                    document.source.position(root.start),
+                    f"the prefix `{prefix}:` (first used in line {first.line}) is bound to nothing",
+                    help=f"write {bound} on the root element of this file",
+                    fix=Fix("safe", f"Bind the prefix `{prefix}:`", edits) if edits else None,
+                )

@@ -1,0 +1,1 @@
+"""Rules on Gazebo tags and plugins."""

@@ -1,0 +1,114 @@
+"""Z802 plugin-joint-undefined."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.plugins import Parameter
+    from urdfkit.description.robot import Plugin
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class PluginJointUndefined(RobotRule):
+    """A Gazebo plugin names a joint that the robot does not have.
+
+    ## What it does
+    Looks up the joints in the parameters of the plugins we have a table of (diff drive, skid steer, joint state
+    publisher, joint controllers), also the names they take when the parameter is left out.
+
+    ## Why is this bad?
+    The plugin does nothing, or takes the simulator down with it.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="wheel"/>
+      <joint name="wheel_joint" type="continuous">
+        <parent link="base"/>
+        <child link="wheel"/>
+      </joint>
+      <gazebo>
+        <plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">
+          <jointName>wheel_hinge</jointName>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="wheel"/>
+      <joint name="wheel_joint" type="continuous">
+        <parent link="base"/>
+        <child link="wheel"/>
+      </joint>
+      <gazebo>
+        <plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">
+          <jointName>wheel_joint</jointName>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+    """
+
+    code = "Z802"
+    name = "plugin-joint-undefined"
+    not_for = frozenset(("mujoco", "isaac", "drake", "moveit"))
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each joint name that is no joint."""
+        if not model.robot.gazebo or model.is_incomplete:
+            return
+        from urdfkit.description.plugins import match
+
+        for block in model.robot.gazebo:
+            for plugin in (*block.plugins, *(plugin for sensor in block.sensors for plugin in sensor.plugins)):
+                spec = match(plugin)
+                if spec is not None:
+                    for parameter in spec.parameters:
+                        if parameter.names == "joint":
+                            yield from self._check(model, plugin, parameter)
+
+    def _check(self, model: Model, plugin: Plugin, parameter: Parameter) -> Iterator[Finding]:
+        from urdfkit.description.plugins import values
+        from urdfkit.errors import did_you_mean
+
+        joints = model.as_written.joint_by_name
+        written = [(text, element) for text, element in values(plugin, parameter) if text]
+        for text, element in written:
+            if text in joints or "::" in text or "$" in text or model.is_unresolved(element):
+                continue
+            message = f"<{parameter.tag}> names `{text}`, which is no joint"
+            if text in model.robot.joint_by_name:
+                help = f"{_lost(model, text)} would make it, but lacks its `xacro:` prefix"
+            else:
+                nearest = did_you_mean(text.strip("\"'"), joints).removeprefix("; ")
+                help = nearest or f"joints: {', '.join(joints) or 'none'}"
+            yield self.at(model, element, message, joint=text, help=help)
+        default = parameter.default
+        if not written and default is not None and default not in joints:
+            yield self.at(
+                model,
+                plugin.element,
+                f"<{parameter.tag}> is left out, and its default `{default}` is no joint",
+                joint=default,
+                help=f"add <{parameter.tag}>…</{parameter.tag}>{did_you_mean(default, joints)}",
+            )
+
+
+def _lost(model: Model, joint: str) -> str:
+    """Return the call, or definition, without prefix that the joint came from."""
+    chain = model.robot.joint_by_name[joint].element.origin.expansions
+    unprefixed = {item.position: item.name for item in model.expanded.unprefixed}
+    for call in chain:
+        if call.position in unprefixed:
+            return f"`<{unprefixed[call.position]}>` ({model.shown(call.position)})"
+    return "a macro"

@@ -1,0 +1,76 @@
+"""I502 inertia-not-positive-definite."""
+
+from __future__ import annotations
+
+from urdfkit.lint.principal import principal_moments
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+TOLERANCE = 1e-9
+"""Relative to the largest principal moment; rounding leaves about 1e-15."""
+
+
+class InertiaNotPositiveDefinite(RobotRule):
+    """An inertia tensor has a principal moment that is zero or negative.
+
+    ## What it does
+    Computes the principal moments (eigenvalues) of every tensor whose link has a mass. A tensor that is zero throughout
+    is another matter.
+
+    ## Why is this bad?
+    About no axis can a body with mass and size be turned for free, let alone gain energy. check_urdf and Pinocchio
+    accept such a tensor and the simulation blows up; MuJoCo and Gazebo refuse it.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.01" ixy="0.05" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+        </inertial>
+      </link>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.01" ixy="0.0005" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+        </inertial>
+      </link>
+    </robot>
+    ```
+    """
+
+    code = "I502"
+    name = "inertia-not-positive-definite"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each tensor that is not positive definite."""
+        for link in model.robot.links:
+            mass = link.inertial.mass if link.inertial is not None else None
+            if mass is None or mass <= 0.0:
+                continue
+            for moments, element in principal_moments(link):
+                size = max(abs(moments[0]), abs(moments[2]))
+                if size == 0.0 or moments[0] > TOLERANCE * size:
+                    continue
+                listed = ", ".join(f"{moment:.3g}" for moment in moments)
+                wrong = "negative" if moments[0] < -TOLERANCE * size else "zero"
+                yield self.at(
+                    model,
+                    element,
+                    f"inertia of link `{link.name}` is impossible: principal moments {listed} kg·m²: one is {wrong}",
+                    link=link.name,
+                    help="compute it from shape and mass; products of inertia are small beside the diagonal",
+                )

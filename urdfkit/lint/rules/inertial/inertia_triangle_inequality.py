@@ -1,0 +1,77 @@
+"""I503 inertia-triangle-inequality."""
+
+from __future__ import annotations
+
+from urdfkit.lint.principal import principal_moments, shown
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+TOLERANCE = 1e-3
+"""Violations up to this fraction of the largest moment come from rounded numbers: `info`."""
+
+NOISE = 1e-6
+"""Violations up to this fraction are not reported: six digits are all many CAD programs write."""
+
+
+class InertiaTriangleInequality(RobotRule):
+    """The principal moments of an inertia tensor belong to no body.
+
+    ## What it does
+    Computes the principal moments A ≤ B ≤ C of every tensor and checks that A + B ≥ C.
+
+    ## Why is this bad?
+    Every body made of matter fulfils it: A + B - C is twice the second moment of mass along the third axis
+    (Wittenburg, Dynamics of Multibody Systems, 3.1). A tensor that does not is positive definite and gets through most
+    parsers, and then joints shake and wheels hop. MuJoCo refuses it.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="chassis">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.4" ixy="0.1" ixz="0.1" iyy="0.4" iyz="0.1" izz="0.2"/>
+        </inertial>
+      </link>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="chassis">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.4" ixy="0" ixz="0" iyy="0.4" iyz="0" izz="0.2"/>
+        </inertial>
+      </link>
+    </robot>
+    ```
+    """
+
+    code = "I503"
+    name = "inertia-triangle-inequality"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each tensor that violates the inequality."""
+        for link in model.robot.links:
+            for moments, element in principal_moments(link):
+                small, middle, large = moments
+                if small <= 0.0 or small + middle >= large * (1.0 - NOISE):
+                    continue
+                a, b, c = shown(moments)
+                yield self.at(
+                    model,
+                    element,
+                    f"inertia of link `{link.name}` is impossible: principal moments {a}, {b}, {c} kg·m²: "
+                    f"{a} + {b} < {c}",
+                    link=link.name,
+                    help="compute it from shape and mass; placeholders for products of inertia should be 0",
+                    severity="error" if large - small - middle > TOLERANCE * large else "info",
+                )

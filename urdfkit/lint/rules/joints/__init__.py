@@ -1,0 +1,1 @@
+"""Rules on joints, axes and limits."""

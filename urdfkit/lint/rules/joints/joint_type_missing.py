@@ -1,0 +1,72 @@
+"""J401 joint-type-missing."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.robot import Joint
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class JointTypeMissing(RobotRule):
+    """A joint has no type.
+
+    ## What it does
+    Looks for joints without the attribute ``type``.
+
+    ## Why is this bad?
+    There is no default: every parser refuses the robot.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="wheel"/>
+      <joint name="wheel_joint">
+        <parent link="base"/>
+        <child link="wheel"/>
+        <axis xyz="0 1 0"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="wheel"/>
+      <joint name="wheel_joint" type="continuous">
+        <parent link="base"/>
+        <child link="wheel"/>
+        <axis xyz="0 1 0"/>
+      </joint>
+    </robot>
+    ```
+    """
+
+    code = "J401"
+    name = "joint-type-missing"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each joint without type."""
+        for joint in model.robot.joints:
+            if joint.type is None:
+                yield self.at(
+                    model,
+                    joint.element,
+                    f"joint `{joint.name}` has no type",
+                    joint=joint.name,
+                    help=f'write type="{_likely_type(joint)}", or whichever of the six types it is',
+                )
+
+
+def _likely_type(joint: Joint) -> str:
+    if joint.element.find("axis") is None:
+        return "fixed"
+    limited = joint.limit is not None and (joint.limit.lower is not None or joint.limit.upper is not None)
+    return "revolute" if limited else "continuous"

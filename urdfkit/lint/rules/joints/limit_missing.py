@@ -1,0 +1,68 @@
+"""J403 limit-missing."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class LimitMissing(RobotRule):
+    """A revolute or prismatic joint has no limit.
+
+    ## What it does
+    Looks for joints of type ``revolute`` and ``prismatic`` without ``<limit>``.
+
+    ## Why is this bad?
+    The limit is required for them: urdfdom refuses the robot. A joint that turns without end is ``continuous``.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="revolute">
+        <parent link="base"/>
+        <child link="arm"/>
+        <axis xyz="0 1 0"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="revolute">
+        <parent link="base"/>
+        <child link="arm"/>
+        <axis xyz="0 1 0"/>
+        <limit lower="-1.5" upper="1.5" effort="10" velocity="2"/>
+      </joint>
+    </robot>
+    ```
+    """
+
+    code = "J403"
+    name = "limit-missing"
+    not_for = frozenset(("mujoco",))
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each joint that needs a limit and has none."""
+        for joint in model.robot.joints:
+            if joint.type in ("revolute", "prismatic") and joint.limit is None:
+                unit = "[rad], [N·m] and [rad/s]" if joint.type == "revolute" else "[m], [N] and [m/s]"
+                endless = "; a joint that turns without end is `continuous`" if joint.type == "revolute" else ""
+                yield self.at(
+                    model,
+                    joint.element,
+                    f"{joint.type} joint `{joint.name}` has no <limit>",
+                    joint=joint.name,
+                    help=f'add <limit lower="…" upper="…" effort="…" velocity="…"/> in {unit}{endless}',
+                )

@@ -1,0 +1,1 @@
+"""Rules on the tree of links and joints."""

@@ -1,0 +1,1 @@
+"""Rules on what xacro makes of the files."""

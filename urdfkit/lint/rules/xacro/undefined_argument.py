@@ -1,0 +1,35 @@
+"""X106 undefined-arg."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import FaultRule
+
+
+class UndefinedArgument(FaultRule):
+    """``$(arg …)`` asks for an argument that was neither declared nor given.
+
+    ## What it does
+    Reports arguments without ``<xacro:arg>`` default that are not given as ``name:=value``.
+
+    ## Why is this bad?
+    The description expands only for those who know which arguments to give.
+
+    ## Example
+    ```xml
+    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+      <link name="$(arg prefix)base"/>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+      <xacro:arg name="prefix" default=""/>
+      <link name="$(arg prefix)base"/>
+    </robot>
+    ```
+    """
+
+    code = "X106"
+    name = "undefined-arg"
+    kinds = ("undefined-arg",)

@@ -1,0 +1,73 @@
+"""X101 unprefixed-xacro-directive."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.lint.finding import Fix
+from urdfkit.lint.prefix import DIRECTIVES, is_unprefixed_directive, prefixing
+from urdfkit.lint.rule import SourceRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+    from urdfkit.lint.syntax import Document
+
+_CANDIDATE = re.compile(rf"<(?:{'|'.join(DIRECTIVES)})[\s/>]")
+
+
+class UnprefixedDirective(SourceRule):
+    """A xacro directive lacks its ``xacro:`` prefix.
+
+    ## What it does
+    Looks for ``<macro>``, ``<property>``, ``<include>``, ``<if>``, ``<unless>``, ``<arg>`` and ``<insert_block>``
+    without the prefix.
+
+    ## Why is this bad?
+    Since ROS Melodic xacro takes them for plain XML: the body of a macro is evaluated where it stands ("name 'm' is not
+    defined"), an include is not read, and the elements themselves end up in the robot.
+
+    ## Example
+    ```xml
+    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+      <macro name="wheel" params="side">
+        <link name="${side}_wheel"/>
+      </macro>
+      <link name="base"/>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+      <xacro:macro name="wheel" params="side">
+        <link name="${side}_wheel"/>
+      </xacro:macro>
+      <link name="base"/>
+    </robot>
+    ```
+
+    ## Fix safety
+    Safe: no format that URDF is part of has these elements there. The fix binds the prefix on the root element of the
+    file where it is not bound yet.
+    """
+
+    code = "X101"
+    name = "unprefixed-xacro-directive"
+    fix = "safe"
+
+    def check(self, document: Document, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each directive without its prefix."""
+        if not _CANDIDATE.search(document.source.text):
+            return
+        for tag in document.walk():
+            if is_unprefixed_directive(tag):
+                yield self.at(
+                    model,
+                    document.source.position(tag.start),
+                    f"`<{tag.name}>` lacks its prefix: xacro obeys `<xacro:{tag.name}>` only",
+                    fix=Fix("safe", f"Write `xacro:{tag.name}`", prefixing(document, tag)),
+                )

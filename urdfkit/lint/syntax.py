@@ -1,0 +1,149 @@
+"""The tags of a file exactly as written: where each name, attribute and comment begins and ends.
+
+Works on any text, well-formed or not; a file that is not well-formed yields what can be told of it, and what is
+unbalanced in `Document.complaints`.
+"""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.description.source import Source, Span
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+# XML forbids `<` in attribute values: every alternative stops there, so a stray quote cannot swallow the file.
+_TOKEN = re.compile(
+    r"<!--(?P<comment>.*?)-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<!DOCTYPE[^<>\[]*(?:\[.*?\]\s*)?>"
+    r"|<(?P<close>/?)(?P<name>[^\s/>=<!?\"']+)(?P<attributes>(?:[^<>\"'/]|/(?!>)|\"[^\"<]*\"|'[^'<]*')*)(?P<empty>/?)>",
+    re.DOTALL,
+)
+_ATTRIBUTE = re.compile(r"([^\s=/\"'<>]+)\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
+
+
+class Attribute:
+    """An attribute as written; offsets into the text, `start` at its name, `value_end` before the closing quote."""
+
+    __slots__ = ("end", "name", "start", "value", "value_end", "value_start")
+
+    def __init__(self, name: str, value: str, start: int, value_start: int, value_end: int, end: int) -> None:
+        self.name, self.value = name, value
+        self.start, self.value_start, self.value_end, self.end = start, value_start, value_end, end
+
+
+class Tag:
+    """An element as written.
+
+    Attributes:
+        name: with prefix.
+        start: offset of ``<``.
+        end: offset after ``>`` of the start tag.
+        close: offset of ``</``; None for an empty element or one that is never closed.
+        close_end: offset after the whole element.
+    """
+
+    __slots__ = ("_text", "children", "close", "close_end", "empty", "end", "name", "parent", "start")
+
+    def __init__(self, text: str, name: str, start: int, end: int, empty: bool, parent: Tag | None) -> None:
+        self._text = text
+        self.name, self.start, self.end, self.empty, self.parent = name, start, end, empty, parent
+        self.children: list[Tag] = []
+        self.close: int | None = None
+        self.close_end = end
+
+    @property
+    def attributes(self) -> dict[str, Attribute]:
+        """The attributes by name, values as written (entities and expressions untouched)."""
+        found: dict[str, Attribute] = {}
+        for at in _ATTRIBUTE.finditer(self._text, self.start + 1 + len(self.name), self.end):
+            group = 2 if at[2] is not None else 3
+            found[at[1]] = Attribute(at[1], at[group], at.start(), at.start(group), at.end(group), at.end())
+        return found
+
+    def walk(self) -> Iterator[Tag]:
+        """Yield this tag and all below it, in document order."""
+        pending = [self]
+        while pending:
+            tag = pending.pop()
+            yield tag
+            pending.extend(reversed(tag.children))
+
+    def ancestors(self) -> Iterator[Tag]:
+        """Yield the enclosing tags, nearest first."""
+        above = self.parent
+        while above is not None:
+            yield above
+            above = above.parent
+
+
+class Document:
+    """The tags and comments of one file.
+
+    Attributes:
+        source: its text.
+        roots: top-level tags; one in a well-formed file.
+        comments: (start, end, text) of each comment.
+        complaints: (offset, message) of what is unbalanced.
+    """
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self.roots: list[Tag] = []
+        self.comments: list[tuple[int, int, str]] = []
+        self.complaints: list[tuple[int, str]] = []
+        self._by_start: dict[int, Tag] = {}
+        self._read()
+
+    def _read(self) -> None:
+        text = self.source.text
+        open_tags: list[Tag] = []
+        for token in _TOKEN.finditer(text):
+            name = token["name"]
+            if name is None:
+                if token["comment"] is not None:
+                    self.comments.append((token.start(), token.end(), token["comment"]))
+            elif token["close"]:
+                self._close(name, token.start(), token.end(), open_tags)
+            else:
+                parent = open_tags[-1] if open_tags else None
+                tag = Tag(text, name, token.start(), token.end(), bool(token["empty"]), parent)
+                (parent.children if parent else self.roots).append(tag)
+                self._by_start[tag.start] = tag
+                if not tag.empty:
+                    open_tags.append(tag)
+        for tag in open_tags:
+            tag.close_end = len(text)
+            self.complaints.append((tag.start, f"`<{tag.name}>` is never closed"))
+
+    def _close(self, name: str, start: int, end: int, open_tags: list[Tag]) -> None:
+        if not open_tags:
+            self.complaints.append((start, f"`</{name}>` closes nothing"))
+            return
+        if open_tags[-1].name != name:
+            opened = self.source.position(open_tags[-1].start)
+            where = f"line {opened.line}"
+            self.complaints.append((start, f"`</{name}>` where `<{open_tags[-1].name}>` of {where} is still open"))
+            if name not in [tag.name for tag in open_tags]:
+                return
+            while open_tags[-1].name != name:
+                open_tags.pop().close_end = start
+        tag = open_tags.pop()
+        tag.close, tag.close_end = start, end
+
+    def walk(self) -> Iterator[Tag]:
+        """Yield every tag in document order."""
+        for root in self.roots:
+            yield from root.walk()
+
+    def tag_at(self, line: int, column: int) -> Tag | None:
+        """Return the tag whose ``<`` is there."""
+        return self._by_start.get(self.source.offset(line, column))
+
+    def span_of(self, tag: Tag, attribute: str | None = None) -> Span:
+        """Return the span of an attribute with its value, or of the start tag where it has no such attribute."""
+        written = tag.attributes.get(attribute) if attribute is not None else None
+        if written is not None:
+            return self.source.span(written.start, written.end)
+        return self.source.span(tag.start, tag.end)

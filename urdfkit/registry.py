@@ -1,0 +1,103 @@
+"""Third-party rules, drives, sensors and controllers, from the entry points of installed packages.
+
+`importlib.metadata` would do the same, but takes longer to import than linting a file takes; so the few files it reads
+are read here.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib import import_module
+
+from urdfkit.errors import ResourceError
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from typing import Any
+
+
+@record(order=True)
+class EntryPoint:
+    """One line of an entry point section: ``name = module:attribute``.
+
+    Attributes:
+        name: what the package calls it.
+        value: ``module:attribute``.
+        distribution: the folder it was read from, for messages.
+    """
+
+    name: str
+    value: str
+    distribution: str
+
+    def load(self) -> Any:
+        """Import the module and return the attribute.
+
+        Raises:
+            ResourceError: it cannot be imported; says which package is broken.
+        """
+        module, _, attributes = self.value.partition(":")
+        try:
+            found: Any = import_module(module.strip())
+            for attribute in filter(None, attributes.strip().split(".")):
+                found = getattr(found, attribute)
+        except Exception as error:
+            raise ResourceError(f"{self.distribution}: entry point {self.name} = {self.value}: {error}") from error
+        return found
+
+
+def entry_points(group: str, path: Iterable[str] | None = None) -> list[EntryPoint]:
+    """Return the entry points of a group, sorted by name.
+
+    Args:
+        group: e.g. ``urdfkit.rules``.
+        path: folders to look for installed packages in; ``sys.path`` when None.
+    """
+    found: dict[str, EntryPoint] = {}
+    for folder in sys.path if path is None else path:
+        for name in _distributions(folder or os.curdir):
+            file = f"{folder or os.curdir}/{name}/entry_points.txt"
+            for entry in _read(file, group, name):
+                found.setdefault(entry.name, entry)
+    return sorted(found.values())
+
+
+def load(group: str) -> list[Any]:
+    """Import and return everything of a group.
+
+    Raises:
+        ResourceError: something cannot be imported.
+    """
+    return [entry.load() for entry in entry_points(group)]
+
+
+def _distributions(folder: str) -> list[str]:
+    try:
+        names = os.listdir(folder)  # noqa: PTH208 - names are all that is wanted
+    except OSError:
+        return []
+    return [name for name in names if name.endswith((".dist-info", ".egg-info"))]
+
+
+def _read(file: str, group: str, distribution: str) -> list[EntryPoint]:
+    try:
+        with open(file, encoding="utf-8") as lines:  # noqa: PTH123 - a hundred of these on every start
+            text = lines.read()
+    except (OSError, UnicodeDecodeError):
+        return []
+    heading = f"[{group}]"
+    if heading not in text:
+        return []
+    found = []
+    section = ""
+    for line in text.splitlines():
+        line = line.strip()
+        if line.startswith("["):
+            section = line
+        elif section == heading and "=" in line and not line.startswith(("#", ";")):
+            name, _, value = line.partition("=")
+            found.append(EntryPoint(name.strip(), value.partition("[")[0].strip(), distribution))
+    return found
