@@ -77,3 +77,72 @@ def transform(t: float, frame: str, child: str, position: Sequence[float], quate
     rotation = message_type("geometry_msgs/msg/Quaternion")(*(float(part) for part in quaternion))
     placement = message_type("geometry_msgs/msg/Transform")(vector(position), rotation)
     return message_type("geometry_msgs/msg/TransformStamped")(header(t, frame), child, placement)
+
+
+def from_fields(type: str, fields: Any) -> Any:
+    """Return a message with these fields, the others zero or empty, as ``rostopic pub`` fills them in.
+
+    Args:
+        type: its type.
+        fields: field → value, nested as the message is; None for none. A message may also be the list of its fields.
+
+    Raises:
+        UsageError: no such type or field, or a value of the wrong kind.
+    """
+    from urdfkit.errors import UsageError, did_you_mean
+
+    full = full_type_name(type)
+    kind = message_type(full)
+    layout = dict(_layouts()[full][1])
+    if isinstance(fields, list) and len(fields) == len(layout):
+        fields = dict(zip(layout, fields, strict=True))
+    if fields is not None and not isinstance(fields, dict):
+        raise UsageError(f"`{fields}` is no {full}: write its fields, {', '.join(layout)}")
+    for name in fields or {}:
+        if name not in layout:
+            raise UsageError(
+                f"no field `{name}` in {full}{did_you_mean(str(name), layout)} (it has {', '.join(layout)})"
+            )
+    given = fields or {}
+    return kind(**{name: _value(full, name, description, given.get(name)) for name, description in layout.items()})
+
+
+@cache
+def _layouts() -> dict[str, Any]:
+    from rosbags.typesys import Stores, get_typestore
+
+    return dict(get_typestore(Stores.ROS2_HUMBLE).fielddefs)
+
+
+def _value(type: str, name: str, description: Any, value: Any) -> Any:
+    """Return the value of one field, by rosbags' description of it: (node type, details).
+
+    Raises:
+        UsageError: a value of the wrong kind.
+    """
+    import numpy as np
+
+    from urdfkit.errors import UsageError
+
+    node, details = int(description[0]), description[1]
+    if node == 2:
+        return from_fields(details, value)
+    if node == 1:
+        base = details[0]
+        try:
+            if base == "string":
+                return "" if value is None else str(value)
+            if base == "bool":
+                return bool(value)
+            return (float if base.startswith("float") else int)(0 if value is None else value)
+        except (TypeError, ValueError):
+            raise UsageError(f"field `{name}` of {type} is `{value}`; it must be {base}") from None
+    inner, length = details
+    items = [None] * length if value is None else value
+    if not isinstance(items, list) or (node == 3 and len(items) != length):
+        raise UsageError(
+            f"field `{name}` of {type} is `{value}`; it must be a list{f' of {length}' if node == 3 else ''}"
+        )
+    made = [_value(type, name, inner, item) for item in items]
+    base = inner[1][0] if int(inner[0]) == 1 else "string"
+    return made if base == "string" else np.array(made, dtype=base)

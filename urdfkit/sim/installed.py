@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
-from urdfkit.description.plugins import match
+from urdfkit import registry
+from urdfkit.description.plugins import PluginSpec, match
+from urdfkit.description.plugins.lookup import stem
 from urdfkit.description.robot import Plugin, Robot
 from urdfkit.sim.controllers import CONTROLLERS
 from urdfkit.sim.drives import DRIVES
@@ -39,27 +41,20 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
         SimulationError: a parameter makes no sense, with its place.
     """
     installed = Installed()
-    drives, sensors, controllers = (
-        _known("drives", DRIVES),
-        _known("sensors", SENSORS),
-        _known("controllers", CONTROLLERS),
+    rooms: tuple[tuple[Sequence[Any], list[Any]], ...] = (
+        ((*DRIVES, *registry.load("urdfkit.drives")), installed.drives),
+        ((*SENSORS, *registry.load("urdfkit.sensors")), installed.sensors),
+        ((*CONTROLLERS, *registry.load("urdfkit.controllers")), installed.controllers),
     )
     for number, plugin in enumerate(_plugins(robot)):
         own = replace(setup, random=np.random.default_rng([seed, number]))
         spec = match(plugin)
         if spec is not None and spec.kind == "joint_state_publisher":
             installed.joint_states.append(joint_states(plugin, spec, own))
-            continue
-        for known, works in (
-            (drives, installed.drives),
-            (sensors, installed.sensors),
-            (controllers, installed.controllers),
-        ):
-            if spec is not None and spec.kind in known:
-                made = known[spec.kind](plugin, spec)
-                made.configure(own)
-                works.append(made)
-                break
+        elif (found := _choose(plugin, spec, rooms)) is not None:
+            made, works = found
+            made.configure(own)
+            works.append(made)
         else:
             setup.note(f"plugin {plugin.filename or plugin.name or 'without file name'}: not simulated yet")
     for block in robot.ros2_control:
@@ -76,6 +71,17 @@ def _plugins(robot: Robot) -> Iterator[Plugin]:
             yield from sensor.plugins
 
 
-def _known(what: str, ours: tuple[Any, ...]) -> dict[str, Any]:
-    """Return kind → class; ours win over those of third parties."""
-    return {made.kind: made for made in reversed(ours)}
+def _choose(
+    plugin: Plugin, spec: PluginSpec | None, rooms: tuple[tuple[Sequence[Any], list[Any]], ...]
+) -> tuple[Any, list[Any]] | None:
+    """Return the plugin's class, instantiated, and the list it belongs to.
+
+    A class is chosen by the kind of the plugin's table, or because it brings a table of its own for that file name.
+    """
+    name = stem(plugin.filename or "")
+    for classes, works in rooms:
+        for made in classes:
+            own = next((table for table in made.specs if name in table.filenames), None)
+            if own is not None or (spec is not None and made.kind == spec.kind):
+                return made(plugin, own or spec), works
+    return None

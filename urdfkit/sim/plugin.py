@@ -77,6 +77,7 @@ class Drive(ABC):
 
     Attributes:
         kind: the ``kind`` of the tables it answers to.
+        specs: tables it brings itself, for plugins that `urdfkit.description.plugins` does not know.
         write_rate: how often `write` is due [Hz]; zero means every step.
         read_rate: how often `read` is due [Hz]; zero means every step.
         resting: `write` has nothing to do until something changes; the simulator then leaves it out.
@@ -85,6 +86,7 @@ class Drive(ABC):
     """
 
     kind: ClassVar[str]
+    specs: ClassVar[tuple[PluginSpec, ...]] = ()
     write_rate: float = 0.0
     read_rate: float = 0.0
     resting: bool = False
@@ -124,10 +126,12 @@ class Sensor(ABC):
 
     Attributes:
         kind: the ``kind`` of the tables it answers to.
+        specs: tables it brings itself, for plugins that `urdfkit.description.plugins` does not know.
         rate: how often `measure` is due [Hz]; zero means every step.
     """
 
     kind: ClassVar[str]
+    specs: ClassVar[tuple[PluginSpec, ...]] = ()
     rate: float = 0.0
 
     def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
@@ -152,10 +156,12 @@ class Controller(ABC):
 
     Attributes:
         kind: the ``kind`` of the tables it answers to.
+        specs: tables it brings itself, for plugins that `urdfkit.description.plugins` does not know.
         rate: how often `write` and `read` are due [Hz]; zero means every step.
     """
 
     kind: ClassVar[str]
+    specs: ClassVar[tuple[PluginSpec, ...]] = ()
     rate: float = 0.0
 
     def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:

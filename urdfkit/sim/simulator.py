@@ -17,7 +17,7 @@ from urdfkit.description import Robot
 from urdfkit.description.world import World, load_world
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
-from urdfkit.messages import TWIST, twist
+from urdfkit.messages import TWIST, message_type, twist
 from urdfkit.scene import Scene, scene_of
 from urdfkit.sim.engine import Engine, Ground
 from urdfkit.sim.engine.engine import Provider
@@ -114,6 +114,7 @@ class Simulator:
         self.state = State(self.kinematics, self._engine, self._base if bolted else None)
         self.motors = Motors(self.kinematics, self._engine.motor_velocity, self._engine.motor_effort)
         self.name = name or self.robot.name or "robot"
+        message_type(TWIST)  # loads the types now, or says that they are missing
         setup = Setup(self.bus, self.kinematics, self.name, self.world.name, dt, np.random.default_rng(seed), self.note)
         self._plugins = install(self.robot, setup, seed=seed)
         self._drives = [(d, Ticks(d.write_rate, dt), Ticks(d.read_rate, dt)) for d in self._plugins.drives]
@@ -243,6 +244,11 @@ class Simulator:
     def command_topics(self) -> tuple[str, ...]:
         """The topics of type Twist that the robot's drives listen to."""
         return tuple(dict.fromkeys(topic for drive in self._plugins.drives for topic in drive.commands))
+
+    @property
+    def command_period(self) -> float:
+        """How often the drives look at commands [s]; the step where they always do, or where there is none."""
+        return max((writes.period for _, writes, _ in self._drives), default=self.dt)
 
     def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
         """Publish a velocity command [m/s, rad/s] to every drive of the robot.

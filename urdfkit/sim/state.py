@@ -76,11 +76,12 @@ class State:
         names = (*kinematics.joint_names, *kinematics.mimic_names)
         self._index = {name: kinematics.velocity_index(name) for name in names}
         self._snapshot: Snapshot | None = None
+        self._positions: list[float] | None = None
 
     def advance(self, steps: int) -> None:
         """Take note that the engine moved on by `steps`."""
         self.step += steps
-        self._snapshot = None
+        self._snapshot = self._positions = None
 
     @property
     def t(self) -> float:
@@ -114,7 +115,9 @@ class State:
 
     def position(self, joint: str) -> float:
         """Return a joint's position [rad] or [m]; that of a continuous joint counts its turns."""
-        return float(self._engine.positions[self._index[joint]])
+        if self._positions is None:
+            self._positions = self._engine.positions.tolist()
+        return self._positions[self._index[joint]]
 
     def velocity(self, joint: str) -> float:
         """Return a joint's velocity [rad/s] or [m/s]."""

@@ -247,11 +247,11 @@ class DiffDrive(Drive):
 
 def _limiter(read: Parameters, which: str) -> SpeedLimiter:
     """Read the limits of the linear or angular velocity: its own where they are written, else the common ones."""
-    bounds = []
-    for quantity in ("velocity", "acceleration", "jerk"):
-        lower, upper = (
-            read.number(f"{end}_{which}_{quantity}", read.number(f"{end}_{quantity}", limit))
-            for end, limit in (("min", -inf), ("max", inf))
-        )
-        bounds.append((lower, upper))
-    return SpeedLimiter(*bounds)
+
+    def bound(end: str, quantity: str, unlimited: float) -> float:
+        return read.number(f"{end}_{which}_{quantity}", read.number(f"{end}_{quantity}", unlimited))
+
+    def bounds(quantity: str) -> tuple[float, float]:
+        return bound("min", quantity, -inf), bound("max", quantity, inf)
+
+    return SpeedLimiter(bounds("velocity"), bounds("acceleration"), bounds("jerk"))

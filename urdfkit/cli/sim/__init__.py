@@ -1,0 +1,32 @@
+"""`urdfkit sim`: simulate a robot. One module per subcommand."""
+
+from __future__ import annotations
+
+import argparse
+from importlib import import_module
+
+SUBCOMMANDS = {
+    "teleop": ("teleop", "drive a robot in real time, in the browser or the terminal"),
+    "run": ("headless", "simulate headless, as fast as it can, and report where everything ended up"),
+    "warmup": ("warmup", "compile the physics kernel now, not on first use"),
+}
+"""Subcommand → module here that implements it, and what it does. (A module `run` would hide the function.)"""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the subcommands."""
+    parser.epilog = (
+        "examples:\n  urdfkit sim teleop simpleton\n  urdfkit sim run simpleton --for 10 --cmd-vel 0.5,0,0.5"
+    )
+    subcommands = parser.add_subparsers(dest="subcommand", metavar="SUBCOMMAND", required=True)
+    for name, (module, summary) in SUBCOMMANDS.items():
+        sub = subcommands.add_parser(
+            name, help=summary, description=summary, formatter_class=argparse.RawDescriptionHelpFormatter
+        )
+        import_module(f"urdfkit.cli.sim.{module}").configure(sub)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run one subcommand."""
+    module, _ = SUBCOMMANDS[arguments.subcommand]
+    return int(import_module(f"urdfkit.cli.sim.{module}").run(arguments))

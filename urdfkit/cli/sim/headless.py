@@ -1,0 +1,224 @@
+"""`urdfkit sim run`: simulate headless, as fast as it can, and report."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import sys
+import time
+from math import ceil
+from typing import TYPE_CHECKING
+
+from urdfkit.cli.parser import add_model
+from urdfkit.cli.sim import values
+from urdfkit.errors import UsageError
+
+if TYPE_CHECKING:
+    from urdfkit.cli.sim.report import Effort
+    from urdfkit.sim.simulator import Simulator
+
+CHUNK = 1.0
+"""Simulated seconds between looks at the clock."""
+
+PROGRESS = 0.5
+"""Wall seconds between lines of progress."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments."""
+    # argparse takes `-1,0,0` for an option unless told that it looks like a number.
+    parser._negative_number_matcher = re.compile(r"^-\.?\d|^-(inf|nan)", re.IGNORECASE)
+    add_model(parser)
+    add = parser.add_argument
+    add("--for", dest="duration", required=True, type=values.duration, metavar="SECONDS", help="simulated time")
+    add("--world", default="empty", metavar="WORLD", help="empty, void or an SDF file (default: empty)")
+    add("--dt", type=values.positive, default=0.001, metavar="S", help="step [s] (default: 0.001)")
+    add("--seed", type=int, default=0, metavar="N", help="of everything random (default: 0)")
+    add(
+        "--spawn",
+        type=values.pose,
+        metavar="X,Y,Z,YAW",
+        help="pose of the root link, or X,Y,Z,ROLL,PITCH,YAW [m, rad]; an empty Z sets it on the ground",
+    )
+    add("--gravity", type=values.vector("GX,GY,GZ"), metavar="GX,GY,GZ", help="[m/s²] (default: the world's)")
+    twist = "VX,VY,VZ,WX,WY,WZ"
+    add("--initial-twist", type=values.vector(twist), metavar=twist, help="root link, world axes [m/s, rad/s]")
+    joints = "NAME=POSITION[:VELOCITY],…"
+    add("--initial-joints", type=values.joint_starts, metavar=joints, help="[rad or m, rad/s or m/s]")
+    velocity = values.vector("VX,VY,WZ", finite=False)
+    add("--cmd-vel", type=velocity, metavar="VX,VY,WZ", help="command held from the start [m/s, m/s, rad/s]")
+    add("--cmd-ramp", type=values.duration, metavar="S", help="reach the command in S seconds, evenly")
+    add(
+        "--topic-pub",
+        type=values.topic_message,
+        action="append",
+        default=[],
+        metavar='"TOPIC TYPE YAML@T"',
+        help="publish at simulated time T (repeatable)",
+    )
+    add(
+        "--joint-target",
+        type=values.targets,
+        metavar="NAME=VALUE,…",
+        help="bring joints there and hold them [rad or m]",
+    )
+    add("--fixed-base", action="store_true", help="bolt the root link to the world")
+    add("--until", metavar='"EXPR"', help='stop as soon as it is true, e.g. "x > 1 or t > 3"')
+    add(
+        "--engine",
+        choices=("compiled", "pinocchio"),
+        default="compiled",
+        help="who computes the dynamics (pinocchio: the reference, slow)",
+    )
+    add("--json", action="store_true", help="print one JSON value")
+    parser.epilog = (
+        "examples:\n"
+        "  urdfkit sim run simpleton --for 10 --cmd-vel 0.5,0,0.5 --cmd-ramp 0.5\n"
+        '  urdfkit sim run simpleton --for 60 --cmd-vel 0.5,0,0 --until "x > 2" --json'
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Simulate and report."""
+    if arguments.cmd_ramp is not None and arguments.cmd_vel is None:
+        raise UsageError("sim run: --cmd-ramp ramps up --cmd-vel, which is missing")
+    from urdfkit.cli.sim.kernel import prepare_kernel
+    from urdfkit.cli.sim.report import as_json, as_text
+
+    prepare_kernel(sys.stderr)
+    simulator = load(arguments)
+    command(simulator, arguments)
+    spent = advance(simulator, arguments.duration, arguments.until)
+    print(json.dumps(as_json(simulator, spent), indent=1) if arguments.json else as_text(simulator, spent))
+    return 0
+
+
+def load(arguments: argparse.Namespace) -> Simulator:
+    """Return the simulator, with the robot where it starts.
+
+    Raises:
+        UrdfkitError: robot or world cannot be loaded or simulated.
+    """
+    from urdfkit.description import load as load_description
+    from urdfkit.resources import find_model
+    from urdfkit.sim import Simulator, Spawn
+
+    model = find_model(arguments.model, package_path=arguments.package_path)
+    robot = load_description(model.path, arguments=model.arguments, package_path=model.package_path)
+    spawn = None
+    if arguments.spawn or arguments.initial_twist or arguments.initial_joints:
+        positions, velocities = arguments.initial_joints or ({}, {})
+        pose = arguments.spawn._asdict() if arguments.spawn else {}
+        twist = arguments.initial_twist or (0.0,) * 6
+        spawn = Spawn(**pose, twist=twist, joints=positions, velocities=velocities)
+    return Simulator(
+        robot,
+        world=arguments.world,
+        dt=arguments.dt,
+        seed=arguments.seed,
+        spawn=spawn,
+        gravity=arguments.gravity,
+        fixed_base=arguments.fixed_base,
+        engine=arguments.engine,
+        note=lambda text: print(f"urdfkit: {text}", file=sys.stderr),
+    )
+
+
+def command(simulator: Simulator, arguments: argparse.Namespace) -> None:
+    """Schedule what the options want published and set.
+
+    Raises:
+        UrdfkitError: no such topic, type, field or joint.
+    """
+    if arguments.cmd_vel is not None:
+        ramp(simulator, arguments.cmd_vel, arguments.cmd_ramp or 0.0)
+    for joint, target in (arguments.joint_target or {}).items():
+        simulator.motors.hold(joint, target)
+    for message in arguments.topic_pub:
+        publish_at(simulator, message)
+
+
+def ramp(simulator: Simulator, command: tuple[float, float, float], seconds: float) -> None:
+    """Publish a velocity command that rises evenly from zero.
+
+    It is published as often as the drives look at it, each time with the mean of the ramp until the next time: what the
+    drives hold in between adds up to exactly the ramp.
+
+    Args:
+        simulator: not yet advanced.
+        command: VX, VY [m/s], WZ [rad/s].
+        seconds: how long it rises.
+
+    Raises:
+        SimulationError: the robot has no drive.
+    """
+    vx, vy, wz = command
+    period = simulator.command_period
+    for i in range(ceil(seconds / period - 1e-9) + 1):
+        begin, end = i * period, (i + 1) * period
+        part = 1.0
+        if begin < seconds:
+            risen = (min(end, seconds) ** 2 - begin**2) / 2 / seconds
+            part = (risen + max(0.0, end - seconds)) / period
+        linear, angular = (part * vx, part * vy, 0.0), (0.0, 0.0, part * wz)
+        simulator.at(begin, lambda linear=linear, angular=angular: simulator.command(linear, angular))  # type: ignore[misc]
+    if not simulator.command_topics:
+        simulator.command((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))  # raises
+
+
+def publish_at(simulator: Simulator, wanted: values.TopicMessage) -> None:
+    """Schedule one message.
+
+    Raises:
+        UsageError: no such type or field, or the topic carries another type.
+    """
+    import yaml
+
+    from urdfkit.bus import absolute
+    from urdfkit.errors import did_you_mean
+    from urdfkit.messages import from_fields, full_type_name
+
+    try:
+        fields = yaml.safe_load(wanted.text)
+    except yaml.YAMLError as error:
+        raise UsageError(f"--topic-pub {wanted.topic}: `{wanted.text}` is not YAML ({_first_line(error)})") from None
+    kind = full_type_name(wanted.type)
+    message = from_fields(kind, fields)
+    heard = [topic.name for topic in simulator.bus.topics if topic.subscribers]
+    simulator.bus.advertise(wanted.topic, kind)
+    if absolute(wanted.topic) not in heard:
+        simulator.note(f"nobody listens to {absolute(wanted.topic)}{did_you_mean(absolute(wanted.topic), heard)}")
+    simulator.at(wanted.t, lambda: simulator.bus.publish(wanted.topic, kind, message))
+
+
+def advance(simulator: Simulator, seconds: float, until: str | None) -> Effort:
+    """Advance, with progress on a terminal, and return what it took.
+
+    Raises:
+        UrdfkitError: the simulation diverged, or the condition cannot be evaluated.
+    """
+    from urdfkit.cli.sim.condition import Condition
+    from urdfkit.cli.sim.report import Effort
+
+    joints = (*simulator.kinematics.joint_names, *simulator.kinematics.mimic_names)
+    condition = Condition(until, joints) if until is not None else None
+    total = round(seconds / simulator.dt)
+    chunk = max(1, round(CHUNK / simulator.dt)) if condition is None else 1
+    shown = time.perf_counter() if sys.stderr.isatty() else float("inf")
+    cpu, wall = time.process_time(), time.perf_counter()
+    try:
+        while simulator.state.step < total and not (condition is not None and condition(simulator.state)):
+            simulator.step(min(chunk, total - simulator.state.step))
+            if time.perf_counter() - shown > PROGRESS:
+                shown = time.perf_counter()
+                sys.stderr.write(f"\r{simulator.t:.1f} of {seconds:g} s \r")
+                sys.stderr.flush()
+    finally:
+        if sys.stderr.isatty():
+            sys.stderr.write("\x1b[K")
+    return Effort(time.process_time() - cpu, time.perf_counter() - wall)
+
+
+def _first_line(error: Exception) -> str:
+    return str(error).splitlines()[0]

@@ -1,0 +1,153 @@
+"""How the values of ``sim run``'s options are written."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Callable
+from math import isfinite
+from typing import NamedTuple
+
+
+def number(text: str) -> float:
+    """Return a finite number.
+
+    Raises:
+        argparse.ArgumentTypeError: it is not one.
+    """
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"`{text}` is not a number") from None
+    if not isfinite(value):
+        raise argparse.ArgumentTypeError(f"`{text}` is not a finite number")
+    return value
+
+
+def duration(text: str) -> float:
+    """Return a finite number of seconds, zero or more."""
+    value = number(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"`{text}` is negative; it must be seconds, zero or more")
+    return value
+
+
+def positive(text: str) -> float:
+    """Return a finite number greater than zero."""
+    value = number(text)
+    if value <= 0:
+        raise argparse.ArgumentTypeError(f"`{text}` must be greater than zero")
+    return value
+
+
+def vector(names: str, *, finite: bool = True) -> Callable[[str], tuple[float, ...]]:
+    """Return a reader of comma-separated numbers.
+
+    Args:
+        names: what they are, comma-separated, e.g. ``VX,VY,WZ``.
+        finite: refuse NaN and infinity.
+    """
+    count = names.count(",") + 1
+
+    def read(text: str) -> tuple[float, ...]:
+        parts = text.split(",")
+        if len(parts) != count:
+            raise argparse.ArgumentTypeError(f"`{text}` has {_counted(len(parts))}, it takes {count}: {names}")
+        return tuple(number(part) if finite else _any_number(part) for part in parts)
+
+    return read
+
+
+def _any_number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"`{text}` is not a number") from None
+
+
+def _counted(count: int) -> str:
+    return f"{count} value{'s' * (count != 1)}"
+
+
+class Pose(NamedTuple):
+    """``X,Y,Z,YAW`` or ``X,Y,Z,ROLL,PITCH,YAW``; `z` is None where it was left empty."""
+
+    x: float
+    y: float
+    z: float | None
+    roll: float
+    pitch: float
+    yaw: float
+
+
+def pose(text: str) -> Pose:
+    """Return the pose of ``--spawn``.
+
+    Raises:
+        argparse.ArgumentTypeError: wrong count, or not numbers.
+    """
+    parts = text.split(",")
+    if len(parts) not in (4, 6):
+        raise argparse.ArgumentTypeError(
+            f"`{text}` has {_counted(len(parts))}, it takes X,Y,Z,YAW or X,Y,Z,ROLL,PITCH,YAW (Z may be empty)"
+        )
+    z = number(parts[2]) if parts[2].strip() else None
+    angles = [number(part) for part in parts[3:]]
+    roll, pitch, yaw = angles if len(angles) == 3 else (0.0, 0.0, angles[0])
+    return Pose(number(parts[0]), number(parts[1]), z, roll, pitch, yaw)
+
+
+def targets(text: str) -> dict[str, float]:
+    """Return joint → value of ``name=value,…``."""
+    found = {}
+    for name, value in _assignments(text):
+        found[name] = number(value)
+    return found
+
+
+def joint_starts(text: str) -> tuple[dict[str, float], dict[str, float]]:
+    """Return joint → position and joint → velocity of ``name=position[:velocity],…``."""
+    positions, velocities = {}, {}
+    for name, value in _assignments(text):
+        position, colon, velocity = value.partition(":")
+        positions[name] = number(position)
+        if colon:
+            velocities[name] = number(velocity)
+    return positions, velocities
+
+
+def _assignments(text: str) -> list[tuple[str, str]]:
+    found = []
+    for word in text.split(","):
+        name, equals, value = word.partition("=")
+        if not equals or not name.strip():
+            raise argparse.ArgumentTypeError(f"`{word}` is not NAME=VALUE")
+        found.append((name.strip(), value.strip()))
+    return found
+
+
+class TopicMessage(NamedTuple):
+    """``TOPIC TYPE YAML@T``: what to publish where, and when [s]."""
+
+    topic: str
+    type: str
+    text: str
+    t: float
+
+
+_AT = re.compile(r"^(.*)@([^@\s}\]]*)$", re.DOTALL)
+
+
+def topic_message(text: str) -> TopicMessage:
+    """Return the parts of ``--topic-pub``; without ``@T`` the time is 0.
+
+    Raises:
+        argparse.ArgumentTypeError: topic or type is missing, or the time makes no sense.
+    """
+    t = 0.0
+    if at := _AT.match(text):
+        text, t = at[1], duration(at[2])
+    parts = text.split(None, 2)
+    if len(parts) < 2:
+        raise argparse.ArgumentTypeError(f'`{text}` is not "TOPIC TYPE YAML@T"')
+    return TopicMessage(parts[0], parts[1], parts[2] if len(parts) == 3 else "{}", t)
