@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
+import sys
 from typing import Any, NoReturn
 
 from urdfkit.errors import UsageError, did_you_mean
@@ -15,6 +16,25 @@ class Parser(argparse.ArgumentParser):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         kwargs.setdefault("allow_abbrev", False)
         super().__init__(*args, **kwargs)
+        self._is_parsing = False
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Take options between positional arguments too: ``urdfkit tf simpleton --json base camera``.
+
+        Raises:
+            UsageError: an argument that this command does not have.
+        """
+        words = list(sys.argv[1:] if args is None else args)
+        if self._is_parsing or self._subparsers is not None or {"-h", "--help"} & set(words):
+            return super().parse_known_args(words, namespace)
+        self._is_parsing = True  # argparse's own way to do it calls this method again
+        try:
+            found, unknown = self.parse_known_intermixed_args(words, namespace)
+        finally:
+            self._is_parsing = False
+        if unknown:  # said here, where the options are known; the parser above knows only its own
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return found, unknown
 
     def error(self, message: str) -> NoReturn:
         """Raise instead of exiting.

@@ -84,6 +84,8 @@ def run(arguments: argparse.Namespace) -> int:
         if frames:
             raise UsageError("tf: either PARENT and CHILD or --tree")
         _show_tree(tree, output=arguments.output, as_json=arguments.json)
+        if arguments.output is not None and not arguments.quiet:
+            print(f"wrote {arguments.output}", file=sys.stderr)
     elif frames:
         transform = tree.transform(frames[0], frames[1], positions)
         _write(json.dumps(asdict(transform)) + "\n" if arguments.json else _echo(transform))
@@ -181,10 +183,7 @@ def _show_tree(tree: TransformTree, *, output: Path | None, as_json: bool) -> No
         except UnicodeEncodeError:
             _write(as_text(tree, ascii_only=True))
     if as_json:
-        edges = [
-            {"parent": e.parent, "child": e.child, "joint": e.joint, "type": e.type, "static": e.is_static}
-            for e in tree.edges
-        ]
+        edges = [asdict(edge) for edge in tree.edges]
         _write(json.dumps({"root": tree.root, "frames": list(tree.frames), "edges": edges}) + "\n")
     if output is not None:
         match output.suffix.lower():
@@ -194,7 +193,6 @@ def _show_tree(tree: TransformTree, *, output: Path | None, as_json: bool) -> No
                 write_text(output, as_dot(tree))
             case _:
                 write_bytes(output, _pdf(as_dot(tree)))
-        print(f"wrote {output}", file=sys.stderr)
 
 
 def _pdf(dot: str) -> bytes:

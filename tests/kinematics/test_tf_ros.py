@@ -1,0 +1,114 @@
+"""Transforms against the real robot_state_publisher (Debian's, ROS 1)."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from urdfkit.description import load
+from urdfkit.description.expand import expand
+from urdfkit.kinematics import TransformTree
+from urdfkit.resources import find_model
+
+pytestmark = pytest.mark.ros
+
+SCRIPT = Path(__file__).with_name("publish_states.py")
+MODULES = "import rosgraph, rospy, sensor_msgs.msg, tf2_msgs.msg"
+PROGRAMS = ("/usr/bin/python3", "/usr/bin/rosmaster", "/usr/lib/robot_state_publisher/robot_state_publisher")
+PACKAGES = "python3-rosmaster ros-robot-state-publisher python3-rospy python3-sensor-msgs python3-tf2-msgs"
+
+
+@pytest.fixture
+def ros(tmp_path: Path) -> dict[str, str]:
+    """Return the environment of a ROS 1 of its own, on the loopback interface."""
+    environment = {
+        "PATH": "/usr/sbin:/usr/bin:/sbin:/bin",
+        "HOME": str(tmp_path),
+        "ROS_HOME": str(tmp_path),
+        "ROS_LOG_DIR": str(tmp_path / "log"),
+        "ROS_IP": "127.0.0.1",
+        "ROS_MASTER_URI": f"http://127.0.0.1:{_free_port()}",
+        "LANG": "C.UTF-8",
+    }
+    missing = [program for program in PROGRAMS if not Path(program).exists()]
+    if not missing and subprocess.run([PROGRAMS[0], "-c", MODULES], env=environment, check=False).returncode:
+        missing = ["rospy or its messages"]
+    if missing:
+        reason = f"{', '.join(missing)} not installed: apt-get install {PACKAGES}"
+        if os.environ.get("CI"):
+            pytest.fail(reason)
+        pytest.skip(reason)
+    return environment
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+@pytest.fixture(params=["arm", "simpleton"])
+def model(request: pytest.FixtureRequest, tmp_path: Path, arm_xml: str) -> Path:
+    if request.param == "simpleton":
+        return find_model(["simpleton"]).path
+    path = tmp_path / "arm.urdf"
+    path.write_text(arm_xml, encoding="utf-8")
+    return path
+
+
+def test_robot_state_publisher_agrees(model: Path, ros: dict[str, str]) -> None:
+    tree = TransformTree(load(model))
+    rng = np.random.default_rng(6)
+    states = [{name: float(rng.uniform(-3, 3)) for name in tree.kinematics.joint_names} for _ in range(12)]
+    answers = _published(expand(model).xml, states, ros)
+    assert len(answers) == len(states)
+    for positions, transforms in zip(states, answers, strict=True):
+        assert {child for _, child, _, _ in transforms} == set(tree.frames) - {tree.root}
+        local = {child: (parent, pin.XYZQUATToSE3(np.array(t + q))) for parent, child, t, q in transforms}
+        for frame in tree.frames:
+            published = pin.SE3.Identity()
+            at = frame
+            while at != tree.root:
+                at, step = local[at]
+                published = step * published
+            np.testing.assert_allclose(
+                tree.placement(frame, tree.root, positions).homogeneous, published.homogeneous, rtol=0, atol=1e-9
+            )
+            backwards = tree.placement(tree.root, frame, positions)
+            np.testing.assert_allclose(backwards.homogeneous, published.inverse().homogeneous, rtol=0, atol=1e-9)
+
+
+def _published(urdf: str, states: list[dict[str, float]], environment: dict[str, str]) -> list[Any]:
+    """Return what robot_state_publisher makes of these joint states; nothing is left running."""
+    process = subprocess.Popen(
+        [PROGRAMS[0], str(SCRIPT)],
+        env=environment,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    try:
+        out, err = process.communicate(json.dumps({"urdf": urdf, "states": states}), timeout=120)
+    finally:
+        _end(process)
+    assert process.returncode == 0, err
+    return list(json.loads(out))
+
+
+def _end(process: subprocess.Popen[str]) -> None:
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        return
+    process.wait()
