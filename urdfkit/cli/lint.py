@@ -31,7 +31,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "paths",
         nargs="*",
         metavar="PATH",
-        help="files, package folders or workspaces (left out: the folder you stand in); then key:=value xacro arguments",
+        help="files, package folders or workspaces (left out: where you stand); then key:=value xacro arguments",
     )
     parser.add_argument("--fix", action="store_true", help="mend what has a safe fix")
     parser.add_argument("--unsafe-fixes", action="store_true", help="with --fix or --diff: apply unsafe fixes too")

@@ -57,7 +57,8 @@ class Model:
     @cached_property
     def is_incomplete(self) -> bool:
         """Whether elements were dropped because of a fault: what is not there may be in them."""
-        return any(fault.kind in _DROPPING for fault in self.expanded.faults)
+        faults = self.expanded.faults
+        return any(fault.kind in _DROPPING and not fault.message.startswith("unbound prefix") for fault in faults)
 
     @cached_property
     def _documents(self) -> dict[str, Document]:

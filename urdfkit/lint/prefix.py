@@ -68,6 +68,12 @@ def declares_xacro(document: Document) -> bool:
     return any("xmlns:xacro" in root.attributes for root in document.roots[:1])
 
 
+def has_xacro_as_default(document: Document) -> bool:
+    """Return whether the root element makes xacro's namespace the default one, which was meant to bind the prefix."""
+    default = document.roots[0].attributes.get("xmlns") if document.roots else None
+    return default is not None and _XACRO_URI.fullmatch(default.value) is not None
+
+
 def declaration(document: Document) -> tuple[Edit, ...]:
     """Return the edit that binds the prefix on the root element; none where it is bound.
 
@@ -77,9 +83,9 @@ def declaration(document: Document) -> tuple[Edit, ...]:
         return ()
     root, source = document.roots[0], document.source
     attributes = root.attributes
-    default = attributes.get("xmlns")
-    if default is not None and _XACRO_URI.fullmatch(default.value):
-        return (Edit(source.span(default.start, default.start + len("xmlns")), "xmlns:xacro"),)
+    if has_xacro_as_default(document):
+        start = attributes["xmlns"].start
+        return (Edit(source.span(start, start + len("xmlns")), "xmlns:xacro"),)
     end = max((attribute.end for attribute in attributes.values()), default=root.start + 1 + len(root.name))
     return (Edit(source.span(end, end), f' xmlns:xacro="{NAMESPACE}"'),)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.finding import Fix
-from urdfkit.lint.prefix import declaration
+from urdfkit.lint.prefix import declaration, declares_xacro, has_xacro_as_default
 from urdfkit.lint.rule import SourceRule
 
 TYPE_CHECKING = False
@@ -54,8 +54,21 @@ class UnboundNamespacePrefix(SourceRule):
     fix = "safe"
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
-        """Yield one finding for each unbound prefix, at the root element."""
+        """Yield one finding for each unbound prefix, at the root element.
+
+        The ``xmlns`` of xacro's own namespace is one too: no prefix has to be used yet.
+        """
         text = document.source.text
+        if "xmlns=" in text and has_xacro_as_default(document) and not declares_xacro(document):
+            yield self.at(
+                model,
+                document.source.position(document.roots[0].start),
+                "xacro's namespace is the default one here, so that the prefix `xacro:` is bound to nothing",
+                attribute="xmlns",
+                help="write xmlns:xacro instead of xmlns",
+                fix=Fix("safe", "Write `xmlns:xacro`", declaration(document)),
+            )
+            return
         used = {prefix for prefix in _PREFIXED.findall(text) if f"xmlns:{prefix}" not in text} - {"xml", "xmlns"}
         if not used or not document.roots:
             return
