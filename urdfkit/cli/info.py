@@ -1,0 +1,176 @@
+"""``urdfkit info``: what a robot is made of."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections import Counter
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.cli.parser import add_model
+from urdfkit.errors import MissingDependencyError, UrdfkitError
+
+if TYPE_CHECKING:
+    from urdfkit.description.robot import Robot
+
+_FREEDOMS = {"revolute": 1, "continuous": 1, "prismatic": 1, "planar": 3, "floating": 6}
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of ``urdfkit info``."""
+    parser.epilog = "examples:\n  urdfkit info simpleton\n  urdfkit info urdf/arm.urdf.xacro --json"
+    add_model(parser)
+    parser.add_argument("--json", action="store_true", help="print one JSON value")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print what the robot is made of."""
+    from urdfkit.description import load
+    from urdfkit.resources import find_model
+
+    model = find_model(arguments.model, package_path=arguments.package_path)
+    robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
+    facts = facts_of(robot)
+    if facts["note"] and not arguments.quiet:
+        print(f"urdfkit: note: {facts['note']}", file=sys.stderr)
+    print(json.dumps(facts) if arguments.json else _table(facts))
+    return 0
+
+
+def facts_of(robot: Robot) -> dict[str, Any]:
+    """Return what ``urdfkit info --json`` prints.
+
+    Lengths are in metres, masses in kilograms; centre of mass and bounding box (of visuals and collisions) are in the
+    root frame with all joints at zero, null where they cannot be computed: ``note`` says why.
+    """
+    from urdfkit.description.queries import mass
+
+    facts: dict[str, Any] = {
+        "robot": robot.name,
+        "file": str(robot.files[0]) if robot.files else None,
+        "files": [str(file) for file in robot.files],
+        "root": next((link.name for link in robot.roots()), None),
+        "links": [link.name for link in robot.links],
+        "joints": [_joint(joint) for joint in robot.joints],
+        "degrees_of_freedom": sum(_FREEDOMS.get(j.type or "", 0) for j in robot.joints if j.mimic is None),
+        "mass": sum(mass(robot, link.name) for link in robot.links),
+        "center_of_mass": None,
+        "bounding_box": None,
+        "drives": _drives(robot),
+        "sensors": _sensors(robot),
+        "note": None,
+    }
+    try:
+        facts |= _extent(robot, facts["mass"])
+    except MissingDependencyError as error:
+        facts["note"] = f"no centre of mass and bounding box: {error.message}"
+    except UrdfkitError as error:
+        facts["note"] = str(error)
+    return facts
+
+
+def _joint(joint: Any) -> dict[str, Any]:
+    limit = joint.limit
+    return {
+        "name": joint.name,
+        "type": joint.type,
+        "parent": joint.parent,
+        "child": joint.child,
+        "mimic": joint.mimic.joint if joint.mimic is not None else None,
+        "lower": limit.lower if limit is not None else None,
+        "upper": limit.upper if limit is not None else None,
+        "effort": limit.effort if limit is not None else None,
+        "velocity": limit.velocity if limit is not None else None,
+    }
+
+
+def _drives(robot: Robot) -> list[dict[str, Any]]:
+    from urdfkit.description.plugins import match, read_all
+    from urdfkit.description.plugins.drives import DRIVES
+
+    found = []
+    for plugin in (plugin for block in robot.gazebo for plugin in block.plugins):
+        spec = match(plugin)
+        if spec is None or spec not in DRIVES:
+            continue
+        values = read_all(plugin, spec)
+        joints = [name for p in spec.parameters if p.names == "joint" for name in values[p.meaning]]
+        found.append({"kind": spec.kind, "generation": spec.generation, "plugin": plugin.name, "joints": joints})
+    return found
+
+
+def _sensors(robot: Robot) -> list[dict[str, Any]]:
+    from urdfkit.description.numbers import number
+
+    found = []
+    for block in robot.gazebo:
+        for sensor in block.sensors:
+            rate = sensor.element.find("update_rate")
+            found.append(
+                {
+                    "name": sensor.name,
+                    "type": sensor.type,
+                    "on": block.reference,
+                    "update_rate": number(rate.text) if rate is not None else None,
+                }
+            )
+    return found
+
+
+def _extent(robot: Robot, mass: float) -> dict[str, Any]:
+    """Return centre of mass and bounding box with all joints at zero.
+
+    Raises:
+        MissingDependencyError: Pinocchio is not installed.
+    """
+    from urdfkit.kinematics.requirement import require_pinocchio
+
+    require_pinocchio("info")
+    from urdfkit.kinematics import Kinematics
+    from urdfkit.scene.extent import bounds
+    from urdfkit.scene.placement import pose_matrices
+    from urdfkit.scene.scene import scene_of
+
+    kinematics = Kinematics(robot)
+    poses = kinematics.link_poses(kinematics.neutral())
+    placements = dict(zip(kinematics.link_names, pose_matrices(poses), strict=True))
+    moments = [0.0, 0.0, 0.0]
+    for link in robot.links:
+        if link.inertial is not None and link.inertial.mass:
+            center = placements[link.name] @ [*link.inertial.origin.xyz, 1.0]
+            moments = [moment + link.inertial.mass * float(x) for moment, x in zip(moments, center, strict=False)]
+    scene = scene_of(robot, strict=False)
+    box = bounds(scene, [poses[kinematics.link_names.index(body)] for body in scene.bodies])
+    return {
+        "center_of_mass": [moment / mass for moment in moments] if mass > 0.0 else None,
+        "bounding_box": {"min": box[0].tolist(), "max": box[1].tolist()} if box is not None else None,
+        "note": f"the bounding box is without {len(scene.problems)} meshes: {scene.problems[0]}"
+        if scene.problems
+        else None,
+    }
+
+
+def _table(facts: dict[str, Any]) -> str:
+    kinds = Counter(joint["type"] for joint in facts["joints"])
+    rows = [
+        ("robot", f"{facts['robot']}  ({facts['file']})"),
+        ("links", f"{len(facts['links'])}, root {facts['root']}"),
+        ("joints", ", ".join(f"{count} {kind}" for kind, count in kinds.items()) or "none"),
+        ("freedoms", str(facts["degrees_of_freedom"])),
+        ("mass", f"{facts['mass']:.6g} kg"),
+    ]
+    if (center := facts["center_of_mass"]) is not None:
+        rows.append(("centre of mass", f"{_triple(center)} m in {facts['root']}"))
+    if (box := facts["bounding_box"]) is not None:
+        rows.append(("bounding box", f"{_triple(box['min'])} to {_triple(box['max'])} m"))
+    rows += [("drive", f"{d['kind']} ({d['generation']}): {', '.join(d['joints'])}") for d in facts["drives"]]
+    for sensor in facts["sensors"]:
+        rate = f", {sensor['update_rate']:g} Hz" if sensor["update_rate"] else ""
+        rows.append(("sensor", f"{sensor['name']} ({sensor['type']}) on {sensor['on']}{rate}"))
+    width = max(len(name) for name, _ in rows) + 2
+    return "\n".join(f"{name:<{width}}{text}" for name, text in rows)
+
+
+def _triple(values: list[float]) -> str:
+    return " ".join(f"{value + 0.0:.4g}" for value in values)
