@@ -178,7 +178,6 @@ def account(
         tau[d] = row + beside + servo + applied[d] - damping[d] * v[d]
 
 
-@inlined
 def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     """Advance by `steps`; return how many were done: fewer only if the state stopped being finite.
 

@@ -6,6 +6,7 @@ import hashlib
 from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 KERNEL_MODULES = ("arrays", "collide", "compilation", "dynamics", "integrate", "rows", "solve", "spatial", "step")
@@ -57,27 +58,23 @@ def sources_digest() -> str:
 def _load(digest: str | None) -> Kernel:
     """Compile `advance`, or load it.
 
-    numba keys its cache by the code of the function and by what it closes over, not by the functions it calls. So the
-    entry point closes over a digest of them all: no change of a source can meet a stale kernel.
+    numba finds a function's cache by its name and checks the file it is in, not those of the functions it calls. So the
+    name carries a digest of them all: no change of a source can meet a stale kernel.
     """
     import numba
 
     from urdfkit.sim.engine.compilation import OPTIONS
     from urdfkit.sim.engine.step import advance
 
-    version = digest or sources_digest()
-
-    def entry(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
-        version  # noqa: B018
-        return advance(floats, integers, steps, only_terms)
-
-    signature = numba.int64(numba.float64[::1], numba.int64[::1], numba.int64, numba.boolean)
+    function = FunctionType(advance.__code__, advance.__globals__, "advance")
+    function.__qualname__ = f"advance_{(digest or sources_digest())[:16]}"
+    signature = (numba.float64[::1], numba.int64[::1], numba.int64, numba.boolean)
     try:
-        dispatcher = numba.njit(entry, cache=True, **OPTIONS)
-        dispatcher.compile(signature.args)
+        dispatcher = numba.njit(function, cache=True, **OPTIONS)
+        dispatcher.compile(signature)
     except (RuntimeError, OSError, EOFError, ValueError, TypeError, AttributeError):
         # No writable place for the cache, or a broken one: compile for this process alone.
-        dispatcher = numba.njit(entry, **OPTIONS)
-        dispatcher.compile(signature.args)
+        dispatcher = numba.njit(function, **OPTIONS)
+        dispatcher.compile(signature)
     dispatcher.disable_compile()
     return dispatcher  # type: ignore[no-any-return]
