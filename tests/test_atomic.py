@@ -44,7 +44,7 @@ def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path, monkeypat
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Path, "replace", full)
-    with pytest.raises(ResourceError, match="cannot write .*: No space left on device"):
+    with pytest.raises(ResourceError, match=r"cannot write .*: No space left on device"):
         write_text(path, "new")
     assert path.read_text() == "old"
     assert [p.name for p in tmp_path.iterdir()] == ["a"]
@@ -56,9 +56,13 @@ def test_no_folder(tmp_path):
 
 
 def test_staging_is_gone_afterwards(tmp_path):
-    with pytest.raises(KeyboardInterrupt), staging(tmp_path) as stage:
-        (stage / "a").write_text("x")
-        raise KeyboardInterrupt
+    def interrupted():
+        with staging(tmp_path) as stage:
+            (stage / "a").write_text("x")
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
     assert list(tmp_path.iterdir()) == []
 
 

@@ -71,14 +71,24 @@ def add_model(parser: argparse.ArgumentParser, *, optional: bool = True) -> None
     )
 
 
-def add_common(parser: argparse.ArgumentParser) -> None:
-    """Add the options every command has: ``-q``, ``-v`` and ``--color``, where the command has none of its own."""
+def add_common(parser: argparse.ArgumentParser, *, nested: bool = False) -> None:
+    """Add the options every command has: ``-q``, ``-v`` and ``--color``, where the command has none of its own.
+
+    Args:
+        parser: of the command; its subcommands get them too.
+        nested: whether a parser above has them already, and with them the defaults.
+    """
     taken = parser._option_string_actions
+    off, auto = (argparse.SUPPRESS, argparse.SUPPRESS) if nested else (False, "auto")
     if "--quiet" not in taken and "-q" not in taken:
-        parser.add_argument("-q", "--quiet", action="store_true", help="print results only, no notes")
+        parser.add_argument("-q", "--quiet", action="store_true", default=off, help="print results only, no notes")
     if "--verbose" not in taken and "-v" not in taken:
-        parser.add_argument("-v", "--verbose", action="store_true", help="print more notes")
+        parser.add_argument("-v", "--verbose", action="store_true", default=off, help="print more notes")
     if "--color" not in taken:
         parser.add_argument(
-            "--color", choices=("auto", "always", "never"), default="auto", help="colour the output (default: auto)"
+            "--color", choices=("auto", "always", "never"), default=auto, help="colour the output (default: auto)"
         )
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for subcommand in action.choices.values():
+                add_common(subcommand, nested=True)

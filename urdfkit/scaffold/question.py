@@ -86,7 +86,7 @@ class Question:
         return (
             "it is not of the form name@host"
             if "@[" in self.pattern
-            else "it is empty or has one of < > & \" ' \\ @ $ %"
+            else 'it is empty, or has a line break or one of < > & "'
         )
 
     def _number(self, answer: str) -> str:

@@ -1,0 +1,91 @@
+from pathlib import Path
+
+import pytest
+
+from urdfkit.errors import ResourceError, UsageError
+from urdfkit.scaffold import load_template, template_names
+from urdfkit.scaffold.template import fill
+
+BUILT_IN = {"year": "2026", "into": "src"}
+
+
+def test_templates_we_ship_load():
+    assert "robot" in template_names()
+
+
+def test_answers_are_checked_and_completed(small_template):
+    template = load_template(small_template)
+    assert template.answers({"name": "box", "size": "3"}) == {"name": "box", "size": "3", "twice": "6", "colour": "red"}
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({}, "name is missing"),
+        ({"name": "box", "size": "big"}, "`big` is no number"),
+        ({"name": "box", "twice": "0.5"}, "--twice has to be at least --size"),
+        ({"name": "box", "colur": "red"}, "no question `colur`; did you mean `colour`?"),
+    ],
+)
+def test_wrong_answers(small_template, given, message):
+    with pytest.raises(UsageError, match=message):
+        load_template(small_template).answers(given)
+
+
+def test_render(small_template, tmp_path):
+    template = load_template(small_template)
+    answers = template.answers({"name": "box"}) | BUILT_IN
+    out = tmp_path / "out"
+    out.mkdir()
+    assert template.render(answers, out) == [Path("box/src/box.txt")]
+    text = (out / "box/src/box.txt").read_bytes()
+    assert text == b"box is 1 m: ${x} $(find box) user@example.com @ year 2026\n"
+
+
+def test_layers_by_answer_into_several_folders(small_template, tmp_path):
+    template = load_template(small_template)
+    answers = template.answers({"name": "box", "colour": "blue"}) | BUILT_IN
+    assert sorted(str(path) for path in template.render(answers, tmp_path)) == [
+        "box/COLOUR",
+        "box/src/box.txt",
+        "paint/COLOUR",
+    ]
+
+
+def test_next_steps(small_template):
+    template = load_template(small_template)
+    assert template.next_steps({"name": "box", "colour": "red"} | BUILT_IN) == [("", ["look src/box"])]
+    blue = template.next_steps({"name": "box", "colour": "blue"} | BUILT_IN)
+    assert blue[1] == ("in blue", ["paint"])
+
+
+def test_unknown_placeholder_says_where():
+    with pytest.raises(ResourceError, match=r"^file:2:4: no question `nmae`; did you mean `name`\?$"):
+        fill("@name@\nab @nmae@", {"name": "x"}, where="file")
+
+
+def test_two_layers_must_not_write_the_same_file(small_template):
+    (small_template / "blue/src").mkdir()
+    (small_template / "blue/src/@name@.txt").write_text("")
+    template = load_template(small_template)
+    with pytest.raises(ResourceError, match=r"both become box/src/box\.txt"):
+        list(template.files(template.answers({"name": "box", "colour": "blue"})))
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("summary = ", "template.toml: "),
+        ("summary = 'x'", "missing or unknown key: 'layer'"),
+        ("summary = 'x'\nlayer = []\n[[question]]\nname = 'a'\nwhat = 1", "missing or unknown key: .*what"),
+    ],
+)
+def test_broken_toml(tmp_path, text, message):
+    (tmp_path / "template.toml").write_text(text)
+    with pytest.raises(ResourceError, match=message):
+        load_template(tmp_path)
+
+
+def test_no_toml(tmp_path):
+    with pytest.raises(ResourceError, match=r"template\.toml: No such file"):
+        load_template(tmp_path)

@@ -1,0 +1,144 @@
+"""``urdfkit new``: write packages from a template."""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+from datetime import datetime, timezone
+from pathlib import Path
+
+from urdfkit.errors import UrdfkitError, UsageError
+from urdfkit.resources import templates_dir
+from urdfkit.scaffold import Question, Template, create, load_template, template_names
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add one subcommand per template, with an option per question.
+
+    Args:
+        parser: of this command.
+    """
+    parser.epilog = "examples:\n  urdfkit new robot scout\n  urdfkit new robot scout --ros noetic --into src --yes"
+    kinds = parser.add_subparsers(dest="kind", metavar="KIND", required=True)
+    for name in template_names():
+        template = load_template(templates_dir() / name)
+        kind = kinds.add_parser(
+            name,
+            help=template.summary,
+            description=f"Write {template.summary}.",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            epilog=f"examples:\n  urdfkit new {name} scout\n  urdfkit new {name} scout --ros noetic --into src --yes",
+        )
+        for question in template.questions:
+            _add(kind, question)
+        kind.add_argument(
+            "--into", metavar="DIR", default=".", help="folder to write to (default: the one you stand in)"
+        )
+        kind.add_argument("-y", "--yes", action="store_true", help="ask nothing: defaults for what is left out")
+        for option in template.asks_later:
+            kind.add_argument(f"--{option}", dest=f"later_{option}", nargs="?", const="", help=argparse.SUPPRESS)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Ask, render, check, move into place.
+
+    Args:
+        arguments: from the command line.
+
+    Raises:
+        UrdfkitError: it could not be done; nothing was written then.
+    """
+    template = load_template(templates_dir() / arguments.kind)
+    for option in template.asks_later:
+        if getattr(arguments, f"later_{option}") is not None:
+            there = ", ".join(question.option for question in template.questions if question.kind != "package")
+            raise UsageError(f"--{option} is not available yet; there is: {there}")
+    given = {q.name: value for q in template.questions if (value := getattr(arguments, q.name)) is not None}
+    into = Path(arguments.into)
+    for name, answer in given.items():
+        template.question(name).accept(answer)
+    given = {**_identity(template), **given}
+    if not arguments.yes and sys.stdin.isatty() and sys.stderr.isatty():
+        given |= _ask(template, given)
+    answers = template.answers(given)
+    answers |= {"year": str(datetime.now(timezone.utc).year), "into": into.as_posix()}
+    files = create(template, answers, into, check=_findings)
+    _tell(template, answers, files, into.resolve(), quiet=arguments.quiet)
+    return 0
+
+
+def _add(parser: argparse.ArgumentParser, question: Question) -> None:
+    unit = f" [{question.unit}]" if question.unit else ""
+    choices = f": {', '.join(question.choices)}" if question.choices else ""
+    default = "" if question.default is None else f" (default: {question.default.removeprefix('=').strip()})"
+    text = f"{question.prompt}{unit}{choices}{default}{'; ' if question.help else ''}{question.help}".replace("%", "%%")
+    if question.default is None:
+        parser.add_argument(question.name, nargs="?", metavar=question.name.upper(), help=text)
+    else:
+        metavar = question.unit or question.name.upper()
+        parser.add_argument(question.option, dest=question.name, metavar=metavar, help=text)
+
+
+def _ask(template: Template, given: dict[str, str]) -> dict[str, str]:
+    """Ask on the terminal for what is left out; Enter takes the default."""
+    found = dict(given)
+    for question in template.questions:
+        default = question.default_given(found)
+        if question.name in given or not question.ask:
+            found.setdefault(question.name, default or "")
+            continue
+        while question.name not in found:
+            try:
+                answer = _answered(question, default)
+                found[question.name] = question.accept(answer or default or "")
+            except UsageError as error:
+                print(f"  {error}", file=sys.stderr)
+    return {question.name: found[question.name] for question in template.questions if question.ask}
+
+
+def _answered(question: Question, default: str | None) -> str:
+    unit = f" [{question.unit}]" if question.unit else ""
+    choices = f" ({', '.join(question.choices)})" if len(question.choices) > 1 else ""
+    offered = f" = {default}" if default is not None else ""
+    print(f"{question.prompt}{choices}{unit}{offered}: ", end="", file=sys.stderr, flush=True)
+    line = sys.stdin.readline()
+    if not line:
+        print(file=sys.stderr)
+        raise UrdfkitError("no more answers: nothing was written")
+    return line.strip()
+
+
+def _identity(template: Template) -> dict[str, str]:
+    """Return maintainer and e-mail as git knows them, if it does and they will do."""
+    found: dict[str, str] = {}
+    for name, key in (("maintainer", "user.name"), ("email", "user.email")):
+        try:
+            answer = subprocess.run(
+                ["git", "config", "--get", key], capture_output=True, text=True, timeout=5, check=True
+            )
+            found[name] = template.question(name).accept(answer.stdout)
+        except (OSError, subprocess.SubprocessError, UnicodeDecodeError, UsageError):
+            continue
+    return found
+
+
+def _findings(folder: Path) -> list[str]:
+    from urdfkit.lint import lint
+
+    found = lint([folder], package_path=[folder])
+    return [f"{f.code} {f.message} ({Path(f.file).name}:{f.line})" for f in found if f.severity != "info"]
+
+
+def _tell(template: Template, answers: dict[str, str], files: list[Path], into: Path, *, quiet: bool) -> None:
+    """Print what was written and, unless `quiet`, what to do with it."""
+    counts: dict[str, int] = {}
+    for file in files:
+        top = file.relative_to(into).parts[0]
+        counts[top] = counts.get(top, 0) + 1
+    for top, count in counts.items():
+        print(f"{Path(answers['into'], top).as_posix()}  {count} files")
+    for title, commands in [] if quiet else template.next_steps(answers):
+        print(f"\n{title or 'next'}:")
+        for command in commands:
+            print(f"  {command.replace(' ./', ' ')}")
