@@ -119,6 +119,10 @@ def _read(path: Path) -> bytes:
         raise ResourceError(f"mesh {path.name} is a Git LFS pointer, not the mesh: run `git lfs pull`")
     if path.suffix.lower() == ".dae" and re.search(rb"<!(DOCTYPE|ENTITY)", content):
         raise ResourceError(f"mesh {path.name} declares a document type or XML entities: refused")
+    if path.suffix.lower() == ".stl" and b"facet" not in content:  # binary: 80 bytes, a count, 50 bytes a triangle
+        count = int.from_bytes(content[80:84], "little")
+        if len(content) < 84 + 50 * count or len(content) < 84:
+            raise ResourceError(f"mesh {path.name} is cut off: {len(content)} bytes, {84 + 50 * count} expected")
     return content
 
 
