@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import errno
+import os
 import socket
-
-from tornado.netutil import bind_sockets
 
 from urdfkit.errors import UsageError
 from urdfkit.view.security import is_loopback
@@ -15,7 +14,7 @@ TRIES = 50
 WILDCARDS = ("0.0.0.0", "::", "")
 
 
-def bind(host: str, port: int | None) -> tuple[list[socket.socket], int]:
+def bind(host: str, port: int | None) -> tuple[socket.socket, int]:
     """Bind an address.
 
     Args:
@@ -23,7 +22,7 @@ def bind(host: str, port: int | None) -> tuple[list[socket.socket], int]:
         port: exactly this port, 0 for any; None for the first free one from `DEFAULT_PORT` on.
 
     Returns:
-        Listening sockets and the port.
+        The listening socket and the port.
 
     Raises:
         UsageError: the port is busy (names a free one) or the address is not ours.
@@ -33,37 +32,40 @@ def bind(host: str, port: int | None) -> tuple[list[socket.socket], int]:
     candidates = [port] if port is not None else [*range(DEFAULT_PORT, DEFAULT_PORT + TRIES), 0]
     for candidate in candidates:
         try:
-            sockets = _bind(host, candidate)
+            listening = _bind(host, candidate)
         except OSError as error:
             if error.errno == errno.EADDRINUSE:
                 continue
             if error.errno == errno.EACCES:
-                raise UsageError(f"port {candidate} needs privileges; try {_free_port(host, DEFAULT_PORT)}") from error
-            raise UsageError(f"cannot listen on `{host}`: {error.strerror or error}") from error
-        return sockets, sockets[0].getsockname()[1]
+                raise UsageError(f"port {candidate} needs privileges; {_free_port(host, DEFAULT_PORT)} does not") from error
+            raise UsageError(f"cannot listen on `{host}`: {_reason(error)}") from error
+        return listening, int(listening.getsockname()[1])
     raise UsageError(f"port {port} is busy; {_free_port(host, (port or 0) + 1)} is free")
 
 
-def _bind(host: str, port: int) -> list[socket.socket]:
-    # One family, so that port 0 yields one port; a second server must fail to bind, not share the port.
+def _bind(host: str, port: int) -> socket.socket:
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    return list(bind_sockets(port, address=host, family=family, reuse_port=False))
+    # No SO_REUSEPORT: a second server must fail to bind, not share the port.
+    listening = socket.create_server((host, port), family=family, backlog=128, reuse_port=False)
+    listening.setblocking(False)
+    return listening
 
 
 def _free_port(host: str, start: int) -> int:
-    for port in range(start, min(start + TRIES, 65536)):
+    for port in (*range(start, min(start + TRIES, 65536)), 0):
         try:
-            sockets = _bind(host, port)
+            listening = _bind(host, port)
         except OSError:
             continue
-        for each in sockets:
-            each.close()
-        return port
-    sockets = _bind(host, 0)
-    port = int(sockets[0].getsockname()[1])
-    for each in sockets:
-        each.close()
-    return port
+        with listening:
+            return int(listening.getsockname()[1])
+    return DEFAULT_PORT
+
+
+def _reason(error: OSError) -> str:
+    if isinstance(error, socket.gaierror) or error.errno is None:
+        return str(error.strerror or error)
+    return os.strerror(error.errno)
 
 
 def urls(host: str, port: int, token: str) -> list[str]:

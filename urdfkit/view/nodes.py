@@ -111,16 +111,20 @@ def material(shape: Shape) -> Any:
 def capsule(radius: float, length: float) -> TriMesh:
     """Return a capsule along z; `length` is that of its cylindrical part [m]."""
     n, rings = CAPSULE_SEGMENTS, CAPSULE_SEGMENTS // 4
-    polar = np.concatenate([np.linspace(0, np.pi / 2, rings + 1), np.linspace(np.pi / 2, np.pi, rings + 1)])
-    lift = np.repeat([length / 2, -length / 2], rings + 1)
+    quarter = np.linspace(0, np.pi / 2, rings + 1)
+    polar = np.concatenate([quarter, np.pi - quarter[::-1]])
+    out = np.sin(polar) * (np.abs(np.cos(polar)) < 1)  # exactly nothing at the poles
+    lift = np.repeat([length / 2, -length / 2], rings + 1) + radius * np.cos(polar)
     turn = np.arange(n) * 2 * np.pi / n
     ring = np.stack([np.cos(turn), np.sin(turn), np.zeros(n)], axis=1)
-    vertices = np.concatenate(
-        [radius * np.sin(p) * ring + [0, 0, radius * np.cos(p) + z] for p, z in zip(polar, lift, strict=True)]
-    )
+    vertices = np.concatenate([radius * o * ring + [0, 0, z] for o, z in zip(out, lift, strict=True)])
+    last = len(polar) - 2
     faces = []
-    for row in range(len(polar) - 1):
+    for row in range(last + 1):
+        if row == rings and length == 0:
+            continue
         for i in range(n):
             a, b = row * n + i, row * n + (i + 1) % n
-            faces += [(a, a + n, b), (b, a + n, b + n)]
+            faces += [(a, a + n, b)] if row > 0 else []
+            faces += [(b, a + n, b + n)] if row < last else []
     return TriMesh(vertices.astype(np.float32), np.array(faces, dtype=np.int32))

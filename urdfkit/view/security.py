@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import hmac
 import ipaddress
+import re
 import secrets
 from dataclasses import dataclass, field
-from urllib.parse import urlsplit
 
 LOOPBACK_NAMES = ("localhost", "127.0.0.1", "::1")
 
@@ -15,6 +15,9 @@ EMPTY_STYLE = "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='"
 
 DAT_GUI_STYLES = ("'sha256-K7kXOYqP8pf16L5/PaLZ4u9Lt5q3nTyjCvyGtO/Af2k='",)
 """Hashes of the style sheets that meshcat's bundle injects for its own (here hidden) control panel."""
+
+
+_HOST = re.compile(r"(?:(?P<name>[A-Za-z0-9._-]+)|\[(?P<address>[0-9A-Fa-f:.]+)\])(?::[0-9]{1,5})?", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -68,14 +71,8 @@ class Gate:
 
 def host_name(host: str) -> str | None:
     """Return the name in a Host header without port and brackets, in lower case; None when it makes no sense."""
-    if not host or any(c in host for c in "/@?#\\ \t"):
-        return None
-    try:
-        parts = urlsplit(f"//{host}")
-        _ = parts.port  # raises when it is no number
-    except ValueError:
-        return None
-    return parts.hostname
+    found = _HOST.fullmatch(host)
+    return (found["name"] or found["address"]).lower() if found else None
 
 
 def is_ip_literal(name: str) -> bool:

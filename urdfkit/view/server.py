@@ -45,7 +45,7 @@ class Server:
     def __init__(
         self, mode: str, *, host: str = "127.0.0.1", port: int | None = None, settings: dict[str, Any] | None = None
     ) -> None:
-        self._sockets, self.port = bind(host, port)
+        self._socket, self.port = bind(host, port)
         loopback = is_loopback(host)
         names = LOOPBACK_NAMES if loopback else (*LOOPBACK_NAMES, *local_names(host))
         self.gate = Gate(self.port, names=names, open_to_network=not loopback)
@@ -81,8 +81,7 @@ class Server:
         if self._thread.is_alive():
             self._loop.call_soon_threadsafe(self._loop.stop)
             self._thread.join()
-        for socket in self._sockets:
-            socket.close()
+        self._socket.close()
         if not self._loop.is_closed():
             self._loop.close()
 
@@ -180,7 +179,7 @@ class Server:
         http = HTTPServer(
             app, max_header_size=16 * 1024, max_body_size=protocol.MAX_INBOUND, idle_connection_timeout=60
         )
-        http.add_sockets(self._sockets)
+        http.add_socket(self._socket)
         return http
 
     async def _close(self, http: HTTPServer) -> None:

@@ -1,0 +1,71 @@
+import pytest
+
+from urdfkit.view.driver import DEADMAN, Driver
+from urdfkit.view.protocol import Axes
+
+AHEAD = Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0)
+BACK = Axes((-1.0, 0.0, 0.0, 0.0), 0.5, 1.0)
+NOTHING = Axes((0.0, 0.0, 0.0, 0.0), 0.5, 1.0)
+
+
+class Clock:
+    now = 100.0
+
+    def __call__(self) -> float:
+        return self.now
+
+
+@pytest.fixture
+def clock() -> Clock:
+    return Clock()
+
+
+@pytest.fixture
+def driver(clock: Clock) -> Driver:
+    return Driver(clock=clock)
+
+
+def test_what_is_held_counts_until_it_is_let_go(driver: Driver) -> None:
+    assert driver.axes is None
+    assert driver.offer(1, AHEAD)
+    assert driver.axes == AHEAD
+    driver.offer(1, NOTHING)
+    assert driver.axes is None
+    assert driver.holder is None
+
+
+def test_silence_stops_the_robot(driver: Driver, clock: Clock) -> None:
+    driver.offer(1, AHEAD)
+    clock.now += DEADMAN - 0.01
+    assert driver.axes == AHEAD
+    clock.now += 0.02
+    assert driver.axes is None
+    assert driver.holder is None
+
+
+def test_a_word_in_time_keeps_it_going(driver: Driver, clock: Clock) -> None:
+    for _ in range(20):
+        driver.offer(1, AHEAD)
+        clock.now += DEADMAN * 0.9
+        assert driver.axes == AHEAD
+
+
+def test_closing_the_page_stops_the_robot_at_once(driver: Driver) -> None:
+    driver.offer(1, AHEAD)
+    driver.leave(2)
+    assert driver.axes == AHEAD
+    driver.leave(1)
+    assert driver.axes is None
+
+
+def test_one_drives_and_the_others_watch(driver: Driver, clock: Clock) -> None:
+    driver.offer(1, AHEAD)
+    assert not driver.offer(2, BACK)
+    assert not driver.offer(2, NOTHING)
+    assert driver.axes == AHEAD
+    assert driver.holder == 1
+    driver.offer(1, NOTHING)
+    assert driver.offer(2, BACK)
+    assert driver.axes == BACK
+    clock.now += DEADMAN + 0.01
+    assert driver.offer(1, AHEAD)

@@ -1,0 +1,224 @@
+"""Who is let in, what is served, what a page may say: as anybody on the network could try it."""
+
+import http.client
+import json
+import logging
+import random
+import struct
+from urllib.parse import urlsplit
+
+import pytest
+import websocket
+
+from urdfkit.view import protocol
+
+ZEROS = "0" * 64
+
+
+def test_the_key_becomes_a_cookie_and_leaves_the_address(client, server) -> None:
+    answer = client.get("/?" + urlsplit(server.url).query)
+    assert answer.status == 303
+    assert answer.headers["location"] == "/"
+    name, *attributes = answer.headers["set-cookie"].split("; ")
+    assert name.startswith(f"urdfkit-{server.port}=")
+    assert {"HttpOnly", "Path=/", "SameSite=Strict"} == set(attributes)
+    assert server.gate.token not in answer.headers["set-cookie"]
+    client.cookie = name
+    page = client.get("/")
+    assert page.status == 200
+    assert b"/app/app.js" in page.body
+    assert server.gate.token.encode() not in page.body
+
+
+@pytest.mark.parametrize("path", ["/", f"/geometry/{ZEROS}", "/ws", "/nothing", "/?token=", "/?token=wrong",
+                                  "/?token=a&token=b", "/?token=%ff%fe", "/?token=%00"])  # fmt: skip
+def test_without_the_key_nobody_gets_in(client, path: str) -> None:
+    answer = client.get(path)
+    assert answer.status == 403
+    assert "set-cookie" not in answer.headers
+    assert b"urdfkit printed in the terminal" in answer.body
+
+
+@pytest.mark.parametrize(
+    "cookie", ["urdfkit-{port}=wrong", "urdfkit-1={session}", "urdfkit-{port}=", "{session}", ";;=;"]
+)
+def test_a_wrong_cookie_is_no_cookie(client, server, cookie: str) -> None:
+    client.cookie = cookie.format(port=server.port, session=server.gate.session)
+    assert client.get("/").status == 403
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "evil.example:{port}", "", None, "192.168.0.9:{port}", "127.0.0.1:{port}, x"]
+)
+@pytest.mark.parametrize("path", ["/", "/app/app.js", f"/geometry/{ZEROS}", "/ws", "/?token={token}"])
+def test_a_foreign_host_is_refused_even_with_the_key(client, server, host: str | None, path: str) -> None:
+    client.log_in()
+    answer = client.get(path.format(token=server.gate.token), Host=host and host.format(port=server.port))
+    assert answer.status in (400, 403)
+    assert "set-cookie" not in answer.headers
+
+
+@pytest.mark.parametrize("origin", ["http://evil.example", "null", "https://127.0.0.1", "http://127.0.0.1:1", ""])
+def test_a_foreign_page_is_refused_even_with_the_cookie(client, server, origin: str) -> None:
+    client.log_in()
+    assert client.get("/", Origin=origin).status == 403
+    assert client.get(f"/?token={server.gate.token}", Origin=origin).status == 403
+    assert client.get(f"/geometry/{ZEROS}", Origin=origin).status == 403
+
+
+@pytest.mark.parametrize("options", [
+    {"cookie": None}, {"cookie": "urdfkit-1=x"}, {"origin": "http://evil.example"}, {"origin": "http://127.0.0.1:1"},
+    {"host": "evil.example"}, {"suppress_origin": True},
+], ids=str)  # fmt: skip
+def test_a_websocket_needs_cookie_origin_and_host(client, options: dict) -> None:
+    client.log_in()
+    with pytest.raises(websocket.WebSocketBadStatusException) as caught:
+        client.socket(**options)
+    assert caught.value.status_code == 403
+
+
+def test_every_answer_carries_the_policy(client, server) -> None:
+    refused = client.get("/")
+    client.log_in()
+    for answer in (
+        refused,
+        client.get("/"),
+        client.get("/app/app.js"),
+        client.get("/nothing"),
+        client.get(f"/geometry/{ZEROS}"),
+    ):
+        assert "script-src 'self'" in answer.headers["content-security-policy"]
+        assert answer.headers["x-content-type-options"] == "nosniff"
+        assert answer.headers["x-frame-options"] == "DENY"
+        assert answer.headers["referrer-policy"] == "no-referrer"
+        assert answer.headers["cache-control"] == "no-store"
+        assert "server" not in answer.headers
+
+
+@pytest.mark.parametrize("path", [
+    "/app/../web.py", "/app/..%2fweb.py", "/app/%2e%2e/web.py", "/app//etc/passwd", "/app/....//web.py", "/app/web.py",
+    "/app/.", "/app/", "/static/x", "/etc/passwd", "//etc/passwd", "/geometry/../../etc/passwd", f"/geometry/{ZEROS}",
+    "/geometry/" + "g" * 64, "/app/app.js%00.html", "/app/" + "a" * 5000,
+])  # fmt: skip
+def test_no_path_leads_out(client, path: str) -> None:
+    answer = client.log_in().get(path)
+    assert answer.status == 404
+    assert b"root:" not in answer.body
+
+
+def test_the_page_and_all_it_asks_for_is_there_and_small(client) -> None:
+    client.log_in()
+    wire = 0
+    names = ["/", *(f"/app/{name}" for name in
+                    ("meshcat.js", "app.js", "connection.js", "drive.js", "joints.js", "pad.js", "scene.js", "stage.js", "style.css", "icon.svg"))]  # fmt: skip
+    for name in names:
+        answer = client.get(name, Accept_Encoding="gzip")
+        assert answer.status == 200, name
+        wire += len(answer.body)
+    assert wire < 1_500_000
+
+
+def test_only_reading_is_possible(client) -> None:
+    client.log_in()
+    for method in ("POST", "PUT", "DELETE", "PATCH"):
+        assert client.get("/", method=method).status in (403, 405)
+
+
+def test_an_oversized_body_is_refused(client, server) -> None:
+    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=10)
+    connection.putrequest("POST", "/")
+    connection.putheader("Content-Length", str(10**9))
+    connection.endheaders()
+    try:
+        assert connection.getresponse().status in (400, 403, 413)
+    except (http.client.RemoteDisconnected, ConnectionResetError):
+        pass  # closed without a word: also refused
+    finally:
+        connection.close()
+    assert client.log_in().get("/").status == 200
+
+
+def test_a_frame_over_the_cap_closes_the_line_and_nothing_else(client, page, server, until) -> None:
+    other = client.socket()
+    page.send("x" * (protocol.MAX_INBOUND + 1))
+    with pytest.raises((websocket.WebSocketConnectionClosedException, ConnectionError)):
+        while page.recv():
+            pass
+    other.send('{"type":"joints","positions":{"lift":0.2}}')
+    assert until(server.inbox.take).joints == {"lift": 0.2}
+
+
+@pytest.mark.parametrize("frame", ["", "nonsense", "{}", '{"type":"joints","positions":{"lift":NaN}}',
+                                   '{"type":"joints","positions":{"lift":1e999}}', '{"type":"control","action":"rm -rf"}',
+                                   '{"type":"axes","axes":[9,9,9,9],"speed":1,"turn":1}', "[" * 60000])  # fmt: skip
+def test_nonsense_is_dropped_with_a_word_in_the_log(page, server, until, caplog, frame: str) -> None:
+    with caplog.at_level(logging.WARNING, "urdfkit.view"):
+        page.send(frame)
+        page.send('{"type":"joints","positions":{"lift":0.2}}')
+        assert until(server.inbox.take).joints == {"lift": 0.2}
+    assert "dropped a message" in caplog.text
+    assert server.driver.axes is None
+
+
+def test_two_thousand_random_frames_leave_it_serving(client, page, server, until) -> None:
+    chance = random.Random(7)
+    kinds = [b'{"type":"joints","positions":{"lift":', b'{"type":"axes","axes":[', b"{", b"\x01", b"\xff\xfe", b""]
+    for number in range(2000):
+        body = chance.choice(kinds) + bytes(chance.randrange(256) for _ in range(chance.randrange(40)))
+        try:
+            if number % 2:
+                page.send_binary(body)
+            else:
+                page.send(body.decode("latin-1"))
+        except (websocket.WebSocketException, OSError):
+            page = client.socket()  # a frame that closed the line
+    client.socket().send('{"type":"joints","positions":{"lift":0.25}}')
+    until(lambda: server.inbox.take().joints.get("lift") == 0.25)
+    assert client.get("/").status == 200
+
+
+def test_only_joints_that_are_there_and_move_on_their_own_are_passed_on(page, server, until) -> None:
+    page.send('{"type":"joints","positions":{"lift":0.2,"echo":0.2,"other":1,"__proto__":1}}')
+    assert until(server.inbox.take).joints == {"lift": 0.2}
+
+
+def test_geometry_is_served_by_its_content_and_may_be_kept(client, server) -> None:
+    import numpy as np
+    import trimesh
+
+    from urdfkit.scene import TriMesh
+
+    box = trimesh.creation.box()
+    name = server.geometries.add(
+        TriMesh(np.asarray(box.vertices, dtype=np.float32), np.asarray(box.faces, dtype=np.int32))
+    )
+    answer = client.log_in().get(f"/geometry/{name}")
+    assert answer.status == 200
+    assert struct.unpack_from("<III", answer.body) == (24, 12, 0)
+    assert "immutable" in answer.headers["cache-control"]
+    client.cookie = None
+    assert client.get(f"/geometry/{name}").status == 403
+
+
+def test_refusals_are_logged_without_the_key(client, server, caplog) -> None:
+    with caplog.at_level(logging.INFO, "urdfkit.view"):
+        client.get("/?token=guess")
+        client.get(f"/?token={server.gate.token}", Origin="http://evil.example")
+    assert caplog.text.count("refused GET /") == 2
+    assert server.gate.token not in caplog.text
+    assert "guess" not in caplog.text
+
+
+def test_missing_meshcat_is_one_line(monkeypatch) -> None:
+    from urdfkit.errors import MissingDependencyError
+    from urdfkit.view import web
+
+    monkeypatch.setattr(web, "find_spec", lambda name: None)
+    with pytest.raises(MissingDependencyError, match=r"pip install 'urdfkit\[view\]'"):
+        web.meshcat_bundle()
+
+
+def test_hello_comes_first_and_says_the_version(page, text) -> None:
+    first = json.loads(page.recv())
+    assert first["type"] == "you"
+    assert text(page, "hello")["protocol"] == protocol.VERSION
