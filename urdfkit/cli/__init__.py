@@ -70,7 +70,8 @@ def _run(arguments: list[str]) -> int:
         epilog="examples:\n  urdfkit new robot scout\n  urdfkit sim teleop simpleton",
     )
     parser.add_argument("--version", action="version", version=f"urdfkit {_version()}")
-    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    # Without `prog` argparse formats a usage line, for which it imports shutil and all it brings along.
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, prog="urdfkit")
     for name, summary in COMMANDS.items():
         sub = commands.add_parser(
             name, help=summary, description=summary, formatter_class=argparse.RawDescriptionHelpFormatter

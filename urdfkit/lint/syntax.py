@@ -1,12 +1,12 @@
 """The tags of a file exactly as written: where each name, attribute and comment begins and ends.
 
-Works on any text, well-formed or not; a file that is not well-formed yields what can be told of it, and what is
-unbalanced in `Document.complaints`.
+Works on any text; of a file that is not well-formed it yields what can be told.
 """
 
 from __future__ import annotations
 
 import re
+from functools import cached_property
 
 from urdfkit.description.source import Source, Span
 
@@ -79,58 +79,49 @@ class Tag:
 
 
 class Document:
-    """The tags and comments of one file.
+    """The tags and comments of one file; read when first asked for.
 
     Attributes:
         source: its text.
-        roots: top-level tags; one in a well-formed file.
-        comments: (start, end, text) of each comment.
-        complaints: (offset, message) of what is unbalanced.
     """
 
     def __init__(self, source: Source) -> None:
         self.source = source
-        self.roots: list[Tag] = []
-        self.comments: list[tuple[int, int, str]] = []
-        self.complaints: list[tuple[int, str]] = []
-        self._by_start: dict[int, Tag] = {}
-        self._read()
 
-    def _read(self) -> None:
+    @property
+    def roots(self) -> list[Tag]:
+        """The top-level tags; one in a well-formed file."""
+        return self._read[0]
+
+    @property
+    def comments(self) -> list[tuple[int, int, str]]:
+        """Start, end and text of each comment."""
+        return self._read[1]
+
+    @cached_property
+    def _read(self) -> tuple[list[Tag], list[tuple[int, int, str]], dict[int, Tag]]:
         text = self.source.text
+        roots: list[Tag] = []
+        comments: list[tuple[int, int, str]] = []
+        by_start: dict[int, Tag] = {}
         open_tags: list[Tag] = []
         for token in _TOKEN.finditer(text):
             name = token["name"]
             if name is None:
                 if token["comment"] is not None:
-                    self.comments.append((token.start(), token.end(), token["comment"]))
+                    comments.append((token.start(), token.end(), token["comment"]))
             elif token["close"]:
-                self._close(name, token.start(), token.end(), open_tags)
+                _close(name, token.start(), token.end(), open_tags)
             else:
                 parent = open_tags[-1] if open_tags else None
                 tag = Tag(text, name, token.start(), token.end(), bool(token["empty"]), parent)
-                (parent.children if parent else self.roots).append(tag)
-                self._by_start[tag.start] = tag
+                (parent.children if parent else roots).append(tag)
+                by_start[tag.start] = tag
                 if not tag.empty:
                     open_tags.append(tag)
         for tag in open_tags:
             tag.close_end = len(text)
-            self.complaints.append((tag.start, f"`<{tag.name}>` is never closed"))
-
-    def _close(self, name: str, start: int, end: int, open_tags: list[Tag]) -> None:
-        if not open_tags:
-            self.complaints.append((start, f"`</{name}>` closes nothing"))
-            return
-        if open_tags[-1].name != name:
-            opened = self.source.position(open_tags[-1].start)
-            where = f"line {opened.line}"
-            self.complaints.append((start, f"`</{name}>` where `<{open_tags[-1].name}>` of {where} is still open"))
-            if name not in [tag.name for tag in open_tags]:
-                return
-            while open_tags[-1].name != name:
-                open_tags.pop().close_end = start
-        tag = open_tags.pop()
-        tag.close, tag.close_end = start, end
+        return roots, comments, by_start
 
     def walk(self) -> Iterator[Tag]:
         """Yield every tag in document order."""
@@ -139,7 +130,7 @@ class Document:
 
     def tag_at(self, line: int, column: int) -> Tag | None:
         """Return the tag whose ``<`` is there."""
-        return self._by_start.get(self.source.offset(line, column))
+        return self._read[2].get(self.source.offset(line, column))
 
     def span_of(self, tag: Tag, attribute: str | None = None) -> Span:
         """Return the span of an attribute with its value, or of the start tag where it has no such attribute."""
@@ -147,3 +138,13 @@ class Document:
         if written is not None:
             return self.source.span(written.start, written.end)
         return self.source.span(tag.start, tag.end)
+
+
+def _close(name: str, start: int, end: int, open_tags: list[Tag]) -> None:
+    """Close the innermost open tag of that name, and those inside it that were never closed."""
+    if name not in [tag.name for tag in open_tags]:
+        return
+    while open_tags[-1].name != name:
+        open_tags.pop().close_end = start
+    tag = open_tags.pop()
+    tag.close, tag.close_end = start, end
