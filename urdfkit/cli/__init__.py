@@ -7,7 +7,6 @@ and returns the exit code (0 done, 1 done and something to report, 2 could not d
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
 from collections.abc import Sequence
@@ -66,16 +65,13 @@ def _run(arguments: list[str]) -> int:
     parser = Parser(
         prog="urdfkit",
         description="From a URDF or xacro to a robot you drive in the browser.",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="examples:\n  urdfkit new robot scout\n  urdfkit sim teleop simpleton",
     )
     parser.add_argument("--version", action="version", version=f"urdfkit {_version()}")
-    # Without `prog` argparse formats a usage line, for which it imports shutil and all it brings along.
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, prog="urdfkit")
-    for name, summary in COMMANDS.items():
-        sub = commands.add_parser(
-            name, help=summary, description=summary, formatter_class=argparse.RawDescriptionHelpFormatter
-        )
+    names = (command,) if command in COMMANDS and arguments[0] == command else tuple(COMMANDS)
+    for name in names:
+        sub = commands.add_parser(name, help=COMMANDS[name], description=COMMANDS[name])
         if name == command:
             import_module(f"urdfkit.cli.{name}").configure(sub)
             add_common(sub)

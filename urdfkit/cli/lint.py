@@ -129,12 +129,15 @@ def _report(arguments: argparse.Namespace, outcome: Outcome) -> int:
 
         print(as_json(findings))
     else:
+        from urdfkit.cli.parser import columns
         from urdfkit.lint.report.text import TextReport, statistics, summary
 
         if arguments.statistics:
             print("\n".join([*statistics(findings), summary(findings)]))
         else:
-            report = TextReport(outcome.sources, colour=_colour(arguments.color), width=_width())
+            report = TextReport(
+                outcome.sources, colour=_colour(arguments.color), width=columns() if sys.stdout.isatty() else None
+            )
             for finding in findings:
                 print(report.finding(finding), end="\n\n")
             print(summary(findings))
@@ -145,17 +148,3 @@ def _colour(choice: str) -> bool:
     if choice != "auto":
         return choice == "always"
     return sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
-
-
-def _width() -> int | None:
-    """Return the columns of the terminal; None when the output goes elsewhere."""
-    if not sys.stdout.isatty():
-        return None
-    try:
-        columns = int(os.environ.get("COLUMNS") or 0)
-    except ValueError:
-        columns = 0
-    try:
-        return columns or os.get_terminal_size(sys.stdout.fileno()).columns or None
-    except OSError:
-        return None

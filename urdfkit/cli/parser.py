@@ -3,11 +3,33 @@
 from __future__ import annotations
 
 import argparse
+import os
 import re
 import sys
-from typing import Any, NoReturn
 
 from urdfkit.errors import UsageError, did_you_mean
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, NoReturn
+
+
+class HelpFormatter(argparse.RawDescriptionHelpFormatter):
+    """argparse's, but it finds the width without shutil, which takes longer to import than a command line to parse."""
+
+    def __init__(
+        self, prog: str, indent_increment: int = 2, max_help_position: int = 24, width: int | None = None
+    ) -> None:
+        super().__init__(prog, indent_increment, max_help_position, width or (columns() or 80) - 2)
+
+
+def columns() -> int | None:
+    """Return the width of the terminal in columns (``COLUMNS`` comes first); None when the output goes elsewhere."""
+    try:
+        given = int(os.environ.get("COLUMNS") or 0)
+        return given or os.get_terminal_size(sys.__stdout__.fileno() if sys.__stdout__ else 1).columns or None
+    except (ValueError, OSError):
+        return None
 
 
 class Parser(argparse.ArgumentParser):
@@ -15,6 +37,7 @@ class Parser(argparse.ArgumentParser):
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         kwargs.setdefault("allow_abbrev", False)
+        kwargs.setdefault("formatter_class", HelpFormatter)
         super().__init__(*args, **kwargs)
         self._is_parsing = False
 
@@ -28,10 +51,14 @@ class Parser(argparse.ArgumentParser):
         if self._is_parsing or self._subparsers is not None or {"-h", "--help"} & set(words):
             return super().parse_known_args(words, namespace)
         self._is_parsing = True  # argparse's own way to do it calls this method again
+        usage, self.usage = (
+            self.usage,
+            self.usage or "",
+        )  # which would be formatted for errors, which we print ourselves
         try:
             found, unknown = self.parse_known_intermixed_args(words, namespace)
         finally:
-            self._is_parsing = False
+            self._is_parsing, self.usage = False, usage
         if unknown:  # said here, where the options are known; the parser above knows only its own
             self.error(f"unrecognized arguments: {' '.join(unknown)}")
         return found, unknown

@@ -18,13 +18,14 @@ _SKIPPED = frozenset(("build", "install", "devel", "log", "node_modules", "__pyc
 _IGNORE_MARKS = frozenset(("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"))
 _MAX_DEPTH = 12
 
-_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
-_ROOT = re.compile(r"<(robot)\b((?:\"[^\"]*\"|'[^']*'|[^>\"'])*)>|<([A-Za-z_][\w:.-]*)")
-_NAMED = re.compile(r"(?<![\w:])name\s*=")
-_INCLUDE = re.compile(r"<(?:xacro:)?include\b[^<>]*?filename\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
-_MACRO = re.compile(r"<(?:xacro:)?macro\b.*?</(?:xacro:)?macro\s*>", re.DOTALL)
-_CONTENT = re.compile(r"<(?:link|joint|xacro:(?!macro|property|arg)\w)")
-_VARIABLE = re.compile(r"\$\([^()]*\)|\$\{[^{}]*\}")
+# Compiled on first use: to lint one named file takes none of the last four.
+_COMMENT = r"(?s)<!--.*?-->"
+_ROOT = r"<(robot)\b((?:\"[^\"]*\"|'[^']*'|[^>\"'])*)>|<[A-Za-z_]"
+_NAMED = r"(?<![\w:])name\s*="
+_INCLUDE = r"<(?:xacro:)?include\b[^<>]*?filename\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
+_MACRO = r"(?s)<(?:xacro:)?macro\b.*?</(?:xacro:)?macro\s*>"
+_CONTENT = r"<(?:link|joint|xacro:(?!macro|property|arg)\w)"
+_VARIABLE = r"\$\([^()]*\)|\$\{[^{}]*\}"
 
 
 @record(order=True)
@@ -84,8 +85,8 @@ def _of_folder(folder: Path) -> list[Entry]:
 def _of_file(path: Path) -> list[Entry]:
     """Return the file itself, or for a fragment the models that include it."""
     text = _text(path)
-    root = _ROOT.search(text)
-    if root is None or root[1] is None or _NAMED.search(root[2]):
+    root = re.search(_ROOT, text)
+    if root is None or root[1] is None or re.search(_NAMED, root[2]):
         return [Entry(path)]
     package = next((folder for folder in path.absolute().parents if (folder / "package.xml").is_file()), None)
     if package is not None:
@@ -129,22 +130,22 @@ def _matches(text: str, path: Path) -> bool:
 def _patterns(text: str) -> list[re.Pattern[str]]:
     """Return what the paths of included files look like: the part after the last ``$(…)`` or ``..``, if any."""
     found = []
-    for double, single in _INCLUDE.findall(text):
+    for double, single in re.findall(_INCLUDE, text):
         written = (double or single).replace("\\", "/").rpartition("../")[2].removeprefix("./")
         written = re.sub(r"^\$\(find[^()]*\)/", "", written)
-        parts = [re.escape(part) for part in _VARIABLE.split(written)]
+        parts = [re.escape(part) for part in re.split(_VARIABLE, written)]
         if any(parts):
             found.append(re.compile(f"(^|/){'.*'.join(parts)}$"))
     return found
 
 
 def _is_robot(text: str) -> bool:
-    root = _ROOT.search(text)
+    root = re.search(_ROOT, text)
     return root is not None and root[1] is not None
 
 
 def _is_library(text: str) -> bool:
-    return not _CONTENT.search(_MACRO.sub("", text))
+    return not re.search(_CONTENT, re.sub(_MACRO, "", text))
 
 
 def _walk(folder: Path, depth: int) -> Iterator[Path]:
@@ -166,4 +167,4 @@ def _walk(folder: Path, depth: int) -> Iterator[Path]:
 def _text(path: Path) -> str:
     from urdfkit.description.source import Source
 
-    return _COMMENT.sub("", Source.read(path).text)
+    return re.sub(_COMMENT, "", Source.read(path).text)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 
 from urdfkit.description.source import Position, Source, Span
-from urdfkit.lint.syntax import Attribute, Document, Tag
+from urdfkit.lint.prefix import signatures
+from urdfkit.lint.syntax import Document
 from urdfkit.record import field, record
 
 TYPE_CHECKING = False
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
     from urdfkit.description.element import Element
     from urdfkit.description.expanded import Expanded
     from urdfkit.description.robot import Robot
+    from urdfkit.lint.prefix import Signature
+    from urdfkit.lint.syntax import Attribute, Tag
 
 
 _DROPPING = frozenset(
@@ -59,6 +62,15 @@ class Model:
         """Whether elements were dropped because of a fault: what is not there may be in them."""
         faults = self.expanded.faults
         return any(fault.kind in _DROPPING and not fault.message.startswith("unbound prefix") for fault in faults)
+
+    @cached_property
+    def signatures(self) -> dict[str, list[Signature]]:
+        """The parameters of every macro that any of the files defines, with prefix or without, by its name."""
+        found: dict[str, list[Signature]] = {}
+        for source in self.expanded.sources.values():
+            for name, signature in signatures(source.text):
+                found.setdefault(name, []).append(signature)
+        return found
 
     @cached_property
     def _documents(self) -> dict[str, Document]:

@@ -5,9 +5,12 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.finding import Edit
+from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from urdfkit.lint.syntax import Document, Tag
 
 NAMESPACE = "http://www.ros.org/wiki/xacro"
@@ -43,7 +46,36 @@ URDF_CHILDREN: dict[str, frozenset[str]] = {
 
 URDF_ELEMENTS = frozenset(URDF_CHILDREN).union(*URDF_CHILDREN.values())
 
-_XACRO_URI = re.compile(r"https?://(www\.)?(wiki\.)?ros\.org/(wiki/)?xacro/?")
+# Compiled on first use: most files need none of them.
+_XACRO_URI = r"https?://(www\.)?(wiki\.)?ros\.org/(wiki/)?xacro/?"
+_DEFINITION = r"<(?:xacro:)?macro\s[^<>]*?\bname\s*=\s*[\"'](?:xacro:)?([^\"']+)[\"'][^<>]*>"
+_PARAMS = r"\bparams\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
+_PARAMETER = r"([^\s:=,;]+)(\s*:?=\s*(?:\^\|?)?(?:'[^']*'|\"[^\"]*\"|[^\s]*))?"
+
+
+@record
+class Signature:
+    """The parameters of a macro, blocks left out.
+
+    Attributes:
+        known: all of them.
+        required: those without default.
+    """
+
+    known: frozenset[str]
+    required: frozenset[str]
+
+
+def signatures(text: str) -> Iterator[tuple[str, Signature]]:
+    """Yield name and parameters of each macro that a text defines, with prefix or without."""
+    if "macro" not in text:
+        return
+    for definition in re.finditer(_DEFINITION, text):
+        params = re.search(_PARAMS, definition[0])
+        written = re.findall(_PARAMETER, (params[1] or params[2] or "") if params else "")
+        values = [(name, default) for name, default in written if not name.startswith("*")]
+        required = frozenset(name for name, default in values if not default)
+        yield definition[1], Signature(frozenset(name for name, _ in values), required)
 
 
 def has_foreign_ancestor(tag: Tag) -> bool:
@@ -71,7 +103,7 @@ def declares_xacro(document: Document) -> bool:
 def has_xacro_as_default(document: Document) -> bool:
     """Return whether the root element makes xacro's namespace the default one, which was meant to bind the prefix."""
     default = document.roots[0].attributes.get("xmlns") if document.roots else None
-    return default is not None and _XACRO_URI.fullmatch(default.value) is not None
+    return default is not None and re.fullmatch(_XACRO_URI, default.value) is not None
 
 
 def declaration(document: Document) -> tuple[Edit, ...]:

@@ -15,12 +15,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 # XML forbids `<` in attribute values: every alternative stops there, so a stray quote cannot swallow the file.
-_TOKEN = re.compile(
+_TOKEN = (
     r"<!--(?P<comment>.*?)-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<!DOCTYPE[^<>\[]*(?:\[.*?\]\s*)?>"
-    r"|<(?P<close>/?)(?P<name>[^\s/>=<!?\"']+)(?P<attributes>(?:[^<>\"'/]|/(?!>)|\"[^\"<]*\"|'[^'<]*')*)(?P<empty>/?)>",
-    re.DOTALL,
+    r"|<(?P<close>/?)(?P<name>[^\s/>=<!?\"']+)(?P<attributes>(?:[^<>\"'/]|/(?!>)|\"[^\"<]*\"|'[^'<]*')*)(?P<empty>/?)>"
 )
-_ATTRIBUTE = re.compile(r"([^\s=/\"'<>]+)\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
+_ATTRIBUTE = r"([^\s=/\"'<>]+)\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
 
 
 class Attribute:
@@ -57,7 +56,7 @@ class Tag:
     def attributes(self) -> dict[str, Attribute]:
         """The attributes by name, values as written (entities and expressions untouched)."""
         found: dict[str, Attribute] = {}
-        for at in _ATTRIBUTE.finditer(self._text, self.start + 1 + len(self.name), self.end):
+        for at in re.compile(_ATTRIBUTE).finditer(self._text, self.start + 1 + len(self.name), self.end):
             group = 2 if at[2] is not None else 3
             found[at[1]] = Attribute(at[1], at[group], at.start(), at.start(group), at.end(group), at.end())
         return found
@@ -105,7 +104,7 @@ class Document:
         comments: list[tuple[int, int, str]] = []
         by_start: dict[int, Tag] = {}
         open_tags: list[Tag] = []
-        for token in _TOKEN.finditer(text):
+        for token in re.finditer(_TOKEN, text, re.DOTALL):
             name = token["name"]
             if name is None:
                 if token["comment"] is not None:

@@ -14,11 +14,9 @@ if TYPE_CHECKING:
 
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
+    from urdfkit.lint.prefix import Signature
     from urdfkit.lint.syntax import Document, Tag
 
-_DEFINITION = re.compile(r"<(?:xacro:)?macro\s[^<>]*?\bname\s*=\s*[\"'](?:xacro:)?([^\"']+)[\"'][^<>]*>")
-_PARAMS = re.compile(r"\bparams\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
-_PARAMETER = re.compile(r"([^\s:=,;]+)(\s*:?=\s*(?:\^\|?)?(?:'[^']*'|\"[^\"]*\"|[^\s]*))?")
 _TRANSPARENT = ("xacro:if", "xacro:unless", "if", "unless")
 
 
@@ -63,7 +61,7 @@ class UnprefixedMacroCall(SourceRule):
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
         """Yield a finding for each call without its prefix."""
-        macros = _macros(model)
+        macros = model.signatures
         if not macros:
             return
         names = "|".join(re.escape(name) for name in macros)
@@ -79,23 +77,7 @@ class UnprefixedMacroCall(SourceRule):
                 )
 
 
-def _macros(model: Model) -> dict[str, list[tuple[frozenset[str], frozenset[str]]]]:
-    """Return name → (all parameters, required parameters) of every definition in any file, with prefix or without."""
-    found: dict[str, list[tuple[frozenset[str], frozenset[str]]]] = {}
-    for source in model.expanded.sources.values():
-        for definition in _DEFINITION.finditer(source.text):
-            params = _PARAMS.search(definition[0])
-            written = _PARAMETER.findall((params[1] or params[2] or "") if params else "")
-            values = [(name, default) for name, default in written if not name.startswith("*")]
-            signature = (
-                frozenset(name for name, _ in values),
-                frozenset(name for name, default in values if not default),
-            )
-            found.setdefault(definition[1], []).append(signature)
-    return found
-
-
-def _is_call(tag: Tag, signatures: list[tuple[frozenset[str], frozenset[str]]]) -> bool:
+def _is_call(tag: Tag, signatures: list[Signature]) -> bool:
     if tag.name in URDF_ELEMENTS and _is_urdf_there(tag):
         return False
     if tag.parent is None:
@@ -103,7 +85,7 @@ def _is_call(tag: Tag, signatures: list[tuple[frozenset[str], frozenset[str]]]) 
     if any(above.name in FOREIGN for above in tag.ancestors()):
         # Other formats have elements of any name there; only one that fits the macro exactly is a call.
         given = frozenset(tag.attributes)
-        return bool(given) and any(given <= known and required <= given for known, required in signatures)
+        return bool(given) and any(macro.required <= given <= macro.known for macro in signatures)
     return True
 
 
