@@ -1,0 +1,192 @@
+import io
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from urdfkit.cli import main
+from urdfkit.description import load
+from urdfkit.lint import lint
+from urdfkit.resources import find_model
+
+
+@pytest.fixture
+def place(tmp_path, monkeypatch):
+    """Stand in an empty folder, not on a terminal, without a git identity."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.stdin", io.StringIO())
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv("GIT_CONFIG_NOSYSTEM", "1")
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", "/dev/null")
+    return tmp_path
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def type_in(monkeypatch, *lines):
+    """Be on a terminal where these lines are typed."""
+    monkeypatch.setattr("sys.stdin", Terminal("".join(f"{line}\n" for line in lines)))
+    monkeypatch.setattr("sys.stderr", Terminal())
+    return sys.stderr
+
+
+@pytest.mark.parametrize("ros", ["jazzy", "kilted", "noetic"])
+def test_result_lints_clean_and_loads(place, capsys, ros):
+    assert main(["new", "robot", "scout", "--ros", ros]) == 0
+    assert sorted(path.name for path in place.iterdir()) == ["scout_description", "scout_gazebo"]
+    assert [str(finding) for finding in lint([place])] == []
+    robot = load(find_model([str(place / "scout_description")]).path)
+    assert robot.name == "scout"
+    assert [link.name for link in robot.roots()] == ["base_footprint"]
+    assert {"left_wheel_joint", "right_wheel_joint", "caster_joint"} <= set(robot.joint_by_name)
+    printed = capsys.readouterr().out
+    assert "urdfkit sim teleop scout_description" in printed
+    assert ("roslaunch scout_gazebo scout.launch" in printed) == (ros == "noetic")
+
+
+def test_no_placeholder_survives(place):
+    for ros in ("jazzy", "noetic"):
+        assert main(["new", "robot", "scout", "--ros", ros, "--into", ros]) == 0
+    for path in place.rglob("*"):
+        assert "@" not in path.name
+        if path.is_file():
+            assert not re.search(r"@[a-z_]+@", path.read_text()), path
+
+
+def test_dimensions_arrive(place):
+    options = ["--wheel-radius", "0.1", "--base-length", "0.6", "--mass", "12", "--wheel-separation", "0.5"]
+    assert main(["new", "robot", "big", *options, "--into", "src/robots"]) == 0
+    robot = load(find_model(["src/robots/big_description"]).path)
+    assert robot.joint_by_name["left_wheel_joint"].origin.xyz == (0, 0.25, 0)
+    assert robot.joint_by_name["base_joint"].origin.xyz == (0, 0, 0.1)
+    assert robot.link_by_name["base_link"].inertial.mass == 12
+
+
+def test_maintainer_and_license(place):
+    options = ["--maintainer", "Ada O'Hara", "--email", "ada@example.org", "--license", "MIT"]
+    assert main(["new", "robot", "scout", *options]) == 0
+    for package in ("scout_description", "scout_gazebo"):
+        manifest = (place / package / "package.xml").read_text()
+        assert '<maintainer email="ada@example.org">Ada O\'Hara</maintainer>' in manifest
+        assert "<license>MIT</license>" in manifest
+        assert re.search(r"Copyright \(c\) 20\d\d Ada O'Hara", (place / package / "LICENSE").read_text())
+
+
+def test_maintainer_is_asked_of_git(place, monkeypatch):
+    config = place / "gitconfig"
+    config.write_text("[user]\n\tname = Grace\n\temail = grace@example.org\n")
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(config))
+    assert main(["new", "robot", "scout"]) == 0
+    assert '"grace@example.org">Grace<' in (place / "scout_gazebo/package.xml").read_text()
+
+
+def test_quiet_prints_what_was_written_only(place, capsys):
+    assert main(["new", "robot", "scout", "-q"]) == 0
+    assert capsys.readouterr().out.splitlines() == ["scout_description  14 files", "scout_gazebo  8 files"]
+
+
+def test_questions_on_a_terminal(place, monkeypatch):
+    typed = ["Scout", "scout", "lunar", "noetic", "", "", "", "", "", "0.1"]
+    shown = type_in(monkeypatch, *typed, *[""] * 10)
+    assert main(["new", "robot"]) == 0
+    text = shown.getvalue()
+    assert "did you mean `scout`" in text
+    assert "`lunar` is not available" in text
+    assert "Radius of a wheel [m] = 0.075: " in text
+    assert (place / "scout_gazebo/launch/scout.launch").is_file()
+    assert '"wheel_radius" value="0.1"' in (place / "scout_description/urdf/scout.urdf.xacro").read_text()
+
+
+def test_what_was_given_is_not_asked(place, monkeypatch):
+    shown = type_in(monkeypatch, *[""] * 20)
+    assert main(["new", "robot", "scout", "--ros", "noetic", "--mass", "3"]) == 0
+    assert "ROS" not in shown.getvalue()
+    assert "Mass of the base" not in shown.getvalue()
+    assert "Length of the base" in shown.getvalue()
+
+
+def test_yes_asks_nothing(place, monkeypatch):
+    shown = type_in(monkeypatch)
+    assert main(["new", "robot", "scout", "--yes"]) == 0
+    assert shown.getvalue() == ""
+
+
+def test_end_of_input_writes_nothing(place, monkeypatch):
+    shown = type_in(monkeypatch, "scout")
+    assert main(["new", "robot"]) == 2
+    assert "no more answers: nothing was written" in shown.getvalue()
+    assert list(place.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["robot"], "name of the robot is missing"),
+        (["robot", "My Robot"], "no ROS package name: .*; did you mean `my_robot`?"),
+        (["robot", "scout_description"], "did you mean `scout`?"),
+        (["robot", "scout", "--ros", "humble"], "--ros `humble` is not available; there is: jazzy, kilted, noetic"),
+        (["robot", "scout", "--ros", "noetc"], "did you mean `noetic`?"),
+        (["robot", "scout", "--drive", "skid"], "--drive `skid` is not available; there is: diff"),
+        (["robot", "scout", "--arm", "6"], "--arm is not available yet; there is: --ros, --drive, .*--license"),
+        (["robot", "scout", "--sensor", "lidar"], "--sensor is not available yet"),
+        (["robot", "scout", "--gripper"], "--gripper is not available yet"),
+        (["robot", "scout", "--wheel-raduis", "1"], "did you mean `--wheel-radius`?"),
+        (["robot", "scout", "--wheel-radius", "5cm"], r"--wheel-radius `5cm` is no number \(in m\)"),
+        (["robot", "scout", "--mass", "-1"], "--mass -1 kg is out of range"),
+        (["robot", "scout", "--wheel-separation", "0.2"], "the wheels would be inside the base: --wheel-separation"),
+        (["robot", "scout", "--wheel-torque", "9"], "it would tip over when it brakes"),
+        (["robot", "scout", "--email", "nobody"], "--email `nobody` cannot be written"),
+        (["robot", "scout", "more"], "unrecognized arguments: more"),
+        (["world", "w"], "invalid choice: 'world'"),
+        ([], "required: KIND"),
+    ],
+)
+def test_errors_are_one_line_and_write_nothing(place, capsys, arguments, message):
+    assert main(["new", *arguments]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.count("\n") == 1
+    assert captured.err.startswith("urdfkit: ")
+    assert re.search(message, captured.err), captured.err
+    assert list(place.iterdir()) == []
+
+
+def test_nothing_is_overwritten(place, capsys):
+    (place / "scout_gazebo").mkdir()
+    assert main(["new", "robot", "scout"]) == 2
+    assert capsys.readouterr().err == "urdfkit: scout_gazebo is already there; nothing is overwritten\n"
+    assert [path.name for path in place.iterdir()] == ["scout_gazebo"]
+
+
+def test_the_checker_finds_what_the_linter_does(place):
+    # No answer the questions allow brings a finding about, so a result is spoiled by hand.
+    from urdfkit.cli import new
+    from urdfkit.resources import templates_dir
+    from urdfkit.scaffold import load_template
+
+    template = load_template(templates_dir() / "robot")
+    answers = template.answers({"name": "scout"}) | {"year": "2026", "into": "."}
+    template.render(answers, place)
+    path = place / "scout_description/urdf/inertia.xacro"
+    path.write_text(path.read_text().replace('ixx="${mass*(y*y + z*z)/12}"', 'ixx="${mass*100}"'))
+    assert [line for line in new._findings(place) if line.startswith("I503")]
+
+
+def test_light_imports():
+    code = (
+        "import sys; from urdfkit.cli import main; main(['new', 'robot', 'scout', '-q', '--into', sys.argv[1]]);"
+        "print(*sys.modules)"
+    )
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        done = subprocess.run(
+            [sys.executable, "-c", code, folder], capture_output=True, text=True, check=True, stdin=subprocess.DEVNULL
+        )
+        assert Path(folder, "scout_gazebo").is_dir()
+    assert not {"numpy", "pinocchio", "trimesh", "meshcat"} & set(done.stdout.split())
