@@ -5,9 +5,10 @@ The public names are resolved on first use, so that ``import urdfkit`` costs nex
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from urdfkit.description import Robot as Robot
     from urdfkit.description import load as load
     from urdfkit.errors import UrdfkitError as UrdfkitError

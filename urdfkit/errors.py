@@ -20,8 +20,8 @@ right thing.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.description.source import Position
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from urdfkit.description.robot import Robot
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from urdfkit.description.loading import load as load
 
 __all__ = ["Robot", "load"]

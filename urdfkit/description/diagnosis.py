@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
 
 from urdfkit.description.faults import Fault
 from urdfkit.description.frames import Place, place_of_error
@@ -12,22 +11,24 @@ from urdfkit.description.reading import document_of, shown_path
 from urdfkit.description.source import Expansion, Position
 from urdfkit.errors import ResourceError, UrdfkitError, XacroError, XmlError, did_you_mean
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from types import FrameType
+    from typing import Any
 
     from urdfkit.description.run import Run
 
 _DIRECTIVES = ("arg", "attribute", "call", "element", "if", "include", "insert_block", "macro", "property", "unless")
-_UNDEFINED_NAME = re.compile(r"name '([^']*)' is not defined")
-_UNKNOWN_MACRO = re.compile(r"unknown macro name: xacro:(\S+)")
-_UNDEFINED_PARAMETERS = re.compile(r"Undefined parameters \[(.*)\]")
-_INVALID_PARAMETER = re.compile(r'Invalid parameter "(.*)"')
-_BLOCK = re.compile(r'Undefined block "(.*)"')
-_UNUSED_BLOCK = re.compile(r'Unused block "(.*)"')
-_CONDITIONAL = re.compile(r'Xacro conditional "(.*)" evaluated to "(.*)", which', re.DOTALL)
-_CIRCULAR = re.compile(r"circular variable definition: (.*)")
-_FORWARDED = re.compile(r"Undefined property to forward: (\S+)")
-_MISSING_ATTRIBUTE = re.compile(r"(\S+): missing attribute '(.*)'")
+_UNDEFINED_NAME = r"name '([^']*)' is not defined"
+_UNKNOWN_MACRO = r"unknown macro name: xacro:(\S+)"
+_UNDEFINED_PARAMETERS = r"Undefined parameters \[(.*)\]"
+_INVALID_PARAMETER = r'Invalid parameter "(.*)"'
+_BLOCK = r'Undefined block "(.*)"'
+_UNUSED_BLOCK = r'Unused block "(.*)"'
+_CONDITIONAL = r'Xacro conditional "(.*)" evaluated to "(.*)", which'
+_CIRCULAR = r"circular variable definition: ([^\n]*)"
+_FORWARDED = r"Undefined property to forward: (\S+)"
+_MISSING_ATTRIBUTE = r"(\S+): missing attribute '(.*)'"
 
 
 def fault_of(error: BaseException, run: Run, caught_in: FrameType | None = None) -> Fault:
@@ -145,10 +146,10 @@ def _facts(error: BaseException, place: Place, run: Run) -> dict[str, Any]:
         hint = did_you_mean(text, known) or f"; give it as {text}:=value or a default with <xacro:arg>"
         message = f"argument `{text}` has no value{hint}"
         return {"kind": "undefined-arg", "message": message, "name": text, "candidates": known}
-    if isinstance(root, NameError) and (found := _UNDEFINED_NAME.search(text)):
+    if isinstance(root, NameError) and (found := re.search(_UNDEFINED_NAME, text)):
         return undefined_property(found[1], place)
     for pattern, facts in _BY_TEXT:
-        if found := pattern.search(text):
+        if found := re.search(pattern, text, re.DOTALL):
             return facts(found, place, root)
     if place.expression is not None:
         message = f"cannot evaluate `${{{_short(place.expression)}}}`: {_short(text)}"
@@ -242,7 +243,7 @@ _BY_TEXT = (
     (_INVALID_PARAMETER, _unknown_parameter),
     (_BLOCK, _undefined_block),
     (_UNUSED_BLOCK, _unused_block),
-    (re.compile("Not enough blocks"), _too_few_blocks),
+    ("Not enough blocks", _too_few_blocks),
     (_CONDITIONAL, _not_boolean),
     (_CIRCULAR, _circular),
     (_FORWARDED, _forwarded),

@@ -20,13 +20,13 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from threading import RLock
-from typing import TYPE_CHECKING
 
 from urdfkit.description.expanded import Expanded
 from urdfkit.description.packages import Packages
 from urdfkit.description.reading import absolute, document_of, read_source, shown_path
 from urdfkit.errors import ResourceError, XmlError
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.description.run import Run
 

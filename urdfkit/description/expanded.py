@@ -6,13 +6,13 @@ from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
 from urdfkit.description.element import Element
 from urdfkit.description.faults import Fault, MacroDefinition, Unprefixed, Warned
 from urdfkit.description.source import Position, Source
 from urdfkit.record import field, record
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.description.packages import Packages
 

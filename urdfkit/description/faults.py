@@ -4,25 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Any, Literal
 
 from urdfkit.description.source import Expansion, Position
 from urdfkit.record import record
 
-FaultKind = Literal[
-    "xml",
-    "undefined-property",
-    "undefined-macro",
-    "undefined-arg",
-    "undefined-block",
-    "include-not-found",
-    "package-not-found",
-    "macro-arguments",
-    "bad-expression",
-    "conditional",
-    "recursion",
-    "other",
-]
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, Literal
+
+    FaultKind = Literal[
+        "xml",
+        "undefined-property",
+        "undefined-macro",
+        "undefined-arg",
+        "undefined-block",
+        "include-not-found",
+        "package-not-found",
+        "macro-arguments",
+        "bad-expression",
+        "conditional",
+        "recursion",
+        "other",
+    ]
 
 
 @record

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import re
 
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
-
 
 def number(text: str) -> float | None:
     """Return the number that `text` is, white space around it allowed; None when it is none.
 
     Unlike `float`, underscores and digits of other scripts are no numbers.
     """
-    stripped = text.strip()
-    return float(stripped) if _NUMBER.fullmatch(stripped) else None
+    if not text.isascii() or "_" in text:
+        return None
+    try:
+        return float(text)
+    except ValueError:
+        return None
 
 
 def numbers(text: str) -> list[float] | None:

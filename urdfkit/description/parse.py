@@ -7,7 +7,6 @@ space around numbers, the first of repeated elements.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from urdfkit.description.element import Element
 from urdfkit.description.parse_extensions import gazebo_block, ros2_control, transmission
@@ -36,6 +35,7 @@ from urdfkit.description.robot import (
 from urdfkit.description.values import Reader
 from urdfkit.errors import did_you_mean
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.description.packages import Packages
 

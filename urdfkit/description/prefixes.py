@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
 
 from urdfkit.description.vocabulary import TAGS
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
     from xml.dom import minidom
 
 _DIRECTIVES: dict[str, tuple[str, ...]] = {

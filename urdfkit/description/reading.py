@@ -11,14 +11,15 @@ import re
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
 from xml.parsers import expat
 
 from urdfkit.description.element import Element
 from urdfkit.description.source import Expansion, Origin, Position, Source
 from urdfkit.errors import ResourceError, XmlError
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any, NoReturn
     from xml.dom import minidom
 
 MAX_BYTES = 64 * 2**20
@@ -33,7 +34,7 @@ STAMP = "urdfkit.origin"
 Stamp = tuple[str, int, int, tuple[Expansion, ...]]
 """File, line, column and chain of macro calls: an `Origin` before anybody asks for it."""
 
-_TAG_NAME = re.compile(r"</?\s*([^\s<>/]*)")
+_TAG_NAME = r"</?\s*([^\s<>/]*)"
 
 
 def read_source(path: Path, *, shown_as: str | None = None, texts: Mapping[str, str] | None = None) -> Source:
@@ -181,14 +182,14 @@ def _explain(error: expat.ExpatError, source: Source, position: Position, opened
     tag = opened[-1] if opened else None
     unclosed = f"`<{tag[0]}>` of line {tag[1]} is not closed" if tag else ""
     if text == "mismatched tag" and tag:
-        found = _TAG_NAME.match(source.text, source.text.rfind("<", 0, offset + 1))
+        found = re.match(_TAG_NAME, source.text[max(source.text.rfind("<", 0, offset + 1), 0) :])
         return f"mismatched tag: {unclosed} before `</{found[1] if found else ''}>`"
     if text == "no element found":
         return f"the file ends too early: {unclosed}" if tag else "this is not XML: there is no element"
     if text == "unclosed token":
         return f"a tag, comment or quote is opened here and never closed{'; ' + unclosed if tag else ''}"
     if text == "unbound prefix":
-        found = _TAG_NAME.match(source.text, source.text.rfind("<", 0, offset + 1))
+        found = re.match(_TAG_NAME, source.text[max(source.text.rfind("<", 0, offset + 1), 0) :])
         prefix = found[1].split(":")[0] if found and ":" in found[1] else "xacro"
         uri = "http://www.ros.org/wiki/xacro" if prefix == "xacro" else "…"
         return f'unbound prefix: `{prefix}:` needs xmlns:{prefix}="{uri}" on the root element of this file'

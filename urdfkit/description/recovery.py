@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
 
 from urdfkit.description.diagnosis import defined_in, fault_of, macro_arguments, undefined_macro, undefined_property
 from urdfkit.description.evaluation import names_in
@@ -24,8 +23,10 @@ from urdfkit.description.unknown import FallbackSymbols, Unknown, peek
 from urdfkit.description.vocabulary import TAGS
 from urdfkit.errors import XmlError
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from types import ModuleType
+    from typing import Any
     from xml.dom import minidom
 
     from urdfkit.description.packages import Packages

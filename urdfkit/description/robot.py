@@ -8,14 +8,18 @@ from __future__ import annotations
 
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
 
 from urdfkit.description.element import Element
 from urdfkit.description.source import Origin
 from urdfkit.record import field, record
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Literal
+
     from urdfkit.description.packages import Packages
+
+    ProblemKind = Literal["bad-number", "wrong-arity", "not-finite", "missing", "unknown-value"]
 
 Vector = tuple[float, float, float]
 
@@ -276,9 +280,6 @@ class Ros2Control:
     name: str | None
     type: str | None
     element: Element = field(repr=False)
-
-
-ProblemKind = Literal["bad-number", "wrong-arity", "not-finite", "missing", "unknown-value"]
 
 
 @record(eq=False)

@@ -7,7 +7,6 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
 
 from urdfkit.description.evaluation import Evaluator
 from urdfkit.description.expanded import Expanded
@@ -16,8 +15,10 @@ from urdfkit.description.reading import Stamp, absolute, element_of, read_source
 from urdfkit.description.source import Expansion, Position, Source
 from urdfkit.errors import ResourceError
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from types import ModuleType
+    from typing import Any
     from xml.dom import minidom
 
     from urdfkit.description.frames import Place
@@ -31,9 +32,6 @@ MAX_INCLUDE_DEPTH = 60
 
 MAX_MACRO_CALLS = 200_000
 """Macro calls in one run, against macros that multiply each other; a large robot needs some hundreds."""
-
-_FIND = re.compile(r"\$\(find\s+([^\s()$]+)\s*\)")
-_ARG = re.compile(r"\$\(arg\s+([^\s()$]+)\s*\)")
 
 
 class Endless(Exception):  # noqa: N818 - not an error of this program: diagnosed and reported as a fault
@@ -226,14 +224,14 @@ class Run:
     def eval_extension(self, s: str) -> Any:
         """Evaluate ``$(…)``: ``find`` through our packages, the rest as xacro does."""
         # The two frequent ones directly: xacro's module for them imports PyYAML, which takes longer than most files.
-        if found := _FIND.fullmatch(s):
-            path = self._find(found[1])
-            if "$" not in path:
+        words = s[2:-1].split(" ") if s.count("$") == 1 else []
+        if len(words) == 2 and all(words) and not set("()") & set(words[1]):
+            if words[0] == "find" and "$" not in (path := self._find(words[1])):
                 return path
-        elif argument := _ARG.fullmatch(s):
-            value = self.xacro.substitution_args_context["arg"].get(argument[1])
-            if isinstance(value, str) and "$" not in value:
-                return value
+            if words[0] == "arg":
+                value = self.xacro.substitution_args_context["arg"].get(words[1])
+                if isinstance(value, str) and "$" not in value:
+                    return value
         from xacro import substitution_args
 
         saved = substitution_args._eval_find, substitution_args._eval, substitution_args._eval_dict["find"]

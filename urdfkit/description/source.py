@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from urdfkit.record import field, record
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.description.tags import StartTag
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 from xml.dom.expatbuilder import ExpatBuilder, ExpatBuilderNS
 
 from urdfkit.description.reading import MAX_DEPTH, STAMP, stamp_of
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
 
 
 class _Stamping(ExpatBuilder):

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
 
 
 class Unknown(str):
@@ -12,7 +15,7 @@ class Unknown(str):
     __slots__ = ()
 
 
-class FallbackSymbols(dict[str, Any]):
+class FallbackSymbols(dict[str, object]):
     """xacro's global symbols, which ask somebody for what is not there.
 
     Args:
@@ -20,7 +23,7 @@ class FallbackSymbols(dict[str, Any]):
         missing: called with the name; may raise KeyError.
     """
 
-    def __init__(self, symbols: dict[str, Any], missing: Callable[[str], Any]) -> None:
+    def __init__(self, symbols: dict[str, object], missing: Callable[[str], Any]) -> None:
         super().__init__(symbols)
         self._missing = missing
 

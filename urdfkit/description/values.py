@@ -6,7 +6,11 @@ import math
 
 from urdfkit.description.element import Element
 from urdfkit.description.numbers import number, numbers, why_not
-from urdfkit.description.robot import Pose, Problem, ProblemKind, Vector
+from urdfkit.description.robot import Pose, Problem, Vector
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.robot import ProblemKind
 
 ZERO: Vector = (0.0, 0.0, 0.0)
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 from urdfkit.record import record
 
-Generation = Literal["ros1", "ros2", "gz"]
-"""ROS 1 with Gazebo Classic, ROS 2 with Gazebo Classic, and the new Gazebo."""
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Literal
 
-Names = Literal["joint", "link", "frame", "topic"]
+    Generation = Literal["ros1", "ros2", "gz"]
+    """ROS 1 with Gazebo Classic, ROS 2 with Gazebo Classic, and the new Gazebo."""
+
+    Names = Literal["joint", "link", "frame", "topic"]
 
 
 @record
