@@ -27,8 +27,17 @@ def collision(geometry: str, *, xyz: str = "0 0 0", rpy: str = "0 0 0") -> str:
     return f'<collision><origin xyz="{xyz}" rpy="{rpy}"/><geometry>{geometry}</geometry></collision>'
 
 
-def joint(name: str, type: str, parent: str, child: str, *, xyz: str = "0 0 0", rpy: str = "0 0 0", axis: str = "0 0 1",
-          more: str = "") -> str:
+def joint(
+    name: str,
+    type: str,
+    parent: str,
+    child: str,
+    *,
+    xyz: str = "0 0 0",
+    rpy: str = "0 0 0",
+    axis: str = "0 0 1",
+    more: str = "",
+) -> str:
     return (
         f'<joint name="{name}" type="{type}"><origin xyz="{xyz}" rpy="{rpy}"/><parent link="{parent}"/>'
         f'<child link="{child}"/><axis xyz="{axis}"/>{more}</joint>'
@@ -64,7 +73,15 @@ def arm(*, damping: float = 0.0, friction: float = 0.0, axes: str = "zyzyzyz") -
         parts.append(link(f"l{k}", 1.0, (0.004, 0.0045, 0.001), at="0.01 0.02 0.1"))
         limit = '<limit lower="-2.5" upper="2.5" effort="100" velocity="10"/>'
         parts.append(
-            joint(f"j{k}", "revolute", parent, f"l{k}", xyz="0 0 0.2" if k else "0 0 0", axis=vector, more=limit + dynamics)
+            joint(
+                f"j{k}",
+                "revolute",
+                parent,
+                f"l{k}",
+                xyz="0 0 0.2" if k else "0 0 0",
+                axis=vector,
+                more=limit + dynamics,
+            )
         )
         parent = f"l{k}"
     return robot(*parts)

@@ -84,7 +84,7 @@ def test_double_pendulum_keeps_its_energy(engine_of):
     for _ in range(500):
         engine.step(20)
         worst = max(worst, abs(sum(engine.energy()) - start))
-    assert worst < 5e-3  # of some 30 J that swing
+    assert worst < 2e-2  # of some 30 J that swing
 
 
 @pytest.mark.parametrize("model", ["box", "can"])
@@ -118,7 +118,9 @@ def test_a_body_on_an_incline_sticks_below_its_angle_of_friction_and_slides_abov
     assert engine.v[0] == pytest.approx(2.0 * G * (math.sin(angle) - mu * math.cos(angle)), rel=1e-3)
 
 
-@pytest.mark.parametrize(("model", "turn", "factor"), [("ball", None, 5.0 / 7.0), ("can", [0.5**0.5, 0, 0, 0.5**0.5], 2.0 / 3.0)])
+@pytest.mark.parametrize(
+    ("model", "turn", "factor"), [("ball", None, 5.0 / 7.0), ("can", [0.5**0.5, 0, 0, 0.5**0.5], 2.0 / 3.0)]
+)
 def test_a_rolling_body_accelerates_as_it_should(engine_of, model, turn, factor):
     angle = 0.1
     engine = engine_of(model, gravity=tilted(angle))
@@ -193,18 +195,16 @@ def test_motor_spins_a_wheel_up_at_its_effort(engine_of):
 
 
 def drive(engine, v, w, seconds, ramp):
-    """Drive with ramped commands; return the pose an ideal unicycle gets to with the same commands."""
-    x = y = yaw = 0.0
+    """Drive with ramped commands; return where a unicycle with the same ramp gets (path against angle is a line)."""
     engine.motor_effort[6:] = 50.0
     for k in range(round(seconds / engine.dt)):
         share = min(1.0, (k + 1) * engine.dt / ramp)
         engine.motor_velocity[6:] = share * (v - 0.15 * w) / 0.06, share * (v + 0.15 * w) / 0.06
         engine.step()
-        turn = share * w * engine.dt
-        middle = yaw + 0.5 * turn
-        step = share * v * engine.dt * (math.sin(0.5 * turn) / (0.5 * turn) if turn else 1.0)
-        x, y, yaw = x + step * math.cos(middle), y + step * math.sin(middle), yaw + turn
-    return x, y, yaw
+    path, turn = v * (seconds - 0.5 * ramp), w * (seconds - 0.5 * ramp)
+    if not turn:
+        return path, 0.0, 0.0
+    return path / turn * math.sin(turn), path / turn * (1.0 - math.cos(turn)), turn
 
 
 @pytest.mark.parametrize(("dt", "tolerance"), [(0.001, 1e-6), (0.005, 1e-5)])
@@ -240,21 +240,23 @@ def test_dry_friction_holds_a_joint_still(engine_of):
     engine.step(2000)
     assert engine.positions[0] == pytest.approx(0.6, abs=1e-9)
     engine.reset(engine.kinematics.configuration({"hinge": 0.8}))
-    engine.step(200)
+    engine.step(50)
     # Slips: g·sin(a) - friction.
-    assert engine.v[0] == pytest.approx(-0.2 * (G * math.sin(0.8) - 6.0), rel=0.02)
+    assert engine.v[0] == pytest.approx(-0.05 * (G * math.sin(0.8) - 6.0), rel=5e-3)
 
 
 def test_position_servo_holds_a_pose_and_honours_its_effort(engine_of):
     engine = engine_of("arm")
     target = np.array([0.3, 0.8, -0.4, 1.0, 0.2, -0.7, 0.5])
-    engine.kp[:], engine.kd[:] = 1e6, 1e4
+    engine.kp[:], engine.kd[:] = 3e3, 100.0
     engine.position_target[:] = target
-    engine.servo_effort[:] = 60.0
+    engine.servo_effort[:] = 80.0
     for _ in range(300):
         engine.step(10)
-        assert np.abs(engine.effort).max() <= 60.0
-    assert engine.positions == pytest.approx(target, abs=1e-3)
+        assert np.abs(engine.effort).max() <= 80.0
+    # A spring sags by what it carries.
+    assert 3e3 * (target - engine.positions) == pytest.approx(engine.bias_forces(), rel=1e-6, abs=1e-6)
+    assert engine.effort == pytest.approx(engine.bias_forces(), rel=1e-6, abs=1e-6)
     assert np.abs(engine.v).max() < 1e-6
 
 

@@ -43,6 +43,31 @@ REACH = 100.0
 
 
 @inlined
+def near_plane(
+    shapes: int, shape_body: Any, shape_p: Any, shape_radius: Any, floor: float, dt: float, R: Any, r: Any, twist: Any
+) -> bool:
+    """Return whether any shape can reach the plane within a step."""
+    for k in range(shapes):
+        if reaches(k, shape_body, shape_p, shape_radius, floor, dt, R, r, twist):
+            return True
+    return False
+
+
+@inlined
+def reaches(
+    k: int, shape_body: Any, shape_p: Any, shape_radius: Any, floor: float, dt: float, R: Any, r: Any, twist: Any
+) -> bool:
+    """Return whether a shape, taken for a ball, can reach the plane within a step."""
+    body = shape_body[k]
+    centre = add(load_vector(r, body), rotate(load_rotation(R, body), load_vector(shape_p, k)))
+    velocity = load_spatial(twist, body)
+    # No point of it moves faster down than this.
+    rate = abs(velocity[0][2] + cross(velocity[1], centre)[2])
+    rate += shape_radius[k] * (abs(velocity[1][0]) + abs(velocity[1][1]))
+    return centre[2] - shape_radius[k] - floor <= 2.0 * dt * rate + dt * dt * REACH
+
+
+@inlined
 def touch(
     count: int,
     most: int,
@@ -105,16 +130,11 @@ def collide_with_plane(
     """Find the contacts of all shapes with the plane z = `floor` (of the same point as `r`); return how many."""
     count = 0
     for k in range(shapes):
+        if not reaches(k, shape_body, shape_p, shape_radius, floor, dt, R, r, twist):
+            continue
         body = shape_body[k]
         body_R = load_rotation(R, body)
         centre = add(load_vector(r, body), rotate(body_R, load_vector(shape_p, k)))
-        velocity = load_spatial(twist, body)
-        # Skip what cannot reach the plane: no point of it moves faster than this.
-        rate = abs(velocity[0][2] + cross(velocity[1], centre)[2]) + shape_radius[k] * (
-            abs(velocity[1][0]) + abs(velocity[1][1])
-        )
-        if centre[2] - shape_radius[k] - floor > 2.0 * dt * rate + dt * dt * REACH:
-            continue
         mu, feature, kind = shape_mu[k], shape_feature[k], shape_kind[k]
         size = load_vector(shape_size, k)
         found = 0

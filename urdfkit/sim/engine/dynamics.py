@@ -2,7 +2,8 @@
 
 All spatial quantities of a step have the directions of the world's axes and are of one point, `P`: the origin of the
 floating base. So they need no transforms from body to body, a contact Jacobian is read off the subspaces, and nothing
-loses precision far from the world's origin. M, bias and v are in Pinocchio's convention.
+loses precision far from the world's origin. M and v are in Pinocchio's convention; the bias differs from Pinocchio's for
+joints with a linear velocity in their own axes (planar, floating): here it keeps that velocity constant in space.
 
 Sources: R. Featherstone, Rigid Body Dynamics Algorithms, 2008: tables 5.1 (recursive Newton-Euler), 6.2 (composite
 rigid bodies), 6.3 (factorisation M = LᵀL that keeps the tree's sparsity) and 6.5 (its solves).
@@ -47,7 +48,7 @@ REVOLUTE, PRISMATIC, PLANAR, FREE = range(4)
 
 
 @inlined
-def forward_sweep(
+def place(
     bodies: int,
     kind: Any,
     parent: Any,
@@ -56,34 +57,25 @@ def forward_sweep(
     place_R: Any,
     place_p: Any,
     subspace: Any,
-    mass: Any,
-    centre: Any,
-    tensor: Any,
-    gravity: Any,
     P: Any,
     s: Any,
-    v: Any,
     R: Any,
     r: Any,
     S: Any,
-    twist: Any,
-    bias_acceleration: Any,
-    composite_mass: Any,
-    composite_h: Any,
-    composite_T: Any,
-    force: Any,
+    ahead: bool,
 ) -> None:
-    """Place the bodies; compute velocities, inertias and the forces that make them follow at zero joint acceleration."""
+    """Place the bodies and their motion subspaces at the coordinates `s`.
+
+    With `ahead`, `s` is where things will be but the velocities are of now: the axes in which a free body's linear
+    velocity is written stay where they are.
+    """
     point = load_vector(P, 0)
-    g = load_vector(gravity, 0)
     for i in range(bodies):
         above = parent[i]
         if above < 0:
             R0, r0 = IDENTITY, sub(ZERO, point)
-            velocity, acceleration = (ZERO, ZERO), (ZERO, ZERO)
         else:
             R0, r0 = load_rotation(R, above), load_vector(r, above)
-            velocity, acceleration = load_spatial(twist, above), load_spatial(bias_acceleration, above)
         r0 = add(r0, rotate(R0, load_vector(place_p, i)))
         R0 = compose(R0, load_rotation(place_R, i))
         at, dof, beyond = first_s[i], first_v[i], first_v[i + 1]
@@ -95,20 +87,60 @@ def forward_sweep(
         elif kind[i] == PLANAR:
             r0 = add(r0, rotate(R0, (s[at], s[at + 1], 0.0)))
             R0 = compose(R0, turn_about((0.0, 0.0, 1.0), s[at + 2]))
+            dof += 2 if ahead else 0
         else:
-            r0 = add(r0, rotate(R0, load_vector(s[at : at + 3], 0)))
+            r0 = add(r0, rotate(R0, (s[at], s[at + 1], s[at + 2])))
             R0 = compose(R0, turn_of(s[at + 3], s[at + 4], s[at + 5], s[at + 6]))
+            dof += 3 if ahead else 0
         store_rotation(R, i, R0)
         store_vector(r, i, r0)
-        joint = (ZERO, ZERO)
         for d in range(dof, beyond):
             lin, ang = load_spatial(subspace, d)
             ang = rotate(R0, ang)
-            lin = add(rotate(R0, lin), cross(r0, ang))
-            store_spatial(S, d, (lin, ang))
+            store_spatial(S, d, (add(rotate(R0, lin), cross(r0, ang)), ang))
+
+
+@inlined
+def forward_sweep(
+    bodies: int,
+    kind: Any,
+    parent: Any,
+    first_v: Any,
+    mass: Any,
+    centre: Any,
+    tensor: Any,
+    gravity: Any,
+    v: Any,
+    R: Any,
+    r: Any,
+    S: Any,
+    twist: Any,
+    bias_acceleration: Any,
+    composite_mass: Any,
+    composite_h: Any,
+    composite_T: Any,
+    force: Any,
+) -> None:
+    """Compute velocities, inertias and the forces that make the bodies follow at zero joint acceleration."""
+    g = load_vector(gravity, 0)
+    for i in range(bodies):
+        above = parent[i]
+        velocity, acceleration = (ZERO, ZERO), (ZERO, ZERO)
+        if above >= 0:
+            velocity, acceleration = load_spatial(twist, above), load_spatial(bias_acceleration, above)
+        R0, r0 = load_rotation(R, i), load_vector(r, i)
+        dof = first_v[i]
+        joint = (ZERO, ZERO)
+        for d in range(dof, first_v[i + 1]):
+            lin, ang = load_spatial(S, d)
             joint = spatial_add(joint, (scale(v[d], lin), scale(v[d], ang)))
         velocity = spatial_add(velocity, joint)
         acceleration = spatial_add(acceleration, motion_cross(velocity, joint))
+        if kind[i] >= PLANAR:
+            # What is not accelerated goes straight on, but its velocity in its own turning axes changes.
+            turning = (0.0, 0.0, v[dof + 2]) if kind[i] == PLANAR else (v[dof + 3], v[dof + 4], v[dof + 5])
+            linear = (v[dof], v[dof + 1], 0.0 if kind[i] == PLANAR else v[dof + 2])
+            acceleration = (sub(acceleration[0], rotate(R0, cross(turning, linear))), acceleration[1])
         store_spatial(twist, i, velocity)
         store_spatial(bias_acceleration, i, acceleration)
         m = mass[i]

@@ -13,6 +13,7 @@ from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.scene import Shape
 from urdfkit.sim.engine.arrays import ITERATED
+from urdfkit.sim.engine.dynamics import FREE, PLANAR
 from urdfkit.sim.engine.model import fill, touching
 from urdfkit.sim.engine.soundness import require_inertia
 from urdfkit.sim.engine.state import configuration, contacts, positions, set_configuration
@@ -170,8 +171,14 @@ class Engine:
 
     def bias_forces(self) -> Array:
         """Return h(q, v): what gravity and motion demand of each dof at zero acceleration [N or N·m]; shape (nv,)."""
-        self._evaluate()
-        return np.array(self._arrays["bias"])
+        a = self._arrays
+        turning = np.zeros_like(a["v"])
+        for kind, d in zip(a["kind"], a["first_v"], strict=False):
+            if kind == FREE:
+                turning[d : d + 3] = np.cross(a["v"][d + 3 : d + 6], a["v"][d : d + 3])
+            elif kind == PLANAR:
+                turning[d : d + 2] = a["v"][d + 2] * np.array([-a["v"][d + 1], a["v"][d]])
+        return np.array(self.mass_matrix() @ turning + a["bias"])
 
     def body_poses(self) -> Array:
         """Return where Pinocchio's joints are: x y z [m] and rotation matrix row by row; shape (njoints - 1, 12)."""

@@ -72,7 +72,15 @@ def touching(
             mu = min(mu, ground.mu)
         found.append(
             Touching(
-                shape.body, int(frame.parentJoint), kind, size, placement[:3, :3], placement[:3, 3], radius, mu, vertices
+                shape.body,
+                int(frame.parentJoint),
+                kind,
+                size,
+                placement[:3, :3],
+                placement[:3, 3],
+                radius,
+                mu,
+                vertices,
             )
         )
     return found

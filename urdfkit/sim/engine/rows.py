@@ -138,6 +138,7 @@ def contact_rows(
     contact_gap: Any,
     contact_mu: Any,
     contact_row: Any,
+    v: Any,
     dt: float,
     Y: Any,
     bias: Any,
@@ -153,8 +154,7 @@ def contact_rows(
                 continue
             contact_row[k] = rows
             at = first_slot + 3 * contact_feature[k]
-            b = recovery_speed(contact_gap[k], dt)
-            open_row(rows, dofs, Y, bias, low, high, mu, slot, b, 0.0, math.inf, at)
+            open_row(rows, dofs, Y, bias, low, high, mu, slot, 0.0, 0.0, math.inf, at)
             mu[rows] = contact_mu[k]
             if rubbing == 1:
                 open_row(rows + 1, dofs, Y, bias, low, high, mu, slot, 0.0, -math.inf, math.inf, at + 1)
@@ -163,15 +163,19 @@ def contact_rows(
             first = load_vector(contact_frame, 3 * k)
             second = load_vector(contact_frame, 3 * k + 1)
             normal = load_vector(contact_frame, 3 * k + 2)
+            closing = 0.0
             d = body_last_dof[contact_body[k]]
             while d >= 0:
                 lin, ang = load_spatial(S, d)
                 lin = add(lin, cross(ang, point))
                 Y[rows * dofs + d] = dot(normal, lin)
+                closing -= Y[rows * dofs + d] * v[d]
                 if rubbing == 1:
                     Y[(rows + 1) * dofs + d] = dot(first, lin)
                     Y[(rows + 2) * dofs + d] = dot(second, lin)
                 d = dof_parent[d]
+            # The gap was taken at the end of the step, if the velocity stays; its half is where the velocity changes.
+            bias[rows] = recovery_speed(contact_gap[k] + 0.5 * dt * closing, dt)
             rows += 3 if rubbing == 1 else 1
     return rows
 

@@ -24,18 +24,22 @@ from urdfkit.sim.engine.arrays import (
     STEPS,
     At,
 )
-from urdfkit.sim.engine.collide import collide_with_plane
+from urdfkit.sim.engine.collide import collide_with_plane, near_plane
 from urdfkit.sim.engine.compilation import inlined
 from urdfkit.sim.engine.dynamics import (
     backward_sweep,
     factor,
     forward_sweep,
+    place,
     solve_forward,
     solve_transposed,
 )
 from urdfkit.sim.engine.integrate import move
 from urdfkit.sim.engine.rows import contact_rows, friction_beside_motor, joint_rows, whiten
 from urdfkit.sim.engine.solve import solve
+
+SERVO_ATTEMPTS = 8
+"""How often servos taken to be at their limit are released again within a step."""
 
 
 @inlined
@@ -125,16 +129,25 @@ def overloaded(
     servo_effort: Any,
     saturated: Any,
     dt: float,
+    release: bool,
 ) -> bool:
-    """Mark the servos that would exert more than they can; return whether there are new ones."""
-    found = False
+    """Mark the servos that would exert more than they can; return whether that changed anything.
+
+    What a servo exerts falls with the velocity the step ends at, so repeating this is Newton's method on a monotone law.
+    Without `release`, servos once marked stay so, and repeating it comes to an end.
+    """
+    changed = False
     for d in range(dofs):
-        if saturated[d] == 0 and (kp[d] != 0.0 or kd[d] != 0.0):
+        if kp[d] != 0.0 or kd[d] != 0.0:
             needed = servo_effort_at(d, s[dof_s[d]], v[d], position_target, velocity_target, kp, kd, dt)
-            if abs(needed) > servo_effort[d]:
-                saturated[d] = 1 if needed > 0.0 else -1
-                found = True
-    return found
+            most = servo_effort[d] * (1.0 + 1e-12)
+            now = 1 if needed > most else (-1 if needed < -most else 0)
+            if saturated[d] != 0 and not release:
+                now = saturated[d]
+            if now != saturated[d]:
+                saturated[d] = now
+                changed = True
+    return changed
 
 
 @inlined
@@ -180,6 +193,10 @@ def account(
 
 def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     """Advance by `steps`; return how many were done: fewer only if the state stopped being finite.
+
+    A step moves half its way with the old velocity, finds there the new one, and moves the other half with that (Moreau's
+    scheme; without contacts, the leapfrog): positions are right to second order, at the cost of one evaluation. Contacts are
+    those of where the step is expected to end, so that a wheel's velocity points where the wheel then does.
 
     With `only_terms`, compute poses, M and bias of the state as it is, and advance nothing.
     """
@@ -235,9 +252,9 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     L = field(floats, integers, At.L)
     inverse_diagonal = field(floats, integers, At.inverse_diagonal)
     u = field(floats, integers, At.u)
-    v_free = field(floats, integers, At.v_free)
-    s_start = field(floats, integers, At.s_start)
     v_start = field(floats, integers, At.v_start)
+    s_ahead = field(floats, integers, At.s_ahead)
+    v_ahead = field(floats, integers, At.v_ahead)
     contact_origin = field(floats, integers, At.contact_origin)
     contact_point = field(floats, integers, At.contact_point)
     contact_frame = field(floats, integers, At.contact_frame)
@@ -279,60 +296,169 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     dt, floor = numbers[DT], numbers[FLOOR]
     first_contact_slot = 2 * dofs + mimics
     for done in range(steps):
-        for k in range(coordinates):
-            s_start[k] = s[k]
+        move(bodies, kind, first_s, first_v, s, v, 0.0 if only_terms else 0.5 * dt)
         for d in range(dofs):
             v_start[d] = v[d]
             saturated[d] = 0
         contacts = rows = 0
-        smooth = False
-        # Once where the step starts; in free motion once more, half a step on; again where a servo turns out too weak.
+        # In free motion all is done twice, the second time with the velocity half a step on; where servos turn out too
+        # weak, the second part is done again.
         halfway = False
         attempt = 0
         while True:
             if attempt == 0:
                 for k in range(3):
                     P[k] = s[k] if floating else base[k]
+                place(bodies, kind, parent, first_s, first_v, place_R, place_p, subspace, P, s, R, r, S, False)
                 forward_sweep(
-                    bodies, kind, parent, first_s, first_v, place_R, place_p, subspace, mass, centre, tensor, gravity,
-                    P, s, v, R, r, S, twist, bias_acceleration, composite_mass, composite_h, composite_T, force,
+                    bodies,
+                    kind,
+                    parent,
+                    first_v,
+                    mass,
+                    centre,
+                    tensor,
+                    gravity,
+                    v,
+                    R,
+                    r,
+                    S,
+                    twist,
+                    bias_acceleration,
+                    composite_mass,
+                    composite_h,
+                    composite_T,
+                    force,
                 )
                 backward_sweep(
-                    bodies, dofs, parent, first_v, dof_parent, S, composite_mass, composite_h, composite_T, force, M,
+                    bodies,
+                    dofs,
+                    parent,
+                    first_v,
+                    dof_parent,
+                    S,
+                    composite_mass,
+                    composite_h,
+                    composite_T,
+                    force,
+                    M,
                     bias,
                 )
                 if only_terms:
                     return 0
-                if not halfway:
+                if (
+                    not halfway
+                    and numbers[HAS_FLOOR] != 0.0
+                    and near_plane(shapes, shape_body, shape_p, shape_radius, floor - P[2], dt, R, r, twist)
+                ):
+                    for k in range(coordinates):
+                        s_ahead[k] = s[k]
+                    for d in range(dofs):
+                        v_ahead[d] = v[d]
+                    move(bodies, kind, first_s, first_v, s_ahead, v_ahead, 0.5 * dt)
+                    place(bodies, kind, parent, first_s, first_v, place_R, place_p, subspace, P, s_ahead, R, r, S, True)
                     for k in range(3):
                         contact_origin[k] = P[k]
-                if not halfway and numbers[HAS_FLOOR] != 0.0:
                     contacts = collide_with_plane(
-                        shapes, most_contacts, shape_kind, shape_body, shape_feature, shape_vertex, shape_R, shape_p,
-                        shape_size, shape_radius, shape_mu, vertices, floor - P[2], dt, R, r, twist,
-                        contact_body, contact_feature, contact_point, contact_frame, contact_gap, contact_mu,
+                        shapes,
+                        most_contacts,
+                        shape_kind,
+                        shape_body,
+                        shape_feature,
+                        shape_vertex,
+                        shape_R,
+                        shape_p,
+                        shape_size,
+                        shape_radius,
+                        shape_mu,
+                        vertices,
+                        floor - P[2],
+                        dt,
+                        R,
+                        r,
+                        twist,
+                        contact_body,
+                        contact_feature,
+                        contact_point,
+                        contact_frame,
+                        contact_gap,
+                        contact_mu,
                     )
             has_servo = smooth_motion(
-                dofs, dof_parent, dof_s, s_start, v_start, M, bias, damping, friction, applied, motor_velocity,
-                motor_effort, position_target, velocity_target, kp, kd, servo_effort, saturated, dt, L,
-                inverse_diagonal, u,
+                dofs,
+                dof_parent,
+                dof_s,
+                s,
+                v_start,
+                M,
+                bias,
+                damping,
+                friction,
+                applied,
+                motor_velocity,
+                motor_effort,
+                position_target,
+                velocity_target,
+                kp,
+                kd,
+                servo_effort,
+                saturated,
+                dt,
+                L,
+                inverse_diagonal,
+                u,
             )
             rows = joint_rows(
-                dofs, mimics, mimic_dof, mimic_master, mimic_factor, mimic_offset, dof_s, s_start, v_start, friction,
-                lower, upper, motor_velocity, motor_effort, dt, Y, row_bias, low, high, mu, slot,
+                dofs,
+                mimics,
+                mimic_dof,
+                mimic_master,
+                mimic_factor,
+                mimic_offset,
+                dof_s,
+                s,
+                v_start,
+                friction,
+                lower,
+                upper,
+                motor_velocity,
+                motor_effort,
+                dt,
+                Y,
+                row_bias,
+                low,
+                high,
+                mu,
+                slot,
             )
-            if not halfway:
-                smooth = contacts == 0 and not has_servo and not limited(rows, dofs, slot)
-                if smooth:
-                    solve_forward(dofs, dof_parent, L, inverse_diagonal, u)
-                    for d in range(dofs):
-                        v[d] = v_start[d] + 0.5 * u[d]
-                    move(bodies, kind, first_s, first_v, s_start, v_start, 0.5 * dt, s)
-                    halfway = True
-                    continue
+            if not halfway and contacts == 0 and not has_servo and not limited(rows, dofs, slot):
+                solve_forward(dofs, dof_parent, L, inverse_diagonal, u)
+                for d in range(dofs):
+                    v[d] = v_start[d] + 0.5 * u[d]
+                halfway = True
+                continue
             rows = contact_rows(
-                rows, contacts, dofs, first_contact_slot, body_last_dof, dof_parent, S, contact_body, contact_feature,
-                contact_point, contact_frame, contact_gap, contact_mu, contact_row, dt, Y, row_bias, low, high, mu,
+                rows,
+                contacts,
+                dofs,
+                first_contact_slot,
+                body_last_dof,
+                dof_parent,
+                S,
+                contact_body,
+                contact_feature,
+                contact_point,
+                contact_frame,
+                contact_gap,
+                contact_mu,
+                contact_row,
+                v_start,
+                dt,
+                Y,
+                row_bias,
+                low,
+                high,
+                mu,
                 slot,
             )
             if rows > 0:
@@ -350,8 +476,19 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
             for d in range(dofs):
                 v[d] = v_start[d] + u[d]
             attempt += 1
-            if not has_servo or attempt > 3 or not overloaded(
-                dofs, dof_s, s_start, v, position_target, velocity_target, kp, kd, servo_effort, saturated, dt
+            if not has_servo or not overloaded(
+                dofs,
+                dof_s,
+                s,
+                v,
+                position_target,
+                velocity_target,
+                kp,
+                kd,
+                servo_effort,
+                saturated,
+                dt,
+                attempt < SERVO_ATTEMPTS,
             ):
                 break
         for k in range(slots):
@@ -359,15 +496,30 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
         for k in range(rows):
             memory[slot[k]] = x[k]
         account(
-            dofs, dof_s, s_start, v, damping, friction, applied, motor_velocity, motor_effort, position_target,
-            velocity_target, kp, kd, servo_effort, saturated, memory, dt, effort, tau,
+            dofs,
+            dof_s,
+            s,
+            v,
+            damping,
+            friction,
+            applied,
+            motor_velocity,
+            motor_effort,
+            position_target,
+            velocity_target,
+            kp,
+            kd,
+            servo_effort,
+            saturated,
+            memory,
+            dt,
+            effort,
+            tau,
         )
         total = 0.0
         for d in range(dofs):
             total += v[d]
-            # In free motion the middle of the velocities moves a falling body exactly.
-            u[d] = 0.5 * (v_start[d] + v[d]) if smooth else v[d]
-        move(bodies, kind, first_s, first_v, s_start, u, dt, s)
+        move(bodies, kind, first_s, first_v, s, v, 0.5 * dt)
         counts[FOUND_CONTACTS], counts[FOUND_ROWS] = contacts, rows
         if not math.isfinite(total):
             return done
