@@ -53,7 +53,8 @@ class DiffDrive(Drive):
         topics = Topics(self.plugin, self.spec, namespace=setup.model)
         self._setup = setup
         self._read_wheels(setup, read)
-        self._torque = read.number("max_wheel_torque", inf)
+        # The new Gazebo has no torque of its own: the joints' <limit effort> holds.
+        self._torque = None if self._gz else read.number("max_wheel_torque")
         self._acceleration = read.number("max_wheel_acceleration")
         self._instructed = [0.0] * (2 * len(self._pairs))
         if self._gz:
