@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from importlib import import_module
 
+from urdfkit.cli.parser import add_common
+
 SUBCOMMANDS = {
     "teleop": ("teleop", "drive a robot in real time, in the browser or the terminal"),
     "run": ("headless", "simulate headless, as fast as it can, and report where everything ended up"),
@@ -24,6 +26,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
             name, help=summary, description=summary, formatter_class=argparse.RawDescriptionHelpFormatter
         )
         import_module(f"urdfkit.cli.sim.{module}").configure(sub)
+        add_common(sub)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -121,7 +121,7 @@ def load(arguments: argparse.Namespace) -> Simulator:
         gravity=arguments.gravity,
         fixed_base=arguments.fixed_base,
         engine=arguments.engine,
-        note=lambda text: print(f"urdfkit: {text}", file=sys.stderr),
+        note=(lambda text: None) if arguments.quiet else (lambda text: print(f"urdfkit: {text}", file=sys.stderr)),
     )
 
 

@@ -1,0 +1,55 @@
+import numpy as np
+import pytest
+
+from urdfkit.errors import UsageError
+from urdfkit.messages import JOINT_STATE, TF, TWIST, from_fields, full_type_name, message_type, stamp, transform, twist
+
+
+def test_type_names() -> None:
+    assert full_type_name("geometry_msgs/Twist") == full_type_name("geometry_msgs/msg/Twist") == TWIST
+    with pytest.raises(UsageError, match="did you mean `geometry_msgs/msg/Twist`"):
+        message_type("geometry_msgs/Twits")
+
+
+@pytest.mark.parametrize(("t", "sec", "nanosec"), [(0.0, 0, 0), (1.5, 1, 500_000_000), (2.9999999999, 3, 0)])
+def test_stamps_are_rounded_to_the_nanosecond(t: float, sec: int, nanosec: int) -> None:
+    assert (stamp(t).sec, stamp(t).nanosec) == (sec, nanosec)
+
+
+def test_fields_by_name_and_in_order_the_others_zero() -> None:
+    message = from_fields("geometry_msgs/Twist", {"linear": {"x": 0.5}, "angular": [0, 0, 1]})
+    assert message == twist((0.5, 0, 0), (0, 0, 1))
+    assert from_fields(TWIST, None) == twist((0, 0, 0), (0, 0, 0))
+
+
+def test_nested_messages_and_lists() -> None:
+    states = from_fields(JOINT_STATE, {"header": {"frame_id": "x"}, "name": ["a"], "position": [1, 2]})
+    assert states.header.frame_id == "x"
+    assert states.name == ["a"]
+    np.testing.assert_array_equal(states.position, [1.0, 2.0])
+    assert states.position.dtype == np.float64
+    links = from_fields(TF, {"transforms": [{"child_frame_id": "c", "transform": {"translation": {"z": 2}}}]})
+    assert links.transforms[0].transform.translation.z == 2.0
+    pose = from_fields("geometry_msgs/PoseWithCovariance", None)
+    assert pose.covariance.shape == (36,)
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        ({"linear": {"w": 1}}, "no field `w` in geometry_msgs/msg/Vector3"),
+        ({"linaer": {}}, "did you mean `linear`?"),
+        ({"linear": {"x": "fast"}}, "field `x` of geometry_msgs/msg/Vector3 is `fast`; it must be float64"),
+        ("text", "write its fields, linear, angular"),
+        ({"linear": [1, 2]}, "write its fields, x, y, z"),
+    ],
+)
+def test_wrong_fields(fields: object, said: str) -> None:
+    with pytest.raises(UsageError) as caught:
+        from_fields(TWIST, fields)
+    assert said in str(caught.value)
+
+
+def test_transforms() -> None:
+    link = transform(1.0, "odom", "base", (1, 2, 3), (0, 0, 0, 1))
+    assert (link.header.frame_id, link.child_frame_id, link.transform.translation.y) == ("odom", "base", 2.0)
