@@ -1,7 +1,5 @@
 """``python -m urdfkit``."""
 
-import sys
+from urdfkit.cli import program
 
-from urdfkit.cli import main
-
-sys.exit(main())
+program()

@@ -50,14 +50,31 @@ def main(argv: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 141
     except OSError as error:
-        place = f" {error.filename}" if error.filename else ""
-        print(f"urdfkit:{place}: {error.strerror or error}", file=sys.stderr)
+        place = f" {error.filename}:" if error.filename else ""
+        print(f"urdfkit:{place} {error.strerror or error}", file=sys.stderr)
         return 2
     except Exception as error:
         if {"-v", "--verbose"} & set(arguments):
             raise
         print(f"urdfkit: {_bug(error)}", file=sys.stderr)
         return 2
+
+
+def program() -> None:
+    """Be the program ``urdfkit``: run one command and leave with its exit code.
+
+    The light commands leave without taking the interpreter apart: freeing, object by object, what is about to vanish
+    takes a fifth of the time of a lint. What has threads or compiled libraries to wind down leaves as usual.
+    """
+    code = main()
+    if not {"numpy", "threading", "atexit"}.isdisjoint(sys.modules):
+        sys.exit(code)
+    try:
+        sys.stdout.flush()
+        sys.stderr.flush()
+    except OSError:
+        os._exit(code or 141)
+    os._exit(code)
 
 
 def _run(arguments: list[str]) -> int:

@@ -16,10 +16,10 @@ XML files anywhere, and expressions that take for ever or fill the memory (``${9
 from __future__ import annotations
 
 import sys
+from _thread import RLock  # threading itself takes half a millisecond to import
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from threading import RLock
 
 from urdfkit.description.expanded import Expanded
 from urdfkit.description.packages import Packages
