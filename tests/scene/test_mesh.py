@@ -103,7 +103,34 @@ def test_collada_nodes_units_normals_and_colours(loader: MeshLoader, tmp_path: P
         np.testing.assert_allclose(mesh.normals[triangle[0]], [0, 0, expected], atol=1e-6)
 
 
-@pytest.mark.parametrize("unit", ["", '<unit meter="1"/>', '<unit meter="many"/>'])
+@pytest.mark.parametrize("top", ["n30", "n0"])
+def test_a_collada_that_unfolds_is_refused(loader: MeshLoader, tmp_path: Path, top: str) -> None:
+    """Thirty nodes, each with two instances of the one before, are a thousand million; n0 contains itself."""
+    nodes = "".join(
+        f'<node id="n{k}"><instance_node url="#n{k - 1}"/><instance_node url="#n{k - 1}"/></node>' for k in range(1, 31)
+    )
+    library = f'<library_nodes><node id="n0"><instance_node url="#{top}"/></node>{nodes}</library_nodes>'
+    scene = f'<node id="all"><instance_node url="#{top}"/></node></visual_scene>'
+    path = tmp_path / "bomb.dae"
+    text = DAE.replace("UNIT", "").replace("<library_visual_scenes>", f"{library}<library_visual_scenes>")
+    path.write_text(text.replace("</visual_scene>", scene), encoding="utf-8")
+    with pytest.raises(ResourceError, match=r"mesh bomb\.dae is refused: its nodes unfold into more than 20000"):
+        loader.load(path)
+
+
+def test_collada_instances_of_nodes_are_flattened(loader: MeshLoader, tmp_path: Path) -> None:
+    node = '<node id="part"><translate>0 0 7</translate><instance_geometry url="#g"/></node>'
+    library = f"<library_nodes>{node}</library_nodes>"
+    scene = '<node id="all"><instance_node url="#part"/></node></visual_scene>'
+    path = tmp_path / "part.dae"
+    text = DAE.replace("UNIT", "").replace("<library_visual_scenes>", f"{library}<library_visual_scenes>")
+    path.write_text(text.replace("</visual_scene>", scene), encoding="utf-8")
+    mesh = loader.load(path)
+    assert len(mesh.faces) == 3
+    np.testing.assert_allclose(mesh.bounds[1], [1, 1, 7])
+
+
+@pytest.mark.parametrize("unit", ["", '<unit meter="1"/>', '<unit meter="many"/>', '<unit meter="0"/>'])
 def test_collada_is_in_metres_by_default(loader: MeshLoader, tmp_path: Path, unit: str) -> None:
     path = tmp_path / "part.dae"
     path.write_text(DAE.replace("UNIT", unit), encoding="utf-8")
@@ -177,7 +204,11 @@ def _binary_stl(count: int, triangles: bytes) -> bytes:
         ("a.glb", b"glTF\x02\0\0\0\xff\xff\xff\xff", r"mesh a\.glb cannot be read"),
         ("a.dae", b"<COLLADA", r"mesh a\.dae cannot be read"),
         ("a.dae", b"<?xml version='1.0'?><html/>", r"mesh a\.dae "),
-        ("a.dae", b"<!DOCTYPE x [<!ENTITY a 'aa'>]><COLLADA>&a;</COLLADA>", r"declares a document type .*: refused"),
+        (
+            "a.dae",
+            b"<!DOCTYPE x [<!ENTITY a 'aa'>]><COLLADA>&a;</COLLADA>",
+            r"mesh a\.dae is refused: it declares a document type",
+        ),
         ("a.stl", b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n", r"LFS pointer.*git lfs pull"),
         ("a.step", b"ISO-10303-21;", r"format that is not read.*supported: \.stl"),
         ("a.slt", b"", r"did you mean `\.stl`\?"),

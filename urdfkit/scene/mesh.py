@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from urdfkit.description.packages import near_path
 from urdfkit.description.robot import Vector
 from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
+from urdfkit.scene.collada import harm, metres_per_unit
 
 FORMATS = (".stl", ".obj", ".dae", ".glb", ".gltf", ".ply")
 """The file formats that are read."""
@@ -30,7 +31,6 @@ MAX_TRIANGLES = 5_000_000
 """Largest number of triangles in one mesh."""
 
 _LFS = b"version https://git-lfs.github.com/spec/"
-_UNIT = re.compile(rb"""<unit\b[^>]*?\bmeter\s*=\s*["']\s*([^"']+?)\s*["']""")
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,8 +117,8 @@ def _read(path: Path) -> bytes:
         raise ResourceError(f"cannot read mesh {path}: {error.strerror or error}") from error
     if content.startswith(_LFS):
         raise ResourceError(f"mesh {path.name} is a Git LFS pointer, not the mesh: run `git lfs pull`")
-    if path.suffix.lower() == ".dae" and re.search(rb"<!(DOCTYPE|ENTITY)", content):
-        raise ResourceError(f"mesh {path.name} declares a document type or XML entities: refused")
+    if path.suffix.lower() == ".dae" and (reason := harm(content)) is not None:
+        raise ResourceError(f"mesh {path.name} is refused: {reason}")
     if path.suffix.lower() == ".stl" and b"facet" not in content:  # binary: 80 bytes, a count, 50 bytes a triangle
         count = int.from_bytes(content[80:84], "little")
         if len(content) < 84 + 50 * count or len(content) < 84:
@@ -170,12 +170,7 @@ def _parse(path: Path, content: bytes, scale: Vector) -> TriMesh:
     except Exception as error:  # whatever the reader of the format stumbled over
         reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
         raise ResourceError(f"mesh {path.name} cannot be read: {reason}") from error
-    factor = 1.0
-    if suffix == ".dae" and (unit := _UNIT.search(content)):
-        try:
-            factor = float(unit[1])
-        except ValueError:
-            factor = 1.0
+    factor = metres_per_unit(content) if suffix == ".dae" else 1.0
     return _merge(path, parts, np.array(scale, dtype=float) * factor)
 
 
