@@ -10,6 +10,7 @@
     │   ├── XacroError           xacro could not expand the file
     │   └── ModelError           well-formed, but no tree of links and joints (two roots, a cycle, ...)
     ├── KinematicsError          unknown frame or joint, a value outside the model
+    │   └── JointLimitError      carries joint, value, lower, upper (urdfkit.kinematics)
     ├── SimulationError          the robot or the world cannot be simulated
     └── MissingDependencyError   an optional package is not installed; carries the command to run
 

@@ -24,15 +24,15 @@ def scene_with(geometry: Geometry, origin: Pose, *, role: str = "collision", mes
 
 
 def surface(geometry: Geometry) -> np.ndarray:
-    """Return points of the surface, rims and poles among them, dense enough for 1e-4 of the size."""
-    turn = np.linspace(0, 2 * np.pi, 721)
+    """Return points of the surface, rims and poles among them, dense enough for 3e-4 m."""
+    turn = np.linspace(0, 2 * np.pi, 361)
     ring = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
     match geometry:
         case Box(size=size):
             return np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * np.array(size) / 2
         case Cylinder(radius=radius, length=length):
             return np.concatenate([ring * radius + [0, 0, sign * length / 2] for sign in (-1, 1)])
-    ball = np.concatenate([ring * np.cos(a) + [0, 0, np.sin(a)] for a in np.linspace(-np.pi / 2, np.pi / 2, 361)])
+    ball = np.concatenate([ring * np.cos(a) + [0, 0, np.sin(a)] for a in np.linspace(-np.pi / 2, np.pi / 2, 181)])
     if isinstance(geometry, Sphere):
         return ball * geometry.radius
     assert isinstance(geometry, Capsule)
@@ -42,7 +42,7 @@ def surface(geometry: Geometry) -> np.ndarray:
 angle = st.floats(-np.pi, np.pi)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=15, deadline=None)
 @pytest.mark.parametrize("geometry", [Box((0.3, 0.2, 0.7)), Cylinder(0.4, 0.1), Sphere(0.3), Capsule(0.1, 0.5)])
 @given(rpy=st.tuples(angle, angle, angle), body=st.tuples(angle, angle, angle))
 def test_bounds_of_primitives(
@@ -55,7 +55,7 @@ def test_bounds_of_primitives(
     points = surface(geometry) @ matrix[:3, :3].T + matrix[:3, 3]
     found = bounds(scene, [pose])
     assert found is not None
-    np.testing.assert_allclose(found, [points.min(axis=0), points.max(axis=0)], rtol=0, atol=1e-4)
+    np.testing.assert_allclose(found, [points.min(axis=0), points.max(axis=0)], rtol=0, atol=3e-4)
     # Exact, so never inside of a point of the surface.
     assert (found[0] <= points.min(axis=0) + 1e-12).all()
     assert (found[1] >= points.max(axis=0) - 1e-12).all()
