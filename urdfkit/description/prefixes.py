@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from urdfkit.description.vocabulary import TAGS
 
@@ -24,6 +24,9 @@ _DIRECTIVES: dict[str, tuple[str, ...]] = {
 
 _PROPERTY_VALUES = ("value", "default", "remove", "scope")
 
+FOREIGN = frozenset(("gazebo", "plugin", "sensor", "ros2_control", "transmission", "mujoco", "world", "model"))
+"""Elements inside which other formats than URDF rule; some have ``<include>`` or ``<property>`` of their own."""
+
 
 def is_directive(tag: str, attributes: Any) -> bool:
     """Whether an element without prefix is meant as a directive of xacro.
@@ -38,6 +41,21 @@ def is_directive(tag: str, attributes: Any) -> bool:
     return tag != "property" or any(name in attributes for name in _PROPERTY_VALUES)
 
 
+def may_be_directive_inside(above: Iterable[str], tag: str, value: str) -> bool:
+    """Whether a directive without prefix can be meant as xacro's where it stands.
+
+    Inside formats with elements of the same names, only blocks and conditions with an expression are.
+
+    Args:
+        above: the names of the elements around it.
+        tag: its name.
+        value: its attribute ``value``, or an empty string.
+    """
+    if tag == "insert_block" or FOREIGN.isdisjoint(above):
+        return True
+    return tag in ("if", "unless") and ("${" in value or "$(" in value)
+
+
 def mend_directives(document: minidom.Document) -> Iterator[tuple[minidom.Element, str]]:
     """Give the directives in a document their prefix; yield each with the tag as it was written.
 
@@ -46,7 +64,11 @@ def mend_directives(document: minidom.Document) -> Iterator[tuple[minidom.Elemen
     """
     for element in list(_elements(document)):
         tag = element.tagName
-        if tag in _DIRECTIVES and is_directive(tag, element.attributes):
+        if (
+            tag in _DIRECTIVES
+            and is_directive(tag, element.attributes)
+            and may_be_directive_inside(_names_above(element), tag, element.getAttribute("value"))
+        ):
             rename(element)
             yield element, tag
 
@@ -77,6 +99,13 @@ def rename(node: minidom.Element) -> str:
     renamed: Any = node
     renamed.tagName = renamed.nodeName = f"xacro:{node.tagName}"
     return str(node.tagName)
+
+
+def _names_above(node: Any) -> Iterator[str]:
+    above = node.parentNode
+    while above is not None and above.nodeType == above.ELEMENT_NODE:
+        yield above.tagName
+        above = above.parentNode
 
 
 def _elements(node: Any) -> Iterator[minidom.Element]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.rule import SECTIONS as SECTIONS
 from urdfkit.lint.rules import RULES
 
 TYPE_CHECKING = False

@@ -29,9 +29,10 @@ _DROPPING = frozenset(
         "package-not-found",
         "macro-arguments",
         "recursion",
+        "conditional",
     )
 )
-"""Kinds of faults after which elements are missing."""
+"""Kinds of faults after which elements are missing, or too many."""
 
 
 @record(eq=False)
@@ -59,7 +60,7 @@ class Model:
 
     @cached_property
     def is_incomplete(self) -> bool:
-        """Whether elements were dropped because of a fault: what is not there may be in them."""
+        """Whether elements were dropped, or kept, because of a fault: what is not there may be in them."""
         faults = self.expanded.faults
         return any(fault.kind in _DROPPING and not fault.message.startswith("unbound prefix") for fault in faults)
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from urdfkit.description.prefixes import FOREIGN as FOREIGN
+from urdfkit.description.prefixes import is_directive, may_be_directive_inside
 from urdfkit.lint.finding import Edit
 from urdfkit.record import record
 
@@ -15,20 +17,6 @@ if TYPE_CHECKING:
 
 NAMESPACE = "http://www.ros.org/wiki/xacro"
 """What ``xmlns:xacro`` is bound to."""
-
-DIRECTIVES = {
-    "macro": "name",
-    "property": "name",
-    "include": "filename",
-    "if": "value",
-    "unless": "value",
-    "arg": "name",
-    "insert_block": "name",
-}
-"""xacro's directives and the attribute each cannot do without."""
-
-FOREIGN = frozenset(("gazebo", "plugin", "sensor", "ros2_control", "transmission", "mujoco", "world", "model"))
-"""Elements inside which other formats than URDF rule, with elements of their own."""
 
 URDF_CHILDREN: dict[str, frozenset[str]] = {
     "robot": frozenset(("link", "joint", "material", "transmission", "gazebo", "ros2_control", "sensor")),
@@ -78,21 +66,13 @@ def signatures(text: str) -> Iterator[tuple[str, Signature]]:
         yield definition[1], Signature(frozenset(name for name, _ in values), required)
 
 
-def has_foreign_ancestor(tag: Tag) -> bool:
-    """Return whether the tag is inside an element where URDF does not rule."""
-    return any(above.name in FOREIGN for above in tag.ancestors())
-
-
 def is_unprefixed_directive(tag: Tag) -> bool:
     """Return whether the tag is a xacro directive that lacks its prefix."""
-    wanted = DIRECTIVES.get(tag.name)
-    if wanted is None or wanted not in tag.attributes:
+    attributes = tag.attributes
+    if not is_directive(tag.name, attributes):
         return False
-    if tag.name == "insert_block" or not has_foreign_ancestor(tag):
-        return True
-    # Formats inside <gazebo> know `include`, `property` … themselves; a condition with an expression is xacro's.
-    value = tag.attributes[wanted].value
-    return tag.name in ("if", "unless") and ("${" in value or "$(" in value)
+    value = attributes["value"].value if "value" in attributes else ""
+    return may_be_directive_inside((above.name for above in tag.ancestors()), tag.name, value)
 
 
 def declares_xacro(document: Document) -> bool:

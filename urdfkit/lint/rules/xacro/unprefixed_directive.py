@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.finding import Fix
-from urdfkit.lint.prefix import DIRECTIVES, is_unprefixed_directive, prefixing
+from urdfkit.lint.prefix import is_unprefixed_directive, prefixing
 from urdfkit.lint.rule import SourceRule
 
 TYPE_CHECKING = False
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
     from urdfkit.lint.syntax import Document
 
-_CANDIDATE = re.compile(rf"<(?:{'|'.join(DIRECTIVES)})[\s/>]")
+_CANDIDATE = re.compile(r"<(?:macro|property|include|if|unless|arg|insert_block)[\s/>]")
 
 
 class UnprefixedDirective(SourceRule):

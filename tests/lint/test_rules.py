@@ -1,0 +1,105 @@
+"""Every rule on files of its own: ``<!-- expect: CODE -->`` marks the lines; good files are silent, fixed ones result."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from urdfkit.lint import RULES, lint
+from urdfkit.lint.catalogue import SECTIONS, page, sections, title
+from urdfkit.lint.engine import Options
+from urdfkit.lint.entries import Entry
+from urdfkit.lint.fix import fix
+from urdfkit.lint.rule import Rule
+
+HERE = Path(__file__).parent / "rules"
+FOLDER = Path(__file__).parents[2] / "urdfkit" / "lint" / "rules"
+MARK = re.compile(r"<!--\s*expect:\s*([A-Z0-9, ]+?)\s*-->")
+BY_NAME = {rule.name: rule for rule in RULES}
+
+
+def files(kind: str) -> list:
+    found = sorted(HERE.glob(f"*/{kind}.*"))
+    return [pytest.param(path, id=path.parent.name) for path in found]
+
+
+def marks(path: Path) -> Counter:
+    expected: Counter = Counter()
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        for codes in MARK.findall(line):
+            expected.update((code.strip(), number) for code in codes.split(","))
+    return expected
+
+
+@pytest.mark.parametrize("path", files("bad"))
+def test_bad_files_are_found_out_exactly_where_marked(path):
+    found = lint(path)
+    assert Counter((finding.code, finding.line) for finding in found) == marks(path), [str(f) for f in found]
+    assert BY_NAME[path.parent.name].code in {finding.code for finding in found}
+
+
+@pytest.mark.parametrize("path", files("good"))
+def test_good_files_are_silent(path):
+    assert lint(path) == []
+
+
+@pytest.mark.parametrize("path", files("fixed"))
+def test_fixes_give_the_fixed_file_and_do_nothing_more(path):
+    bad = path.with_stem(path.stem.replace("fixed", "bad"))
+    rule = BY_NAME[path.parent.name]
+    fixed = fix([Entry(bad)], Options(select=(rule.code,)), within=[bad.parent], unsafe=rule.fix == "unsafe")
+    assert [change.after.decode() for change in fixed.changes] == [path.read_text()]
+    assert fix([Entry(path)], Options(), within=[path.parent], unsafe=True).changes == ()
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
+def test_each_rule_has_its_files(rule: type[Rule]):
+    kinds = {path.stem for path in (HERE / rule.name).iterdir()}
+    wanted = {"good", "bad"} | ({"fixed"} if rule.fix != "none" else set())
+    assert {kind.partition(".")[0] for kind in kinds} >= wanted
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
+def test_the_examples_of_a_page_are_true(rule: type[Rule], tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    found = sections(rule)
+    for heading, is_bad in (("Example", True), ("Use instead", False)):
+        example = re.fullmatch(r"```xml\n(.*)\n```", found[heading], re.DOTALL)
+        assert example, f"the section {heading} of {rule.code} is one block of XML"
+        is_xacro = "xacro" in example[1]
+        file = tmp_path / ("example.urdf.xacro" if is_xacro else "example.urdf")
+        file.write_text(example[1])
+        codes = {finding.code for finding in lint(file)}
+        assert (rule.code in codes) is is_bad
+        assert codes <= {rule.code}
+
+
+@pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
+def test_pages_have_their_sections_in_order(rule: type[Rule]):
+    headings = list(sections(rule))
+    assert headings == [heading for heading in SECTIONS if heading in headings]
+    assert set(SECTIONS[:4]) <= set(headings)
+    assert ("Fix safety" in headings) is (rule.fix != "none")
+    assert page(rule).startswith(f"# {rule.name} ({rule.code})")
+    assert title(rule).endswith(".")
+
+
+def test_every_class_in_the_folder_is_registered():
+    registered = {f"{rule.__module__}.{rule.__name__}" for rule in RULES}
+    written = set()
+    for file in FOLDER.rglob("*.py"):
+        module = ".".join(("urdfkit.lint.rules", *file.relative_to(FOLDER).with_suffix("").parts))
+        classes = re.findall(r"^class (\w+)\(\w*Rule\):", file.read_text(), re.MULTILINE)
+        assert len(classes) == (file.name != "__init__.py"), f"{file} holds one rule"
+        written.update(f"{module}.{name}" for name in classes)
+    assert written == registered
+
+
+def test_codes_and_names_are_unique_and_well_formed():
+    assert len({rule.code for rule in RULES}) == len({rule.name for rule in RULES}) == len(RULES)
+    assert all(re.fullmatch(r"[A-Z]\d{3}", rule.code) for rule in RULES)
+    assert all(re.fullmatch(r"[a-z]+(-[a-z]+)*", rule.name) for rule in RULES)
+    assert [rule.code for rule in RULES] == sorted(rule.code for rule in RULES)
