@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -109,6 +112,17 @@ def test_joints_may_be_listed_in_several_ways(capsys: pytest.CaptureFixture[str]
         )
     }
     assert len(printed) == 1
+
+
+@pytest.mark.parametrize(("words", "expected"), [(["base", "arm"], "base -> arm\n"), (["--tree"], "base\n`-- arm  [b")])
+def test_a_terminal_without_unicode(limited: str, words: list[str], expected: str) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "urdfkit", "tf", limited, *words],
+        env={**os.environ, "PYTHONIOENCODING": "ascii"},
+        capture_output=True,
+        check=True,
+    )
+    assert done.stdout.decode("ascii").startswith(expected)
 
 
 def test_options_may_stand_anywhere(capsys: pytest.CaptureFixture[str], limited: str) -> None:

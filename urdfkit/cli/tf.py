@@ -218,4 +218,8 @@ def _pdf(dot: str) -> bytes:
 def _write(text: str) -> None:
     """Write to standard output, whatever its encoding can show."""
     encoding = sys.stdout.encoding or "utf-8"
-    sys.stdout.write(text.encode(encoding, errors="replace").decode(encoding))
+    try:
+        text.encode(encoding)
+    except UnicodeEncodeError:
+        text = text.replace("→", "->").encode(encoding, errors="replace").decode(encoding)
+    sys.stdout.write(text)
