@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.description.robot import Joint, Link, Robot
+from urdfkit.description.robot import Joint, Robot
 
 
 def cycles(robot: Robot) -> list[list[Joint]]:
@@ -43,43 +43,7 @@ def tree_order(robot: Robot) -> list[Joint]:
     return order
 
 
-def bodies(robot: Robot) -> dict[str, list[str]]:
-    """Return the rigid bodies: first link of each (the one that moves it) → its links, joined by fixed joints."""
-    found: dict[str, list[str]] = {}
-    body_of: dict[str, str] = {}
-    for root in robot.roots():
-        body_of[root.name] = root.name
-        found[root.name] = [root.name]
-    for joint in tree_order(robot):
-        if joint.parent is None or joint.child is None or joint.parent not in body_of:
-            continue
-        body = body_of[joint.parent] if joint.type == "fixed" else joint.child
-        body_of[joint.child] = body
-        found.setdefault(body, []).append(joint.child)
-    return found
-
-
 def mass(robot: Robot, link: str) -> float:
     """Return the mass of a link [kg]; zero where none is written."""
     inertial = robot.link_by_name[link].inertial if link in robot.link_by_name else None
     return (inertial.mass or 0.0) if inertial is not None else 0.0
-
-
-def massless_moving_links(robot: Robot, *, floating_base: bool = False) -> list[Link]:
-    """Return the links that must move but have no mass, in tree order.
-
-    Links joined by fixed joints are one body, and the sum of their masses counts: a massless ``base_footprint`` is
-    fine when the chassis fixed to it has mass.
-
-    Args:
-        robot: one tree (or several).
-        floating_base: the root moves too, as that of a mobile robot does.
-    """
-    roots = {link.name for link in robot.roots()}
-    return [
-        robot.link_by_name[first]
-        for first, links in bodies(robot).items()
-        if (floating_base or first not in roots)
-        and sum(mass(robot, link) for link in links) <= 0.0
-        and first in robot.link_by_name
-    ]

@@ -371,13 +371,3 @@ class Robot:
         from urdfkit.description.queries import tree_order
 
         return tree_order(self)
-
-    def massless_moving_links(self, *, floating_base: bool = False) -> list[Link]:
-        """Return the links that must move but have no mass; see `urdfkit.description.queries`.
-
-        Args:
-            floating_base: the root moves too.
-        """
-        from urdfkit.description.queries import massless_moving_links
-
-        return massless_moving_links(self, floating_base=floating_base)
