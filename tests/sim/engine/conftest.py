@@ -52,7 +52,7 @@ HALF_TURN = "-1.5707963267948966 0 0"
 
 
 def diff_drive() -> str:
-    """A chassis, two driven wheels 0.3 m apart with radius 0.06 m, and a smooth ball in front; root on the wheel axis."""
+    """A chassis on two driven wheels, 0.3 m apart, radius 0.06 m, and a ball in front; its root is on their axis."""
     chassis = collision('<box size="0.3 0.2 0.05"/>', xyz="0 0 0.03") + collision(
         '<sphere radius="0.03"/>', xyz="0.12 0 -0.03"
     )

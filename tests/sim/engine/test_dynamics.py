@@ -16,7 +16,8 @@ def tree() -> str:
     for k, kind in enumerate(kinds):
         parent = parents[k // 2]
         parts += (
-            f'<link name="l{k}"><inertial><origin xyz="0.1 {0.02 * k} -0.05" rpy="0.{k} 0.2 0.1"/><mass value="{k + 1}"/>'
+            f'<link name="l{k}"><inertial><origin xyz="0.1 {0.02 * k} -0.05" rpy="0.{k} 0.2 0.1"/>'
+            f'<mass value="{k + 1}"/>'
             '<inertia ixx="0.1" iyy="0.15" izz="0.2" ixy="0.01" ixz="-0.02" iyz="0.003"/></inertial></link>'
             f'<joint name="j{k}" type="{kind}"><origin xyz="0.{k} -0.2 0.1" rpy="0.{k} -0.4 1.{k}"/>'
             f'<parent link="{parent}"/><child link="l{k}"/><axis xyz="0.{k} 1 -0.3"/>'

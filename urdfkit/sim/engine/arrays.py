@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.sim.engine.compilation import inlined
+
 Size = tuple[str, ...]
 
 # name → shape; the letters are counts: b bodies, d dofs, s coordinates, k shapes, p vertices, m mimic joints,
@@ -128,13 +130,20 @@ DT, FLOOR, HAS_FLOOR = range(3)
 FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS = range(5)
 """Entries of ``counts``: of the last step the contacts, rows, and how they were solved; of all how many were hard."""
 
-At: Any = IntEnum(
+_enumeration: Any = IntEnum
+At: Any = _enumeration(
     "At",
     {name: HEAD + k for k, name in enumerate(FLOATS)}
     | {name: HEAD + len(FLOATS) + 1 + k for k, name in enumerate(INTEGERS)},
 )
 """Where in the block of integers the start of each field is found."""
 FIRST_INTEGER = HEAD + len(FLOATS) + 1 + len(INTEGERS) + 1
+
+
+@inlined
+def field(block: Any, integers: Any, at: int) -> Any:
+    """Return the part of a block that holds one field."""
+    return block[integers[at] : integers[at + 1]]
 
 
 @dataclass(frozen=True, eq=False)

@@ -47,7 +47,7 @@ def near_plane(
     shapes: int, shape_body: Any, shape_p: Any, shape_radius: Any, floor: float, dt: float, R: Any, r: Any, twist: Any
 ) -> bool:
     """Return whether any shape can reach the plane within a step."""
-    for k in range(shapes):
+    for k in range(shapes):  # noqa: SIM110
         if reaches(k, shape_body, shape_p, shape_radius, floor, dt, R, r, twist):
             return True
     return False
@@ -64,7 +64,7 @@ def reaches(
     # No point of it moves faster down than this.
     rate = abs(velocity[0][2] + cross(velocity[1], centre)[2])
     rate += shape_radius[k] * (abs(velocity[1][0]) + abs(velocity[1][1]))
-    return centre[2] - shape_radius[k] - floor <= 2.0 * dt * rate + dt * dt * REACH
+    return bool(centre[2] - shape_radius[k] - floor <= 2.0 * dt * rate + dt * dt * REACH)
 
 
 @inlined

@@ -2,8 +2,8 @@
 
 All spatial quantities of a step have the directions of the world's axes and are of one point, `P`: the origin of the
 floating base. So they need no transforms from body to body, a contact Jacobian is read off the subspaces, and nothing
-loses precision far from the world's origin. M and v are in Pinocchio's convention; the bias differs from Pinocchio's for
-joints with a linear velocity in their own axes (planar, floating): here it keeps that velocity constant in space.
+loses precision far from the world's origin. M and v are in Pinocchio's convention; the bias differs from Pinocchio's
+for joints with a linear velocity in their own axes (planar, floating): here it keeps that velocity constant in space.
 
 Sources: R. Featherstone, Rigid Body Dynamics Algorithms, 2008: tables 5.1 (recursive Newton-Euler), 6.2 (composite
 rigid bodies), 6.3 (factorisation M = LᵀL that keeps the tree's sparsity) and 6.5 (its solves).

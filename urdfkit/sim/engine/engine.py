@@ -12,16 +12,18 @@ from numpy.typing import NDArray
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.scene import Shape
-from urdfkit.sim.engine.arrays import ITERATED
-from urdfkit.sim.engine.dynamics import FREE, PLANAR
+from urdfkit.sim.engine.arrays import ITERATED, Arrays
 from urdfkit.sim.engine.model import fill, touching
 from urdfkit.sim.engine.soundness import require_inertia
-from urdfkit.sim.engine.state import configuration, contacts, positions, set_configuration
+from urdfkit.sim.engine.state import configuration, contacts, positions, set_configuration, turning
 from urdfkit.sim.engine.surface import Contact, Ground, Surface
-from urdfkit.sim.engine.warmup import kernel
+from urdfkit.sim.engine.warmup import Kernel, kernel
 
 Array = NDArray[np.float64]
 Provider = Literal["compiled", "pinocchio"]
+
+FLAT = Ground()
+"""The ground where nothing else is said: at z = 0."""
 
 
 class Engine:
@@ -65,7 +67,7 @@ class Engine:
         *,
         dt: float = 0.001,
         gravity: tuple[float, float, float] = (0.0, 0.0, -9.81),
-        ground: Ground | None = Ground(),
+        ground: Ground | None = FLAT,
         surfaces: Mapping[str, Surface] | None = None,
         base: Sequence[float] | None = None,
         provider: Provider = "compiled",
@@ -81,7 +83,7 @@ class Engine:
         self._base = _matrix(base)
         self._arrays = fill(kinematics, self._touches, dt=dt, gravity=gravity, ground=ground, base=self._base)
         require_inertia(kinematics)
-        self._advance = kernel()
+        self._advance = kernel() if provider == "compiled" else _reference(kinematics, self._arrays, self._base)
         a = self._arrays
         self.motor_velocity, self.motor_effort, self.applied = a["motor_velocity"], a["motor_effort"], a["applied"]
         self.position_target, self.velocity_target = a["position_target"], a["velocity_target"]
@@ -172,13 +174,7 @@ class Engine:
     def bias_forces(self) -> Array:
         """Return h(q, v): what gravity and motion demand of each dof at zero acceleration [N or N·m]; shape (nv,)."""
         a = self._arrays
-        turning = np.zeros_like(a["v"])
-        for kind, d in zip(a["kind"], a["first_v"], strict=False):
-            if kind == FREE:
-                turning[d : d + 3] = np.cross(a["v"][d + 3 : d + 6], a["v"][d : d + 3])
-            elif kind == PLANAR:
-                turning[d : d + 2] = a["v"][d + 2] * np.array([-a["v"][d + 1], a["v"][d]])
-        return np.array(self.mass_matrix() @ turning + a["bias"])
+        return np.array(self.mass_matrix() @ turning(a, a["v"]) + a["bias"])
 
     def body_poses(self) -> Array:
         """Return where Pinocchio's joints are: x y z [m] and rotation matrix row by row; shape (njoints - 1, 12)."""
@@ -198,6 +194,12 @@ class Engine:
             f"the simulation diverged at t = {self.t + self.dt:.6g} s: joint `{model.names[joint]}` "
             "has no finite velocity any more; try a smaller step, or look at its inertia and gains"
         )
+
+
+def _reference(kinematics: Kinematics, arrays: Arrays, base: Array) -> Kernel:
+    from urdfkit.sim.engine.reference import Reference
+
+    return Reference(kinematics, arrays, base).advance
 
 
 def _matrix(pose: Sequence[float] | None) -> Array:

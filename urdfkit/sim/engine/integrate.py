@@ -14,8 +14,8 @@ from urdfkit.sim.engine.spatial import rotate, scale, turn_of
 def move(bodies: int, kind: Any, first_s: Any, first_v: Any, s: Any, v: Any, dt: float) -> None:
     """Let the coordinates `s` go on for `dt` at the velocities `v`.
 
-    A free body goes straight on while it turns, as it does when nothing acts on it: its linear velocity stays the same in
-    the axes of what it moves in, so its coordinates in the body's own axes, in `v`, turn back.
+    A free body goes straight on while it turns, as it does when nothing acts on it: its linear velocity stays the same
+    in the axes of what it moves in, so its coordinates in the body's own axes, in `v`, turn back.
     """
     for i in range(bodies):
         at, d = first_s[i], first_v[i]

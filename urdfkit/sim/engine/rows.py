@@ -112,7 +112,7 @@ def joint_rows(
 
 @inlined
 def friction_beside_motor(d: int, v: Any, friction: Any, motor_velocity: Any, motor_effort: Any) -> float:
-    """Return the effort [N·m] that goes with the row which `joint_rows` writes for a dof with motor and dry friction."""
+    """Return the effort [N·m] beside the row that `joint_rows` writes for a dof with motor and dry friction."""
     effort, rub, target = motor_effort[d], friction[d], motor_velocity[d]
     if effort == 0.0 or rub == 0.0 or target == 0.0:
         return 0.0

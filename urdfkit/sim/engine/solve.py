@@ -172,7 +172,7 @@ def try_guess(
 @inlined
 def result(rows: int, A: Any, g: Any, x: Any, k: int) -> float:
     """Return w of row k."""
-    total = g[k]
+    total: float = g[k]
     for j in range(rows):
         total += A[k * rows + j] * x[j]
     return total

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
 from urdfkit.sim.engine.arrays import FOUND_CONTACTS, Arrays
-from urdfkit.sim.engine.dynamics import FREE
+from urdfkit.sim.engine.dynamics import FREE, PLANAR
 from urdfkit.sim.engine.model import Touching
 from urdfkit.sim.engine.surface import Contact
 
@@ -57,6 +57,17 @@ def positions(arrays: Arrays) -> Array:
         if kind == FREE:
             found[arrays["first_v"][b] : arrays["first_v"][b + 1]] = np.nan
     return np.array(found)
+
+
+def turning(arrays: Arrays, v: Array) -> Array:
+    """Return how fast linear velocities in their own turning axes change when they are constant in space."""
+    found = np.zeros_like(v)
+    for kind, d in zip(arrays["kind"], arrays["first_v"], strict=False):
+        if kind == FREE:
+            found[d : d + 3] = np.cross(v[d + 3 : d + 6], v[d : d + 3])
+        elif kind == PLANAR:
+            found[d : d + 2] = v[d + 2] * np.array([-v[d + 1], v[d]])
+    return found
 
 
 def contacts(arrays: Arrays, touches: Sequence[Touching], ground: str, dt: float) -> tuple[Contact, ...]:

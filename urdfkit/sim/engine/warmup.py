@@ -9,10 +9,21 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any
 
-KERNEL_MODULES = ("arrays", "collide", "compilation", "dynamics", "integrate", "rows", "solve", "spatial", "step")
+KERNEL_MODULES = (
+    "arrays",
+    "collide",
+    "compilation",
+    "dynamics",
+    "integrate",
+    "rows",
+    "servo",
+    "solve",
+    "spatial",
+    "step",
+)
 """Modules of this package with compiled functions."""
 
-Kernel = Callable[[Any, Any, int, bool], int]
+Kernel = Callable[..., int]
 Progress = Callable[[int], None]
 """Told how many functions have been compiled so far; first with 0, only when there is something to compile."""
 
@@ -20,7 +31,9 @@ Progress = Callable[[int], None]
 @lru_cache(maxsize=1)
 def kernel() -> Kernel:
     """Return the compiled `advance`, from the cache where there is one."""
-    return _load(None)
+    from urdfkit.sim.engine.step import advance
+
+    return load_compiled(advance, ("floats", "integers", "count", "flag"))
 
 
 def warmup(progress: Progress | None = None) -> bool:
@@ -55,8 +68,9 @@ def sources_digest() -> str:
     return digest.hexdigest()
 
 
-def _load(digest: str | None) -> Kernel:
-    """Compile `advance`, or load it.
+@lru_cache
+def load_compiled(function: Callable[..., int], arguments: tuple[str, ...], *, digest: str | None = None) -> Kernel:
+    """Compile a function for these types of arguments, or load what was compiled before.
 
     numba finds a function's cache by its name and checks the file it is in, not those of the functions it calls. So the
     name carries a digest of them all: no change of a source can meet a stale kernel.
@@ -64,17 +78,17 @@ def _load(digest: str | None) -> Kernel:
     import numba
 
     from urdfkit.sim.engine.compilation import OPTIONS
-    from urdfkit.sim.engine.step import advance
 
-    function = FunctionType(advance.__code__, advance.__globals__, "advance")
-    function.__qualname__ = f"advance_{(digest or sources_digest())[:16]}"
-    signature = (numba.float64[::1], numba.int64[::1], numba.int64, numba.boolean)
+    types = {"floats": numba.float64[::1], "integers": numba.int64[::1], "count": numba.int64, "flag": numba.boolean}
+    named = FunctionType(function.__code__, function.__globals__, function.__name__)
+    named.__qualname__ = f"{function.__name__}_{(digest or sources_digest())[:16]}"
+    signature = tuple(types[name] for name in arguments)
     try:
-        dispatcher = numba.njit(function, cache=True, **OPTIONS)
+        dispatcher = numba.njit(named, cache=True, **OPTIONS)
         dispatcher.compile(signature)
     except (RuntimeError, OSError, EOFError, ValueError, TypeError, AttributeError):
         # No writable place for the cache, or a broken one: compile for this process alone.
-        dispatcher = numba.njit(function, **OPTIONS)
+        dispatcher = numba.njit(named, **OPTIONS)
         dispatcher.compile(signature)
     dispatcher.disable_compile()
     return dispatcher  # type: ignore[no-any-return]
