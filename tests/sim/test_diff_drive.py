@@ -305,6 +305,14 @@ def test_wrong_parameters_are_named_with_their_place(write_rover: Callable[..., 
     assert f"rover.urdf:{line}:1: " in str(caught.value)
 
 
+def test_legacy_mode_is_refused_aloud(make: Make) -> None:
+    notes: list[str] = []
+    make("ros1", "<legacyMode>true</legacyMode>", note=notes.append)
+    make("ros1", "<legacyMode>false</legacyMode>", note=notes.append)
+    assert len(notes) == 1
+    assert "legacyMode (left and right swapped, until Kinetic) is not emulated" in notes[0]
+
+
 def test_joints_that_do_not_pair_up(write_rover: Callable[..., Path]) -> None:
     lonely = '<plugin name="d" filename="gz-sim-diff-drive-system"><left_joint>left_joint</left_joint></plugin>'
     path = write_rover(f"<gazebo>{lonely}</gazebo>")

@@ -304,3 +304,31 @@ def test_commands_published_by_others_are_heard(make: Make) -> None:
     simulator.bus.publish("rover/cmd_vel", TWIST, twist((0.3, 0, 0), (0, 0, 0)))
     simulator.run(0.5)
     assert simulator.state.base_velocity[0] == pytest.approx(0.3)
+
+
+def chain(path: Path, axes: str) -> Path:
+    """Write a robot whose last link alone has a mass, below joints about the given axes."""
+    inertia = '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/>'
+    text = '<robot name="r"><link name="world"/>'
+    parent = "world"
+    for n, axis in enumerate(axes):
+        vector = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}[axis]
+        mass = f"<inertial><mass value='1'/>{inertia}</inertial>" if n == len(axes) - 1 else ""
+        text += f'\n<link name="l{n}">{mass}</link><joint name="j{n}" type="continuous"><parent link="{parent}"/>'
+        text += f'<child link="l{n}"/><axis xyz="{vector}"/></joint>'
+        parent = f"l{n}"
+    path.write_text(text + "</robot>")
+    return path
+
+
+def test_a_link_without_mass_may_carry_one_about_another_axis(tmp_path: Path) -> None:
+    notes: list[str] = []
+    simulator = Simulator(chain(tmp_path / "r.urdf", "zyx"), note=notes.append)
+    simulator.motors.drive("j1", 1.0)
+    simulator.run(0.5)
+    assert simulator.state.position("j1") == pytest.approx(0.5, abs=0.01)
+    assert [note.split(": ", 1)[1] for note in notes] == [
+        f"link `l{n}` has no mass: it moves with what it carries" for n in (0, 1)
+    ]
+    with pytest.raises(SimulationError, match=r"r\.urdf:3:1: link `l1` has no <inertial>, but joint `j1` moves it"):
+        Simulator(chain(tmp_path / "s.urdf", "zxx").rename(tmp_path / "r.urdf"))

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from urdfkit.description import Robot, load
 from urdfkit.description.masses import massless
 from urdfkit.errors import SimulationError
+from urdfkit.kinematics import Kinematics
 from urdfkit.resources import find_model
+
+SINGULAR = 1e-9
+"""Least eigenvalue of a mass matrix, scaled to ones on its diagonal, of a robot that can be simulated."""
 
 
 def load_robot(model: str | Path, package_path: Sequence[str | Path] = ()) -> Robot:
@@ -21,21 +29,48 @@ def load_robot(model: str | Path, package_path: Sequence[str | Path] = ()) -> Ro
     return load(found.path, arguments=found.arguments, package_path=found.package_path)
 
 
-def require_masses(robot: Robot, *, floating: bool) -> None:
-    """Check that everything that moves has a mass.
+def require_masses(kinematics: Kinematics, q: NDArray[np.float64], note: Callable[[str], None]) -> None:
+    """Check that everything that moves has something to move.
+
+    A link without mass between two joints can do with the mass of the links it carries, if their axes differ; that is
+    seen from the mass matrix. Gazebo drops such links, so they are noted.
 
     Args:
-        robot: the robot as written.
-        floating: whether the root link moves too.
+        kinematics: the robot's model.
+        q: where it starts.
+        note: tells the user something.
 
     Raises:
         SimulationError: a link must move but has no mass, with its place and what to write.
     """
-    for link, joint in massless(robot, floating=floating):
-        why = f"joint `{joint.name}` moves it" if joint is not None else "the robot is free to move"
-        problem = "has no <inertial>" if link.inertial is None else "has no mass greater than zero"
-        raise SimulationError(
-            f"link `{link.name}` {problem}, but {why}: write <inertial> with <mass> and <inertia> into it, "
-            "or fix it to a link that has them",
-            position=link.element.origin.position,
-        )
+    found = massless(kinematics.robot, floating=kinematics.floating_base)
+    if not found:
+        return
+    if _is_regular(kinematics, q):
+        for link, _ in found:
+            note(f"{link.element.origin.position}: link `{link.name}` has no mass: it moves with what it carries")
+        return
+    # What carries nothing is at fault, not what carries it.
+    link, joint = found[-1]
+    why = f"joint `{joint.name}` moves it" if joint is not None else "the robot is free to move"
+    problem = "has no <inertial>" if link.inertial is None else "has no mass or no moment of inertia"
+    raise SimulationError(
+        f"link `{link.name}` {problem}, but {why}: write <inertial> with <mass> and <inertia> into it, "
+        "or fix it to a link that has them",
+        position=link.element.origin.position,
+    )
+
+
+def _is_regular(kinematics: Kinematics, q: NDArray[np.float64]) -> bool:
+    """Whether the mass matrix can be inverted."""
+    import pinocchio
+
+    pin: Any = pinocchio
+    upper = np.triu(pin.crba(kinematics.model, kinematics.data, q))
+    G = kinematics.mimic_matrix
+    M = G.T @ (upper + np.triu(upper, 1).T) @ G
+    own = np.diag(M)
+    if not np.isfinite(M).all() or not (own > 1e-15 * own.max(initial=0.0)).all():  # what rounding leaves of a zero
+        return False
+    scale = np.sqrt(own)
+    return bool(np.linalg.eigvalsh(M / np.outer(scale, scale))[0] > SINGULAR)

@@ -82,7 +82,6 @@ class Drive(ABC):
         read_rate: how often `read` is due [Hz]; zero means every step.
         resting: `write` has nothing to do until something changes; the simulator then leaves it out.
         commands: topics of type Twist it listens to.
-        odometry: frame → its odometer, for who asks where the robot thinks it is.
     """
 
     kind: ClassVar[str]

@@ -19,7 +19,7 @@ from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
 from urdfkit.messages import TWIST, message_type, twist
 from urdfkit.scene import Scene, scene_of
-from urdfkit.sim.engine import Engine, Ground
+from urdfkit.sim.engine import Engine, Ground, warmup
 from urdfkit.sim.engine.engine import Provider
 from urdfkit.sim.installed import install
 from urdfkit.sim.loading import load_robot, require_masses
@@ -95,12 +95,13 @@ class Simulator:
         self._note = note or LOG.warning
         self._noted: set[str] = set()
         bolted = fixed_base or self.robot.roots()[0].name == "world"
-        require_masses(self.robot, floating=not bolted)
         self.kinematics = Kinematics(self.robot, floating_base=not bolted)
         self.scene: Scene = scene_of(self.robot)
         self._spawn = spawn or Spawn(z=0.0 if self.robot.roots()[0].name == "world" else None)
+        warmup(self._announce)
         ground = self.world.ground
         self._base = self._spawn.place(self.kinematics, self.scene, None if ground is None else ground.height)
+        require_masses(self.kinematics, self._spawn.configuration(self.kinematics, self._base)[0], self.note)
         self._engine = Engine(
             self.kinematics,
             self.scene.with_role("collision"),
@@ -276,6 +277,10 @@ class Simulator:
             for frame, pose in drive.estimate(self.state).items():
                 found.setdefault(frame, pose)
         return found
+
+    def _announce(self, functions: int) -> None:
+        if functions == 0:
+            self.note("compiling the physics kernel, once, about 20 s …")
 
     def note(self, text: str) -> None:
         """Tell the user something; the same text only once."""

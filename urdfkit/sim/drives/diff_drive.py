@@ -52,6 +52,9 @@ class DiffDrive(Drive):
         read = Parameters(self.plugin, self.spec, setup.names)
         topics = Topics(self.plugin, self.spec, namespace=setup.model)
         self._setup = setup
+        if read.text("legacy_mode").lower() in ("true", "1"):
+            place = read.place("legacy_mode")
+            setup.note(f"{place}: legacyMode (left and right swapped, until Kinetic) is not emulated: left is left")
         self._read_wheels(setup, read)
         # The new Gazebo has no torque of its own: the joints' <limit effort> holds.
         self._torque = None if self._gz else read.number("max_wheel_torque")
