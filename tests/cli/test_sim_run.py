@@ -76,6 +76,13 @@ def test_two_runs_are_identical_but_for_the_times(capsys: Capture) -> None:
     assert texts[0] == texts[1]
 
 
+def test_pinocchio_agrees(capsys: Capture) -> None:
+    short = ["simpleton", "--for", "0.2", "--cmd-vel", "0.5,0,0.5", "--cmd-ramp", "0.1"]
+    ours, reference = run(capsys, *short), run(capsys, *short, "--engine", "pinocchio")
+    for key in ("position", "quaternion", "linear_velocity", "angular_velocity"):
+        assert ours["base"][key] == pytest.approx(reference["base"][key], abs=1e-8)
+
+
 def test_parked_for_100_seconds(capsys: Capture) -> None:
     report = run(capsys, "simpleton", "--for", "100")
     assert np.linalg.norm(report["base"]["position"]) < 1e-9

@@ -43,10 +43,10 @@ def test_rolling_wheels_make_an_ideal_unicycle(make: Make, dt: float) -> None:
     simulator.run(10.0)
     x, y, heading = unicycle(v, w, 10.0)
     pose = simulator.state.base_pose
-    assert pose[:2] == pytest.approx((x, y), abs=0.3 * dt)
+    assert pose[:2] == pytest.approx((x, y), abs=1e-5)
     assert math.remainder(yaw(pose) - heading, 2 * math.pi) == pytest.approx(0, abs=1e-5)
     position, _ = simulator.odometry()["odom"]
-    assert position[:2] == pytest.approx((x, y), abs=0.3 * dt)
+    assert position[:2] == pytest.approx((x, y), abs=1e-5)
 
 
 def test_same_calls_same_bits(make: Make) -> None:

@@ -98,7 +98,8 @@ class Simulator:
         self.kinematics = Kinematics(self.robot, floating_base=not bolted)
         self.scene: Scene = scene_of(self.robot)
         self._spawn = spawn or Spawn(z=0.0 if self.robot.roots()[0].name == "world" else None)
-        warmup(self._announce)
+        if engine == "compiled":
+            warmup(self._announce)
         ground = self.world.ground
         self._base = self._spawn.place(self.kinematics, self.scene, None if ground is None else ground.height)
         require_masses(self.kinematics, self._spawn.configuration(self.kinematics, self._base)[0], self.note)

@@ -86,7 +86,8 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.cli.sim.kernel import prepare_kernel
     from urdfkit.cli.sim.report import as_json, as_text
 
-    prepare_kernel(sys.stderr)
+    if arguments.engine == "compiled":
+        prepare_kernel(sys.stderr)
     simulator = load(arguments)
     command(simulator, arguments)
     spent = advance(simulator, arguments.duration, arguments.until)
