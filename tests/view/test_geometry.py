@@ -44,7 +44,7 @@ def test_a_sphere_is_smooth() -> None:
 
 
 def test_a_cylinder_is_smooth_around_and_sharp_at_its_ends() -> None:
-    points, normals, _, _ = unpack(pack(tri_mesh(trimesh.creation.cylinder(1.0, 2.0, sections=48))))
+    _, normals, _, _ = unpack(pack(tri_mesh(trimesh.creation.cylinder(1.0, 2.0, sections=48))))
     side = np.abs(normals[:, 2]) < 0.5
     assert np.allclose(normals[side, 2], 0, atol=1e-3)
     assert np.allclose(np.abs(normals[~side, 2]), 1, atol=1e-3)
@@ -52,7 +52,8 @@ def test_a_cylinder_is_smooth_around_and_sharp_at_its_ends() -> None:
 
 def test_triangles_without_shared_vertices_look_the_same() -> None:
     sphere = trimesh.creation.icosphere(subdivisions=2)
-    soup = trimesh.Trimesh(sphere.vertices[sphere.faces].reshape(-1, 3), np.arange(3 * len(sphere.faces)).reshape(-1, 3), process=False)  # fmt: skip
+    corners = sphere.vertices[sphere.faces].reshape(-1, 3)
+    soup = trimesh.Trimesh(corners, np.arange(len(corners)).reshape(-1, 3), process=False)
     assert len(unpack(pack(tri_mesh(soup)))[0]) == len(sphere.vertices)
 
 
@@ -72,11 +73,11 @@ def test_own_normals_and_colours_are_kept() -> None:
     box = trimesh.creation.box()
     colours = np.arange(4 * len(box.vertices), dtype=np.uint8).reshape(-1, 4)
     given_normals = np.asarray(box.vertex_normals, dtype=np.float32)
-    points, normals, faces, found = unpack(pack(tri_mesh(box, normals=given_normals, colors=colours)))
+    _points, normals, faces, found = unpack(pack(tri_mesh(box, normals=given_normals, colors=colours)))
     assert np.array_equal(normals, given_normals)
     assert np.array_equal(found, colours)
     assert np.array_equal(faces, box.faces)
-    points, normals, faces, found = unpack(pack(tri_mesh(box, colors=colours)))
+    _, normals, faces, found = unpack(pack(tri_mesh(box, colors=colours)))
     assert np.array_equal(found[faces], colours[box.faces])
     assert np.allclose(np.linalg.norm(normals, axis=1), 1)
 

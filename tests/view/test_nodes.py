@@ -87,7 +87,8 @@ def test_a_mesh_with_its_own_colours_shows_them_unless_the_description_names_one
     own = TriMesh(plain.vertices, plain.faces, None, colours)
     kinds = [Shape("n", "arm", "visual", Mesh("m"), np.eye(4), (0.0, 0.0, 0.0, 1.0), has, own) for has in (False, True)]
     window, _ = drawn(*kinds)
-    flags = [(c["object"]["materials"][0]["vertexColors"], c["object"]["materials"][0]["color"]) for c in window.of("set_object").values()]  # fmt: skip
+    materials = [command["object"]["materials"][0] for command in window.of("set_object").values()]
+    flags = [(material["vertexColors"], material["color"]) for material in materials]
     assert [(bool(own), color) for own, color in flags] == [(True, 0xFFFFFF), (False, 0)]
 
 

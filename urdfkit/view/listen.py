@@ -37,7 +37,8 @@ def bind(host: str, port: int | None) -> tuple[socket.socket, int]:
             if error.errno == errno.EADDRINUSE:
                 continue
             if error.errno == errno.EACCES:
-                raise UsageError(f"port {candidate} needs privileges; {_free_port(host, DEFAULT_PORT)} does not") from error
+                free = _free_port(host, DEFAULT_PORT)
+                raise UsageError(f"port {candidate} needs privileges; {free} does not") from error
             raise UsageError(f"cannot listen on `{host}`: {_reason(error)}") from error
         return listening, int(listening.getsockname()[1])
     raise UsageError(f"port {port} is busy; {_free_port(host, (port or 0) + 1)} is free")

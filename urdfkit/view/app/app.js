@@ -122,4 +122,6 @@ function panel(open) {
 if (matchMedia("(max-width: 760px)").matches) panel(false);
 
 // For tests and for the curious at the console.
-Object.defineProperty(window, "urdfkit", { value: { stage, scene, joints, drive, connection } });
+Object.defineProperty(window, "urdfkit", {
+  value: { stage, scene, joints, drive, connection, link: (index) => scene.nodes[index ?? root] },
+});

@@ -1,0 +1,167 @@
+"""Commands that serve a page, run as a user runs them, and a real browser to look at it."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, BrowserContext, Page
+
+CHROMIUM = Path("/usr/bin/chromium")
+FLAGS = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--use-angle=swiftshader",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+]
+ARTIFACTS = Path(__file__).parents[2] / "artifacts"
+FIRST_USE = 180.0
+"""Seconds until a robot is on the page; on first use the physics kernel is compiled."""
+
+
+@dataclass
+class Served:
+    """A running command that serves a page."""
+
+    process: subprocess.Popen[str]
+    url: str
+    errors: Path
+
+    @property
+    def origin(self) -> str:
+        return self.url.split("/?")[0]
+
+    def end(self, how: signal.Signals = signal.SIGINT) -> int:
+        self.process.send_signal(how)
+        return self.process.wait(timeout=20)
+
+
+@contextmanager
+def serving(folder: Path) -> Iterator[Callable[..., Served]]:
+    """Yield what starts ``urdfkit …`` and waits for the address on its first line; Ctrl-C at the end must be clean."""
+    running: list[Served] = []
+
+    def start(*words: str) -> Served:
+        errors = folder / f"stderr-{len(running)}"
+        command = [sys.executable, "-m", "urdfkit", *words, "--port", "0", "--no-browser"]
+        with errors.open("w") as stderr:
+            process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=stderr, text=True, cwd=folder)
+        line = process.stdout.readline().strip() if process.stdout else ""
+        served = Served(process, line, errors)
+        running.append(served)
+        assert re.fullmatch(r"http://127\.0\.0\.1:\d+/\?token=[\w-]{32}", line), errors.read_text()
+        return served
+
+    try:
+        yield start
+    finally:
+        codes = [served.end() if served.process.poll() is None else served.process.returncode for served in running]
+    for served in running:
+        assert "Traceback" not in served.errors.read_text()
+        if served.process.stdout:
+            assert served.process.stdout.read() == ""
+            served.process.stdout.close()
+    assert set(codes) <= {0, 130}
+
+
+@pytest.fixture
+def serve(tmp_path: Path) -> Iterator[Callable[..., Served]]:
+    """Starts ``urdfkit …`` for one test."""
+    with serving(tmp_path) as start:
+        yield start
+
+
+@pytest.fixture(scope="module")
+def serve_for_all(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[..., Served]]:
+    """Starts ``urdfkit …`` for all tests of a module."""
+    with serving(tmp_path_factory.mktemp("served")) as start:
+        yield start
+
+
+@pytest.fixture(scope="session")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    if not CHROMIUM.exists():
+        if os.environ.get("CI"):
+            pytest.fail(f"{CHROMIUM} is missing: .ci/run installs it")
+        pytest.skip(f"{CHROMIUM} is missing")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        launched = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield launched
+        launched.close()
+
+
+@dataclass
+class Visits:
+    """Opens pages and remembers what went wrong in them."""
+
+    browser: Browser
+    contexts: list[BrowserContext] = field(default_factory=list)
+    problems: list[str] = field(default_factory=list)
+    requests: list[str] = field(default_factory=list)
+
+    def open(self, url: str, *, ready: bool = True, **context: object) -> Page:
+        made = self.browser.new_context(**{"viewport": {"width": 1280, "height": 800}} | context)
+        self.contexts.append(made)
+        page = made.new_page()
+        page.on("pageerror", lambda error: self.problems.append(str(error)))
+        page.on("console", lambda message: self._heard(message.type, message.text))
+        page.on("request", lambda request: self.requests.append(request.url))
+        page.goto(url)
+        if ready:
+            page.wait_for_selector("body[data-ready=true]", timeout=FIRST_USE * 1000)
+        return page
+
+    def _heard(self, kind: str, text: str) -> None:
+        if kind == "error":
+            self.problems.append(text)
+
+
+@pytest.fixture
+def visits(browser: Browser) -> Iterator[Visits]:
+    made = Visits(browser)
+    yield made
+    for context in made.contexts:
+        context.close()
+
+
+@pytest.fixture
+def keep(request: pytest.FixtureRequest) -> Callable[[Page, str], None]:
+    """Keeps a screenshot in artifacts/."""
+
+    def screenshot(page: Page, name: str) -> None:
+        ARTIFACTS.mkdir(exist_ok=True)
+        page.screenshot(path=ARTIFACTS / f"{request.module.__name__.split('.')[-1].removeprefix('test_')}-{name}.png")
+
+    return screenshot
+
+
+@pytest.fixture
+def until() -> Callable[..., object]:
+    """Waits until a condition holds and returns its value; fails the test when it takes too long."""
+
+    def wait(condition: Callable[[], object], seconds: float = 20.0) -> object:
+        end = time.monotonic() + seconds
+        while not (found := condition()):
+            assert time.monotonic() < end, f"waited {seconds} s in vain"
+            time.sleep(0.02)
+        return found
+
+    return wait

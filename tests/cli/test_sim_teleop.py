@@ -1,0 +1,337 @@
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("pinocchio")
+pytest.importorskip("meshcat")
+pytest.importorskip("numba")
+
+from urdfkit.cli import main
+from urdfkit.cli.sim.teleop import BEHIND, FRAME, Ride
+from urdfkit.view.protocol import Axes
+
+X = "urdfkit.link().position.x"
+SPEED = "parseFloat(document.getElementById('velocity').textContent)"
+AHEAD = Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0)
+
+
+@pytest.fixture(scope="module")
+def simpleton(serve_for_all):
+    return serve_for_all("sim", "teleop", "simpleton")
+
+
+@pytest.fixture
+def driving(simpleton, visits, until):
+    """Simpleton on the page, where it starts."""
+    page = visits.open(simpleton.url, viewport={"width": 960, "height": 600})
+    page.wait_for_selector("#progress", state="hidden", timeout=180_000)
+    page.get_by_role("button", name="Reset").click()
+    until(lambda: max(map(abs, at(page))) < 1e-3)
+    return simpleton, page
+
+
+def at(page) -> tuple[float, float]:
+    return tuple(page.evaluate("[urdfkit.link().position.x, urdfkit.link().position.y]"))
+
+
+def stands(page, until) -> tuple[float, float]:
+    """Wait until the robot stands still, for a tenth of a second of simulated time; return where."""
+    until(lambda: page.evaluate(SPEED) == 0)
+
+    def still() -> bool:
+        before, frames = at(page), page.evaluate("Number(document.body.dataset.frames)")
+        until(lambda: page.evaluate("Number(document.body.dataset.frames)") > frames + 3)
+        return math.dist(before, at(page)) < 1e-4
+
+    until(still)
+    return at(page)
+
+
+@pytest.mark.browser
+def test_holding_a_key_drives_and_letting_go_stops(driving, visits, keep, until) -> None:
+    _, page = driving
+    start = at(page)
+    keep(page, "start")
+    page.keyboard.down("w")
+    time.sleep(2)  # this is what is promised: two seconds of holding
+    moved = at(page)
+    page.keyboard.up("w")
+    keep(page, "driven")
+    assert moved[0] - start[0] >= 0.5
+    assert abs(moved[1] - start[1]) < 0.01
+    rest = stands(page, until)
+    assert rest[0] - moved[0] < 0.3
+    assert visits.problems == []
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("key", ["i", "ArrowUp", "s", ","])
+def test_every_layout_drives(driving, until, key: str) -> None:
+    _, page = driving
+    start = at(page)[0]
+    page.keyboard.down(key)
+    sign = -1 if key in ("s", ",") else 1
+    until(lambda: sign * (at(page)[0] - start) > 0.1)
+    page.keyboard.up(key)
+    stands(page, until)
+
+
+@pytest.mark.browser
+def test_keys_turn_and_change_speed(driving, until) -> None:
+    _, page = driving
+    yaw = "2 * Math.atan2(urdfkit.link().quaternion.z, urdfkit.link().quaternion.w)"
+    for _ in range(3):
+        page.keyboard.press("q")
+    assert page.locator("#speed-value").inner_text() == "0.67 m/s"
+    assert page.locator("#turn-value").inner_text() == "1.33 rad/s"
+    page.keyboard.press("z")
+    page.keyboard.press("c")
+    assert page.locator("#turn-value").inner_text() == "1.08 rad/s"
+    page.keyboard.down("a")
+    until(lambda: page.evaluate(yaw) > 0.3)
+    page.keyboard.up("a")
+    page.keyboard.down("d")
+    until(lambda: page.evaluate(yaw) < 0)
+    page.keyboard.press("k")  # stops although d is still down
+    stands(page, until)
+    page.keyboard.up("d")
+
+
+@pytest.mark.browser
+def test_the_pad_drives_by_mouse(driving, keep, until) -> None:
+    _, page = driving
+    start = at(page)[0]
+    box = page.locator("#pad").bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.mouse.down()
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"], steps=4)
+    until(lambda: at(page)[0] - start > 0.2)
+    keep(page, "pad")
+    page.mouse.up()
+    stands(page, until)
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize(
+    "event", ["window.dispatchEvent(new Event('blur'))", "window.dispatchEvent(new Event('pagehide'))"]
+)
+def test_a_page_that_loses_the_keyboard_stops_the_robot(driving, until, event: str) -> None:
+    _, page = driving
+    page.keyboard.down("w")
+    until(lambda: page.evaluate(SPEED) > 0.3)
+    page.evaluate(event)
+    stands(page, until)
+    page.keyboard.up("w")
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("how", ["close", "hang", "cut"])
+def test_a_page_that_goes_away_stops_the_robot(driving, visits, until, how: str) -> None:
+    served, page = driving
+    watching = visits.open(served.url, viewport={"width": 480, "height": 360})
+    page.bring_to_front()
+    page.keyboard.down("w")
+    until(lambda: watching.evaluate(SPEED) > 0.3)
+    assert watching.locator("#driver-other").is_visible()
+    if how == "close":
+        page.close()
+    elif how == "hang":  # the line is up, but nothing comes any more: the dead man's switch
+        page.evaluate("urdfkit.connection.send = () => {}")
+    else:
+        page.evaluate("urdfkit.connection.socket.close()")
+    stands(watching, until)
+    until(lambda: not watching.locator("#driver-other").is_visible())
+
+
+@pytest.mark.browser
+def test_pause_and_reset(driving, keep, until) -> None:
+    _, page = driving
+    page.keyboard.down("w")
+    until(lambda: at(page)[0] > 0.1)
+    page.get_by_role("button", name="Pause").click()
+    until(lambda: page.locator("#rtf").inner_text() == "paused")
+    clock = page.locator("#sim-time").inner_text()
+    keep(page, "paused")
+    page.keyboard.up("w")
+    assert page.locator("#sim-time").inner_text() == clock
+    page.keyboard.press("p")
+    until(lambda: page.locator("#sim-time").inner_text() != clock)
+    page.get_by_role("button", name="Reset").click()
+    until(lambda: abs(at(page)[0]) < 0.01)
+    until(lambda: float(page.locator("#sim-time").inner_text().split()[0]) < 5)
+
+
+@pytest.mark.browser
+def test_simulated_time_keeps_pace_with_the_clock(driving, until) -> None:
+    _, page = driving
+    until(lambda: 0.9 < float(page.locator("#rtf").inner_text().lstrip("×")) < 1.1)
+
+
+@pytest.mark.browser
+def test_the_camera_follows(driving, until) -> None:
+    _, page = driving
+    offset = "[stage.viewer.controls.target, stage.viewer.camera.position].map((p) => p.x - link().position.x)"
+    offset = f"(({{ stage, link }}) => {offset})(urdfkit)"
+    before = page.evaluate(offset)
+    page.keyboard.down("w")
+    until(lambda: at(page)[0] > 0.3)
+    page.keyboard.up("w")
+    stands(page, until)
+    assert page.evaluate(offset) == pytest.approx(before, abs=1e-3)
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_phone_drives_by_thumb(serve, visits, keep, until, scheme: str) -> None:
+    phone = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True, "device_scale_factor": 2}
+    page = visits.open(serve("sim", "teleop", "simpleton").url, color_scheme=scheme, **phone)
+    page.wait_for_selector("#progress", state="hidden", timeout=180_000)
+    box = page.locator("#pad").bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    thumb = page.context.new_cdp_session(page)
+    thumb.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": x, "y": y}]})
+    thumb.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [{"x": x, "y": y - 60}]})
+    until(lambda: at(page)[0] > 0.2)
+    keep(page, f"phone-{scheme}")
+    thumb.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    stands(page, until)
+
+
+@pytest.mark.browser
+def test_nobody_gets_in_without_the_key(driving, visits) -> None:
+    served, _ = driving
+    other = visits.open("about:blank", ready=False)
+    answer = other.goto(f"{served.origin}/")
+    assert answer is not None
+    assert answer.status == 403
+
+
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
+def test_ending_is_clean_and_leaves_nothing_behind(serve, how: signal.Signals) -> None:
+    served = serve("sim", "teleop", "simpleton")
+    pid = served.process.pid
+    assert served.end(how) in (0, 130)
+    with pytest.raises(ProcessLookupError):
+        os.kill(pid, 0)
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["simpelton"], "did you mean `simpleton`?"),
+        (["simpleton", "--world", "hous"], "hous"),
+        (["{folder}/massless.urdf"], "massless.urdf:"),
+        (["simpleton", "--port", "-5"], "outside 0..65535"),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_2(tmp_path: Path, capfd, words: list[str], expected: str) -> None:
+    (tmp_path / "massless.urdf").write_text(
+        '<robot name="x"><link name="a"/><link name="b"/><joint name="j" type="continuous">\n'
+        '<parent link="a"/><child link="b"/></joint></robot>'
+    )
+    assert main(["sim", "teleop", *(word.format(folder=tmp_path) for word in words), "--no-browser"]) == 2
+    output = capfd.readouterr()
+    assert output.out == ""
+    error = [line for line in output.err.splitlines() if not line.startswith("compiling")]
+    assert len(error) == 1
+    assert expected in error[0]
+
+
+def test_nothing_heavy_is_imported_for_the_help() -> None:
+    code = "import sys; from urdfkit.cli import main\ntry: main(['sim', 'teleop', '--help'])\nexcept SystemExit: pass\n"
+    code += "heavy = {'numpy', 'pinocchio', 'tornado', 'meshcat', 'numba'} & set(sys.modules); assert not heavy, heavy"
+    subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
+
+
+# The loop, without browser and without waiting: a clock that is ours.
+
+
+class Wall:
+    now = 0.0
+
+    def __call__(self) -> float:
+        return self.now
+
+
+@pytest.fixture
+def ride():
+    from urdfkit.sim import Simulator
+    from urdfkit.view.server import Server
+
+    wall = Wall()
+    server = Server("sim", port=0)  # not started: nobody looks
+    made = Ride(Simulator("simpleton", note=lambda text: None), server, clock=wall)
+    made.wall = wall
+    made.server.driver._clock = wall
+    made._keep_pace_from_here()
+    yield made
+    server.stop()
+
+
+def spend(ride: Ride, seconds: float) -> None:
+    for _ in range(round(seconds / FRAME)):
+        ride.wall.now += FRAME
+        ride.tick()
+
+
+def test_the_loop_advances_with_the_clock(ride: Ride) -> None:
+    spend(ride, 3.0)
+    assert ride.simulator.t == pytest.approx(3.0, abs=0.002)
+
+
+def test_the_loop_lets_the_clock_go_after_a_long_pause_of_the_machine(ride: Ride) -> None:
+    spend(ride, 1.0)
+    ride.wall.now += 60.0  # the lid was closed
+    ride.tick()
+    assert ride.simulator.t <= 1.0 + BEHIND + 0.002
+    before = ride.simulator.t
+    spend(ride, 1.0)
+    assert ride.simulator.t - before == pytest.approx(1.0, abs=0.002)
+
+
+def test_the_robot_goes_while_somebody_holds_and_stops_by_itself(ride: Ride) -> None:
+    sent: list = []
+    topic = ride.simulator.command_topics[0]
+    ride.simulator.subscribe(topic, "geometry_msgs/msg/Twist", sent.append)
+    for _ in range(60):
+        ride.server.driver.offer(1, AHEAD)
+        spend(ride, FRAME)
+    assert ride.simulator.state.v[0] == pytest.approx(0.5, abs=0.02)
+    spend(ride, 2.0)  # the driver says nothing more
+    assert abs(ride.simulator.state.v[0]) < 1e-3
+    assert sent[-1].linear.x == 0.0
+    assert sum(message.linear.x == 0.0 for message in sent) == 1  # said once, then quiet
+    assert max(message.linear.x for message in sent) == 0.5
+
+
+def test_pause_play_reset(ride: Ride) -> None:
+    spend(ride, 0.5)
+    ride.server.inbox.put_action("pause")
+    spend(ride, 0.5)
+    assert ride.simulator.t == pytest.approx(0.5, abs=0.02)
+    ride.server.inbox.put_action("play")
+    spend(ride, 0.5)
+    assert ride.simulator.t == pytest.approx(1.0, abs=0.04)
+    ride.server.inbox.put_action("reset")
+    spend(ride, 0.1)
+    assert ride.simulator.t == pytest.approx(0.1, abs=0.02)
+
+
+def test_a_simulation_that_diverges_pauses_and_says_so(ride: Ride, capfd, monkeypatch) -> None:
+    from urdfkit.errors import SimulationError
+
+    def diverge(steps: int) -> None:
+        raise SimulationError("the simulation diverged at t = 1 s")
+
+    monkeypatch.setattr(ride.simulator, "step", diverge)
+    spend(ride, 2 * FRAME)
+    assert ride.simulator.paused
+    assert capfd.readouterr().err == "urdfkit: the simulation diverged at t = 1 s\n"
