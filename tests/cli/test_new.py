@@ -139,7 +139,7 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
         (["robot", "scout", "--wheel-radius", "5cm"], r"--wheel-radius `5cm` is no number \(in m\)"),
         (["robot", "scout", "--mass", "-1"], "--mass -1 kg is out of range"),
         (["robot", "scout", "--wheel-separation", "0.2"], "the wheels would be inside the base: --wheel-separation"),
-        (["robot", "scout", "--wheel-torque", "9"], "it would tip over when it brakes"),
+        (["robot", "scout", "--wheel-torque", "9"], "it would tip over when it starts or brakes"),
         (["robot", "scout", "--email", "nobody"], "--email `nobody` cannot be written"),
         (["robot", "scout", "more"], "unrecognized arguments: more"),
         (["world", "w"], "invalid choice: 'world'"),

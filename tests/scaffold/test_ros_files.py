@@ -1,0 +1,150 @@
+"""The files of the two generations, read as their programs would: launch files, bridge, worlds, manifests."""
+
+import re
+import sys
+import types
+import xml.etree.ElementTree as ET
+from pathlib import Path
+from typing import ClassVar
+
+import pytest
+import yaml
+
+from urdfkit.description import load
+from urdfkit.description.world import load_world
+from urdfkit.scaffold import create
+
+
+@pytest.fixture(scope="module")
+def robots(robot_template, tmp_path_factory):
+    """Both generations of a robot, by distribution."""
+    found = {}
+    for ros in ("jazzy", "noetic"):
+        folder = tmp_path_factory.mktemp(ros)
+        answers = robot_template.answers({"name": "scout", "ros": ros}) | {"year": "2026", "into": "."}
+        create(robot_template, answers, folder)
+        found[ros] = folder
+    return found
+
+
+def depends(package):
+    root = ET.parse(package / "package.xml").getroot()
+    assert root.get("format") == "3"
+    return {element.text for element in root if element.tag.endswith("depend")} | {root.findtext("name")}
+
+
+class Recorder:
+    """Stands for every class of `launch` and `launch_ros`: keeps what it is made of."""
+
+    made: ClassVar[list["Recorder"]] = []
+
+    def __init__(self, *args, **kwargs):
+        self.args, self.kwargs = args, kwargs
+        self.made.append(self)
+
+
+@pytest.fixture
+def launch_modules(monkeypatch):
+    Recorder.made = []
+    kinds = {}
+
+    def look_up(name):
+        return kinds.setdefault(name, type(name, (Recorder,), {}))
+
+    for name in (
+        "launch",
+        "launch.actions",
+        "launch.conditions",
+        "launch.launch_description_sources",
+        "launch.substitutions",
+        "launch_ros",
+        "launch_ros.actions",
+        "launch_ros.parameter_descriptions",
+        "launch_ros.substitutions",
+    ):
+        module = types.ModuleType(name)
+        module.__getattr__ = look_up
+        monkeypatch.setitem(sys.modules, name, module)
+    return kinds
+
+
+@pytest.mark.parametrize("path", ["scout_description/launch/display.launch.py", "scout_gazebo/launch/scout.launch.py"])
+def test_ros2_launch_files(robots, launch_modules, path):
+    folder = robots["jazzy"]
+    source = (folder / path).read_text()
+    scope = {}
+    exec(compile(source, path, "exec"), scope)
+    description = scope["generate_launch_description"]()
+    assert isinstance(description, launch_modules["LaunchDescription"])
+    package = folder / path.split("/")[0]
+    known = depends(package)
+    assert {"launch_ros", "ros2launch"} <= known
+    for made in Recorder.made:
+        if type(made).__name__ == "Node":
+            assert made.kwargs["package"] in known
+            assert made in description.args[0]
+        elif type(made).__name__ == "FindPackageShare":
+            assert made.args[0] in known
+        elif type(made).__name__ == "PathJoinSubstitution":
+            share, *parts = made.args[0]
+            if share.args[0].startswith("scout_"):
+                assert Path(folder, share.args[0], *parts).is_file()
+        elif type(made).__name__ == "LaunchConfiguration":
+            declared = [m.args[0] for m in Recorder.made if type(m).__name__ == "DeclareLaunchArgument"]
+            assert made.args[0] in declared
+
+
+@pytest.mark.parametrize("path", ["scout_description/launch/display.launch", "scout_gazebo/launch/scout.launch"])
+def test_ros1_launch_files(robots, path):
+    folder = robots["noetic"]
+    root = ET.parse(folder / path).getroot()
+    known = depends(folder / path.split("/")[0])
+    declared = {arg.get("name") for arg in root.findall("arg")}
+    text = ET.tostring(root, encoding="unicode")
+    assert {node.get("pkg") for node in root.iter("node")} <= known
+    assert set(re.findall(r"\$\(arg (\w+)\)", text)) <= declared
+    for package, rest in re.findall(r"\$\(find (\w+)\)/([\w./]+)", text):
+        assert package in known
+        if package.startswith("scout_"):
+            assert (folder / package / rest).is_file()
+
+
+def test_bridge_carries_what_the_plugins_publish(robots):
+    folder = robots["jazzy"]
+    bridge = yaml.safe_load((folder / "scout_gazebo/config/bridge.yaml").read_text())
+    robot = load(folder / "scout_description/urdf/scout.urdf.xacro")
+    topics = {"topic", "odom_topic", "tf_topic"}
+    spoken = {
+        child.text
+        for block in robot.gazebo
+        for plugin in block.plugins
+        for child in plugin.element.children
+        if child.tag in topics
+    }
+    assert {entry["gz_topic_name"] for entry in bridge} == spoken | {"clock"}
+    for entry in bridge:
+        assert set(entry) == {"ros_topic_name", "gz_topic_name", "ros_type_name", "gz_type_name", "direction"}
+        assert entry["direction"] == ("ROS_TO_GZ" if entry["ros_topic_name"] == "cmd_vel" else "GZ_TO_ROS")
+
+
+@pytest.mark.parametrize(("ros", "path"), [("jazzy", "empty.sdf"), ("noetic", "empty.world")])
+def test_worlds_load(robots, ros, path):
+    assert load_world(robots[ros] / "scout_gazebo/worlds" / path).name == "empty"
+
+
+@pytest.mark.parametrize("ros", ["jazzy", "noetic"])
+def test_rviz_configuration(robots, ros):
+    config = yaml.safe_load((robots[ros] / "scout_description/rviz/scout.rviz").read_text())
+    classes = [display["Class"] for display in config["Visualization Manager"]["Displays"]]
+    prefix = "rviz_default_plugins/" if ros == "jazzy" else "rviz/"
+    assert classes == [f"{prefix}{name}" for name in ("Grid", "RobotModel", "TF")]
+    assert config["Visualization Manager"]["Global Options"]["Fixed Frame"] == "base_footprint"
+
+
+@pytest.mark.parametrize("ros", ["jazzy", "noetic"])
+def test_everything_is_installed(robots, ros):
+    for package in robots[ros].iterdir():
+        rule = re.search(r"install\(DIRECTORY ([\w ]+)\n", (package / "CMakeLists.txt").read_text())
+        folders = {path.name for path in package.iterdir() if path.is_dir()} - {"hooks"}
+        assert set(rule[1].split()) == folders
+        assert all(any((package / folder).iterdir()) for folder in folders)
