@@ -11,6 +11,9 @@ from urdfkit.sim.rotation import to_rpy
 if TYPE_CHECKING:
     from urdfkit.sim.simulator import Simulator
 
+SHOWN = 8
+"""How many joints people are shown."""
+
 
 @dataclass(frozen=True, slots=True)
 class Effort:
@@ -85,12 +88,18 @@ def as_text(simulator: Simulator, spent: Effort) -> str:
     for frame, (position, quaternion) in simulator.odometry().items():
         off = hypot(position[0] - pose[0], position[1] - pose[1])
         lines.append(_line(f"odometry {frame}", position, quaternion) + f"  ({1000 * off:.1f} mm from the base)")
+    joints = (*simulator.kinematics.joint_names, *simulator.kinematics.mimic_names)
+    for name in joints[:SHOWN]:
+        unit = "m" if simulator.robot.joint_by_name[name].type == "prismatic" else "rad"
+        lines.append(f"joint {name}: {state.position(name):.4f} {unit}, {state.velocity(name):.4f} {unit}/s")
+    if len(joints) > SHOWN:
+        lines.append(f"and {len(joints) - SHOWN} more joints (--json shows all)")
     touching = {contact.a for contact in state.contacts}
     lines.append(f"on the ground: {', '.join(sorted(touching)) or 'nothing'}")
     return "\n".join(lines)
 
 
 def _line(what: str, position: tuple[float, ...], quaternion: tuple[float, ...]) -> str:
-    x, y, z = position
-    roll, pitch, yaw = to_rpy(quaternion)
+    # Adding zero turns -0.0000 into 0.0000.
+    x, y, z, roll, pitch, yaw = (round(number, 4) + 0.0 for number in (*position, *to_rpy(quaternion)))
     return f"{what}: x {x:.4f} y {y:.4f} z {z:.4f} m, roll {roll:.4f} pitch {pitch:.4f} yaw {yaw:.4f} rad"
