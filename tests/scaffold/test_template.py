@@ -42,6 +42,20 @@ def test_render(small_template, tmp_path):
     assert text == b"box is 1 m: ${x} $(find box) user@example.com @ year 2026\n"
 
 
+def test_compiled_python_is_no_part_of_a_template(small_template, tmp_path):
+    (small_template / "all/@name@/__pycache__").mkdir()
+    (small_template / "all/@name@/__pycache__/a.pyc").write_bytes(b"\xa7\r\r\n")
+    template = load_template(small_template)
+    assert template.render(template.answers({"name": "box"}) | BUILT_IN, tmp_path) == [Path("box/src/box.txt")]
+
+
+def test_what_is_not_text(small_template, tmp_path):
+    (small_template / "all/logo.png").write_bytes(b"\x89PNG\xff")
+    template = load_template(small_template)
+    with pytest.raises(ResourceError, match=r"logo\.png is not UTF-8"):
+        template.render(template.answers({"name": "box"}) | BUILT_IN, tmp_path)
+
+
 def test_layers_by_answer_into_several_folders(small_template, tmp_path):
     template = load_template(small_template)
     answers = template.answers({"name": "box", "colour": "blue"}) | BUILT_IN

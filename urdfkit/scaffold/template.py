@@ -128,7 +128,7 @@ class Template:
         for layer in self.layers:
             if not _applies(layer.when, answers):
                 continue
-            for source in sorted(path for path in layer.folder.rglob("*") if path.is_file()):
+            for source in _sources(layer.folder):
                 for folder in layer.into:
                     name = fill(f"{folder}/{source.relative_to(layer.folder).as_posix()}", answers, where=str(source))
                     target = Path(name)
@@ -159,6 +159,8 @@ class Template:
                     file.write(fill(text, answers, where=str(source)))
             except OSError as error:
                 raise ResourceError(f"cannot write {folder / target}: {error.strerror}") from error
+            except UnicodeDecodeError as error:
+                raise ResourceError(f"template: {source} is not UTF-8: {error.reason}") from error
             targets.append(target)
         return targets
 
@@ -177,6 +179,11 @@ class Template:
             for step in self.next
             if _applies(step.when, answers)
         ]
+
+
+def _sources(folder: Path) -> list[Path]:
+    # pip compiles the launch files among our data, too.
+    return sorted(path for path in folder.rglob("*") if path.is_file() and "__pycache__" not in path.parts)
 
 
 def fill(text: str, answers: Mapping[str, str], *, where: str) -> str:
