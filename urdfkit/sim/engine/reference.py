@@ -170,8 +170,8 @@ class Reference:
     def _point_jacobian(self, body: int, point: Array, axes: list[Array]) -> Array:
         """Return what v moves a point of a body with, in the world; a free body's v is still in its `axes` of now."""
         world = pin.ReferenceFrame.WORLD
-        J = np.array(pin.getJointJacobian(self.model, self.data, body + 1, world))
-        J = J[:3] - pin.skew(point) @ J[3:]
+        spatial = np.array(pin.getJointJacobian(self.model, self.data, body + 1, world))
+        J: Array = spatial[:3] - pin.skew(point) @ spatial[3:]
         for b, kind in enumerate(self.a["kind"]):
             if kind in (FREE, PLANAR):
                 n = 3 if kind == FREE else 2
@@ -233,7 +233,7 @@ class Reference:
         effort, rub, target = a["motor_effort"], a["friction"], a["motor_velocity"]
         both = (effort != 0.0) & (rub != 0.0) & (target != 0.0)
         against = -np.copysign(rub, np.where(np.abs(v) > 1e-9, v, target))
-        return np.where(both, np.where(effort > rub, against, np.copysign(effort, target - v)), 0.0)
+        return np.array(np.where(both, np.where(effort > rub, against, np.copysign(effort, target - v)), 0.0))
 
     def _account(self, v: Array, rows: list[Row]) -> None:
         a, n = self.a, len(v)
