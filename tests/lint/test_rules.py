@@ -1,4 +1,4 @@
-"""Every rule on files of its own: ``<!-- expect: CODE -->`` marks the lines; good files are silent, fixed ones result."""
+"""Every rule on files of its own: ``<!-- expect: CODE -->`` marks lines, good files are silent, fixed ones come out."""
 
 from __future__ import annotations
 

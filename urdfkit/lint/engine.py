@@ -161,7 +161,12 @@ class _Checker:
             return parse(expanded.root) if expanded.root is not None else robot
 
         expanded = expand_leniently(path, arguments=options.arguments, packages=packages, texts=options.texts)
-        robot = parse(expanded.root if expanded.root is not None else _nothing(path))
+        root = expanded.root
+        if root is not None and root.tag != "robot":
+            from urdfkit.errors import ModelError
+
+            raise ModelError(f"<{root.tag}> is no robot description", position=root.origin.position)
+        robot = parse(root if root is not None else _nothing(path))
         self.sources.update(expanded.sources)
         self.files.update({name: Path(name).resolve() for name in expanded.sources})
         return Model(expanded, robot, options.target, as_written)

@@ -7,6 +7,7 @@ the mended text has been linted, and then each file is replaced in one move. Fil
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from urdfkit.errors import ResourceError
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Edit, Finding
 
 _ROUNDS = 10
-_INSTALLED = ("site-packages", "dist-packages")
+_SURROGATE = re.compile("[\ud800-\udfff]")
 
 
 @record(eq=False)
@@ -163,7 +164,8 @@ class _Fixer:
         return Fixed(outcome, changes, fixed, tuple(self.notes))
 
     def _lint(self, texts: dict[Path, str]) -> Outcome:
-        overlay = {str(path): text for path, text in texts.items()}
+        # Lone surrogates stand for bytes that are no UTF-8; the linter saw U+FFFD there.
+        overlay = {str(path): _SURROGATE.sub("\ufffd", text) for path, text in texts.items()}
         return run(self.entries, Options(**{**self.options.__dict__, "texts": overlay}))
 
     def _attempt(self, outcome: Outcome) -> tuple[dict[Path, str], Outcome | None]:

@@ -14,9 +14,11 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-# XML forbids `<` in attribute values: every alternative stops there, so a stray quote cannot swallow the file.
+# What is never closed reaches to the end, so that it is looked at once. XML forbids `<` in attribute values: every
+# alternative stops there, so a stray quote cannot swallow the file.
 _TOKEN = (
-    r"<!--(?P<comment>.*?)-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<!DOCTYPE[^<>\[]*(?:\[.*?\]\s*)?>"
+    r"<!--(?P<comment>.*?)(?:-->|\Z)|<!\[CDATA\[.*?(?:\]\]>|\Z)|<\?.*?(?:\?>|\Z)"
+    r"|<!DOCTYPE[^<>\[]*(?:\[.*?(?:\]|\Z)\s*)?>?"
     r"|<(?P<close>/?)(?P<name>[^\s/>=<!?\"']+)(?P<attributes>(?:[^<>\"'/]|/(?!>)|\"[^\"<]*\"|'[^'<]*')*)(?P<empty>/?)>"
 )
 _ATTRIBUTE = r"([^\s=/\"'<>]+)\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"

@@ -17,9 +17,9 @@ class ConditionalNotBoolean(FaultRule):
     ## Example
     ```xml
     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="gripper" value="parallel"/>
-      <xacro:if value="${gripper}">
-        <link name="finger"/>
+      <xacro:property name="finish" value="steel"/>
+      <xacro:if value="${finish}">
+        <material name="steel"/>
       </xacro:if>
       <link name="base"/>
     </robot>
@@ -28,9 +28,9 @@ class ConditionalNotBoolean(FaultRule):
     ## Use instead
     ```xml
     <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
-      <xacro:property name="gripper" value="parallel"/>
-      <xacro:if value="${gripper == 'parallel'}">
-        <link name="finger"/>
+      <xacro:property name="finish" value="steel"/>
+      <xacro:if value="${finish == 'steel'}">
+        <material name="steel"/>
       </xacro:if>
       <link name="base"/>
     </robot>

@@ -1,0 +1,181 @@
+"""``urdfkit lint`` and ``urdfkit rule`` as commands."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from urdfkit.cli import main
+
+HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+BAD = (
+    f'{HEAD}\n<macro name="part" params="n"><link name="${{n}}"/></macro>\n<part n="a"/>\n<link name="b"/>\n</robot>\n'
+)
+
+
+@pytest.fixture
+def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    folder = tmp_path / "p"
+    (folder / "urdf").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>p</name></package>")
+    (folder / "urdf" / "clean.urdf").write_text('<robot name="c"><link name="a"/></robot>')
+    (folder / "urdf" / "bad.urdf.xacro").write_text(BAD)
+    monkeypatch.chdir(folder)
+    return folder
+
+
+def test_exit_codes_and_output(package, capsys):
+    assert main(["lint", "urdf/clean.urdf"]) == 0
+    assert capsys.readouterr().out == "All checks passed.\n"
+    assert main(["lint"]) == 1
+    out = capsys.readouterr().out
+    assert "urdf/bad.urdf.xacro:2:1: X101 [*] `<macro>`" in out
+    assert out.endswith("Found 3 errors (2 fixable with --fix).\n")
+    assert main(["lint", "--ignore", "X,T", "."]) == 0
+    assert main(["lint", "--select", "T203", "urdf"]) == 1
+    assert capsys.readouterr().out.endswith("Found 1 error.\n")
+
+
+def test_notes_do_not_make_it_fail(package, capsys):
+    tensor = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="2.0001"/>'
+    Path("note.urdf").write_text(
+        f'<robot name="n"><link name="a"><inertial><mass value="1"/>{tensor}</inertial></link></robot>'
+    )
+    assert main(["lint", "note.urdf"]) == 0
+    assert "I503 info:" in capsys.readouterr().out
+
+
+def test_json_is_one_value_with_the_agreed_keys(package, capsys):
+    assert main(["lint", "urdf", "--format", "json"]) == 1
+    findings = json.loads(capsys.readouterr().out)
+    assert [finding["code"] for finding in findings] == ["X101", "X102", "T203"]
+    keys = "code name severity message file line column end_line end_column link joint expansions fix"
+    assert all(set(keys.split()) <= set(finding) for finding in findings)
+    assert findings[0]["fix"]["safety"] == "safe"
+    edit = {"file": "urdf/bad.urdf.xacro", "line": 2, "column": 2, "end_line": 2, "end_column": 2, "text": "xacro:"}
+    assert findings[0]["fix"]["edits"][0] == edit
+    assert (findings[2]["link"], findings[2]["fix"], findings[2]["severity"]) == ("b", None, "error")
+    assert main(["lint", "urdf/clean.urdf", "--format", "json"]) == 0
+    assert json.loads(capsys.readouterr().out) == []
+
+
+def test_fix_writes_and_reports_what_is_left(package, capsys):
+    assert main(["lint", "--fix"]) == 1
+    captured = capsys.readouterr()
+    assert captured.err == "Fixed 2 findings in 1 file (1 × X101, 1 × X102).\n"
+    assert captured.out.endswith("Found 1 error.\n")
+    assert Path("urdf/bad.urdf.xacro").read_text() == BAD.replace("macro name", "xacro:macro name").replace(
+        "</macro>", "</xacro:macro>"
+    ).replace("<part", "<xacro:part")
+    assert main(["lint", "--fix", "--format", "json"]) == 1
+    captured = capsys.readouterr()
+    assert (captured.err, len(json.loads(captured.out))) == ("", 1)
+
+
+def test_diff_writes_nothing(package, capsys):
+    assert main(["lint", "--diff"]) == 1
+    captured = capsys.readouterr()
+    assert '+<xacro:part n="a"/>\n' in captured.out
+    assert captured.err == "1 finding would be left; nothing was written.\n"
+    assert Path("urdf/bad.urdf.xacro").read_text() == BAD
+    assert main(["lint", "--diff", "urdf/clean.urdf"]) == 0
+    assert capsys.readouterr().out == ""
+
+
+def test_statistics(package, capsys):
+    assert main(["lint", "--statistics"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split() == ["1", "T203", "error", "multiple-roots"]
+    assert lines[-1].startswith("Found 3 errors")
+
+
+def test_xacro_arguments(package, capsys):
+    Path("arg.xacro").write_text(f'{HEAD}<link name="$(arg prefix)base"/></robot>')
+    assert main(["lint", "arg.xacro"]) == 1
+    assert main(["lint", "arg.xacro", "prefix:=left_"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (["urdf/claen.urdf"], "did you mean `urdf/clean.urdf`"),
+        (["simpelton"], "did you mean `simpleton`"),
+        (["/no/where"], "no such file"),
+        (["--select", "I53"], "--select I53: there is no such rule"),
+        (["--target", "gzz"], "did you mean `gz`"),
+        (["--unsafe-fixes"], "--unsafe-fixes goes with --fix or --diff"),
+        ([":=5"], "lacks its key"),
+        (["--format", "jsn"], "did you mean `json`"),
+        (["--package-path", "nowhere"], "--package-path nowhere: no such folder"),
+        (["empty"], "no robot description"),
+    ],
+)
+def test_mistakes_are_one_line_and_exit_2(package, capsys, words, complaint):
+    Path("empty").mkdir()
+    assert main(["lint", *words]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.count("\n") == 1
+    assert complaint in captured.err
+    assert "Traceback" not in captured.err
+
+
+def test_hostile_files_are_findings(package, capsys):
+    bomb = '<!DOCTYPE r [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><robot name="&b;"><link name="a"/></robot>'
+    Path("bomb.urdf").write_text(bomb)
+    Path("bytes.urdf").write_bytes(bytes(range(256)))
+    Path("empty.urdf").write_bytes(b"")
+    for name in ("bomb", "bytes", "empty"):
+        assert main(["lint", f"{name}.urdf", "--format", "json"]) == 1
+        (finding,) = json.loads(capsys.readouterr().out)
+        assert (finding["code"], finding["file"]) == ("E001", f"{name}.urdf")
+
+
+def test_colour_choices(package, capsys, monkeypatch):
+    assert main(["lint", "--color", "always"]) == 1
+    assert "\x1b[" in capsys.readouterr().out
+    assert main(["lint"]) == 1
+    assert "\x1b[" not in capsys.readouterr().out
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True, raising=False)
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", "60")
+    assert main(["lint"]) == 1
+    assert "\x1b[" in capsys.readouterr().out
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert main(["lint"]) == 1
+    assert "\x1b[" not in capsys.readouterr().out
+
+
+def test_the_process_loads_no_heavy_modules(package):
+    code = (
+        "import sys; from urdfkit.cli import main; main(['lint', 'urdf/clean.urdf'])\n"
+        "heavy = {'numpy', 'pinocchio', 'trimesh', 'dataclasses', 'inspect', 'json', 'difflib', 'shutil'}\n"
+        "print(sorted(heavy & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.stderr, done.stdout) == ("", "All checks passed.\n[]\n")
+
+
+def test_a_reader_that_goes_away(package):
+    command = f"{sys.executable} -m urdfkit lint . | head -1"
+    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, check=False, env={**os.environ})
+    assert done.stderr == ""
+    assert done.stdout.count("\n") == 1
+
+
+def test_rule_pages_and_catalogue(capsys):
+    assert main(["rule", "I503"]) == 0
+    page = capsys.readouterr().out
+    assert main(["rule", "inertia-triangle-inequality"]) == 0
+    assert capsys.readouterr().out == page
+    assert page.startswith("# inertia-triangle-inequality (I503)\n")
+    assert main(["rule"]) == 0
+    catalogue = capsys.readouterr().out.splitlines()
+    assert any(line.split()[:3] == ["X101", "error", "[*]"] for line in catalogue)
+    assert main(["rule", "I5O3"]) == 2
+    assert "did you mean `I503`" in capsys.readouterr().err

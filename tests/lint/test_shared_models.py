@@ -1,0 +1,77 @@
+"""Precision on real robots and recall on the tutorials' models, where ``../shared`` lies beside the checkout."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from urdfkit.lint import RULES, lint
+from urdfkit.lint.engine import Options, run
+from urdfkit.lint.entries import Entry
+
+SHARED = Path(__file__).parents[2].parent / "shared"
+CODES = {rule.code for rule in RULES}
+
+TRUE_FINDINGS = {
+    # file: {code: how many}, each looked at by hand
+    "anymal-kinova.urdf": {"I502": 1},  # base: a foot of hyq's tensor, 0 0 3e-06
+    "anymal_b_simple_description/robots/anymal.urdf": {"I502": 1},  # the same base
+    "anymal_c_simple_description/urdf/anymal.urdf": {"I502": 1, "I503": 4},  # hatch 0 0 0.003; four depth cameras
+    "finger_edu.urdf": {"I502": 1},  # a rod without thickness
+    "hyq_no_sensors.urdf": {"I502": 5},  # trunk and feet: 0 0 3e-06
+    "romeo.urdf": {"I503": 2},  # right arm: 0.00066 + 0.00068 < 0.0066, the left arm is right
+    "romeo_small.urdf": {"I503": 2},
+    "romeo_laas_small.urdf": {"I502": 3, "I503": 2},
+    "fer.urdf.xacro": {"I503": 1},  # link 4, known to the maker
+    "parser_urdf_atlas.urdf": {"I503": 10},
+}
+
+
+@pytest.mark.skipif(not SHARED.is_dir(), reason="no ../shared")
+def test_robots_that_load_have_no_error_but_true_ones(monkeypatch):
+    corpus = SHARED / "corpus"
+    monkeypatch.chdir(corpus)
+    unexplained = {}
+    used = set()
+    for model in json.loads((corpus / "expected.json").read_text())["models"]:
+        if not model["loads"]:
+            continue
+        outcome = run([Entry(Path(model["entry"]))], Options(arguments=model.get("args") or {}))
+        errors = Counter(finding.code for finding in outcome.findings if finding.severity == "error")
+        known = next((name for name in TRUE_FINDINGS if model["entry"].endswith(f"/{name}")), None)
+        used.add(known)
+        if errors != TRUE_FINDINGS.get(known or "", {}):
+            unexplained[model["entry"]] = errors
+    assert not unexplained
+    assert set(TRUE_FINDINGS) <= used
+
+
+def cases() -> list:
+    return [pytest.param(path, id=path.parent.name) for path in sorted(SHARED.glob("seed_cases/*/expected.json"))]
+
+
+@pytest.mark.parametrize("path", cases())
+def test_defects_of_the_tutorials_are_found(path, monkeypatch):
+    expected = json.loads(path.read_text())
+    monkeypatch.chdir(path.parent)
+    findings = lint(expected["entry"], target=expected["target"])
+
+    def found(code: str, places: list, severities: tuple[str, ...]) -> bool:
+        return any(
+            (finding.code, finding.file) == (code, place["file"])
+            and abs(finding.line - place["line"]) <= 1
+            and finding.severity in severities
+            for finding in findings
+            for place in places
+        )
+
+    for row in expected["must"]:
+        wanted = ("error", "warning", "info") if row.get("level") == "info" else ("error", "warning")
+        codes = [row["code"], *row.get("or", [])]
+        if row["code"] in CODES:
+            assert any(found(code, [row, *row.get("also", [])], wanted) for code in codes), row
+    for row in expected["must_not"]:
+        assert not found(row["code"], [row], ("error", "warning")), row

@@ -1,0 +1,116 @@
+"""The text report: excerpt, caret, chain, widths, colours."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from urdfkit.description.source import Expansion, Position, Source, Span
+from urdfkit.lint.engine import Options, run
+from urdfkit.lint.entries import Entry
+from urdfkit.lint.finding import Finding, Fix
+from urdfkit.lint.report.text import TextReport, statistics, summary
+
+INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="3"/>'
+
+
+def at(line: int, column: int, end: int, **options) -> Finding:
+    span = Span("f.xacro", line, column, line, end)
+    return Finding("T203", "multiple-roots", "error", "wrong", span, **options)
+
+
+def test_a_whole_report(write):
+    text = f"""<xacro:macro name="wheel" params="n">
+  <link name="${{n}}"><inertial><mass value="1"/>
+    {INERTIA}
+  </inertial></link>
+</xacro:macro>
+<xacro:wheel n="a"/>
+<xacro:wheel n="b"/>"""
+    outcome = run([Entry(write("r.xacro", text))], Options(select=("I",)))
+    (finding,) = outcome.findings
+    assert TextReport(outcome.sources).finding(finding) == (
+        "r.xacro:4:5: I503 inertia of link `a` is impossible: "
+        "principal moments 1.00, 1.00, 3.00 kg·m²: 1.00 + 1.00 < 3.00\n"
+        "  |\n"
+        f"4 |     {INERTIA}\n"
+        f"  |     {'^' * len(INERTIA)}\n"
+        "  = in 2 expansions of macro `wheel` (r.xacro:7, :8)\n"
+        "  = help: compute it from shape and mass; placeholders for products of inertia should be 0"
+    )
+
+
+def carets(report: TextReport, finding: Finding) -> tuple[str, str]:
+    lines = report.finding(finding).splitlines()
+    row = next(index for index, line in enumerate(lines) if "^" in line)
+    return lines[row - 1], lines[row]
+
+
+@pytest.mark.parametrize(
+    ("line", "start", "end", "marked"),
+    [
+        ('\t\t<link name="a"/>', 3, 19, '<link name="a"/>'),
+        ('<a b="ü"/><link/>', 11, 18, "<link/>"),
+        ("<link/>", 1, 8, "<link/>"),
+    ],
+)
+def test_the_caret_is_below_what_is_meant(line, start, end, marked):
+    shown, caret = carets(TextReport({"f.xacro": Source("f.xacro", line + "\r\n")}), at(1, start, end))
+    assert shown[caret.index("^") : caret.rindex("^") + 1] == marked
+
+
+def test_wide_letters_take_two_columns():
+    shown, caret = carets(TextReport({"f.xacro": Source("f.xacro", '<a b="轮子"/><c/>')}), at(1, 12, 16))
+    assert caret.index("^") == shown.index("<c/>") + 2
+
+
+@pytest.mark.parametrize("width", [30, 40, 80, 500])
+@pytest.mark.parametrize("start", [1, 60, 200])
+def test_long_lines_are_cut_around_the_place(width, start):
+    text = "x" * (start - 1) + '<link name="a"/>' + "y" * 200
+    shown, caret = carets(TextReport({"f.xacro": Source("f.xacro", text)}, width=width), at(1, start, start + 16))
+    assert max(len(shown), len(caret)) <= width
+    assert shown[caret.index("^") :].startswith("<link")
+
+
+def test_places_without_text_have_no_excerpt():
+    assert TextReport({}).finding(at(3, 1, 2, help="h")) == "f.xacro:3:1: T203 wrong\n   = help: h"
+
+
+def test_severity_and_fix_are_shown():
+    finding = at(1, 1, 2, fix=Fix("safe", "Mend it", ()))
+    assert TextReport({}).finding(finding) == "f.xacro:1:1: T203 [*] wrong\n   = fix (--fix): Mend it"
+    mild = Finding(**{**finding.__dict__, "severity": "info", "fix": Fix("unsafe", "Mend it", ())})
+    assert TextReport({}).finding(mild).splitlines()[0] == "f.xacro:1:1: T203 info: wrong"
+    assert "(--fix --unsafe-fixes): Mend it" in TextReport({}).finding(mild)
+
+
+def test_colours_add_nothing_but_colours():
+    source = {"f.xacro": Source("f.xacro", "<link/>")}
+    finding = at(1, 1, 8, help="h")
+    coloured = TextReport(source, colour=True).finding(finding)
+    assert coloured != TextReport(source).finding(finding)
+    assert re.sub("\x1b\\[[0-9;]*m", "", coloured) == TextReport(source).finding(finding)
+
+
+def test_chains_name_each_call_once_and_what_is_around():
+    def call(macro: str, line: int, file: str = "f.xacro") -> Expansion:
+        return Expansion(macro, Position(file, line, 1))
+
+    one = at(9, 1, 2, chains=((call("a", 5), call("b", 7)),))
+    assert "in the expansion of macro `a` (f.xacro:5), called from `b` (f.xacro:7)" in TextReport({}).finding(one)
+    many = at(9, 1, 2, chains=tuple((call("a", n, "g" if n == 3 else "f"),) for n in range(1, 8)))
+    assert "in 7 expansions of macro `a` (f:1, :2, g:3, f:4, and 3 more)" in TextReport({}).finding(many)
+
+
+def test_summary_and_statistics():
+    error, fixable = at(1, 1, 2), at(2, 1, 2, fix=Fix("safe", "t", ()))
+    unsafe = Finding(**{**error.__dict__, "severity": "warning", "fix": Fix("unsafe", "t", ()), "code": "J405"})
+    note = Finding(**{**error.__dict__, "severity": "info"})
+    assert summary([]) == "All checks passed."
+    assert summary([error]) == "Found 1 error."
+    assert summary([error, fixable, unsafe, note]) == (
+        "Found 2 errors, 1 warning, 1 note (1 fixable with --fix, 1 with --fix --unsafe-fixes)."
+    )
+    assert [line.split()[:2] for line in statistics([unsafe, error, fixable])] == [["2", "T203"], ["1", "J405"]]
