@@ -123,6 +123,7 @@ class Ride:
         self._moving = False
         self._start = (0.0, 0.0)
         self._step_cost = 0.0
+        self._reported = -math.inf
         self._marks: deque[tuple[float, float]] = deque(maxlen=round(1 / STATUS))
         kinematics = simulator.kinematics
         self._root = kinematics.link_names.index(kinematics.root)
@@ -174,6 +175,7 @@ class Ride:
             self.server.declare("fault", message=None)
         else:
             self.simulator.paused = action == "pause"
+        self._marks.clear()
         self._keep_pace_from_here()
 
     def _steer(self) -> None:
@@ -215,8 +217,9 @@ class Ride:
         simulator, now = self.simulator, self._clock()
         poses = simulator.link_poses()
         self.server.publish(simulator.t, poses)
-        if self._marks and now - self._marks[-1][0] < STATUS:
+        if now - self._reported < STATUS:
             return
+        self._reported = now
         self._marks.append((now, simulator.t))
         (wall, t), root = self._marks[0], poses[self._root]
         x, y, z, w = root[3:]

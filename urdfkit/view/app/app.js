@@ -57,9 +57,9 @@ const on = {
     $("sim-time").textContent = `${message.time.toFixed(1)} s`;
     $("rtf").textContent = message.paused ? "paused" : `×${message.real_time_factor.toFixed(2)}`;
     const { x, y, yaw } = message.pose;
-    $("position").textContent = `${x.toFixed(2)}, ${y.toFixed(2)} m`;
-    $("heading").textContent = `${((yaw * 180) / Math.PI).toFixed(0)}°`.replace("-0°", "0°");
-    $("velocity").textContent = `${message.speed.toFixed(2)} m/s`;
+    $("position").textContent = `${fixed(x, 2)}, ${fixed(y, 2)} m`;
+    $("heading").textContent = `${fixed((yaw * 180) / Math.PI, 0)}°`;
+    $("velocity").textContent = `${fixed(message.speed, 2)} m/s`;
     $("pause").querySelector("span").textContent = message.paused ? "Go on" : "Pause";
     $("pause").setAttribute("aria-pressed", message.paused);
     const other = message.driver !== null && message.driver !== me;
@@ -94,6 +94,12 @@ function applied(sequence) {
     scene.settled().then(fit);
   }
   document.body.dataset.frames = Number(document.body.dataset.frames ?? 0) + 1;
+}
+
+// Like toFixed, but nothing is minus zero.
+function fixed(value, digits) {
+  const text = value.toFixed(digits);
+  return Number(text) === 0 ? text.replace("-", "") : text;
 }
 
 function fit() {
