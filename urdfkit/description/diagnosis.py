@@ -44,6 +44,8 @@ def fault_of(error: BaseException, run: Run, caught_in: FrameType | None = None)
     place = place_of_error(error, caught_in)
     position, expansions, attribute = run.where(place)
     facts = _facts(error, place, run)
+    if facts["kind"] == "recursion":
+        expansions = expansions[: len(facts.get("details", {}).get("cycle", ()))]
     return Fault(position=position, expansions=expansions, attribute=attribute, expression=place.expression, **facts)
 
 
@@ -64,7 +66,8 @@ def error_of(error: BaseException, run: Run) -> UrdfkitError:
         later = defined_in(run, fault.kind, fault.name)
         if later is not None:
             message = f"{message.split('; did you mean')[0]} yet: it comes later, at {later}"
-    return XacroError(message + chain_words(fault.expansions), position=fault.position)
+    chain = "" if fault.kind == "recursion" else chain_words(fault.expansions)
+    return XacroError(message + chain, position=fault.position)
 
 
 def undefined_property(name: str, place: Place) -> dict[str, Any]:
@@ -131,7 +134,7 @@ def chain_words(expansions: tuple[Expansion, ...]) -> str:
 def _facts(error: BaseException, place: Place, run: Run) -> dict[str, Any]:
     causes = _causes(error)
     root = causes[-1]
-    text = str(root)
+    text = root.msg if isinstance(root, SyntaxError) else str(root)
     name = type(root).__name__
     if name == "Endless":
         return _endless(root)
@@ -153,6 +156,9 @@ def _facts(error: BaseException, place: Place, run: Run) -> dict[str, Any]:
             return facts(found, place, root)
     if place.expression is not None:
         message = f"cannot evaluate `${{{_short(place.expression)}}}`: {_short(text)}"
+        return {"kind": "bad-expression", "message": message}
+    if place.command is not None:
+        message = f"cannot evaluate `$({_short(place.command)})`: {_short(text)}"
         return {"kind": "bad-expression", "message": message}
     return {"kind": "other", "message": _short(text) or name}
 

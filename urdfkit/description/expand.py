@@ -54,6 +54,7 @@ def expand(
         XmlError: it, or a file it includes, is not well-formed or is hostile.
         XacroError: xacro could not expand it.
     """
+    _check_exists(path)
     packages = packages if packages is not None else Packages(near=path)
     if not (is_xacro(path) if run_xacro is None else run_xacro):
         return _read_plain(path, packages)
@@ -96,6 +97,7 @@ def expand_leniently(
     Raises:
         ResourceError: no such file (the entry; a missing include is a fault).
     """
+    _check_exists(path)
     packages = packages if packages is not None else Packages(near=path)
     if not (is_xacro(path) if run_xacro is None else run_xacro):
         return _read_plain_leniently(path, packages, texts or {})
@@ -136,7 +138,7 @@ def _xacro_for(run: Run) -> Iterator[None]:
 
 
 def _read_plain(path: str | Path, packages: Packages, texts: Mapping[str, str] | None = None) -> Expanded:
-    source = read_source(_existing(path), shown_as=shown_path(path), texts=texts)
+    source = read_source(Path(path), shown_as=shown_path(path), texts=texts)
     return Expanded(
         path=Path(path),
         root=document_of(source),
@@ -166,8 +168,8 @@ def _read_plain_leniently(path: str | Path, packages: Packages, texts: Mapping[s
         )
 
 
-def _existing(path: str | Path) -> Path:
-    """Return the path of a file.
+def _check_exists(path: str | Path) -> None:
+    """Refuse what is no file.
 
     Raises:
         ResourceError: it is a folder or not there, with the nearest name.
@@ -179,4 +181,3 @@ def _existing(path: str | Path) -> Path:
         raise ResourceError(f"{path} is a folder, not a description")
     if not path.exists():
         raise ResourceError(f"no such file: {path}{near_path(path)}")
-    return path

@@ -23,6 +23,7 @@ class Place:
         node: the element; None before the first.
         attribute: the attribute being evaluated; None for text or the element as a whole.
         expression: what is between ``${`` and ``}``, if an expression was being evaluated.
+        command: what is between ``$(`` and ``)``, if a substitution was being evaluated.
         property: name and table of the property whose value was being evaluated, if any.
         symbols: the innermost table of properties.
         macros: the innermost table of macros.
@@ -32,6 +33,7 @@ class Place:
         self.node: Any = None
         self.attribute: str | None = None
         self.expression: str | None = None
+        self.command: str | None = None
         self.property: tuple[str, Any] | None = None
         self.symbols: Any = None
         self.macros: Any = None
@@ -98,7 +100,7 @@ def _look_at_nothing(place: Place, local: dict[str, Any]) -> None:
 def _look_at_eval_all(place: Place, local: dict[str, Any]) -> None:
     node = local.get("node")
     place.macros, place.symbols = local.get("macros"), local.get("symbols")
-    place.expression = place.property = None
+    place.expression = place.command = place.property = None
     if node is None:
         return
     # `next` is set once the loop over the children has begun: until then it is about an attribute of `node`.
@@ -110,7 +112,7 @@ def _look_at_element(place: Place, local: dict[str, Any]) -> None:
     node = local.get("node") or local.get("elt")
     if node is not None:
         place.node, place.attribute = node, None
-        place.expression = place.property = None
+        place.expression = place.command = place.property = None
 
 
 def _look_at_default(place: Place, local: dict[str, Any]) -> None:
@@ -135,6 +137,10 @@ def _look_at_expression(place: Place, local: dict[str, Any]) -> None:
     place.expression = local.get("s")
 
 
+def _look_at_command(place: Place, local: dict[str, Any]) -> None:
+    place.command = local.get("s")
+
+
 _LOOK = {
     "eval_all": _look_at_eval_all,
     "handle_macro_call": _look_at_element,
@@ -146,6 +152,7 @@ _LOOK = {
     "_resolve_": _look_at_resolve,
     "eval_text": _look_at_text,
     "handle_expr": _look_at_expression,
+    "handle_extension": _look_at_command,
 }
 
 

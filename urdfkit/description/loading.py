@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from urdfkit.description.element import Element
-from urdfkit.description.expand import expand
+from urdfkit.description.expand import expand, is_xacro
 from urdfkit.description.expanded import Expanded
 from urdfkit.description.packages import Packages
 from urdfkit.description.parse import parse
@@ -46,7 +46,14 @@ def load(
         ModelError: it is not a robot, or not one tree, or a value cannot be used.
     """
     packages = Packages(package_path, path)
-    return robot_of(expand(path, arguments=arguments, packages=packages))
+    expanded = expand(path, arguments=arguments, packages=packages)
+    try:
+        return robot_of(expanded)
+    except ModelError as error:
+        if is_xacro(path) or not _holds_xacro(expanded):
+            raise
+        hint = "; it holds xacro, which is not run on .urdf files: call it .urdf.xacro"
+        raise ModelError(error.message + hint, position=error.position) from None
 
 
 def robot_of(expanded: Expanded) -> Robot:
@@ -65,6 +72,10 @@ def robot_of(expanded: Expanded) -> Robot:
     robot = parse(root, files=expanded.files, packages=expanded.packages)
     check(robot)
     return robot
+
+
+def _holds_xacro(expanded: Expanded) -> bool:
+    return any("${" in source.text or "<xacro:" in source.text for source in expanded.sources.values())
 
 
 def check_is_robot(root: Element) -> None:

@@ -57,6 +57,7 @@ def parse(root: Element, *, files: tuple[Path, ...] = (), packages: Packages | N
     name = reader.text(root, "name") if root.tag == "robot" else root.get("name")
     links, joints, materials, transmissions, gazebo, controls = [], [], [], [], [], []
     for child in root.children:
+        reader.subject = ""
         if child.tag == "link":
             links.append(_link(reader, child))
         elif child.tag == "joint":
@@ -85,7 +86,7 @@ def parse(root: Element, *, files: tuple[Path, ...] = (), packages: Packages | N
 
 
 def _link(reader: Reader, element: Element) -> Link:
-    name = reader.text(element, "name") or ""
+    name = _name(reader, element)
     inertial = element.find("inertial")
     return Link(
         name,
@@ -183,12 +184,14 @@ def _material(reader: Reader, element: Element) -> Material:
 
 
 def _joint(reader: Reader, element: Element) -> Joint:
-    name = reader.text(element, "name") or ""
-    kind = reader.text(element, "type")
-    if kind is not None and kind not in JOINT_TYPES:
+    name = _name(reader, element)
+    kind = element.get("type")
+    if kind is None:
+        reader.note("missing", f"no type; types are {', '.join(JOINT_TYPES)}", element, "type")
+    elif kind not in JOINT_TYPES:
         hint = did_you_mean(kind, JOINT_TYPES) or f"; types are {', '.join(JOINT_TYPES)}"
-        reader.note("unknown-value", f"joint `{name}` has the unknown type `{kind}`{hint}", element, "type")
-    parent, child = (_linked(reader, element, name, end) for end in ("parent", "child"))
+        reader.note("unknown-value", f"unknown type `{kind}`{hint}", element, "type")
+    parent, child = (_linked(reader, element, end) for end in ("parent", "child"))
     axis = element.find("axis")
     direction = reader.vector(axis, "xyz") if axis is not None else None
     return Joint(
@@ -207,10 +210,18 @@ def _joint(reader: Reader, element: Element) -> Joint:
     )
 
 
-def _linked(reader: Reader, joint: Element, name: str, end: str) -> str | None:
+def _name(reader: Reader, element: Element) -> str:
+    """Return the name of a link or joint, empty when it has none, and speak of it from here on."""
+    reader.subject = ""
+    name = reader.text(element, "name") or ""
+    reader.subject = f"{element.tag} `{name}`" if name else ""
+    return name
+
+
+def _linked(reader: Reader, joint: Element, end: str) -> str | None:
     element = joint.find(end)
     if element is None:
-        reader.note("missing", f"joint `{name}` lacks <{end} link=…>", joint)
+        reader.note("missing", f"no <{end} link=…>", joint)
         return None
     return reader.text(element, "link")
 

@@ -16,8 +16,8 @@ from urdfkit.description.expanded import Expanded
 from urdfkit.description.faults import Fault, Unprefixed
 from urdfkit.description.frames import Place, place_of_call
 from urdfkit.description.prefixes import looks_like_a_call, mend_directives, rename
-from urdfkit.description.reading import stamped_document
-from urdfkit.description.run import Run
+from urdfkit.description.reading import shown_path, stamped_document
+from urdfkit.description.run import MAX_MACRO_CALLS, Run
 from urdfkit.description.source import Position, Source
 from urdfkit.description.unknown import FallbackSymbols, Unknown, peek
 from urdfkit.description.vocabulary import TAGS
@@ -69,6 +69,7 @@ class RecoveringRun(Run):
         self._unresolved: set[tuple[Position, str | None]] = set()
         self._strangers: set[str] = set()
         self._included = ""
+        self._endless: set[str] = set()
         self._tables: tuple[Any, Any] | None = None
         self._evaluating = 0
         self._found_unknown = False
@@ -222,6 +223,9 @@ class RecoveringRun(Run):
         """Include a file, or drop the include when that fails."""
         depth = len(self.xacro.filestack), len(self.xacro.macrostack)
         parent = elt.parentNode
+        if shown_path(self.xacro.filestack[-1]) in self._endless:
+            _drop(elt, parent)
+            return
         try:
             self.stock["process_include"](elt, macros, symbols, func)
         except Exception as error:
@@ -248,6 +252,8 @@ class RecoveringRun(Run):
             tag = rename(node)
         depth = len(self.xacro.filestack), len(self.xacro.macrostack)
         parent = node.parentNode
+        if tag[6:] in self._endless or self._calls > MAX_MACRO_CALLS:
+            return _drop(node, parent)
         try:
             if tag != "xacro:call":
                 macro = self._macro(tag[6:], macros, symbols)
@@ -318,6 +324,8 @@ class RecoveringRun(Run):
                 macros[name] = dict.__getitem__(table_of_macros, name)
 
     def _note(self, fault: Fault) -> None:
+        # What calls itself twice would be tried a power of two times.
+        self._endless.update(fault.details.get("cycle", ()) if fault.kind == "recursion" else ())
         key = (fault.kind, fault.position, fault.attribute, fault.name, fault.message, fault.expansions)
         self.faults.setdefault(key, fault)
 

@@ -30,7 +30,7 @@ MAX_MACRO_DEPTH = 400
 MAX_INCLUDE_DEPTH = 60
 """Files that include one another."""
 
-MAX_MACRO_CALLS = 200_000
+MAX_MACRO_CALLS = 20_000
 """Macro calls in one run, against macros that multiply each other; a large robot needs some hundreds."""
 
 
@@ -196,7 +196,7 @@ class Run:
             return self.stock["parse"](inp, filename)
         stack = self.xacro.filestack
         if len(stack) > MAX_INCLUDE_DEPTH:
-            raise Endless(_cycle([shown_path(name) for name in stack]), "file")
+            raise Endless(cycle([shown_path(name) for name in stack]), "file")
         try:
             source = self._read(Path(filename))
         except (OSError, ResourceError) as error:
@@ -258,7 +258,7 @@ class Run:
         self._calls += 1
         stack = self.xacro.macrostack
         if len(stack) >= MAX_MACRO_DEPTH:
-            raise Endless(_cycle([macro.body.getAttribute("name") for macro in stack]), "macro")
+            raise Endless(cycle([macro.body.getAttribute("name") for macro in stack]), "macro")
         if self._calls > MAX_MACRO_CALLS:
             raise self.xacro.XacroException(f"more than {MAX_MACRO_CALLS} macro calls: do macros multiply each other?")
         outer, self._calling = self._calling, node
@@ -357,7 +357,7 @@ class Run:
         self.warnings.append(Warned(" ".join(map(str, words)), position, expansions, level))
 
 
-def _cycle(names: list[str]) -> tuple[str, ...]:
+def cycle(names: list[str]) -> tuple[str, ...]:
     """Return the loop at the end of a stack of names, first name repeated."""
     last = names[-1]
     for distance in range(1, len(names)):

@@ -20,6 +20,8 @@ class Reader:
 
     def __init__(self) -> None:
         self.problems: list[Problem] = []
+        self.subject = ""
+        """The link or joint being read, for the messages."""
 
     def note(self, kind: ProblemKind, message: str, element: Element, attribute: str | None = None) -> None:
         """Note a problem.
@@ -30,7 +32,8 @@ class Reader:
             element: what it is about.
             attribute: which of its attributes.
         """
-        self.problems.append(Problem(kind, message, element, attribute))
+        subject = f"{self.subject}: " if self.subject else ""
+        self.problems.append(Problem(kind, subject + message, element, attribute))
 
     def text(self, element: Element, attribute: str) -> str | None:
         """Return an attribute that has to be there; note it when missing."""
