@@ -69,7 +69,7 @@ def stub_gazebo_ros(src):
 
 @pytest.mark.parametrize("name", ["scout", "simpleton"])
 def test_catkin(workspace, with_xacro, name):
-    require("catkin catkin-lint python3-roslaunch", "catkin_make", "catkin_lint", "roslaunch", "rospack")
+    require("catkin catkin-lint python3-roslaunch rospack-tools", "catkin_make", "catkin_lint", "roslaunch", "rospack")
     src = workspace / "src"
     if name == "simpleton":
         for package in robots_dir().glob("simpleton/*_*"):
@@ -91,7 +91,7 @@ def test_catkin(workspace, with_xacro, name):
 
 def test_colcon(workspace):
     require(
-        "colcon python3-colcon-ros python3-colcon-cmake python3-colcon-recursive-crawl ament-cmake",
+        "colcon python3-colcon-{ros,cmake,recursive-crawl,output} ament-cmake",
         "colcon",
         "cmake",
         modules=("colcon_ros", "colcon_cmake", "colcon_recursive_crawl", "ament_package"),
