@@ -1,9 +1,9 @@
 """Steps per CPU second of the engine beside MuJoCo and PyBullet on the same scenes.
 
-Run it: ``python tests/bench/bench_sim.py [--seconds 2] [--rounds 3] [--json]``. Every engine gets the same model, step and
-targets; the engines take turns, and the best round of each counts, because other programs only ever take time away. MuJoCo
-runs at its fastest settings for these scenes (implicitfast, Newton, pyramidal cone, one warm-started iteration budget left
-at its default) with many steps per call; PyBullet has no such call.
+Run it: ``python tests/bench/bench_sim.py [--seconds 2] [--rounds 3] [--json]``. Every engine gets the same model, step
+and targets; the engines take turns, and the best round of each counts, because other programs only ever take time away.
+MuJoCo runs at its fastest settings for these scenes (implicitfast, Newton, pyramidal cone), with many steps a call too;
+PyBullet has no such call.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ ixz="0" iyz="0"/></inertial><collision><geometry><cylinder radius="0.06" length=
 <joint name="{side}_wheel" type="continuous"><origin xyz="0 {y} 0" rpy="-1.5707963267948966 0 0"/><parent link="base"/>
 <child link="{side}"/><axis xyz="0 0 1"/></joint>"""
 
-DIFF_DRIVE = f"""<robot name="diff_drive"><link name="base"><inertial><origin xyz="0.04 0 0.01"/><mass value="5"/><inertia
-ixx="0.05" iyy="0.07" izz="0.09" ixy="0" ixz="0" iyz="0"/></inertial><collision><origin xyz="0 0 0.03"/><geometry>
-<box size="0.3 0.2 0.05"/></geometry></collision><collision><origin xyz="0.12 0 -0.03"/><geometry><sphere
+DIFF_DRIVE = f"""<robot name="diff_drive"><link name="base"><inertial><origin xyz="0.04 0 0.01"/><mass value="5"/>
+<inertia ixx="0.05" iyy="0.07" izz="0.09" ixy="0" ixz="0" iyz="0"/></inertial><collision><origin xyz="0 0 0.03"/>
+<geometry><box size="0.3 0.2 0.05"/></geometry></collision><collision><origin xyz="0.12 0 -0.03"/><geometry><sphere
 radius="0.03"/></geometry></collision></link>{WHEEL.format(side="left", y=0.15)}{WHEEL.format(side="right", y=-0.15)}
 </robot>"""
 
@@ -53,8 +53,8 @@ ARM = (
 )
 
 BOX = """<robot name="box"><link name="base"><inertial><mass value="2"/><inertia ixx="0.0166667" iyy="0.00833333"
-izz="0.0216667" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry><box size="0.2 0.3 0.1"/></geometry></collision>
-</link></robot>"""
+izz="0.0216667" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry><box size="0.2 0.3 0.1"/></geometry>
+</collision></link></robot>"""
 
 TARGET = np.array([0.3, 0.8, -0.4, 1.0, 0.2, -0.7, 0.5])
 KP, KD = 2000.0, 60.0
@@ -97,7 +97,8 @@ def mujoco_model(scene: str) -> tuple[Any, Any]:
     plane = '<geom type="plane" size="50 50 1" friction="1 0.005 0.0001"/>'
     wheel = (
         '<body pos="0 {y} 0" euler="-90 0 0"><joint name="{n}" axis="0 0 1"/><inertial pos="0 0 0" mass="0.4" '
-        'diaginertia="0.0005 0.0005 0.0009"/><geom type="cylinder" size="0.06 0.015" contype="2" conaffinity="1"/></body>'
+        'diaginertia="0.0005 0.0005 0.0009"/>'
+        '<geom type="cylinder" size="0.06 0.015" contype="2" conaffinity="1"/></body>'
     )
     if scene == "diff_drive":
         text = (

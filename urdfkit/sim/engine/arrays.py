@@ -40,6 +40,7 @@ FLOATS: dict[str, Size] = {
     "shape_radius": ("k",),
     "shape_mu": ("k",),
     "vertices": ("p", "3"),
+    "extreme": ("8",),
     "base": ("3",),
     "gravity": ("3",),
     "numbers": ("4",),
@@ -116,6 +117,7 @@ INTEGERS: dict[str, Size] = {
     "slot": ("r",),
     "state": ("r",),
     "index": ("r",),
+    "extreme_vertex": ("8",),
     "saturated": ("d",),
     "counts": ("8",),
 }

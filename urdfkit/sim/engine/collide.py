@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.spatial import (
     add,
     compose,
@@ -31,9 +31,11 @@ either edge, would scrub whenever the robot turns. Any other cylinder lies on bo
 """
 FEATURES = (1, 8, 6, 6, 2, 0)
 """Features of each kind; a hull has one for each vertex."""
-MOST = (1, 4, 6, 5, 2, 4)
+MOST = (1, 4, 6, 5, 2, 8)
 """Most contacts each kind can have at once."""
 
+DIRECTIONS = 8
+"""A hull touches with the vertices that reach out furthest in so many directions, of those that can touch at all."""
 LEANING = 0.02
 """Tilt [rad] over which the contact of a leaning wheel moves from the middle of its rim to the edge."""
 STANDING = 0.5
@@ -68,6 +70,50 @@ def reaches(
 
 
 @inlined
+def can_close(gap: float, point: Any, velocity: Any, dt: float) -> bool:
+    """Return whether a point of a body that moves with `velocity` can reach the plane within a step."""
+    speed = velocity[0][2] + cross(velocity[1], point)[2]
+    return bool(gap <= 2.0 * dt * abs(speed) + dt * dt * REACH)
+
+
+@compiled
+def find_extremes(
+    first: int,
+    beyond: int,
+    vertices: Any,
+    axes: Any,
+    centre: Any,
+    floor: float,
+    dt: float,
+    velocity: Any,
+    extreme: Any,
+    extreme_vertex: Any,
+) -> None:
+    """Find, of the vertices of a hull that can touch, those furthest out in each direction."""
+    for j in range(DIRECTIONS):
+        extreme[j], extreme_vertex[j] = -math.inf, -1
+    for k in range(first, beyond):
+        offset = rotate(axes, load_vector(vertices, k))
+        point = add(centre, offset)
+        if can_close(point[2] - floor, point, velocity, dt):
+            for j in range(DIRECTIONS):
+                # Off the axes, along which edges of parts tend to lie.
+                angle = 2.0 * math.pi * j / DIRECTIONS + 0.2
+                reach = math.cos(angle) * offset[0] + math.sin(angle) * offset[1]
+                if reach > extreme[j]:
+                    extreme[j], extreme_vertex[j] = reach, k - first
+
+
+@inlined
+def has_feature(count: int, feature: int, contact_feature: Any) -> bool:
+    """Return whether a contact of this feature has been noted."""
+    for k in range(count):  # noqa: SIM110
+        if contact_feature[k] == feature:
+            return True
+    return False
+
+
+@inlined
 def touch(
     count: int,
     most: int,
@@ -87,9 +133,7 @@ def touch(
 ) -> int:
     """Note a contact at `point` if it can close within a step; return how many there are."""
     gap = point[2] - floor
-    velocity = load_spatial(twist, body)
-    speed = velocity[0][2] + cross(velocity[1], point)[2]
-    if gap > 2.0 * dt * abs(speed) + dt * dt * REACH or count >= most:
+    if count >= most or not can_close(gap, point, load_spatial(twist, body), dt):
         return count
     contact_body[count] = body
     contact_feature[count] = feature
@@ -115,6 +159,8 @@ def collide_with_plane(
     shape_radius: Any,
     shape_mu: Any,
     vertices: Any,
+    extreme: Any,
+    extreme_vertex: Any,
     floor: float,
     dt: float,
     R: Any,
@@ -147,7 +193,19 @@ def collide_with_plane(
             elif kind == CAPSULE:
                 found = 2
             elif kind == HULL:
-                found = shape_vertex[k + 1] - shape_vertex[k]
+                find_extremes(
+                    shape_vertex[k],
+                    shape_vertex[k + 1],
+                    vertices,
+                    axes,
+                    centre,
+                    floor,
+                    dt,
+                    load_spatial(twist, body),
+                    extreme,
+                    extreme_vertex,
+                )
+                found = DIRECTIONS
             else:
                 found = 5 if kind == WHEEL else 6
         for j in range(found):
@@ -161,7 +219,11 @@ def collide_with_plane(
                 end = size[1] if j == 0 else -size[1]
                 point = add(centre, (end * axes[2], end * axes[5], end * axes[8] - size[0]))
             elif kind == HULL:
-                point = add(centre, rotate(axes, load_vector(vertices, shape_vertex[k] + j)))
+                # Two directions may find the same vertex.
+                part = extreme_vertex[j]
+                if part < 0 or has_feature(count, feature + part, contact_feature):
+                    continue
+                point = add(centre, rotate(axes, load_vector(vertices, shape_vertex[k] + part)))
             else:
                 valid, offset = cylinder_point(j, kind == WHEEL, axes, size[0], size[1])
                 if not valid:

@@ -155,7 +155,7 @@ def fill(
     joints = [model.joints[i] for i in range(1, model.njoints)]
     widths = [joint.nv if joint.nv < 6 else 7 for joint in joints]
     features = [_features(touch) for touch in touches]
-    contacts = sum(min(collide.MOST[touch.kind] or 99, n) for touch, n in zip(touches, features, strict=True))
+    contacts = sum(min(collide.MOST[touch.kind], n) for touch, n in zip(touches, features, strict=True))
     mimics = [kinematics.couplings[name] for name in kinematics.mimic_names]
     rows = len(mimics) + 2 * dofs + 3 * contacts
     slots = 2 * dofs + len(mimics) + 3 * sum(features)

@@ -25,6 +25,8 @@ def find_contacts(floats: Any, integers: Any) -> int:
         field(floats, integers, At.shape_radius),
         field(floats, integers, At.shape_mu),
         field(floats, integers, At.vertices),
+        field(floats, integers, At.extreme),
+        field(integers, integers, At.extreme_vertex),
         numbers[FLOOR] - floats[integers[At.P] + 2],
         numbers[DT],
         field(floats, integers, At.R),

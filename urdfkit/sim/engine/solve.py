@@ -52,7 +52,7 @@ def factor_and_solve(n: int, B: Any, x: Any) -> bool:
     return True
 
 
-@inlined
+@compiled
 def eliminate_and_solve(n: int, B: Any, x: Any) -> bool:
     """Solve B·x = x in place; return whether B was regular (Gauss with partial pivoting)."""
     for k in range(n):

@@ -69,6 +69,8 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     shape_radius = field(floats, integers, At.shape_radius)
     shape_mu = field(floats, integers, At.shape_mu)
     vertices = field(floats, integers, At.vertices)
+    extreme = field(floats, integers, At.extreme)
+    extreme_vertex = field(integers, integers, At.extreme_vertex)
     base = field(floats, integers, At.base)
     gravity = field(floats, integers, At.gravity)
     numbers = field(floats, integers, At.numbers)
@@ -220,6 +222,8 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                         shape_radius,
                         shape_mu,
                         vertices,
+                        extreme,
+                        extreme_vertex,
                         floor - P[2],
                         dt,
                         R,

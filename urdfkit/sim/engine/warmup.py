@@ -15,6 +15,7 @@ KERNEL_MODULES = (
     "compilation",
     "dynamics",
     "integrate",
+    "parts",
     "rows",
     "servo",
     "solve",

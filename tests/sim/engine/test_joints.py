@@ -1,0 +1,109 @@
+"""Mimic joints, limits, soundness, shapes: what a robot's joints and links are taken for."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from urdfkit.errors import SimulationError
+from urdfkit.sim.engine import collide
+
+BODY = (
+    '<link name="{name}"><inertial><origin xyz="0 0 0.1"/><mass value="1"/>'
+    '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>'
+)
+GRIPPER = (
+    '<robot name="gripper"><link name="base"/>'
+    + BODY.format(name="left")
+    + BODY.format(name="right")
+    + '<joint name="a" type="revolute"><parent link="base"/><child link="left"/><axis xyz="1 0 0"/>'
+    '<limit lower="-1" upper="1.5" effort="10" velocity="5"/></joint>'
+    '<joint name="b" type="revolute"><parent link="base"/><child link="right"/><axis xyz="0 1 0"/>'
+    '<limit lower="-3" upper="3" effort="10" velocity="5"/>'
+    '<mimic joint="a" multiplier="-2" offset="0.1"/></joint></robot>'
+)
+
+
+def test_mimic_joint_follows_and_both_carry_the_load(engine_of):
+    engine = engine_of(GRIPPER, gravity=(0.0, 0.0, 0.0))
+    a, b = (engine.kinematics.velocity_index(name) for name in "ab")
+    engine.applied[a] = 0.3
+    engine.step(500)
+    # The effort moves I + (-2)²·I, I = 0.01 + 1·0.1².
+    assert engine.v[a] == pytest.approx(0.5 * 0.3 / (0.02 * 5.0), rel=1e-6)
+    assert engine.positions[b] == pytest.approx(-2.0 * engine.positions[a] + 0.1, abs=1e-6)
+
+
+def test_mimic_joint_of_a_motor(engine_of):
+    engine = engine_of(GRIPPER)
+    a, b = (engine.kinematics.velocity_index(name) for name in "ab")
+    engine.motor_velocity[a], engine.motor_effort[a] = 0.5, 50.0
+    engine.step(1000)
+    assert engine.positions[a] == pytest.approx(0.5, abs=1e-3)
+    assert engine.positions[b] == pytest.approx(-2.0 * engine.positions[a] + 0.1, abs=1e-6)
+
+
+def test_damping_slows_as_an_exponential(engine_of):
+    text = GRIPPER.replace('<mimic joint="a" multiplier="-2" offset="0.1"/>', '<dynamics damping="0.04"/>')
+    engine = engine_of(text, gravity=(0.0, 0.0, 0.0))
+    b = engine.kinematics.velocity_index("b")
+    v = np.zeros(2)
+    v[b] = 1.0
+    engine.reset(None, v)
+    engine.step(500)
+    assert engine.v[b] == pytest.approx(math.exp(-0.04 / 0.02 * 0.5), rel=2e-3)
+    assert engine.tau[b] == pytest.approx(-0.04 * engine.v[b], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("broken", "lacks"),
+    [('<mass value="1"/>', "mass"), ('<inertial><origin xyz="0 0 0.1"/><mass value="1"/>', "mass")],
+)
+def test_a_joint_with_nothing_to_move_is_refused(engine_of, broken, lacks):
+    text = GRIPPER.replace(broken, broken.replace('value="1"', 'value="0"')).replace("0.01", "0")
+    with pytest.raises(
+        SimulationError, match=rf"probe.urdf:\d+:\d+: joint `a` moves link `left`, which has no {lacks}"
+    ):
+        engine_of(text)
+
+
+def test_wrong_states_are_refused(engine_of):
+    engine = engine_of(GRIPPER)
+    with pytest.raises(SimulationError, match="shape"):
+        engine.reset(np.zeros(3))
+    with pytest.raises(SimulationError, match="not finite"):
+        engine.reset(np.array([0.0, math.nan]))
+    with pytest.raises(SimulationError, match="no step"):
+        engine_of(GRIPPER, dt=0.0)
+
+
+def test_a_cylinder_that_turns_about_its_axis_is_a_wheel(engine_of):
+    kinds = [touch.kind for touch in engine_of("diff_drive")._touches]
+    assert kinds == [collide.BOX, collide.SPHERE, collide.WHEEL, collide.WHEEL]
+    assert [touch.kind for touch in engine_of("can")._touches] == [collide.CYLINDER]
+
+
+MESH = """<robot name="m"><link name="base"><inertial><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0"
+ixz="0" iyz="0"/></inertial><collision><geometry><mesh filename="{file}"/></geometry></collision></link></robot>"""
+
+
+@pytest.mark.parametrize("kind", ["box", "cylinder"])
+def test_a_mesh_stands_on_its_convex_hull(engine_of, tmp_path, kind):
+    import trimesh
+
+    if kind == "box":
+        mesh = trimesh.creation.box((0.2, 0.3, 0.1))
+    else:
+        mesh = trimesh.creation.cylinder(radius=0.1, height=0.1, sections=64)
+    mesh.export(tmp_path / "part.stl")
+    engine = engine_of(MESH.format(file=str(tmp_path / "part.stl")), floating=True)
+    q = engine.kinematics.neutral()
+    q[2] = 0.06
+    engine.reset(q)
+    engine.step(1000)
+    assert engine.q[2] == pytest.approx(0.05, abs=1e-6)
+    assert np.abs(engine.v).max() < 1e-9
+    assert 3 <= len(engine.contacts()) <= 8
+    assert sum(contact.force[2] for contact in engine.contacts()) == pytest.approx(9.81, rel=1e-6)

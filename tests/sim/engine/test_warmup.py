@@ -1,0 +1,80 @@
+"""Compiling and caching of the kernel."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import urdfkit.sim.engine
+from urdfkit.sim.engine import warmup
+from urdfkit.sim.engine.arrays import At, field
+from urdfkit.sim.engine.warmup import KERNEL_MODULES, load_compiled, sources_digest
+
+FOLDER = Path(urdfkit.sim.engine.__file__).parent
+
+
+def tiny(floats, integers):
+    return integers[0] + 1
+
+
+def test_a_second_warmup_has_nothing_to_compile():
+    warmup()
+    told = []
+    assert warmup(told.append) is False
+    assert told == []
+
+
+def test_every_module_with_compiled_functions_is_in_the_digest():
+    compiled = {
+        path.stem
+        for path in FOLDER.glob("*.py")
+        if "@inlined" in path.read_text() or "@compiled" in path.read_text() or path.stem in ("step", "parts")
+    }
+    assert compiled <= set(KERNEL_MODULES)
+
+
+def test_another_digest_means_another_cache():
+    one = load_compiled(tiny, ("floats", "integers"), digest="one")
+    other = load_compiled(tiny, ("floats", "integers"), digest="other")
+    assert one is not other
+    assert one.__qualname__ != other.__qualname__
+
+
+def test_digest_follows_the_sources():
+    assert len(sources_digest()) == 64
+
+
+SCRIPT = """
+import sys, warnings
+warnings.simplefilter("error")
+from urdfkit.sim.engine.warmup import load_compiled
+import numpy as np
+def tiny(floats, integers):
+    return integers[0] + 1
+sys.modules["__main__"].__dict__["tiny"] = tiny
+told = load_compiled(tiny, ("floats", "integers"), digest="x")
+print(told(np.zeros(1), np.array([41])))
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs a folder that cannot be written")
+def test_a_cache_that_cannot_be_written_is_no_failure(tmp_path):
+    script = tmp_path / "probe.py"
+    script.write_text(SCRIPT)
+    environment = {**os.environ, "NUMBA_CACHE_DIR": "/proc/nowhere", "HOME": "/proc/nowhere"}
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, env=environment, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.strip() == "42"
+    assert done.stderr == ""
+
+
+def test_field_reads_the_block_it_is_told():
+    import numpy as np
+
+    integers = np.zeros(200, dtype=np.int64)
+    integers[At.mass], integers[At.mass + 1] = 3, 5
+    assert field(np.arange(9.0), integers, int(At.mass)).tolist() == [3.0, 4.0]
