@@ -4,7 +4,6 @@ import signal
 import socket
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -143,6 +142,26 @@ def test_saving_shows_the_change_and_keeps_joints_and_camera(serve, visits, keep
 
 
 @pytest.mark.browser
+def test_a_mesh_used_four_times_is_fetched_once(serve, visits, keep, until, tmp_path: Path) -> None:
+    import trimesh
+
+    trimesh.creation.annulus(0.05, 0.1, 0.04).export(tmp_path / "wheel.stl")
+    links = "".join(
+        f"""<link name="w{i}"><visual><geometry><mesh filename="wheel.stl" scale="1 1 2"/></geometry></visual></link>
+        <joint name="j{i}" type="continuous"><parent link="base"/><child link="w{i}"/>
+        <origin xyz="{0.3 * (i % 2)} {0.3 * (i // 2)} 0.1" rpy="1.5708 0 0"/></joint>"""
+        for i in range(4)
+    )
+    (tmp_path / "cart.urdf").write_text(f'<robot name="cart"><link name="base"/>{links}</robot>')
+    page = visits.open(serve("view", "cart.urdf").url)
+    assert sum("/geometry/" in url for url in visits.requests) == 1
+    size = "new MeshCat.THREE.Box3().setFromObject(urdfkit.link(1)).getSize(new MeshCat.THREE.Vector3()).toArray()"
+    assert page.evaluate(size) == pytest.approx([0.2, 0.2, 0.08], abs=1e-3)
+    keep(page, "mesh")
+    assert visits.problems == []
+
+
+@pytest.mark.browser
 def test_nobody_gets_in_without_the_key(serve, visits, keep, arm: Path) -> None:
     served = serve("view", str(arm))
     visits.open(served.url)
@@ -254,10 +273,8 @@ def test_a_busy_port_names_a_free_one(serve, arm: Path, capfd) -> None:
     ],
 )
 def test_what_is_not_installed_is_one_line(monkeypatch, capfd, gone: list[str], platform: str, expected: str) -> None:
-    import importlib.util
-
-    real: Callable[[str], object] = importlib.util.find_spec
-    monkeypatch.setattr(importlib.util, "find_spec", lambda name, *rest: None if name in gone else real(name, *rest))
+    for module in gone:
+        monkeypatch.setitem(sys.modules, module, None)
     monkeypatch.setattr(sys, "platform", platform)
     assert main(["view", "x.urdf"]) == 2
     error = capfd.readouterr().err

@@ -169,6 +169,15 @@ def test_nonsense_is_dropped_with_a_word_in_the_log(page, server, until, caplog,
     assert server.driver.axes is None
 
 
+def test_a_page_that_talks_nonsense_all_day_does_not_fill_the_log(page, server, until, caplog) -> None:
+    with caplog.at_level(logging.WARNING, "urdfkit.view"):
+        for _ in range(100):
+            page.send("nonsense")
+        page.send('{"type":"joints","positions":{"lift":0.2}}')
+        until(server.inbox.take)
+    assert caplog.text.count("dropped") == 10
+
+
 def test_two_thousand_random_frames_leave_it_serving(client, page, server, until) -> None:
     chance = random.Random(7)
     kinds = [b'{"type":"joints","positions":{"lift":', b'{"type":"axes","axes":[', b"{", b"\x01", b"\xff\xfe", b""]

@@ -54,12 +54,11 @@ def require_page(command: str, extra: str, *, beside: Sequence[str] = ()) -> Non
         missing.append("pinocchio")
     if not missing:
         return
+    if "pinocchio" in missing and sys.platform != "linux":
+        from urdfkit.kinematics.requirement import require_pinocchio
+
+        require_pinocchio(command)  # knows the platforms it has no wheels for, and says what to do there
     names = " and ".join([", ".join(missing[:-1]), missing[-1]] if len(missing) > 1 else missing)
-    if sys.platform == "win32":
-        raise MissingDependencyError(
-            f"{command} needs {names}, and Pinocchio has no wheels for Windows: in WSL (wsl --install) run "
-            f"pip install 'urdfkit[{extra}]'"
-        )
     raise MissingDependencyError(f"{command} needs {names}: pip install 'urdfkit[{extra}]'")
 
 

@@ -26,7 +26,9 @@ MAX_INBOUND = 64 * 1024
 """Longest frame accepted from a browser [byte]."""
 MAX_JOINTS = 2000
 MAX_MAGNITUDE = 1e6
-"""Largest joint position or speed accepted [SI]."""
+"""Largest joint position accepted [rad or m]."""
+MAX_SPEED = 1000.0
+"""Largest speed accepted [m/s, rad/s]; the default limit of teleop_twist_keyboard."""
 ACTIONS = ("play", "pause", "reset")
 
 POSE_HEADER = struct.Struct("<BBHId")
@@ -126,7 +128,7 @@ def _axes(message: dict[str, Any]) -> Axes:
     if not isinstance(values, list) or len(values) != 4:
         raise ProtocolError("`axes` must be four numbers")
     x, y, z, turn = (_number(value, 1.0) for value in values)
-    speed, rate = _number(message["speed"], MAX_MAGNITUDE), _number(message["turn"], MAX_MAGNITUDE)
+    speed, rate = _number(message["speed"], MAX_SPEED), _number(message["turn"], MAX_SPEED)
     if speed < 0 or rate < 0:
         raise ProtocolError("`speed` and `turn` must not be negative")
     return Axes((x, y, z, turn), speed, rate)

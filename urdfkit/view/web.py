@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 PING = 5.0
 """Seconds between pings; a browser that does not answer one before the next is gone."""
+COMPLAINTS = 10
+"""Dropped messages reported per page."""
 
 APP = Path(__file__).parent / "app"
 TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
@@ -197,6 +199,7 @@ class Socket(Guarded, WebSocketHandler):
         self.client = next(Socket._numbers)
         self.channel = Channel()
         self._sender: asyncio.Task[None] | None = None
+        self._dropped = 0
 
     def check_origin(self, origin: str) -> bool:
         """Whether the page is one this server handed out."""
@@ -228,7 +231,7 @@ class Socket(Guarded, WebSocketHandler):
         try:
             wish = protocol.read(message)
         except protocol.ProtocolError as error:
-            log.warning("dropped a message of page %d: %s", self.client, error)
+            self._complain(error)
             return
         if isinstance(wish, protocol.Ack):
             self.channel.acknowledge(wish.sequence)
@@ -240,6 +243,13 @@ class Socket(Guarded, WebSocketHandler):
             self.server.driver.offer(self.client, wish)
         else:
             self.server.inbox.put_action(wish.action)
+
+    def _complain(self, error: protocol.ProtocolError) -> None:
+        self._dropped += 1
+        if self._dropped < COMPLAINTS:
+            log.warning("dropped a message of page %d: %s", self.client, error)
+        elif self._dropped == COMPLAINTS:
+            log.warning("dropped %d messages of page %d; no more of them are reported", self._dropped, self.client)
 
     def on_close(self) -> None:
         """Stop sending; if this page drove, the robot stops."""

@@ -9,6 +9,7 @@ export class Scene {
     this.stage = stage;
     this.viewer = stage.viewer;
     this.meshes = new Map(); // content hash → promise of a BufferGeometry
+    this.used = new Set(); // by the robot that stands there now
     this.waiting = new Set();
     this.groups = { visual: new Map(), collision: new Map() };
     this.shown = { visual: true, collision: false };
@@ -28,6 +29,7 @@ export class Scene {
     const path = command.path.split("/").filter(Boolean);
     if (command.type === "delete" && path.length === 1) {
       this.generation += 1;
+      this.used = new Set();
       for (const groups of Object.values(this.groups)) groups.clear();
     }
     const geometry = command.type === "set_object" ? command.object.geometries?.[0] : null;
@@ -68,6 +70,7 @@ export class Scene {
   }
 
   #mesh(name) {
+    this.used.add(name);
     if (!this.meshes.has(name)) {
       const mesh = fetch(`/geometry/${name}`).then(async (answer) => {
         if (!answer.ok) throw new Error(`${answer.status}`);
@@ -93,6 +96,7 @@ export class Scene {
     this.model = model.number;
     this.nodes = model.nodes.map((path) => this.viewer.scene_tree.find(path.split("/").filter(Boolean)).object);
     this.pending = null;
+    for (const name of this.meshes.keys()) this.used.has(name) || this.meshes.delete(name);
   }
 
   /** Keep a pose frame until the next picture is drawn; `applied(sequence, time)` is called then. */
