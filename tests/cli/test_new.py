@@ -91,13 +91,14 @@ def test_quiet_prints_what_was_written_only(place, capsys):
 
 
 def test_questions_on_a_terminal(place, monkeypatch):
-    typed = ["Scout", "scout", "lunar", "noetic", "", "", "", "", "", "0.1"]
+    typed = ["Scout", "scout", "lunar", "noetic", "", "", "", "", "0.1"]
     shown = type_in(monkeypatch, *typed, *[""] * 10)
     assert main(["new", "robot"]) == 0
     text = shown.getvalue()
     assert "did you mean `scout`" in text
     assert "`lunar` is not available" in text
     assert "Radius of a wheel [m] = 0.075: " in text
+    assert "Drive" not in text  # there is but one
     assert (place / "scout_gazebo/launch/scout.launch").is_file()
     assert '"wheel_radius" value="0.1"' in (place / "scout_description/urdf/scout.urdf.xacro").read_text()
 

@@ -85,7 +85,7 @@ def _ask(template: Template, given: dict[str, str]) -> dict[str, str]:
     found = dict(given)
     for question in template.questions:
         default = question.default_given(found)
-        if question.name in given or not question.ask:
+        if question.name in given or not question.ask or len(question.choices) == 1:
             found.setdefault(question.name, default or "")
             continue
         while question.name not in found:
