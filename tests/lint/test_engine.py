@@ -56,6 +56,9 @@ def test_one_run_reports_everything(write):
     found = lint(path)
     assert sorted(codes(found)) == ["E001", "I503", "J401", "X101", "X103", "X104", "X113"]
     assert next(f for f in found if f.code == "E001").file == "broken.xacro"
+    # What is not defined may be in the file that is not there.
+    assert [f.code for f in found if f.severity == "info"] == ["X104", "X103"]
+    assert "may be defined in missing.xacro" in next(f.help for f in found if f.code == "X103")
 
 
 def test_what_a_fault_makes_up_is_not_reported(write):

@@ -133,9 +133,7 @@ def test_what_may_be_changed(write):
 
 
 def test_unsafe_fixes_are_applied_on_request_only(write):
-    joint = (
-        '<joint name="j" type="revolute"><parent link="a"/><child link="b"/><limit lower="{}" upper="{}" {}/></joint>'
-    )
+    joint = '<joint name="j" type="revolute"><parent link="a"/><child link="b"/>{}</joint>'
     links = '<link name="a"/>\n<link name="b"/>\n'
     path = write("r.xacro", links + joint.format('<limit lower="1.5" upper="-1" effort="1" velocity="1"/>'))
     assert mend(path).changes == ()

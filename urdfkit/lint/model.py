@@ -65,6 +65,14 @@ class Model:
         return any(fault.kind in _DROPPING and not fault.message.startswith("unbound prefix") for fault in faults)
 
     @cached_property
+    def missing_file(self) -> str:
+        """An included file, or the package of one, that is not there; empty when all are."""
+        for fault in self.expanded.faults:
+            if fault.kind in ("include-not-found", "package-not-found"):
+                return f"package `{fault.name}`" if fault.kind == "package-not-found" else str(fault.name)
+        return ""
+
+    @cached_property
     def signatures(self) -> dict[str, list[Signature]]:
         """The parameters of every macro that any of the files defines, with prefix or without, by its name."""
         found: dict[str, list[Signature]] = {}

@@ -93,9 +93,15 @@ class SourceRule(Rule):
 
 
 class FaultRule(Rule):
-    """A rule that reports what xacro could not expand."""
+    """A rule that reports what xacro could not expand.
+
+    Attributes:
+        kinds: of the faults it claims.
+        may_be_elsewhere: what it misses may be in an included file that is not there; then it only makes a note of it.
+    """
 
     kinds: ClassVar[tuple[str, ...]] = ()
+    may_be_elsewhere: ClassVar[bool] = False
 
     def claims(self, fault: Fault) -> bool:
         """Return whether the fault is this rule's."""
@@ -103,7 +109,11 @@ class FaultRule(Rule):
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
         """Yield the finding of a fault that the rule claims."""
-        yield self.at(model, fault, fault.message, attribute=fault.attribute)
+        if self.may_be_elsewhere and (missing := model.missing_file):
+            help = f"it may be defined in {missing}, which is not there"
+            yield self.at(model, fault, fault.message, attribute=fault.attribute, help=help, severity="info")
+        else:
+            yield self.at(model, fault, fault.message, attribute=fault.attribute)
 
 
 class RobotRule(Rule):

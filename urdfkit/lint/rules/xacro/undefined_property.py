@@ -42,6 +42,7 @@ class UndefinedProperty(FaultRule):
     code = "X104"
     name = "undefined-property"
     kinds = ("undefined-property",)
+    may_be_elsewhere = True
 
     def claims(self, fault: Fault) -> bool:
         """Return whether the property is defined nowhere, not just later."""

@@ -38,3 +38,4 @@ class UnknownMacro(FaultRule):
     code = "X103"
     name = "unknown-macro"
     kinds = ("undefined-macro",)
+    may_be_elsewhere = True
