@@ -20,7 +20,7 @@ NAMESPACE = "http://www.ros.org/wiki/xacro"
 
 URDF_CHILDREN: dict[str, frozenset[str]] = {
     "robot": frozenset(("link", "joint", "material", "transmission", "gazebo", "ros2_control", "sensor")),
-    "link": frozenset(("inertial", "visual", "collision", "contact")),
+    "link": frozenset(("inertial", "visual", "collision", "contact", "type")),
     "inertial": frozenset(("origin", "mass", "inertia")),
     "visual": frozenset(("origin", "geometry", "material")),
     "collision": frozenset(("origin", "geometry", "material", "verbose")),

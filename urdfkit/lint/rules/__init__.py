@@ -55,6 +55,7 @@ def fault_rules() -> tuple[type[FaultRule], ...]:
 def robot_rules() -> tuple[type[RobotRule], ...]:
     """Return the rules on the expanded robot."""
     from urdfkit.lint.rules.document.bad_number import BadNumber
+    from urdfkit.lint.rules.document.unknown_element import UnknownElement
     from urdfkit.lint.rules.gazebo.plugin_joint_undefined import PluginJointUndefined
     from urdfkit.lint.rules.inertial.inertia_not_positive_definite import InertiaNotPositiveDefinite
     from urdfkit.lint.rules.inertial.inertia_triangle_inequality import InertiaTriangleInequality
@@ -65,6 +66,7 @@ def robot_rules() -> tuple[type[RobotRule], ...]:
     from urdfkit.lint.rules.tree.multiple_roots import MultipleRoots
 
     return (
+        UnknownElement,
         BadNumber,
         MultipleRoots,
         MultipleParents,

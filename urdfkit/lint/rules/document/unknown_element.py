@@ -1,0 +1,94 @@
+"""E008 unknown-element."""
+
+from __future__ import annotations
+
+from urdfkit.lint.prefix import URDF_CHILDREN
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.element import Element
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+_BETTER = {"joint_properties": "dynamics"}
+"""Names of elements that URDF once had, and what they are called today."""
+
+
+class UnknownElement(RobotRule):
+    """URDF has no such element there.
+
+    ## What it does
+    Looks at what is inside ``<link>``, ``<joint>``, ``<inertial>``, ``<visual>``, ``<collision>`` and ``<geometry>``.
+    Elements with a prefix belong to somebody else, and ``<robot>`` may hold extensions of any name.
+
+    ## Why is this bad?
+    Readers skip it without a word: a typing error, or a macro call without prefix, takes wheels, damping or inertia
+    away and check_urdf still says "Successfully Parsed".
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="wheel"/>
+      <joint name="axle" type="continuous">
+        <parent link="base"/>
+        <child link="wheel"/>
+        <joint_properties damping="0.1"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="wheel"/>
+      <joint name="axle" type="continuous">
+        <parent link="base"/>
+        <child link="wheel"/>
+        <dynamics damping="0.1"/>
+      </joint>
+    </robot>
+    ```
+    """
+
+    code = "E008"
+    name = "unknown-element"
+    severity = "warning"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each element that has no meaning where it stands."""
+        for link in model.robot.links:
+            for parent, child in _unknown(link.element):
+                yield self.at(model, child, _message(parent, child), link=link.name, help=_hint(parent, child))
+        for joint in model.robot.joints:
+            for parent, child in _unknown(joint.element):
+                yield self.at(model, child, _message(parent, child), joint=joint.name, help=_hint(parent, child))
+
+
+def _unknown(element: Element) -> Iterator[tuple[Element, Element]]:
+    allowed = URDF_CHILDREN[element.tag]
+    for child in element.children:
+        if child.tag not in allowed:
+            if ":" not in child.tag:
+                yield element, child
+        elif child.tag in URDF_CHILDREN and child.tag != "material":
+            yield from _unknown(child)
+
+
+def _message(parent: Element, child: Element) -> str:
+    return f"<{child.tag}> has no meaning in <{parent.tag}>"
+
+
+def _hint(parent: Element, child: Element) -> str | None:
+    from urdfkit.errors import did_you_mean
+
+    if child.tag in _BETTER:
+        return f"it is called <{_BETTER[child.tag]}> today"
+    nearest = did_you_mean(child.tag, URDF_CHILDREN[parent.tag]).removeprefix("; ")
+    if nearest or not child.attributes:
+        return nearest or None
+    return "a call of a macro needs the prefix `xacro:`, and a file that is run through xacro"
