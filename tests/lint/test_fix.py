@@ -123,6 +123,18 @@ def test_files_outside_are_not_touched(write):
     assert mend(link, within=Path("mine")).changes == ()
 
 
+def test_links_stay_links_and_are_fixed_once(write):
+    real = write("real/r.xacro", BAD)
+    link = Path("link.xacro")
+    link.symlink_to(real)
+    Path("linked").symlink_to("real")
+    both = fix([Entry(link), Entry(real), Entry(Path("linked/r.xacro"))], Options(), within=[Path()])
+    assert [change.after.decode() for change in both.changes] == [GOOD]
+    both.changes[0].write()
+    assert link.is_symlink()
+    assert real.read_text() == GOOD
+
+
 def test_what_may_be_changed(write):
     write("ws/p/package.xml", "<package/>")
     inside = write("ws/p/urdf/r.urdf", '<link name="a"/>')

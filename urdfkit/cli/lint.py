@@ -99,13 +99,13 @@ def _fix(arguments: argparse.Namespace, paths: Sequence[str], entries: Sequence[
 
     within = may_be_changed(Path(path) for path in paths)
     fixed = fix(entries, options, within=within, unsafe=arguments.unsafe_fixes)
-    for note in fixed.notes:
+    for note in () if arguments.quiet else fixed.notes:
         print(f"urdfkit: {note}", file=sys.stderr)
     if arguments.diff:
         return _show(fixed)
     for change in fixed.changes:
         change.write()
-    if fixed.changes:
+    if fixed.changes and not arguments.quiet:
         count = sum(fixed.fixed.values())
         by_code = ", ".join(f"{number} × {code}" for code, number in sorted(fixed.fixed.items()))
         files = f"{len(fixed.changes)} file{'s' if len(fixed.changes) > 1 else ''}"

@@ -146,7 +146,8 @@ class _Checker:
         if any("urdfkit:" in source.text for source in model.expanded.sources.values()):
             findings = self._suppress(findings, model)
         if entry.only:
-            names = {name for name, path in self.files.items() if any(path == only.resolve() for only in entry.only)}
+            only = {path.resolve() for path in entry.only}
+            names = {name for name, path in self.files.items() if path.resolve() in only}
             findings = [finding for finding in findings if finding.file in names]
         self.findings += findings
 
@@ -168,7 +169,7 @@ class _Checker:
             raise ModelError(f"<{root.tag}> is no robot description", position=root.origin.position)
         robot = parse(root if root is not None else _nothing(path))
         self.sources.update(expanded.sources)
-        self.files.update({name: Path(name).resolve() for name in expanded.sources})
+        self.files.update({name: Path.cwd() / name for name in expanded.sources})
         return Model(expanded, robot, options.target, as_written)
 
     def _ask_source_rules(self, file: str, model: Model) -> Iterator[Finding]:

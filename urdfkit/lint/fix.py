@@ -31,7 +31,7 @@ class Change:
     """One file that fixes change.
 
     Attributes:
-        path: the file, resolved.
+        path: the file, absolute.
         shown: what findings call it.
         before: its bytes as they were read.
         after: its bytes as they are to be.
@@ -143,6 +143,7 @@ class _Fixer:
         self.contents: dict[Path, bytes] = {}
         self.shown: dict[Path, str] = {}
         self.texts: dict[Path, str] = {}
+        self.names: dict[Path, Path] = {}
         self.refused: set[str] = set()
         self.notes: dict[str, None] = {}
 
@@ -178,11 +179,12 @@ class _Fixer:
                 continue
             mended = self._lint(texts)
             worse = _worse(outcome, mended)
-            if not worse:
+            if not worse and any(_counts(mended).get(code, 0) < _counts(outcome)[code] for code in group):
                 return texts, mended
             if len(group) == 1:
                 self.refused.add(group[0])
-                self.notes[f"{group[0]} was not fixed: that would have caused {', '.join(worse)}"] = None
+                cause = f"that would have caused {', '.join(worse)}" if worse else "it would still be there"
+                self.notes[f"{group[0]} was not fixed: {cause}"] = None
         return self.texts, None
 
     def _is_wanted(self, finding: Finding) -> bool:
@@ -211,7 +213,10 @@ class _Fixer:
 
     def _is_editable(self, file: str, outcome: Outcome) -> bool:
         path = outcome.files[file]
-        if not any(path == folder or folder in path.parents for folder in self.within):
+        real = path.resolve()
+        if self.names.setdefault(real, path) != path:
+            return False  # The same file under another name: its turn comes under the first.
+        if not any(real == folder or folder in real.parents for folder in self.within):
             self.notes[f"{file} was not fixed: it is outside of what was linted"] = None
             return False
         if path not in self.originals:
