@@ -121,7 +121,11 @@ def test_recovery_survives_everything() -> None:
     failures = []
     for entry in entries():
         expanded = expand_leniently(CORPUS / entry["entry"])
-        if (entry["status"] in ("xacro-fails", "not-xml")) and not expanded.faults and not entry["entry"].endswith(".urdf"):
+        if (
+            (entry["status"] in ("xacro-fails", "not-xml"))
+            and not expanded.faults
+            and not entry["entry"].endswith(".urdf")
+        ):
             failures.append(f"{entry['entry']}: no fault")
         failures += [f"{entry['entry']}: {f}" for f in expanded.faults if f.kind == "other" and "xacro" in f.message]
     assert failures == []

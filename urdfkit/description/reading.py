@@ -154,7 +154,8 @@ def element_of(node: Any) -> Element:
             children.append(element_of(child))
         elif kind in (3, 4):
             text += child.data
-    attributes = {name: attribute.value for name, attribute in (node._attrs or {}).items()}
+    # <xacro:attribute> may leave a number where minidom wants text.
+    attributes = {name: str(attribute.value) for name, attribute in (node._attrs or {}).items()}
     return Element(node.tagName, attributes, children, text.strip(), Origin(Position(file, line, column), expansions))
 
 

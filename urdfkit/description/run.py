@@ -30,7 +30,7 @@ MAX_MACRO_DEPTH = 400
 MAX_INCLUDE_DEPTH = 60
 """Files that include one another."""
 
-MAX_MACRO_CALLS = 20_000
+MAX_MACRO_CALLS = 10_000
 """Macro calls in one run, against macros that multiply each other; a large robot needs some hundreds."""
 
 
@@ -167,7 +167,14 @@ class Run:
         first = document.firstChild
         for line in banner:
             document.insertBefore(minidom.Comment(line), first)
-        return str(document.toprettyxml(indent="  "))
+        try:
+            return str(document.toprettyxml(indent="  "))
+        except AttributeError:
+            # Stock xacro fails like this where <xacro:attribute> left a number.
+            for element in document.getElementsByTagName("*"):
+                for name, value in element.attributes.items():
+                    element.setAttribute(name, str(value))
+            return str(document.toprettyxml(indent="  "))
 
     def position_of(self, node: minidom.Element | None) -> tuple[Position, tuple[Expansion, ...]]:
         """Return where an element was written and its chain of calls; the top of the file when there is no element."""
