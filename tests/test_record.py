@@ -29,6 +29,11 @@ class Bag:
     items: list[int] = field(default_factory=list)
 
 
+def test_annotations_need_not_be_text():
+    kind = type("Pair", (), {"__annotations__": {"a": int, "b": str}})
+    assert record(kind)(1, b="x").b == "x"
+
+
 @record(eq=False)
 class Node:
     name: str = field(repr=False)

@@ -54,7 +54,7 @@ def record(cls: Any = None, /, *, eq: bool = True, order: bool = False) -> Any:
 
 def _prepare(cls: Any, eq: bool, order: bool) -> Any:
     inherited = getattr(cls, "_record_names", ())
-    own = [name for name, kind in cls.__annotations__.items() if not kind.startswith("ClassVar")]
+    own = [name for name, kind in cls.__annotations__.items() if "ClassVar" not in str(kind)]
     defaults: dict[str, Any] = dict(getattr(cls, "_record_defaults", {}))
     factories: dict[str, Any] = dict(getattr(cls, "_record_factories", {}))
     hidden = set(getattr(cls, "_record_hidden", ()))

@@ -161,6 +161,16 @@ def test_the_process_loads_no_heavy_modules(package):
     assert (done.stderr, done.stdout) == ("", "All checks passed.\n[]\n")
 
 
+def test_terminals_without_our_letters(package):
+    tensor = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="3"/>'
+    Path("r.urdf").write_text(f'<robot name="n"><link name="a"><inertial>{tensor}</inertial></link></robot>')
+    command = [sys.executable, "-m", "urdfkit", "lint", "r.urdf"]
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+    assert (done.returncode, done.stderr) == (1, "")
+    assert "3.00 kg?m?: 1.00 + 1.00 < 3.00" in done.stdout
+
+
 def test_a_reader_that_goes_away(package):
     command = f"{sys.executable} -m urdfkit lint . | head -1"
     done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, check=False, env={**os.environ})
