@@ -4,7 +4,7 @@ import os
 
 from hypothesis import settings
 
-# Machines are shared and noisy, so no example has a deadline. On a developer's machine every run tries new examples; in CI
+# Machines are shared and noisy, so no example has a deadline. A developer's every run tries new examples; in CI
 # the examples are the same each time, so that a change is judged by itself.
 settings.register_profile("developer", deadline=None)
 settings.register_profile("ci", deadline=None, derandomize=True)
