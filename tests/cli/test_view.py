@@ -188,7 +188,7 @@ def test_several_pages_see_the_same(serve, visits, until, arm: Path) -> None:
 @pytest.mark.browser
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_phone(serve, visits, keep, until, arm: Path, scheme: str) -> None:
-    phone = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True, "device_scale_factor": 2}
+    phone = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
     page = visits.open(serve("view", str(arm)).url, color_scheme=scheme, **phone)
     keep(page, f"phone-{scheme}")
     page.locator("#panel-toggle").tap()

@@ -9,6 +9,11 @@ import { Stage } from "./stage.js";
 const PROTOCOL = 1;
 const $ = (id) => document.getElementById(id);
 
+if (!document.createElement("canvas").getContext("webgl2")) {
+  $("fault").hidden = false;
+  $("fault").textContent = "This browser shows no 3-D graphics (WebGL 2): turn on hardware acceleration in its settings, or try another one.";
+}
+
 const stage = new Stage($("pane"));
 const scene = new Scene(stage);
 const joints = new Joints((positions) => connection.send("joints", { positions }));

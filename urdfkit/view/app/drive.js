@@ -50,11 +50,12 @@ export class Drive {
 
   #keydown(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return this.release();
-    if (event.target.closest("input:not([type=range]):not([type=checkbox]), textarea, select")) return;
+    const target = event.target instanceof Element ? event.target : document.body;
+    if (target.closest("input:not([type=range]):not([type=checkbox]), textarea, select")) return;
     this.shift = event.shiftKey;
     const key = SHIFTED[event.key] ?? (event.key.length === 1 ? event.key.toLowerCase() : event.key);
     if (event.key === "Shift") return this.#changed();
-    const onControl = event.target.closest("input, button, summary, a");
+    const onControl = target.closest("input, button, summary, a");
     if (key.startsWith("Arrow") && onControl?.matches("input[type=range]")) return; // it moves the slider
     if (key === " " && onControl) return; // it presses the button
     if (key in this.moves) {
