@@ -30,7 +30,7 @@ HOSTILE = {
 @pytest.mark.parametrize("text", HOSTILE.values(), ids=HOSTILE.keys())
 @pytest.mark.parametrize("suffix", ["urdf", "xacro"])
 def test_hostile_xml_is_refused_with_its_place(write: Write, text: str, suffix: str) -> None:
-    with pytest.raises(XmlError, match="refused|nested deeper") as caught:
+    with pytest.raises(XmlError, match=r"refused|nested deeper") as caught:
         expand(write(f"a.{suffix}", text))
     assert str(caught.value).startswith(f"a.{suffix}:1:")
 
@@ -152,8 +152,11 @@ def shape(element: Element) -> tuple[object, ...]:
 
 @given(st.one_of(st.text(max_size=60), st.text("<>/ab='\" &;!-[]\n", max_size=40)))
 def test_any_text_is_read_or_refused(text: str) -> None:
+    refused: UrdfkitError | None = None
     try:
         document_of(Source("a", text))
     except UrdfkitError as error:
-        assert error.position is not None
-        assert "\n" not in str(error)
+        refused = error
+    if refused is not None:
+        assert refused.position is not None
+        assert "\n" not in str(refused)

@@ -1,0 +1,95 @@
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from urdfkit.cli import main
+
+MODEL = """<?xml version="1.0"?>
+<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="prefix" default=""/>
+  <xacro:property name="size" value="${1/3}"/>
+  <link name="$(arg prefix)base"><visual><geometry><box size="${size} 1 1"/></geometry></visual></link>
+</robot>
+"""
+
+
+@pytest.fixture(autouse=True)
+def model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    path = Path("robot.urdf.xacro")
+    path.write_text(MODEL)
+    return path
+
+
+@pytest.mark.parametrize("arguments", [[], ["prefix:=left_"]])
+def test_prints_what_stock_xacro_prints(model: Path, capsys: pytest.CaptureFixture[str], arguments: list[str]) -> None:
+    xacro = shutil.which("xacro", path=str(Path(sys.executable).parent))
+    assert xacro is not None
+    wanted = subprocess.run([xacro, str(model), *arguments], capture_output=True, text=True, check=True).stdout
+    assert main(["expand", str(model), *arguments]) == 0
+    captured = capsys.readouterr()
+    assert captured.out == wanted
+    assert captured.err == ""
+
+
+def test_writes_the_file(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["expand", str(model), "prefix:=x_"]) == 0
+    printed = capsys.readouterr().out
+    assert main(["expand", str(model), "-o", "out/robot.urdf", "prefix:=x_"]) == 0
+    assert Path("out/robot.urdf").read_text() == printed
+    assert capsys.readouterr().out == ""
+
+
+def test_a_failure_leaves_the_file_as_it_was(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("robot.urdf").write_text("precious")
+    model.write_text(MODEL.replace("</robot>", '<link name="${oops}"/></robot>'))
+    assert main(["expand", str(model), "-o", "robot.urdf"]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err == "urdfkit: robot.urdf.xacro:6:1: property `oops` is not defined\n"
+    assert Path("robot.urdf").read_text() == "precious"
+    assert sorted(path.name for path in Path().iterdir()) == ["robot.urdf", "robot.urdf.xacro"]
+
+
+def test_a_file_that_was_read_is_not_overwritten(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["expand", str(model), "-o", f"./{model}"]) == 2
+    assert "would overwrite" in capsys.readouterr().err
+    assert model.read_text() == MODEL
+
+
+def test_an_output_that_cannot_be_written(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("folder").mkdir()
+    assert main(["expand", str(model), "-o", "folder"]) == 2
+    assert capsys.readouterr().err == "urdfkit: cannot write folder: it is a folder\n"
+    assert main(["expand", str(model), "-o", f"{model}/x.urdf"]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_notes_go_to_standard_error(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    model.write_text(MODEL.replace("</robot>", "<a b=\"${xacro.warning('mind the gap')}\"/></robot>"))
+    assert main(["expand", str(model), "prefx:=a"]) == 0
+    assert capsys.readouterr().err == (
+        "robot.urdf.xacro:6:1: warning: mind the gap\nurdfkit: warning: no file uses the argument `prefx`\n"
+    )
+    assert main(["expand", "-q", str(model), "prefx:=a"]) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_robots_by_name(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["expand", "simpleton"]) == 0
+    assert '<robot name="simpleton">' in capsys.readouterr().out
+
+
+def test_the_program_prints_everything_before_it_leaves(model: Path) -> None:
+    command = [sys.executable, "-m", "urdfkit", "expand", str(model)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.endswith("</robot>\n")
+    missing = subprocess.run([*command[:-1], "none.xacro"], capture_output=True, text=True, check=False)
+    assert (missing.returncode, missing.stdout) == (2, "")
+    assert missing.stderr.count("\n") == 1
