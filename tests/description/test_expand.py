@@ -276,6 +276,17 @@ def test_as_deep_a_loop_as_stock_xacro_can_do(write: Write) -> None:
     assert expanded.xml == stock(path)
 
 
+def test_macros_may_nest_elements_deeper_than_a_file(write: Write) -> None:
+    path = write(
+        "m.xacro",
+        'HEAD<xacro:macro name="nest" params="n"><a><b><c>'
+        '<xacro:if value="${n > 0}"><xacro:nest n="${n - 1}"/></xacro:if></c></b></a></xacro:macro><xacro:nest n="100"/></robot>',
+    )
+    root = expand(path).root
+    assert root is not None
+    assert sum(1 for _ in root.walk()) == 1 + 3 * 101
+
+
 def test_warnings_are_notes_with_a_place(write: Write, capsys: pytest.CaptureFixture[str]) -> None:
     expanded = expand(
         write("m.xacro", 'HEAD\n<a b="${xacro.warning(\'hot\')}"/>\n<xacro:property name="pi" value="3"/></robot>')

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 
+from urdfkit.description.element import Element
 from urdfkit.description.evaluation import Evaluator
 from urdfkit.description.expanded import Expanded
 from urdfkit.description.faults import Fault, MacroDefinition, Warned
@@ -86,6 +87,7 @@ class Run:
         self.warnings: list[Warned] = []
         self.faults: dict[Any, Fault] = {}
         self.document: minidom.Document | None = None
+        self.root: Element | None = None
         self.missing_package: str | None = None
         self._written: dict[tuple[str, str], Stamp] = {}
         self._calling: minidom.Element | None = None
@@ -132,13 +134,15 @@ class Run:
         self.xacro.process_doc(self.document, mappings=dict(self.arguments), verbosity=1)
         for included in self.xacro.all_includes:
             self.files.setdefault(absolute(included))
+        # Here and not in `outcome`: macros may nest deeper than Python allows outside.
+        document_element = self.document.documentElement
+        self.root = element_of(document_element) if document_element is not None else None
 
     def outcome(self) -> Expanded:
         """Return what came of it."""
-        root = self.document.documentElement if self.document is not None else None
         return Expanded(
             path=Path(self.path),
-            root=element_of(root) if root is not None else None,
+            root=self.root,
             files=tuple(self.files),
             sources=self.sources,
             packages=self.packages,
