@@ -8,10 +8,10 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
+from urdfkit.record import record
 
 MODEL_SUFFIXES = (".urdf", ".xacro")
 """What the name of a model file ends in."""
@@ -31,7 +31,7 @@ _SUBSTANCE = re.compile(r"<link\b|<xacro:(?!macro\b|property\b|arg\b)")
 _INCLUDED = re.compile(r"""<xacro:include\b[^>]*?filename\s*=\s*["'][^"']*?([^/"'\\]+)["']""")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ModelArgument:
     """What MODEL and the words after it mean.
 
