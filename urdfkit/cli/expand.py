@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from urdfkit.cli.parser import add_model
 from urdfkit.errors import ResourceError, UsageError
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.description.expanded import Expanded
 
