@@ -11,50 +11,25 @@ from pathlib import Path
 
 from urdfkit.description.element import Element
 from urdfkit.description.reading import document_of, read_source
+from urdfkit.description.robot import Pose, Vector
+from urdfkit.description.world.model import WorldLink, WorldModel
+from urdfkit.description.world.shape import Plane, Surface, WorldShape
+from urdfkit.description.world.world import GRAVITY, GROUND_MU, World
 from urdfkit.errors import DescriptionError, ResourceError, did_you_mean
-from urdfkit.record import record
 
-Vector = tuple[float, float, float]
-
-GROUND_MU = 100.0
-"""Friction coefficient of Gazebo's ground plane (gazebo_models/ground_plane/model.sdf)."""
+EARTH: Vector = (0.0, 0.0, -9.81)
+"""Gravity of the worlds we ship [m/s²]."""
 
 
-@record
-class Ground:
-    """A horizontal plane.
-
-    Attributes:
-        name: what contacts call it.
-        height: z of the surface [m].
-        mu: Coulomb friction coefficient; a pair of surfaces meets with the smaller one.
-    """
-
-    name: str = "ground_plane"
-    height: float = 0.0
-    mu: float = GROUND_MU
+def ground_plane(name: str = "ground_plane", height: float = 0.0, mu: float = GROUND_MU) -> WorldModel:
+    """Return a level plane that does not move."""
+    shape = WorldShape("collision", Plane(), surface=Surface(mu=mu))
+    link = WorldLink("link", collisions=(shape,))
+    return WorldModel(name, Pose((0.0, 0.0, height)), static=True, links=(link,))
 
 
-@record
-class World:
-    """Where a robot is simulated.
-
-    Attributes:
-        name: e.g. ``empty``.
-        gravity: [m/s²].
-        ground: None where there is nothing to stand on.
-    """
-
-    name: str
-    gravity: Vector = (0.0, 0.0, -9.81)
-    ground: Ground | None = None
-
-
-WORLDS = {"empty": World("empty", ground=Ground()), "void": World("void")}
+WORLDS = {"empty": World("empty", EARTH, (ground_plane(),)), "void": World("void", EARTH)}
 """The worlds we ship: ``empty`` has a sun and a ground plane, ``void`` has nothing at all."""
-
-SDF_GRAVITY: Vector = (0.0, 0.0, -9.8)
-"""Where an SDF world does not say (sdformat, world.sdf)."""
 
 _SUFFIXES = (".world", ".sdf")
 
@@ -80,16 +55,17 @@ def load_world(world: str | Path) -> World:
     if written is None:
         raise DescriptionError("an SDF world starts with <sdf> and has a <world> in it", position=root.origin.position)
     gravity = written.find("gravity")
-    ground = None
+    ground: WorldModel | None = None
     for element in written.children:
         if element.tag == "include":
             ground = _included(element) or ground
         elif element.tag == "model":
             ground = _plane(element)
-    return World(written.get("name") or path.stem, SDF_GRAVITY if gravity is None else _vector(gravity), ground)
+    models = () if ground is None else (ground,)
+    return World(written.get("name") or path.stem, GRAVITY if gravity is None else _vector(gravity), models)
 
 
-def _included(element: Element) -> Ground | None:
+def _included(element: Element) -> WorldModel | None:
     """Return the ground plane an ``<include>`` means; None for a light."""
     uri = element.find("uri")
     name = "" if uri is None else uri.text.rstrip("/").rpartition("/")[2].lower().replace(" ", "_")
@@ -98,14 +74,14 @@ def _included(element: Element) -> Ground | None:
     if name == "ground_plane":
         pose = element.find("pose")
         called = element.find("name")
-        return Ground("ground_plane" if called is None else called.text, _height(pose))
+        return ground_plane("ground_plane" if called is None else called.text, _height(pose))
     raise DescriptionError(
         f"model `{'' if uri is None else uri.text}` cannot be simulated yet: worlds hold a ground plane and lights",
         position=element.origin.position,
     )
 
 
-def _plane(model: Element) -> Ground:
+def _plane(model: Element) -> WorldModel:
     """Return the ground that a model with nothing but a horizontal plane is."""
     collisions = [element for element in model.walk() if element.tag == "collision"]
     geometry = collisions[0].find("geometry") if len(collisions) == 1 else None
@@ -121,7 +97,7 @@ def _plane(model: Element) -> Ground:
     height = sum(
         _height(element.find("pose")) for element in model.walk() if element.tag in ("model", "link", "collision")
     )
-    return Ground(model.get("name") or "ground_plane", height, 1.0 if mu is None else _numbers(mu, 1)[0])
+    return ground_plane(model.get("name") or "ground_plane", height, 1.0 if mu is None else _numbers(mu, 1)[0])
 
 
 def _height(pose: Element | None) -> float:

@@ -1,0 +1,30 @@
+"""Worlds: SDF in, models and lights out, every pose resolved and everything with its place. No mathematics."""
+
+from urdfkit.description.world.model import WorldAxis, WorldInertial, WorldJoint, WorldLink, WorldModel
+from urdfkit.description.world.reader import WORLDS, load_world
+from urdfkit.description.world.shape import Ellipsoid, Kept, Light, Plane, Surface, WorldGeometry, WorldShape
+from urdfkit.description.world.world import GRAVITY, GROUND_MU, Ground, Physics, World, WorldRobot, ground_of
+
+__all__ = [
+    "GRAVITY",
+    "GROUND_MU",
+    "WORLDS",
+    "Ellipsoid",
+    "Ground",
+    "Kept",
+    "Light",
+    "Physics",
+    "Plane",
+    "Surface",
+    "World",
+    "WorldAxis",
+    "WorldGeometry",
+    "WorldInertial",
+    "WorldJoint",
+    "WorldLink",
+    "WorldModel",
+    "WorldRobot",
+    "WorldShape",
+    "ground_of",
+    "load_world",
+]
