@@ -1,7 +1,8 @@
-"""The joints' velocity motors: what drives and controllers may write."""
+"""What drives and controllers may write: the joints' velocity motors, efforts beside them, the base's velocity."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from math import inf, isfinite
 from typing import Any
 
@@ -24,12 +25,23 @@ class Motors:
         kinematics: the robot's model.
         velocity: the engine's motor velocities [rad/s] or [m/s]; shape (nv,).
         effort: the engine's effort limits [N·m] or [N], zero where there is no motor; shape (nv,).
+        applied: the engine's efforts beside motors [N·m] or [N]; shape (nv,).
+        set_base_velocity: sets the floating base's twist in the base's own axes, linear first.
     """
 
-    def __init__(self, kinematics: Kinematics, velocity: Array, effort: Array) -> None:
+    def __init__(
+        self,
+        kinematics: Kinematics,
+        velocity: Array,
+        effort: Array,
+        applied: Array,
+        set_base_velocity: Callable[[Sequence[float]], None],
+    ) -> None:
         self._kinematics = kinematics
         self._velocity = velocity
         self._effort = effort
+        self._applied = applied
+        self._set_base_velocity = set_base_velocity
         names = (*kinematics.joint_names, *kinematics.mimic_names)
         self._index = {name: kinematics.velocity_index(name) for name in names}
         self._goals: dict[str, float] = {}
@@ -46,7 +58,7 @@ class Motors:
             SimulationError: no such joint, or a value that is no finite number.
         """
         self._goals.pop(joint, None)
-        self._set(joint, velocity, self._limit(joint) if effort is None else effort)
+        self._set(joint, velocity, self.limit(joint) if effort is None else effort)
 
     def hold(self, joint: str, position: float, effort: float | None = None) -> None:
         """Bring a joint to `position` [rad] or [m] and keep it there, within its velocity and effort limits.
@@ -54,7 +66,7 @@ class Motors:
         Raises:
             SimulationError: no such joint, a value that is no finite number or outside the joint's limits.
         """
-        self._set(joint, 0.0, self._limit(joint) if effort is None else effort)
+        self._set(joint, 0.0, self.limit(joint) if effort is None else effort)
         if not isfinite(position):
             raise SimulationError(f"joint `{joint}` cannot go to {position}: it must be a finite number")
         lower, upper = self._kinematics.limits(joint)
@@ -62,16 +74,43 @@ class Motors:
             raise SimulationError(f"joint `{joint}` cannot go to {position:g}: its limits are {lower:g} … {upper:g}")
         self._goals[joint] = position
 
+    def exert(self, joint: str, effort: float) -> None:
+        """Apply an effort [N·m] or [N] to a joint, beside its motor, until the next call.
+
+        Raises:
+            SimulationError: no such joint, or a value that is no finite number.
+        """
+        index = self._checked(joint)
+        if not isfinite(effort):
+            raise SimulationError(f"joint `{joint}`: {effort} is no effort; it must be a finite number")
+        self._applied[index] = effort
+
+    def move_base(self, linear: Sequence[float], angular: Sequence[float]) -> None:
+        """Give the floating base a velocity, once, in its own axes [m/s, rad/s]; the step that follows may change it.
+
+        Raises:
+            SimulationError: the robot is bolted down, or a value is not finite.
+        """
+        self._set_base_velocity((*linear, *angular))
+
+    def limit(self, joint: str) -> float:
+        """Return the joint's ``<limit effort>`` [N·m] or [N], infinite where there is none."""
+        written = self._kinematics.robot.joint_by_name.get(joint)
+        limit = written.limit if written is not None else None
+        return inf if limit is None or limit.effort is None else limit.effort
+
     def release(self, joint: str) -> None:
         """Let a joint turn freely."""
         self._goals.pop(joint, None)
         self._set(joint, 0.0, 0.0)
+        self._applied[self._index[joint]] = 0.0
 
     def release_all(self) -> None:
         """Let every joint turn freely."""
         self._goals.clear()
         self._velocity[:] = 0.0
         self._effort[:] = 0.0
+        self._applied[:] = 0.0
 
     @property
     def has_goals(self) -> bool:
@@ -89,16 +128,15 @@ class Motors:
             fastest = limit.velocity if limit is not None and limit.velocity else inf
             self._velocity[self._index[joint]] = max(-fastest, min(fastest, APPROACH * (goal - positions(joint))))
 
-    def _limit(self, joint: str) -> float:
-        written = self._kinematics.robot.joint_by_name.get(joint)
-        limit = written.limit if written is not None else None
-        return inf if limit is None or limit.effort is None else limit.effort
-
     def _set(self, joint: str, velocity: float, effort: float) -> None:
+        index = self._checked(joint)
+        if not isfinite(velocity) or effort != effort or effort < 0:
+            raise SimulationError(f"joint `{joint}`: {velocity} with effort {effort} is no motor target")
+        self._velocity[index] = velocity
+        self._effort[index] = effort
+
+    def _checked(self, joint: str) -> int:
         if joint not in self._index:
             self._kinematics.velocity_index(joint)  # raises, with the nearest name
             raise SimulationError(f"joint `{joint}` has more than one degree of freedom: it has no motor")
-        if not isfinite(velocity) or effort != effort or effort < 0:
-            raise SimulationError(f"joint `{joint}`: {velocity} with effort {effort} is no motor target")
-        self._velocity[self._index[joint]] = velocity
-        self._effort[self._index[joint]] = effort
+        return self._index[joint]

@@ -114,7 +114,13 @@ class Simulator:
             provider=engine,
         )
         self.state = State(self.kinematics, self._engine, self._base if bolted else None)
-        self.motors = Motors(self.kinematics, self._engine.motor_velocity, self._engine.motor_effort)
+        self.motors = Motors(
+            self.kinematics,
+            self._engine.motor_velocity,
+            self._engine.motor_effort,
+            self._engine.applied,
+            self._engine.set_base_velocity,
+        )
         self.name = name or self.robot.name or "robot"
         message_type(TWIST)  # loads the types now, or says that they are missing
         setup = Setup(self.bus, self.kinematics, self.name, self.world.name, dt, np.random.default_rng(seed), self.note)

@@ -138,6 +138,18 @@ class Engine:
         self.t, self.steps = 0.0, 0
         self._evaluate()
 
+    def set_base_velocity(self, twist: Sequence[float]) -> None:
+        """Set the floating base's twist, in its own axes and linear first; what it meets in the step may change it.
+
+        Raises:
+            SimulationError: the robot has no floating base, or a value is not finite.
+        """
+        if not self.kinematics.floating_base:
+            raise SimulationError(f"robot `{self.kinematics.robot.name}` has no floating base to move")
+        if len(twist) != 6 or not all(math.isfinite(part) for part in twist):
+            raise SimulationError(f"a twist is six finite numbers, not {tuple(twist)}")
+        self._arrays["v"][:6] = twist
+
     def step(self, n: int = 1) -> None:
         """Advance by `n` steps of `dt` in one compiled call that releases the GIL.
 
