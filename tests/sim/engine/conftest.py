@@ -104,6 +104,11 @@ MODELS = {
         link("bob", 1.0, (1e-9, 1e-9, 1e-9), at="0 0 -1"),
         joint("hinge", "continuous", "base", "bob", axis="0 1 0"),
     ),
+    "flap": robot(
+        '<link name="base"/>',
+        link("flap", 1.0, (0.01, 0.01, 0.01), collision('<sphere radius="0.05"/>', xyz="1 0 0"), at="1 0 0"),
+        joint("hinge", "continuous", "base", "flap", xyz="0 0 0.3", axis="0 1 0"),
+    ),
     "double_pendulum": robot(
         '<link name="base"/>',
         link("upper", 1.0, (0.01, 0.01, 0.001), at="0 0 -0.5"),

@@ -107,3 +107,24 @@ def test_a_mesh_stands_on_its_convex_hull(engine_of, tmp_path, kind):
     assert np.abs(engine.v).max() < 1e-9
     assert 3 <= len(engine.contacts()) <= 8
     assert sum(contact.force[2] for contact in engine.contacts()) == pytest.approx(9.81, rel=1e-6)
+
+
+def test_a_wheel_of_a_bolted_robot_turns_though_it_touches_the_ground(engine_of):
+    for effort in (2.0, np.inf):
+        engine = engine_of("diff_drive", floating=False, base=[0.0, 0.0, 0.06, 0.0, 0.0, 0.0, 1.0])
+        engine.motor_velocity[:], engine.motor_effort[:] = (5.0, -3.0), effort
+        engine.step(200)
+        assert engine.v == pytest.approx([5.0, -3.0], rel=1e-6)
+        assert engine.iterated == 0
+        assert engine.contacts() == ()
+
+
+def test_a_hinged_link_that_meets_the_ground_lies_on_it(engine_of):
+    engine = engine_of("flap")
+    engine.step(1500)
+    blows = engine.iterated
+    engine.step(500)
+    # Its ball touches when it hangs 0.25 m below the hinge.
+    assert math.sin(engine.positions[0]) == pytest.approx(0.25, abs=1e-4)
+    assert abs(engine.v[0]) < 1e-9
+    assert engine.iterated == blows

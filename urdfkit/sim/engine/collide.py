@@ -133,7 +133,8 @@ def touch(
 ) -> int:
     """Note a contact at `point` if it can close within a step; return how many there are."""
     gap = point[2] - floor
-    if count >= most or not can_close(gap, point, load_spatial(twist, body), dt):
+    # In this order: with `count` asked first, LLVM makes a step of a robot on wheels a third slower.
+    if not can_close(gap, point, load_spatial(twist, body), dt) or count >= most:
         return count
     contact_body[count] = body
     contact_feature[count] = feature

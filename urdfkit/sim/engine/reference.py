@@ -16,7 +16,7 @@ from urdfkit.kinematics.model import Kinematics
 from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_ROWS, GUESSES, HAS_FLOOR, ITERATED, STEPS, Arrays
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
 from urdfkit.sim.engine.parts import find_contacts, find_impulses
-from urdfkit.sim.engine.rows import RECOVERY
+from urdfkit.sim.engine.rows import MOBILITY, RECOVERY
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS
 from urdfkit.sim.engine.state import configuration, turning
 from urdfkit.sim.engine.warmup import load_compiled
@@ -158,6 +158,9 @@ class Reference:
                     continue
                 J = self._point_jacobian(int(a["contact_body"][k]), a["contact_point"][k] + origin, axes)
                 along, across, normal = a["contact_frame"][k].reshape(3, 3) @ J
+                a["contact_row"][k] = -1
+                if normal @ normal <= MOBILITY * (J * J).sum():
+                    continue
                 gap = a["contact_gap"][k] - 0.5 * dt * (normal @ v)
                 slot = 2 * len(v) + len(a["mimic_dof"]) + 3 * int(a["contact_feature"][k])
                 a["contact_row"][k] = first + len(rows)

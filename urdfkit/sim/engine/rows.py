@@ -15,6 +15,12 @@ from urdfkit.sim.engine.spatial import add, cross, dot, load_spatial, load_vecto
 
 RECOVERY = 0.2
 """Part of a penetration, or of another violation, that is taken back in a step."""
+MOBILITY = 1e-18
+"""Square of the share of a point's velocities along the normal below which nothing can move it that way.
+
+A wheel of a bolted robot that touches the ground is such a case: no impulse along the normal changes anything, so the
+contact is left out, and with it its friction.
+"""
 
 
 @inlined
@@ -163,17 +169,22 @@ def contact_rows(
             first = load_vector(contact_frame, 3 * k)
             second = load_vector(contact_frame, 3 * k + 1)
             normal = load_vector(contact_frame, 3 * k + 2)
-            closing = 0.0
+            closing = along_normal = in_all = 0.0
             d = body_last_dof[contact_body[k]]
             while d >= 0:
                 lin, ang = load_spatial(S, d)
                 lin = add(lin, cross(ang, point))
                 Y[rows * dofs + d] = dot(normal, lin)
+                along_normal += Y[rows * dofs + d] * Y[rows * dofs + d]
+                in_all += dot(lin, lin)
                 closing -= Y[rows * dofs + d] * v[d]
                 if rubbing == 1:
                     Y[(rows + 1) * dofs + d] = dot(first, lin)
                     Y[(rows + 2) * dofs + d] = dot(second, lin)
                 d = dof_parent[d]
+            if along_normal <= MOBILITY * in_all:
+                contact_row[k] = -1
+                continue
             # The gap was taken at the end of the step, if the velocity stays; its half is where the velocity changes.
             bias[rows] = recovery_speed(contact_gap[k] + 0.5 * dt * closing, dt)
             rows += 3 if rubbing == 1 else 1

@@ -257,6 +257,19 @@ def iterate(rows: int, A: Any, g: Any, low: Any, high: Any, mu: Any, x: Any, tin
 
 
 @inlined
+def soften(rows: int, A: Any, mu: Any) -> None:
+    """Let tangents along which nothing can move the bodies, as at a wheel of a bolted robot, yield a little.
+
+    Their velocity is zero whatever the impulse; the softness keeps A regular and the impulse at zero.
+    """
+    for k in range(rows):
+        if mu[k] > 0.0:
+            for j in range(k + 1, k + 3):
+                if A[j * rows + j] < 1e-15 * A[k * rows + k]:
+                    A[j * rows + j] = 1e-9 * A[k * rows + k]
+
+
+@inlined
 def solve(
     rows: int,
     A: Any,
@@ -277,6 +290,7 @@ def solve(
     for k in range(rows):
         largest = max(largest, abs(g[k]))
     tiny = 1e-11 * largest + 1e-14
+    soften(rows, A, mu)
     first_guess(rows, g, low, high, mu, before, state, slip)
     for attempt in range(ATTEMPTS):
         if not try_guess(rows, A, g, low, high, mu, before, state, slip, B, y, index, x):

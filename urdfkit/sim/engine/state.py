@@ -76,6 +76,8 @@ def contacts(arrays: Arrays, touches: Sequence[Touching], ground: str, dt: float
     for k in range(int(arrays["counts"][FOUND_CONTACTS])):
         frame = arrays["contact_frame"][k].reshape(3, 3)
         at = int(arrays["contact_row"][k])
+        if at < 0:  # nothing can move that point along the normal: no force would change anything
+            continue
         impulse = arrays["x"][at] * frame[2]
         if arrays["mu"][at] > 0.0:
             impulse = impulse + arrays["x"][at + 1] * frame[0] + arrays["x"][at + 2] * frame[1]
