@@ -5,7 +5,7 @@ Defaults in braces are filled in by whoever knows the model: ``{world}``, ``{mod
 
 from __future__ import annotations
 
-from urdfkit.description.plugins.drives import GAZEBO_ROS_1, GAZEBO_ROS_2
+from urdfkit.description.plugins.gazebo_ros import GAZEBO_ROS_1, GAZEBO_ROS_2
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 
 JOINT_STATE_PUBLISHER_ROS_1 = PluginSpec(
