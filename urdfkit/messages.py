@@ -15,6 +15,47 @@ JOINT_STATE = "sensor_msgs/msg/JointState"
 TF = "tf2_msgs/msg/TFMessage"
 CLOCK = "rosgraph_msgs/msg/Clock"
 BOOL = "std_msgs/msg/Bool"
+FLOAT = "std_msgs/msg/Float64"
+FLOATS = "std_msgs/msg/Float64MultiArray"
+TWIST_STAMPED = "geometry_msgs/msg/TwistStamped"
+TRAJECTORY = "trajectory_msgs/msg/JointTrajectory"
+JOINT_CONTROLLER_STATE = "control_msgs/msg/JointControllerState"
+TRAJECTORY_STATE = "control_msgs/msg/JointTrajectoryControllerState"
+
+CONTROL_MESSAGES = {
+    JOINT_CONTROLLER_STATE: """
+        std_msgs/Header header
+        float64 set_point
+        float64 process_value
+        float64 process_value_dot
+        float64 error
+        float64 time_step
+        float64 command
+        float64 p
+        float64 i
+        float64 d
+        float64 i_clamp
+        bool antiwindup
+    """,
+    TRAJECTORY_STATE: """
+        std_msgs/Header header
+        string[] joint_names
+        trajectory_msgs/JointTrajectoryPoint reference
+        trajectory_msgs/JointTrajectoryPoint feedback
+        trajectory_msgs/JointTrajectoryPoint error
+        trajectory_msgs/JointTrajectoryPoint output
+        trajectory_msgs/JointTrajectoryPoint desired
+        trajectory_msgs/JointTrajectoryPoint actual
+        string[] multi_dof_joint_names
+        trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_reference
+        trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_feedback
+        trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_error
+        trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_output
+        trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_desired
+        trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_actual
+    """,
+}
+"""What rosbags lacks: control_msgs as of Humble, which is not among the common interfaces."""
 
 
 @cache
@@ -37,12 +78,22 @@ def message_type(name: str) -> Any:
 
 
 @cache
-def _types() -> dict[str, Any] | None:
+def _store() -> Any:
+    """Return rosbags' typestore with `CONTROL_MESSAGES`; None without rosbags."""
     try:
-        from rosbags.typesys import Stores, get_typestore
+        from rosbags.typesys import Stores, get_types_from_msg, get_typestore
     except ImportError:
         return None
-    return dict(get_typestore(Stores.ROS2_HUMBLE).types)
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    for name, text in CONTROL_MESSAGES.items():
+        store.register(get_types_from_msg(text, name))
+    return store
+
+
+@cache
+def _types() -> dict[str, Any] | None:
+    store = _store()
+    return None if store is None else dict(store.types)
 
 
 def full_type_name(name: str) -> str:
@@ -109,9 +160,7 @@ def from_fields(type: str, fields: Any) -> Any:
 
 @cache
 def _layouts() -> dict[str, Any]:
-    from rosbags.typesys import Stores, get_typestore
-
-    return dict(get_typestore(Stores.ROS2_HUMBLE).fielddefs)
+    return dict(_store().fielddefs)
 
 
 def _value(type: str, name: str, description: Any, value: Any) -> Any:

@@ -1,8 +1,9 @@
-"""What drives and controllers may write: the joints' velocity motors, efforts beside them, the base's velocity."""
+"""What drives and controllers may write: the joints' motors and servos, efforts beside them, the base's velocity."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from math import inf, isfinite
 from typing import Any
 
@@ -18,14 +19,34 @@ APPROACH = 10.0
 """A joint on its way to a position target closes the gap at this rate [1/s]: to 5e-5 of it in a second."""
 
 
+@dataclass(frozen=True)
+class Servos:
+    """The engine's servos, which act on where the step ends, so that no stiffness makes them unstable; all (nv,).
+
+    Attributes:
+        position: targets [rad] or [m].
+        velocity: targets [rad/s] or [m/s].
+        stiffness: [N·m/rad] or [N/m].
+        damping: [N·m·s/rad] or [N·s/m].
+        effort: what they can do [N·m] or [N].
+    """
+
+    position: Array
+    velocity: Array
+    stiffness: Array
+    damping: Array
+    effort: Array
+
+
 class Motors:
-    """Velocity motors with effort limits, one per joint of one degree of freedom.
+    """Velocity motors with effort limits and servos, one of each per joint of one degree of freedom.
 
     Args:
         kinematics: the robot's model.
         velocity: the engine's motor velocities [rad/s] or [m/s]; shape (nv,).
         effort: the engine's effort limits [N·m] or [N], zero where there is no motor; shape (nv,).
         applied: the engine's efforts beside motors [N·m] or [N]; shape (nv,).
+        servos: the engine's.
         set_base_velocity: sets the floating base's twist in the base's own axes, linear first.
     """
 
@@ -35,12 +56,14 @@ class Motors:
         velocity: Array,
         effort: Array,
         applied: Array,
+        servos: Servos,
         set_base_velocity: Callable[[Sequence[float]], None],
     ) -> None:
         self._kinematics = kinematics
         self._velocity = velocity
         self._effort = effort
         self._applied = applied
+        self._servos = servos
         self._set_base_velocity = set_base_velocity
         names = (*kinematics.joint_names, *kinematics.mimic_names)
         self._index = {name: kinematics.velocity_index(name) for name in names}
@@ -85,6 +108,33 @@ class Motors:
             raise SimulationError(f"joint `{joint}`: {effort} is no effort; it must be a finite number")
         self._applied[index] = effort
 
+    def servo(
+        self,
+        joint: str,
+        *,
+        stiffness: float,
+        damping: float,
+        position: float = 0.0,
+        velocity: float = 0.0,
+        effort: float = inf,
+    ) -> None:
+        """Exert stiffness·(position − q) + damping·(velocity − q̇), at most `effort` [N·m] or [N], until the next call.
+
+        The joint's motor is switched off: a joint has one or the other. Zero stiffness and damping is no servo.
+
+        Raises:
+            SimulationError: no such joint, or a value that is no finite number or negative where that makes no sense.
+        """
+        index = self._checked(joint)
+        numbers = (stiffness, damping, position, velocity)
+        if not all(map(isfinite, numbers)) or stiffness < 0 or damping < 0 or not effort >= 0:
+            raise SimulationError(f"joint `{joint}`: no servo can do {numbers} with effort {effort}")
+        self._goals.pop(joint, None)
+        self._velocity[index] = self._effort[index] = 0.0
+        servos = self._servos
+        servos.position[index], servos.velocity[index] = position, velocity
+        servos.stiffness[index], servos.damping[index], servos.effort[index] = stiffness, damping, effort
+
     def move_base(self, linear: Sequence[float], angular: Sequence[float]) -> None:
         """Give the floating base a velocity, once, in its own axes [m/s, rad/s]; the step that follows may change it.
 
@@ -111,6 +161,7 @@ class Motors:
         self._velocity[:] = 0.0
         self._effort[:] = 0.0
         self._applied[:] = 0.0
+        self._servos.stiffness[:] = self._servos.damping[:] = 0.0
 
     @property
     def has_goals(self) -> bool:
@@ -134,6 +185,7 @@ class Motors:
             raise SimulationError(f"joint `{joint}`: {velocity} with effort {effort} is no motor target")
         self._velocity[index] = velocity
         self._effort[index] = effort
+        self._servos.stiffness[index] = self._servos.damping[index] = 0.0
 
     def _checked(self, joint: str) -> int:
         if joint not in self._index:

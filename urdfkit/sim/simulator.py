@@ -23,7 +23,7 @@ from urdfkit.sim.engine import Engine, Ground, warmup
 from urdfkit.sim.engine.engine import Provider
 from urdfkit.sim.installed import install
 from urdfkit.sim.loading import load_robot, require_masses
-from urdfkit.sim.motors import Motors
+from urdfkit.sim.motors import Motors, Servos
 from urdfkit.sim.plugin import Setup
 from urdfkit.sim.publications import Clock, Publication, Transforms, publish_fixed
 from urdfkit.sim.schedule import Ticks
@@ -32,6 +32,9 @@ from urdfkit.sim.state import State
 from urdfkit.sim.surfaces import surfaces_of
 
 Array = NDArray[np.float64]
+
+SERVO_ARRAYS = ("position_target", "velocity_target", "kp", "kd", "servo_effort")
+"""The engine's arrays of `Servos`, in its order."""
 
 LOG = logging.getLogger("urdfkit.sim")
 
@@ -119,6 +122,7 @@ class Simulator:
             self._engine.motor_velocity,
             self._engine.motor_effort,
             self._engine.applied,
+            Servos(*(getattr(self._engine, name) for name in SERVO_ARRAYS)),
             self._engine.set_base_velocity,
         )
         self.name = name or self.robot.name or "robot"
