@@ -167,7 +167,7 @@ def test_commands_that_are_not_finite_are_dropped_with_a_warning(capsys: Capture
     assert main(["sim", "run", "simpleton", "--for", "1", "--cmd-vel", "nan,0,-inf", "--json"]) == 0
     out, err = capsys.readouterr()
     assert json.loads(out)["base"]["position"] == pytest.approx([0, 0, 0], abs=1e-9)
-    assert "dropped a command on /simpleton/cmd_vel: nan m/s, -inf rad/s is not finite" in err
+    assert "dropped a command on /simpleton/cmd_vel: nan 0 0 m/s, 0 0 -inf rad/s is not finite" in err
 
 
 @pytest.mark.parametrize(
@@ -264,3 +264,18 @@ def test_help_shows_two_examples(capsys: Capture) -> None:
             main([*words, "--help"])
         assert caught.value.code == 0
         assert capsys.readouterr().out.split("examples:")[1].count("urdfkit sim") >= 2
+
+
+def test_ros_distributions_swap_sides_as_they_did(capsys: Capture) -> None:
+    turned = {}
+    for distro in ("indigo", "noetic"):
+        command = ["sim", "run", "simpleton", "--for", "1", "--cmd-vel", "0,0,1", "--json", "--ros-distro", distro]
+        assert main(command) == 0
+        turned[distro] = json.loads(capsys.readouterr().out)["base"]["angular_velocity"][2]
+    assert turned["noetic"] > 0.5
+    assert turned["indigo"] == pytest.approx(-turned["noetic"], abs=0.05)
+
+
+def test_ros_distributions_that_never_were(capsys: Capture) -> None:
+    assert main(["sim", "run", "simpleton", "--for", "1", "--ros-distro", "kinetc"]) == 2
+    assert "no ROS distribution `kinetc`; did you mean `kinetic`?" in capsys.readouterr().err

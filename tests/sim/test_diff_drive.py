@@ -305,12 +305,70 @@ def test_wrong_parameters_are_named_with_their_place(write_rover: Callable[..., 
     assert f"rover.urdf:{line}:1: " in str(caught.value)
 
 
-def test_legacy_mode_is_refused_aloud(make: Make) -> None:
-    notes: list[str] = []
-    make("ros1", "<legacyMode>true</legacyMode>", note=notes.append)
-    make("ros1", "<legacyMode>false</legacyMode>", note=notes.append)
-    assert len(notes) == 1
-    assert "legacyMode (left and right swapped, until Kinetic) is not emulated" in notes[0]
+@pytest.mark.parametrize(
+    ("distro", "written", "swapped"),
+    [
+        ("hydro", "", True),
+        ("indigo", "<legacyMode>false</legacyMode>", True),
+        ("kinetic", "", True),
+        ("kinetic", "<legacyMode>false</legacyMode>", False),
+        ("lunar", "<legacyMode>true</legacyMode>", True),
+        ("melodic", "<legacyMode>true</legacyMode>", False),
+        ("noetic", "", False),
+        ("humble", "", False),
+        (None, "<legacyMode>true</legacyMode>", False),
+    ],
+)
+def test_sides_are_swapped_until_lunar(make: Make, distro: str | None, written: str, swapped: bool) -> None:
+    simulator = make("ros1", ENCODER["ros1"] + written, ros_distro=distro, note=lambda text: None)
+    simulator.command((0, 0, 0), (0, 0, 1.0))
+    simulator.run(0.5)
+    sign = -1 if swapped else 1
+    assert simulator.state.velocity("right_joint") == pytest.approx(sign * 1.5)
+    assert simulator.state.base_velocity[5] == pytest.approx(sign * 1.0, abs=0.02)
+    # Its odometry takes the wheels for swapped as well, and so believes to turn as it was told.
+    (_, quaternion) = simulator.odometry()["odom"]
+    assert quaternion[2] > 0.2
+
+
+def test_ros_2_never_swapped_sides(make: Make) -> None:
+    simulator = make("ros2", ros_distro="kinetic")
+    simulator.command((0, 0, 0), (0, 0, 1.0))
+    simulator.run(0.1)
+    assert simulator.state.velocity("right_joint") == pytest.approx(1.5)
+
+
+def test_models_that_rely_on_legacy_mode_are_told(make: Make, write_rover: Callable[..., Path]) -> None:
+    def notes(path: Path, distro: str | None) -> list[str]:
+        found: list[str] = []
+        Simulator(path, ros_distro=distro, note=found.append)
+        return found
+
+    def rover(left: str, extra: str = "") -> Path:
+        right = "right" if left == "left" else "left"
+        return write_rover(
+            f"""<gazebo><plugin name="d" filename="libgazebo_ros_diff_drive.so"><leftJoint>{left}_joint</leftJoint>
+            <rightJoint>{right}_joint</rightJoint>{extra}</plugin></gazebo>"""
+        )
+
+    assert notes(rover("left"), None) == notes(rover("left", "<legacyMode>false</legacyMode>"), None) == []
+    (written,) = notes(rover("left", "<legacyMode>true</legacyMode>"), None)
+    assert "legacyMode (left and right swapped, until Lunar) is off: left is left; --ros-distro kinetic" in written
+    (crossed,) = notes(rover("right"), None)
+    assert "joint `right_joint` turns the robot as a right wheel does" in crossed
+    assert notes(rover("right"), "indigo") == notes(rover("right"), "noetic") == []
+
+
+@pytest.mark.parametrize(("distro", "published"), [("indigo", True), ("kinetic", False), (None, False)])
+def test_the_odometry_transform_can_be_turned_off_since_kinetic(
+    make: Make, distro: str | None, published: bool
+) -> None:
+    simulator = make("ros1", "<publishOdomTF>false</publishOdomTF>", ros_distro=distro)
+    seen: list[Any] = []
+    simulator.subscribe("/tf", TF, seen.append)
+    simulator.run(0.1)
+    frames = {link.child_frame_id for message in seen for link in message.transforms}
+    assert ("base_footprint" in frames) is published
 
 
 def test_joints_that_do_not_pair_up(write_rover: Callable[..., Path]) -> None:

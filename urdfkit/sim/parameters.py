@@ -27,6 +27,11 @@ class Parameters:
         self._names = names
         self._texts = read_all(plugin, spec)
 
+    @property
+    def generation(self) -> str:
+        """Whose spelling it is: ``ros1``, ``ros2`` or ``gz``."""
+        return self._spec.generation
+
     def place(self, meaning: str) -> Position:
         """Return where a parameter is written; the plugin itself where it is left out."""
         parameter = self._spec.by_meaning(meaning)
@@ -87,6 +92,23 @@ class Parameters:
                 )
             found.append(value)
         return tuple(found)
+
+    def vector(self, meaning: str, length: int) -> tuple[float, ...]:
+        """Return the first value as so many numbers with blanks between them; zeros where there is none.
+
+        Raises:
+            SimulationError: it is something else.
+        """
+        text = self.text(meaning)
+        try:
+            found = tuple(float(word) for word in text.split()) or (0.0,) * length
+        except ValueError:
+            found = ()
+        if len(found) != length or not all(isfinite(part) for part in found):
+            raise SimulationError(
+                f"<{self.tag(meaning)}> is `{text}`; it must be {length} finite numbers", position=self.place(meaning)
+            )
+        return found
 
     def flag(self, meaning: str) -> bool:
         """Return the first value as true or false.

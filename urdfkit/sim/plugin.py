@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar
 
 from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.sim.distro import Distro
 
 if TYPE_CHECKING:
     import numpy as np
@@ -38,6 +39,7 @@ class Setup:
         dt: the simulation's step [s].
         random: the generator of this plugin alone, from the simulation's seed.
         note: tells the user something, once per text.
+        distro: the ROS distribution whose behaviour is wanted.
     """
 
     bus: Bus
@@ -47,6 +49,7 @@ class Setup:
     dt: float
     random: np.random.Generator
     note: Callable[[str], None]
+    distro: Distro = field(default_factory=Distro)
 
     @property
     def names(self) -> dict[str, str]:

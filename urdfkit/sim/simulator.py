@@ -19,6 +19,7 @@ from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
 from urdfkit.messages import TWIST, message_type, twist
 from urdfkit.scene import Scene, scene_of
+from urdfkit.sim.distro import Distro
 from urdfkit.sim.engine import Engine, Ground, warmup
 from urdfkit.sim.engine.engine import Provider
 from urdfkit.sim.installed import install
@@ -55,6 +56,7 @@ class Simulator:
         gravity: [m/s²]; the world's when None.
         fixed_base: bolt the root link to the world. A root link called ``world`` always is.
         engine: who computes the dynamics: the compiled kernel or Pinocchio (the reference, slow).
+        ros_distro: the ROS distribution whose behaviour plugins are to have, such as ``kinetic``; the newest when None.
         package_path: folders to look for packages in, when `robot` is a file or a name.
         note: receives remarks for the user, once each; the log ``urdfkit.sim`` when None.
 
@@ -85,11 +87,13 @@ class Simulator:
         gravity: Sequence[float] | None = None,
         fixed_base: bool = False,
         engine: Provider = "compiled",
+        ros_distro: str | None = None,
         package_path: Sequence[str | Path] = (),
         note: Callable[[str], None] | None = None,
     ) -> None:
         if not 1e-6 <= dt <= 0.1:
             raise SimulationError(f"a step of {dt:g} s makes no sense; try 0.001")
+        distro = Distro(ros_distro)
         self.robot = robot if isinstance(robot, Robot) else load_robot(robot, package_path)
         self.world = _with_gravity(world if isinstance(world, World) else load_world(world), gravity)
         self.dt = dt
@@ -127,7 +131,9 @@ class Simulator:
         )
         self.name = name or self.robot.name or "robot"
         message_type(TWIST)  # loads the types now, or says that they are missing
-        setup = Setup(self.bus, self.kinematics, self.name, self.world.name, dt, np.random.default_rng(seed), self.note)
+        setup = Setup(
+            self.bus, self.kinematics, self.name, self.world.name, dt, np.random.default_rng(seed), self.note, distro
+        )
         self._plugins = install(self.robot, setup, seed=seed)
         self._drives = [(d, Ticks(d.write_rate, dt), Ticks(d.read_rate, dt)) for d in self._plugins.drives]
         self._controllers = [(c, Ticks(c.rate, dt)) for c in self._plugins.controllers]

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim import values
+from urdfkit.cli.sim.distro import add_distro
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
@@ -71,6 +72,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default="compiled",
         help="who computes the dynamics (pinocchio: the reference, slow)",
     )
+    add_distro(parser)
     add("--json", action="store_true", help="print one JSON value")
     parser.epilog = (
         "examples:\n"
@@ -122,6 +124,7 @@ def load(arguments: argparse.Namespace) -> Simulator:
         gravity=arguments.gravity,
         fixed_base=arguments.fixed_base,
         engine=arguments.engine,
+        ros_distro=arguments.ros_distro,
         note=(lambda text: None) if arguments.quiet else (lambda text: print(f"urdfkit: {text}", file=sys.stderr)),
     )
 

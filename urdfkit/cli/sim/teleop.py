@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.page import Page, add_page_options, note, require_page, until_interrupted
 from urdfkit.cli.parser import add_model
+from urdfkit.cli.sim.distro import add_distro
 from urdfkit.errors import SimulationError
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
     add_model(parser)
     parser.add_argument("--world", default="empty", metavar="WORLD", help="empty, void or an SDF file (default: empty)")
+    add_distro(parser)
     add_page_options(parser)
     parser.epilog = "examples:\n  urdfkit sim teleop simpleton\n  urdfkit sim teleop simpleton --port 8080 --no-browser"
 
@@ -54,7 +56,12 @@ def run(arguments: argparse.Namespace) -> int:
         page = Page(server, host=arguments.host, browser=not arguments.no_browser)
         try:
             compile_kernel(server, page.open)
-            simulator = Simulator(robot, world=arguments.world, note=lambda text: note(f"urdfkit: {text}"))
+            simulator = Simulator(
+                robot,
+                world=arguments.world,
+                ros_distro=arguments.ros_distro,
+                note=lambda text: note(f"urdfkit: {text}"),
+            )
             ride = Ride(simulator, server)
             ride.show()
             page.open()

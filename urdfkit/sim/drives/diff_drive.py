@@ -1,19 +1,22 @@
 """Differential drive: gazebo_ros_diff_drive (ROS 1, ROS 2) and the new Gazebo's DiffDrive system.
 
 Sources: gazebo_ros_pkgs noetic-devel and ros2, gazebo_plugins/src/gazebo_ros_diff_drive.cpp; gz-sim main,
-src/systems/diff_drive/DiffDrive.cc. ROS 1 ``legacyMode`` (left and right swapped, until Kinetic) is not emulated.
+src/systems/diff_drive/DiffDrive.cc. Until Lunar, ROS 1 had left and right swapped (``legacyMode``); that is emulated
+for those distributions only.
 """
 
 from __future__ import annotations
 
 from copy import copy
-from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.errors import SimulationError
-from urdfkit.messages import BOOL, JOINT_STATE, TF, TWIST, header, message_type, transform
-from urdfkit.sim.drives.limits import SpeedLimiter
-from urdfkit.sim.drives.odometer import Estimate, Odometer, from_wheels, from_world
+from urdfkit.messages import BOOL
+from urdfkit.sim.drives.command import Command
+from urdfkit.sim.drives.geometry import turns_right
+from urdfkit.sim.drives.limits import limiter
+from urdfkit.sim.drives.odometer import Estimate, by_encoder, from_wheels, from_world, odometer
+from urdfkit.sim.drives.wheels import Wheels
 from urdfkit.sim.odometry import WheelOdometry
 from urdfkit.sim.parameters import Parameters
 from urdfkit.sim.plugin import Drive, Setup
@@ -40,7 +43,6 @@ class DiffDrive(Drive):
     def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
         super().__init__(plugin, spec)
         self._gz = spec.generation == "gz"
-        self._wanted = (0.0, 0.0)
         self._enabled = True
 
     def configure(self, setup: Setup) -> None:
@@ -52,9 +54,6 @@ class DiffDrive(Drive):
         read = Parameters(self.plugin, self.spec, setup.names)
         topics = Topics(self.plugin, self.spec, namespace=setup.model)
         self._setup = setup
-        if read.text("legacy_mode").lower() in ("true", "1"):
-            place = read.place("legacy_mode")
-            setup.note(f"{place}: legacyMode (left and right swapped, until Kinetic) is not emulated: left is left")
         self._read_wheels(setup, read)
         # The new Gazebo has no torque of its own: the joints' <limit effort> holds.
         self._torque = None if self._gz else read.number("max_wheel_torque")
@@ -62,7 +61,7 @@ class DiffDrive(Drive):
         self._instructed = [0.0] * (2 * len(self._pairs))
         if self._gz:
             self.read_rate = read.number("odometry_rate")
-            self._limiters = (_limiter(read, "linear"), _limiter(read, "angular"))
+            self._limiters = (limiter(read, "linear"), limiter(read, "angular"))
         else:
             self.write_rate = self.read_rate = read.number("update_rate")
         self._period = max(setup.dt, 1 / self.write_rate if self.write_rate > 0 else 0.0)
@@ -84,6 +83,7 @@ class DiffDrive(Drive):
         names = {meaning: [setup.joint(n, read.place(meaning)) for n in texts]
                  for meaning, texts in (("left_joint", left), ("right_joint", right))}  # fmt: skip
         self._pairs = tuple(zip(names["left_joint"], names["right_joint"], strict=True))
+        self._swapped = self._legacy(setup, read)
         separations = read.numbers("wheel_separation", positive=True)
         if self._gz:
             radii: tuple[float, ...] = read.numbers("wheel_radius", positive=True)
@@ -94,56 +94,59 @@ class DiffDrive(Drive):
         self._separations = (separations + (rest[0],) * pairs)[:pairs]
         self._radii = (radii + (rest[1],) * pairs)[:pairs]
 
+    def _legacy(self, setup: Setup, read: Parameters) -> bool:
+        """Whether left and right are swapped: always before Kinetic, and in Kinetic and Lunar unless told otherwise."""
+        if self.spec.generation != "ros1" or not setup.distro.before("melodic"):
+            if self.spec.generation == "ros1" and not setup.distro.name:
+                self._note_legacy(setup, read)
+            return False
+        text = read.text("legacy_mode").lower()
+        return setup.distro.before("kinetic") or text not in ("false", "0")
+
+    def _note_legacy(self, setup: Setup, read: Parameters) -> None:
+        """Tell the user about a model that seems to rely on swapped sides."""
+        place, remedy = read.place("legacy_mode"), "--ros-distro kinetic swaps them"
+        if read.text("legacy_mode").lower() in ("true", "1"):
+            setup.note(f"{place}: legacyMode (left and right swapped, until Lunar) is off: left is left; {remedy}")
+        elif not read.has("legacy_mode") and turns_right(setup.kinematics, *self._pairs[0]):
+            setup.note(
+                f"{place}: joint `{self._pairs[0][0]}` turns the robot as a right wheel does, as models from before "
+                f"Melodic were written (left and right swapped); {remedy}"
+            )
+
     def _listen(self, setup: Setup, read: Parameters, topics: Topics) -> None:
-        self.commands = (topics.resolve(read.text("command_topic", "cmd_vel")),)
-        setup.bus.subscribe(self.commands[0], TWIST, self._command)
+        self._command = Command(setup, topics.resolve(read.text("command_topic", "cmd_vel")), self._wake)
+        self.commands = (self._command.topic,)
         if self._gz:
             setup.bus.subscribe(f"/model/{setup.model}/enable", BOOL, self._enable)
 
     def _announce(self, setup: Setup, read: Parameters, topics: Topics) -> None:
-        source = read.text("odometry_source", "encoder").strip()
-        if source not in ("encoder", "world", "0", "1"):
-            raise SimulationError(
-                f"<{read.tag('odometry_source')}> is `{source}`; it must be "
-                + ("`encoder` or `world`" if self.spec.generation == "ros1" else "0 (encoder) or 1 (world)"),
-                position=read.place("odometry_source"),
-            )
-        self._encoder = source in ("encoder", "0")
+        self._encoder = by_encoder(read)
         published = self._gz or read.flag("publish_odometry")
-        with_tf = self._gz or (read.flag("publish_odometry_tf") and (published or self.spec.generation == "ros2"))
-        covariance = (1e-5, 1e-5, 1e-3)
-        if self.spec.generation == "ros2":
-            covariance = (read.number("covariance_x"), read.number("covariance_y"), read.number("covariance_yaw"))
-        self._odometer = Odometer(
-            setup.bus,
-            topic=topics.resolve(read.text("odometry_topic", "odom")) if published else None,
-            tf_topic=(topics.resolve(read.text("tf_topic")) if self._gz else "/tf") if with_tf else None,
-            frame=read.text("odometry_frame"),
-            child=read.text("base_frame"),
-            covariance=None if self._gz else covariance,
-        )
+        # <publishOdomTF> is read since Kinetic; before, the message's transform always came with it.
+        with_tf = self._gz or read.flag("publish_odometry_tf")
+        if self.spec.generation == "ros1":
+            with_tf = published and (with_tf or setup.distro.before("kinetic"))
+        self._odometer = odometer(setup, read, topics, published=published, with_tf=with_tf)
         self._odometry = WheelOdometry(self._separations[0], exact=self._gz)
         self._last_read = 0.0
-        wheel_tf = not self._gz and read.flag("publish_wheel_tf")
         wheel_states = self.spec.generation == "ros1" and read.flag("publish_wheel_joint_state")
-        self._wheel_tf = setup.bus.advertise("/tf", TF) if wheel_tf else None
-        states = topics.resolve("joint_states")
-        self._wheel_states = setup.bus.advertise(states, JOINT_STATE) if wheel_states else None
+        self._wheels = Wheels(
+            setup,
+            [joint for pair in self._pairs for joint in pair],
+            with_tf=not self._gz and read.flag("publish_wheel_tf"),
+            states=topics.resolve("joint_states") if wheel_states else None,
+        )
 
     # Commands
 
-    def _command(self, message: Any) -> None:
-        v, w = float(message.linear.x), float(message.angular.z)
-        if not (isfinite(v) and isfinite(w)):
-            self._setup.note(f"dropped a command on {self.commands[0]}: {v:g} m/s, {w:g} rad/s is not finite")
-            return
-        self._wanted = (v, w)
+    def _wake(self) -> None:
         self.resting = False
 
     def _enable(self, message: Any) -> None:
         self._enabled = bool(message.data)
         if not self._enabled:
-            self._wanted = (0.0, 0.0)
+            self._command.clear()
         self.resting = False
 
     # Before the step
@@ -152,7 +155,7 @@ class DiffDrive(Drive):
         """Set the wheels' velocity motors."""
         if not self._odometry.started:
             self._measure(state)
-        v, w = self._wanted
+        v, w = self._command.linear[0], self._command.angular[2]
         if self._gz:
             if not self._enabled:
                 v = w = 0.0
@@ -164,6 +167,8 @@ class DiffDrive(Drive):
             self.resting = self._acceleration == 0.0
         for i, (pair, separation, radius) in enumerate(zip(self._pairs, self._separations, self._radii, strict=True)):
             speeds = [v - w * separation / 2, v + w * separation / 2]
+            if self._swapped:
+                speeds.reverse()
             if self._acceleration != 0.0:
                 self._accelerate(i, pair, radius, speeds, state)
             for joint, speed in zip(pair, speeds, strict=True):
@@ -193,12 +198,7 @@ class DiffDrive(Drive):
         now = self._estimate(state, t - self._last_read)
         self._last_read = t
         self._odometer.publish(t, lambda: now)
-        if self._wheel_tf is not None:
-            moved = state.snapshot()
-            self._wheel_tf.offer(lambda: self._wheel_transforms(t, moved))
-        if self._wheel_states is not None:
-            positions = [state.position(joint) for pair in self._pairs for joint in pair]
-            self._wheel_states.offer(lambda: self._wheel_message(t, positions))
+        self._wheels.publish(state)
 
     def _measure(self, state: State) -> None:
         """Bring the wheel odometry up to date. Only the first pair has encoders."""
@@ -206,6 +206,8 @@ class DiffDrive(Drive):
 
     def _rolled(self, state: State) -> tuple[float, float]:
         (left, right), radius = self._pairs[0], self._radii[0]
+        if self._swapped:
+            left, right = right, left
         return state.position(left) * radius, state.position(right) * radius
 
     def _estimate(self, state: State, period: float) -> Estimate:
@@ -222,40 +224,14 @@ class DiffDrive(Drive):
         now = from_wheels(ahead, self._setup.dt, signed=True)
         return {self._odometer.frame: (now.position, now.quaternion)}
 
-    def _wheel_transforms(self, t: float, moved: Any) -> Any:
-        links = []
-        for joint in (name for pair in self._pairs for name in pair):
-            written = self._setup.kinematics.robot.joint_by_name[joint]
-            position, quaternion = moved.placement(written.child, written.parent)
-            links.append(transform(t, written.parent or "", written.child or "", position, quaternion))
-        return message_type(TF)(links)
-
-    def _wheel_message(self, t: float, positions: list[float]) -> Any:
-        import numpy as np
-
-        names = [joint for pair in self._pairs for joint in pair]
-        return message_type(JOINT_STATE)(header(t, ""), names, np.array(positions), np.zeros(0), np.zeros(0))
-
     def reset(self) -> None:
         """Forget commands and odometry."""
-        self._wanted = (0.0, 0.0)
+        self._command.clear()
         self._enabled = True
         self.resting = False
         self._instructed = [0.0] * len(self._instructed)
         self._odometry = WheelOdometry(self._separations[0], exact=self._gz)
         self._last_read = 0.0
         if self._gz:
-            for limiter in self._limiters:
-                limiter.reset()
-
-
-def _limiter(read: Parameters, which: str) -> SpeedLimiter:
-    """Read the limits of the linear or angular velocity: its own where they are written, else the common ones."""
-
-    def bound(end: str, quantity: str, unlimited: float) -> float:
-        return read.number(f"{end}_{which}_{quantity}", read.number(f"{end}_{quantity}", unlimited))
-
-    def bounds(quantity: str) -> tuple[float, float]:
-        return bound("min", quantity, -inf), bound("max", quantity, inf)
-
-    return SpeedLimiter(bounds("velocity"), bounds("acceleration"), bounds("jerk"))
+            for limited in self._limiters:
+                limited.reset()

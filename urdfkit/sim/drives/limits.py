@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import inf
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from urdfkit.sim.parameters import Parameters
 
 
 @dataclass(slots=True)
@@ -47,3 +51,19 @@ class SpeedLimiter:
 
 def _clamp(value: float, bounds: tuple[float, float]) -> float:
     return max(bounds[0], min(bounds[1], value))
+
+
+def limiter(read: Parameters, which: str) -> SpeedLimiter:
+    """Read the limits of the ``linear`` or ``angular`` velocity: its own where they are written, else the common ones.
+
+    Raises:
+        SimulationError: one is no finite number.
+    """
+
+    def bound(end: str, quantity: str, unlimited: float) -> float:
+        return read.number(f"{end}_{which}_{quantity}", read.number(f"{end}_{quantity}", unlimited))
+
+    def bounds(quantity: str) -> tuple[float, float]:
+        return bound("min", quantity, -inf), bound("max", quantity, inf)
+
+    return SpeedLimiter(bounds("velocity"), bounds("acceleration"), bounds("jerk"))

@@ -7,11 +7,15 @@ from dataclasses import dataclass
 from math import atan2, cos, sin
 from typing import TYPE_CHECKING, Any
 
+from urdfkit.errors import SimulationError
 from urdfkit.messages import ODOMETRY, TF, header, message_type, transform, twist
 
 if TYPE_CHECKING:
     from urdfkit.bus import Bus, Topic
     from urdfkit.sim.odometry import WheelOdometry
+    from urdfkit.sim.parameters import Parameters
+    from urdfkit.sim.plugin import Setup
+    from urdfkit.sim.topics import Topics
 
 HUGE = 1e12
 """Variance of what odometry does not measure, as gazebo_ros_diff_drive writes it."""
@@ -44,6 +48,8 @@ class Odometer:
         frame: the odometry frame.
         child: the base frame.
         covariance: variances of x, y [m²] and yaw [rad²]; None leaves the matrix zero (the new Gazebo).
+        twist_covariance: the twist has the same variances as the pose; without, its matrix is zero.
+        flat: the message has no height; the transform has the true one.
     """
 
     def __init__(
@@ -55,12 +61,16 @@ class Odometer:
         frame: str,
         child: str,
         covariance: tuple[float, float, float] | None,
+        twist_covariance: bool = False,
+        flat: bool = False,
     ) -> None:
         self._odometry: Topic | None = bus.advertise(topic, ODOMETRY) if topic else None
         self._tf: Topic | None = bus.advertise(tf_topic, TF) if tf_topic else None
         self.frame = frame
         self.child = child
         self._covariance = covariance
+        self._twist_covariance = twist_covariance
+        self._flat = flat
 
     def publish(self, t: float, estimate: Callable[[], Estimate]) -> None:
         """Offer message and transform of this moment; `estimate` must hold on to the values of now."""
@@ -72,25 +82,80 @@ class Odometer:
     def _message(self, t: float, estimate: Estimate) -> Any:
         import numpy as np
 
+        x, y, z = estimate.position
         pose = message_type("geometry_msgs/msg/Pose")(
-            message_type("geometry_msgs/msg/Point")(*estimate.position),
+            message_type("geometry_msgs/msg/Point")(x, y, 0.0 if self._flat else z),
             message_type("geometry_msgs/msg/Quaternion")(*estimate.quaternion),
         )
         covariance = np.zeros(36)
         if self._covariance is not None:
-            x, y, yaw = self._covariance
-            covariance[::7] = (x, y, HUGE, HUGE, HUGE, yaw)
+            of_x, of_y, of_yaw = self._covariance
+            covariance[::7] = (of_x, of_y, HUGE, HUGE, HUGE, of_yaw)
         return message_type(ODOMETRY)(
             header(t, self.frame),
             self.child,
             message_type("geometry_msgs/msg/PoseWithCovariance")(pose, covariance),
             message_type("geometry_msgs/msg/TwistWithCovariance")(
-                twist(estimate.linear, estimate.angular), np.zeros(36)
+                twist(estimate.linear, estimate.angular),
+                covariance.copy() if self._twist_covariance else np.zeros(36),
             ),
         )
 
     def _transform(self, t: float, estimate: Estimate) -> Any:
         return message_type(TF)([transform(t, self.frame, self.child, estimate.position, estimate.quaternion)])
+
+
+def odometer(
+    setup: Setup,
+    read: Parameters,
+    topics: Topics,
+    *,
+    published: bool,
+    with_tf: bool,
+    twist_covariance: bool = False,
+    flat: bool = False,
+) -> Odometer:
+    """Return the odometer a drive's table describes.
+
+    Args:
+        setup: the drive's.
+        read: its parameters; topics and covariance are those of gazebo_ros_diff_drive where its table has none.
+        topics: its topics.
+        published: publish the odometry message.
+        with_tf: publish the transform.
+        twist_covariance: the twist has the same variances as the pose.
+        flat: the message has no height.
+    """
+    gz = read.generation == "gz"
+    covariance = tuple(
+        read.number(f"covariance_{part}", default) for part, default in (("x", 1e-5), ("y", 1e-5), ("yaw", 1e-3))
+    )
+    return Odometer(
+        setup.bus,
+        topic=topics.resolve(read.text("odometry_topic", "odom")) if published else None,
+        tf_topic=(topics.resolve(read.text("tf_topic")) if gz else "/tf") if with_tf else None,
+        frame=read.text("odometry_frame"),
+        child=read.text("base_frame"),
+        covariance=None if gz else (covariance[0], covariance[1], covariance[2]),
+        twist_covariance=twist_covariance,
+        flat=flat,
+    )
+
+
+def by_encoder(read: Parameters) -> bool:
+    """Return whether odometry comes from the wheels, not from the world.
+
+    Raises:
+        SimulationError: the parameter says neither.
+    """
+    source = read.text("odometry_source", "encoder").strip()
+    if source not in ("encoder", "world", "0", "1"):
+        raise SimulationError(
+            f"<{read.tag('odometry_source')}> is `{source}`; it must be "
+            + ("`encoder` or `world`" if read.generation == "ros1" else "0 (encoder) or 1 (world)"),
+            position=read.place("odometry_source"),
+        )
+    return source in ("encoder", "0")
 
 
 def from_wheels(odometry: WheelOdometry, period: float, *, signed: bool) -> Estimate:
