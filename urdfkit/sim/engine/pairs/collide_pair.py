@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfkit.sim.engine.compilation import compiled, inlined
-from urdfkit.sim.engine.pairs.shapes import SPHERE
-from urdfkit.sim.engine.spatial import Vector, add, dot, scale, store_vector, sub
+from urdfkit.sim.engine.compilation import compiled
+from urdfkit.sim.engine.pairs import memory
+from urdfkit.sim.engine.pairs.candidates import keep_apart, write
+from urdfkit.sim.engine.pairs.convex import collide_convex
+from urdfkit.sim.engine.spatial import Vector
 
 MOST = 8
 """Most contacts of one pair; the outputs have room for so many."""
-WORK, WORK_INDICES = 4096, 1024
+WORK, WORK_INDICES = memory.WORK, memory.WORK_INDICES
 """Floats and integers of working memory, which the caller allocates once."""
 
 
@@ -57,41 +59,15 @@ def collide_pair(
         out_point: flat, three each: half-way between the two surfaces [m].
         out_normal: flat, three each: unit vectors from b to a.
         out_gap: distance along the normal [m], negative where the shapes overlap.
-        out_feature: number of what touches; it stays as long as the same parts touch, and is below 2⁴⁰.
+        out_feature: number of what touches; it stays as long as the same parts touch, and is below 2⁴⁸.
 
     Returns:
         How many contacts, at most `MOST`.
     """
-    if kind_a == SPHERE and kind_b == SPHERE:
-        return sphere_sphere(p_a, size_a[0], p_b, size_b[0], margin, out_point, out_normal, out_gap, out_feature)
-    return 0
-
-
-@inlined
-def unit_or(a: Vector, otherwise: Vector) -> Vector:
-    """Return the direction of a vector, or another one when it has none."""
-    square = dot(a, a)
-    return scale(square**-0.5, a) if square > 1e-300 else otherwise
-
-
-@inlined
-def sphere_sphere(
-    p_a: Vector,
-    radius_a: float,
-    p_b: Vector,
-    radius_b: float,
-    margin: float,
-    out_point: Any,
-    out_normal: Any,
-    out_gap: Any,
-    out_feature: Any,
-) -> int:
-    """Find the contact of two spheres; of concentric ones the normal is up."""
-    normal = unit_or(sub(p_a, p_b), (0.0, 0.0, 1.0))
-    gap = dot(normal, sub(p_a, p_b)) - radius_a - radius_b
-    if gap >= margin:
-        return 0
-    store_vector(out_normal, 0, normal)
-    store_vector(out_point, 0, add(p_b, scale(radius_b + 0.5 * gap, normal)))
-    out_gap[0], out_feature[0] = gap, 0
-    return 1
+    a = (kind_a, size_a, R_a, p_a, data_a)
+    b = (kind_b, size_b, R_b, p_b, data_b)
+    count = collide_convex(0, a, b, numbers, indices, margin, 0, work, work_indices)
+    if count > MOST:
+        count = keep_apart(count, MOST, 0.1, work, work_indices)
+    write(count, 1.0, work, work_indices, out_point, out_normal, out_gap, out_feature)
+    return count
