@@ -101,6 +101,9 @@ class Simulator:
         self.paused = False
         self._note = note or LOG.warning
         self._noted: set[str] = set()
+        _require_only_ground(self.world)
+        for line in self.world.notes:
+            self.note(line)
         bolted = fixed_base or self.robot.roots()[0].name == "world"
         self.kinematics = Kinematics(self.robot, floating_base=not bolted)
         self.scene: Scene = scene_of(self.robot)
@@ -312,3 +315,14 @@ def _with_gravity(world: World, gravity: Sequence[float] | None) -> World:
     if len(gravity) != 3 or not np.isfinite(gravity).all():
         raise SimulationError(f"gravity {tuple(gravity)} must be three finite numbers [m/s²]")
     return replace(world, gravity=(float(gravity[0]), float(gravity[1]), float(gravity[2])))
+
+
+def _require_only_ground(world: World) -> None:
+    """Refuse what would be left out silently."""
+    ground = None if world.ground is None else world.ground.name
+    things = [(thing.name, thing.position) for thing in world.models]
+    things += [(thing.name, thing.position) for thing in world.robots]
+    for name, position in things:
+        if name != ground:
+            message = f"model `{name}` cannot be simulated yet: worlds hold a ground plane and lights"
+            raise SimulationError(message, position=position)

@@ -1,14 +1,14 @@
 """Worlds: SDF in, models and lights out, every pose resolved and everything with its place. No mathematics."""
 
+from urdfkit.description.world.library import model_names, world_names
 from urdfkit.description.world.model import WorldAxis, WorldInertial, WorldJoint, WorldLink, WorldModel
-from urdfkit.description.world.reader import WORLDS, load_world
+from urdfkit.description.world.reader import load_model, load_world
 from urdfkit.description.world.shape import Ellipsoid, Kept, Light, Plane, Surface, WorldGeometry, WorldShape
 from urdfkit.description.world.world import GRAVITY, GROUND_MU, Ground, Physics, World, WorldRobot, ground_of
 
 __all__ = [
     "GRAVITY",
     "GROUND_MU",
-    "WORLDS",
     "Ellipsoid",
     "Ground",
     "Kept",
@@ -26,5 +26,8 @@ __all__ = [
     "WorldRobot",
     "WorldShape",
     "ground_of",
+    "load_model",
     "load_world",
+    "model_names",
+    "world_names",
 ]

@@ -1,128 +1,226 @@
-"""The world as written: gravity and ground. Worlds we ship, and SDF files as far as they are read.
+"""load_world, load_model: SDF 1.4 to 1.11 read strictly, into one pose for everything.
 
-An SDF world may hold lights, physics settings, plugins and a ground plane. Other models are refused, with their place,
-rather than left out silently.
+What would be missing from the simulation is refused with its place (heightmaps, polylines, models that are not there);
+what is only lost to the eye, or to a plugin, is noted in `World.notes`.
 """
 
 from __future__ import annotations
 
-from math import isfinite
+from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 from urdfkit.description.element import Element
-from urdfkit.description.reading import document_of, read_source
-from urdfkit.description.robot import Pose, Vector
-from urdfkit.description.world.model import WorldLink, WorldModel
-from urdfkit.description.world.shape import Plane, Surface, WorldShape
-from urdfkit.description.world.world import GRAVITY, GROUND_MU, World
+from urdfkit.description.packages import Packages
+from urdfkit.description.robot import Pose
+from urdfkit.description.world.context import Context, root_error
+from urdfkit.description.world.frames import Scope
+from urdfkit.description.world.library import model_file, model_names, world_file, world_names
+from urdfkit.description.world.model import WorldModel
+from urdfkit.description.world.read_joint import read_joint
+from urdfkit.description.world.read_link import read_light
+from urdfkit.description.world.read_model import Found, add_frame, read_include, read_model
+from urdfkit.description.world.shape import Light, keep
+from urdfkit.description.world.state import State
+from urdfkit.description.world.systems import remark_plugins
+from urdfkit.description.world.values import raw_pose, scalar, vector, wrong
+from urdfkit.description.world.vocabulary import remark_unknown
+from urdfkit.description.world.world import GRAVITY, Physics, World, WorldRobot
 from urdfkit.errors import DescriptionError, ResourceError, did_you_mean
 
-EARTH: Vector = (0.0, 0.0, -9.81)
-"""Gravity of the worlds we ship [m/s²]."""
-
-
-def ground_plane(name: str = "ground_plane", height: float = 0.0, mu: float = GROUND_MU) -> WorldModel:
-    """Return a level plane that does not move."""
-    shape = WorldShape("collision", Plane(), surface=Surface(mu=mu))
-    link = WorldLink("link", collisions=(shape,))
-    return WorldModel(name, Pose((0.0, 0.0, height)), static=True, links=(link,))
-
-
-WORLDS = {"empty": World("empty", EARTH, (ground_plane(),)), "void": World("void", EARTH)}
-"""The worlds we ship: ``empty`` has a sun and a ground plane, ``void`` has nothing at all."""
-
 _SUFFIXES = (".world", ".sdf")
+_READ = {"frame", "gravity", "include", "joint", "light", "magnetic_field", "model", "physics", "state"}
+_PHYSICS_READ = {"max_step_size", "real_time_factor", "real_time_update_rate", "gravity", "magnetic_field"}
+_NOT_SIMULATED = {
+    "actor": "actors are not simulated",
+    "population": "populations are not simulated: write their models",
+    "road": "roads are not shown",
+}
 
 
-def load_world(world: str | Path) -> World:
+def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) -> World:
     """Return the world of that name or in that file.
+
+    Args:
+        world: the name of a world we ship, or a ``.world`` or ``.sdf`` file. A file with a model alone is a world with
+            nothing else in it.
+        package_path: folders to look for models and packages in first.
+
+    Raises:
+        ResourceError: there is none, or it includes what is not there.
+        XmlError: a file is not well-formed XML, or hostile.
+        DescriptionError: it cannot be read, or holds what cannot be simulated; with its place.
+    """
+    path = world_file(str(world)) or Path(world)
+    if path.suffix not in _SUFFIXES:
+        names = world_names()
+        raise ResourceError(
+            f"no world `{world}`{did_you_mean(str(world), names)}"
+            f" (worlds: {', '.join(names)}, or a path to a .world or .sdf file)"
+        )
+    context = Context(Packages(package_path, path), path)
+    root = context.open()
+    if root.tag != "sdf":
+        raise root_error(root)
+    remark_unknown(context, root)
+    written = root.find("world")
+    if written is not None:
+        found = _world(context, written)
+    elif (model := root.find("model")) is not None:
+        found = _alone(read_model(context, model))
+    else:
+        raise root_error(root)
+    for each in found.models:
+        _require_masses(each, static=False)
+    remark_plugins(context, found)
+    return replace(found, notes=tuple(context.notes), files=tuple(context.files))
+
+
+def load_model(
+    model: str | Path, *, name: str = "", pose: Pose | None = None, package_path: Iterable[str | Path] = ()
+) -> WorldModel:
+    """Return a model to be put into a world.
+
+    Args:
+        model: the name of a model we ship, ``model://name``, or an ``.sdf`` file.
+        name: what to call it; its own name when empty.
+        pose: where to put it; where it says when None.
+        package_path: folders to look for models and packages in first.
 
     Raises:
         ResourceError: there is none.
-        XmlError: the file is not well-formed XML, or hostile.
-        DescriptionError: it holds what cannot be simulated yet, with its place.
+        XmlError: a file is not well-formed XML, or hostile.
+        DescriptionError: it cannot be read, or is no model.
     """
-    if str(world) in WORLDS:
-        return WORLDS[str(world)]
-    path = Path(world)
-    if path.suffix not in _SUFFIXES:
-        raise ResourceError(
-            f"no world `{world}`{did_you_mean(str(world), WORLDS)}"
-            f" (worlds: {', '.join(WORLDS)}, or a path to a .world or .sdf file)"
-        )
-    root = document_of(read_source(path))
-    written = root.find("world") if root.tag == "sdf" else None
+    path = model_file(str(model)) or Path(model)
+    if str(model).startswith("model://") or (path.suffix != ".sdf" and "/" not in str(model)):
+        path = _named(str(model).removeprefix("model://"), package_path)
+    context = Context(Packages(package_path, path), path)
+    root = context.open()
+    written = root.find("model") if root.tag == "sdf" else None
     if written is None:
-        raise DescriptionError("an SDF world starts with <sdf> and has a <world> in it", position=root.origin.position)
-    gravity = written.find("gravity")
-    ground: WorldModel | None = None
-    for element in written.children:
-        if element.tag == "include":
-            ground = _included(element) or ground
-        elif element.tag == "model":
-            ground = _plane(element)
-    models = () if ground is None else (ground,)
-    return World(written.get("name") or path.stem, GRAVITY if gravity is None else _vector(gravity), models)
+        raise wrong(root, "an SDF model starts with <sdf> and has a <model> in it")
+    found = read_model(context, written)
+    if not isinstance(found.thing, WorldModel):
+        raise wrong(written, "this is no model")
+    loaded = _alone(found).models[0]
+    _require_masses(loaded, static=False)
+    return replace(loaded, name=name or loaded.name, pose=loaded.pose if pose is None else pose)
 
 
-def _included(element: Element) -> WorldModel | None:
-    """Return the ground plane an ``<include>`` means; None for a light."""
-    uri = element.find("uri")
-    name = "" if uri is None else uri.text.rstrip("/").rpartition("/")[2].lower().replace(" ", "_")
-    if name == "sun":
-        return None
-    if name == "ground_plane":
-        pose = element.find("pose")
-        called = element.find("name")
-        return ground_plane("ground_plane" if called is None else called.text, _height(pose))
-    raise DescriptionError(
-        f"model `{'' if uri is None else uri.text}` cannot be simulated yet: worlds hold a ground plane and lights",
+def _named(name: str, package_path: Iterable[str | Path]) -> Path:
+    from urdfkit.description.source import Origin, Position
+    from urdfkit.description.world.files import find_model
+
+    here = Path.cwd() / "model"
+    uri = Element("uri", {}, [], f"model://{name}", Origin(Position("", 0, 0)))
+    try:
+        return find_model(Context(Packages(package_path, here), here), uri)
+    except ResourceError as error:
+        names = f" (models: {', '.join(model_names())})"
+        raise ResourceError(error.message + ("" if "did you mean" in error.message else names)) from None
+
+
+def _alone(found: Found) -> World:
+    scope = Scope("world", "the world")
+    found.add_to(scope, strict=True)
+    model = found.placed(scope)
+    assert isinstance(model, WorldModel)
+    return World(model.name, models=(model,), position=model.position)
+
+
+def _world(context: Context, element: Element) -> World:
+    remark_unknown(context, element)
+    scope = Scope("world", f"world `{element.get('name') or ''}`")
+    strict = context.version >= (1, 7)
+    states = element.find_all("state")
+    state = State(context, states[-1]) if states else None
+    things = [_thing(context, child) for child in (*element.children, *(state.inserted if state else ()))]
+    found = [thing for thing in things if thing is not None]
+    if state is not None:
+        found = [thing for thing in found if thing.thing.name not in state.deleted]
+    for thing in found:
+        thing.add_to(scope, strict=strict)
+    for child in element.children:
+        if child.tag in ("frame", "joint"):
+            add_frame(scope, child, strict=strict)
+        elif child.tag in _NOT_SIMULATED:
+            context.note(child, _NOT_SIMULATED[child.tag])
+    placed = [thing.placed(scope) for thing in found]
+    models = [each for each in placed if isinstance(each, WorldModel)]
+    lights = [each for each in placed if isinstance(each, Light)]
+    if state is not None:
+        state.remark_strangers([each.name for each in models])
+        models, lights = [state.model(each) for each in models], [state.light(each) for each in lights]
+    physics = _physics_element(element)
+    gravity = vector(physics, "gravity", GRAVITY)  # SDF 1.5 and older write it there
+    default = World("")
+    return World(
+        element.get("name") or context.path.stem,
+        vector(element, "gravity", gravity),
+        tuple(models),
+        tuple(lights),
+        Physics() if physics is None else _physics(physics),
+        tuple([each for each in placed if isinstance(each, WorldRobot)]),
+        tuple([read_joint(context, joint, scope) for joint in element.find_all("joint")]),
+        vector(element, "magnetic_field", default.magnetic_field),
+        tuple([keep(child) for child in element.children if child.tag not in _READ]),
         position=element.origin.position,
     )
 
 
-def _plane(model: Element) -> WorldModel:
-    """Return the ground that a model with nothing but a horizontal plane is."""
-    collisions = [element for element in model.walk() if element.tag == "collision"]
-    geometry = collisions[0].find("geometry") if len(collisions) == 1 else None
-    plane = geometry.find("plane") if geometry is not None else None
-    normal = plane.find("normal") if plane is not None else None
-    level = plane is not None and (normal is None or _vector(normal)[:2] == (0.0, 0.0))
-    if not level:
-        raise DescriptionError(
-            f"model `{model.get('name') or ''}` cannot be simulated yet: worlds hold a ground plane and lights",
-            position=model.origin.position,
+def _thing(context: Context, element: Element) -> Found | None:
+    if element.tag == "model":
+        return read_model(context, element)
+    if element.tag == "light":
+        return Found(read_light(context, element, Pose()), raw_pose(element))
+    return read_include(context, element) if element.tag == "include" else None
+
+
+def _physics_element(world: Element) -> Element | None:
+    profiles = world.find_all("physics")
+    chosen = [each for each in profiles if (each.get("default") or "").lower() in ("true", "1")]
+    return next(iter(chosen or profiles), None)
+
+
+def _physics(element: Element) -> Physics:
+    default = Physics()
+    step = scalar(element, "max_step_size", default.max_step_size)
+    if step <= 0:
+        raise wrong(
+            element.find("max_step_size") or element, f"<max_step_size> is {step:g} s; it must be more than zero"
         )
-    mu = next((element for element in collisions[0].walk() if element.tag == "mu"), None)
-    height = sum(
-        _height(element.find("pose")) for element in model.walk() if element.tag in ("model", "link", "collision")
+    return Physics(
+        step,
+        scalar(element, "real_time_factor", default.real_time_factor),
+        scalar(element, "real_time_update_rate", default.real_time_update_rate),
+        element.get("type") or default.engine,
+        element.get("name") or "",
+        tuple([keep(child) for child in element.children if child.tag not in _PHYSICS_READ]),
     )
-    return ground_plane(model.get("name") or "ground_plane", height, 1.0 if mu is None else _numbers(mu, 1)[0])
 
 
-def _height(pose: Element | None) -> float:
-    """Return z of a pose that neither rolls nor pitches."""
-    if pose is None:
-        return 0.0
-    numbers = _numbers(pose, 6)
-    if any(numbers[3:5]):
-        raise DescriptionError("a ground plane that is tilted cannot be simulated yet", position=pose.origin.position)
-    return numbers[2]
+def _require_masses(model: WorldModel, *, static: bool) -> None:
+    """Refuse what moves without a mass, or with an inertia that nothing has."""
+    static = static or model.static
+    for link in () if static else model.links:
+        body = link.inertial
+        fault = ""
+        if body.mass <= 0:
+            fault = f"its mass is {body.mass:g} kg"
+        elif not _is_positive_definite(body.ixx, body.ixy, body.ixz, body.iyy, body.iyz, body.izz):
+            fault = "no body has its inertia: the tensor is not positive definite"
+        if fault:
+            raise DescriptionError(
+                f"link `{link.name}` of model `{model.name}` cannot move: {fault}; make the model <static> or mend it",
+                position=link.position,
+            )
+    for nested in model.models:
+        _require_masses(nested, static=static)
 
 
-def _vector(element: Element) -> Vector:
-    x, y, z = _numbers(element, 3)
-    return x, y, z
-
-
-def _numbers(element: Element, count: int) -> tuple[float, ...]:
-    try:
-        numbers = tuple(float(word) for word in element.text.split())
-    except ValueError:
-        numbers = ()
-    if len(numbers) != count or not all(isfinite(number) for number in numbers):
-        raise DescriptionError(
-            f"<{element.tag}> is `{element.text}`; it must be {count} finite number{'s' * (count > 1)}",
-            position=element.origin.position,
-        )
-    return numbers
+def _is_positive_definite(ixx: float, ixy: float, ixz: float, iyy: float, iyz: float, izz: float) -> bool:
+    """Say so by Sylvester's criterion."""
+    minor = ixx * iyy - ixy * ixy
+    whole = ixx * (iyy * izz - iyz * iyz) - ixy * (ixy * izz - iyz * ixz) + ixz * (ixy * iyz - iyy * ixz)
+    return ixx > 0 and minor > 0 and whole > 0

@@ -108,7 +108,8 @@ class WorldShape(Written):
         geometry: what shape it is.
         pose: in the link.
         surface: of a collision; that of a visual means nothing.
-        rgba: diffuse colour of a visual, each 0..1 (alpha is 1 - transparency); None where not written.
+        rgba: diffuse colour of a visual, each 0..1; None where not written.
+        transparency: of a visual: 0 is opaque, 1 is not seen.
         material: name of the Gazebo material script, e.g. ``Gazebo/Grey``; empty where none is written.
         laser_retro: what a lidar reads as intensity.
         file: the mesh on this machine; empty for other shapes, and for a visual whose mesh is not there.
@@ -121,6 +122,7 @@ class WorldShape(Written):
     pose: Pose = Pose()
     surface: Surface = Surface()
     rgba: Rgba | None = None
+    transparency: float = 0.0
     material: str = ""
     laser_retro: float = 0.0
     file: str = ""
@@ -165,3 +167,24 @@ def plugins_of(kept: tuple[Kept, ...]) -> tuple[Plugin, ...]:
     """Return those of the elements that are plugins."""
     elements = [each.element for each in kept if each.element.tag == "plugin"]
     return tuple([Plugin(e.get("name"), e.get("filename"), e) for e in elements])
+
+
+def keep(element: Element) -> Kept:
+    """Return an element to be kept as it is."""
+    return Kept(xml_of(element), element)
+
+
+def xml_of(element: Element) -> str:
+    """Return an element as XML on one line."""
+    parts = [element.tag]
+    parts += [f'{name}="{escaped(value, quoted=True)}"' for name, value in element.attributes.items()]
+    inside = escaped(element.text) + "".join([xml_of(child) for child in element.children])
+    return f"<{' '.join(parts)}>{inside}</{element.tag}>" if inside else f"<{' '.join(parts)}/>"
+
+
+def escaped(text: str, *, quoted: bool = False) -> str:
+    """Return text as it is written in XML, `quoted` for an attribute."""
+    text = text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace("\r", "&#13;")
+    if quoted:
+        text = text.replace('"', "&quot;").replace("\n", "&#10;").replace("\t", "&#9;")
+    return text

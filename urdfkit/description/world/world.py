@@ -24,7 +24,7 @@ class WorldRobot(Written):
     """A URDF that the world includes.
 
     Attributes:
-        name: what it is called here; empty for its own name.
+        name: what it is called here.
         uri: as written.
         file: the URDF on this machine.
         pose: of its root link in the world.
