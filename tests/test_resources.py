@@ -51,6 +51,19 @@ def test_installed_data_are_found_without_a_checkout(tmp_path, monkeypatch):
         templates_dir()
 
 
+def test_a_robot_with_variants(tmp_path, monkeypatch):
+    """The folder's name means the model of that name; a model beside it goes by its own."""
+    urdf = tmp_path / "rover" / "rover_description" / "urdf"
+    for name in ("rover", "rover_with_arm"):
+        write(urdf / f"{name}.urdf.xacro", f'<robot name="{name}"><link name="a"/></robot>')
+    write(urdf / "wheel.xacro", "<robot/>")
+    monkeypatch.setattr(resources, "robots_dir", lambda: tmp_path)
+    assert robot_names() == ["rover", "rover_with_arm"]
+    for name in robot_names():
+        assert find_model([name]).path == urdf / f"{name}.urdf.xacro"
+        assert find_model([name]).name == name
+
+
 def test_robot_by_name(here):
     found = find_model(["simpleton"])
     assert found.path == robots_dir() / "simpleton/simpleton_description/urdf/simpleton.urdf.xacro"

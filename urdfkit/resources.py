@@ -67,12 +67,30 @@ def templates_dir() -> Path:
 
 
 def robot_names() -> list[str]:
-    """Return the names of the robots we ship, sorted.
+    """Return the names of the robots we ship and of their variants, sorted.
 
     Raises:
         ResourceError: the installation is incomplete.
     """
-    return sorted(path.name for path in robots_dir().iterdir() if path.is_dir() and not path.name.startswith("."))
+    return sorted(_shipped_robots())
+
+
+def _shipped_robots() -> dict[str, Path]:
+    """Return name → folder of every robot, and name → file of every model beside one that has its folder's name."""
+    home = robots_dir()
+    folders = {path.name: path for path in home.iterdir() if path.is_dir() and not path.name.startswith(".")}
+    variants = {_stem(path): path for path in home.glob("*/*_description/urdf/*.urdf.xacro")}
+    return variants | folders
+
+
+def _shipped_model(name: str) -> Path:
+    """Return the model of a robot we ship: of several in its folder the one that has the folder's name."""
+    path = _shipped_robots()[name]
+    if path.is_file():
+        return path
+    entries = models_in(path)
+    own = [entry for entry in entries if _stem(entry) == name]
+    return own[0] if own else _the_one(entries, f"robot `{name}`")
 
 
 def find_model(words: Sequence[str], *, package_path: Iterable[str | Path] = ()) -> ModelArgument:
@@ -129,10 +147,10 @@ def _find(word: str) -> Path:
     if path.is_dir():
         entries = models_in(path)
         if not entries and word in robot_names():
-            entries = models_in(robots_dir() / word)
+            return _shipped_model(word)
         return _the_one(entries, f"folder {word}")
     if word in robot_names():
-        return _the_one(models_in(robots_dir() / word), f"robot `{word}`")
+        return _shipped_model(word)
     if _looks_like_a_path(word):
         raise ResourceError(f"no such file or folder: {word}{_near(path)}")
     here = [p.name for p in _children(Path.cwd()) if p.is_dir() or p.suffix in MODEL_SUFFIXES]

@@ -67,9 +67,9 @@ def find_entries(paths: Iterable[str | Path]) -> list[Entry]:
 def _of_name(name: str) -> list[Entry]:
     from urdfkit.resources import find_model, robot_names, robots_dir
 
-    if name in robot_names():
+    if name in robot_names() and (robots_dir() / name).is_dir():
         return _of_folder(robots_dir() / name)
-    # Says what is not there and the nearest right thing.
+    # A variant of a robot we ship; or it says what is not there and the nearest right thing.
     return [Entry(find_model([name]).path)]
 
 
