@@ -1,8 +1,10 @@
 """Worlds: SDF in, models and lights out, every pose resolved and everything with its place. No mathematics."""
 
+from urdfkit.description.world.edit import add_model, move_model, remove_model
 from urdfkit.description.world.library import model_names, world_names
 from urdfkit.description.world.model import WorldAxis, WorldInertial, WorldJoint, WorldLink, WorldModel
 from urdfkit.description.world.reader import load_model, load_world
+from urdfkit.description.world.save import model_to_sdf, save_world, to_sdf
 from urdfkit.description.world.shape import Ellipsoid, Kept, Light, Plane, Surface, WorldGeometry, WorldShape
 from urdfkit.description.world.world import GRAVITY, GROUND_MU, Ground, Physics, World, WorldRobot, ground_of
 
@@ -25,9 +27,15 @@ __all__ = [
     "WorldModel",
     "WorldRobot",
     "WorldShape",
+    "add_model",
     "ground_of",
     "load_model",
     "load_world",
     "model_names",
+    "model_to_sdf",
+    "move_model",
+    "remove_model",
+    "save_world",
+    "to_sdf",
     "world_names",
 ]

@@ -9,7 +9,7 @@ from urdfkit.description.element import Element
 from urdfkit.description.packages import near_path
 from urdfkit.description.reading import document_of, read_source, shown_path
 from urdfkit.description.world.context import NEWEST, Context
-from urdfkit.description.world.library import FOLDER, model_file, model_names, stand_in
+from urdfkit.description.world.library import ALIKE, FOLDER, model_file, model_names, stand_in
 from urdfkit.errors import ResourceError, did_you_mean
 
 MODEL_SUFFIXES = (".sdf", ".urdf", ".xacro", ".world")
@@ -63,8 +63,9 @@ def find_model(context: Context, uri: Element) -> Path:
     if path is not None:
         return _entry(path, uri)
     if name and not inside.strip("/") and (found := stand_in(name)) is not None:
-        if found[0] != name:
-            context.note(uri, f"{text}: `{found[0]}`, which we ship, stands in for it")
+        if found[0] != name or name in ALIKE:
+            which = "the one we ship" if found[0] == name else f"`{found[0]}`, which we ship,"
+            context.note(uri, f"{text}: {which} stands in for it")
         return found[1]
     if name:
         hint = did_you_mean(name, model_names())

@@ -19,7 +19,17 @@ _REFUSED = {
     "image": "build it of boxes",
     "cone": "use a cylinder or a mesh",
 }
-_READ = {"geometry", "laser_retro", "material", "pose", "surface", "transparency", "frame"}
+_READ = {
+    "auto_inertia_params",
+    "density",
+    "frame",
+    "geometry",
+    "laser_retro",
+    "material",
+    "pose",
+    "surface",
+    "transparency",
+}
 
 
 def read_shape(context: Context, element: Element, pose: Pose) -> WorldShape | None:
