@@ -4,14 +4,22 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from urdfkit.sim.engine.compilation import compiled
 from urdfkit.sim.engine.pairs import memory
 from urdfkit.sim.engine.pairs.candidates import keep_apart, write
 from urdfkit.sim.engine.pairs.convex import collide_convex
+from urdfkit.sim.engine.pairs.memory import NONE
+from urdfkit.sim.engine.pairs.mesh import collide_mesh, collide_meshes
+from urdfkit.sim.engine.pairs.plane import collide_plane
+from urdfkit.sim.engine.pairs.shapes import MESH, PLANE
 from urdfkit.sim.engine.spatial import Vector
 
 MOST = 8
 """Most contacts of one pair; the outputs have room for so many."""
+APART = 0.1
+"""Distance [m] that counts, between contacts with a mesh, as much as a difference of one between their normals."""
 WORK, WORK_INDICES = memory.WORK, memory.WORK_INDICES
 """Floats and integers of working memory, which the caller allocates once."""
 
@@ -66,8 +74,20 @@ def collide_pair(
     """
     a = (kind_a, size_a, R_a, p_a, data_a)
     b = (kind_b, size_b, R_b, p_b, data_b)
-    count = collide_convex(0, a, b, numbers, indices, margin, 0, work, work_indices)
-    if count > MOST:
-        count = keep_apart(count, MOST, 0.1, work, work_indices)
-    write(count, 1.0, work, work_indices, out_point, out_normal, out_gap, out_feature)
+    sign = 1.0
+    # Planes come second, meshes second before anything but a plane.
+    if kind_a == PLANE or (kind_a == MESH and kind_b != PLANE):
+        a, b = b, a
+        sign = -1.0
+    if b[0] == PLANE:
+        count = 0 if a[0] == PLANE else collide_plane(a, b, numbers, indices, margin, work, work_indices)
+    elif b[0] == MESH:
+        if a[0] == MESH:
+            count = collide_meshes(a, b, numbers, indices, margin, work, work_indices)
+        else:
+            count = collide_mesh(NONE, a, b, numbers, indices, margin, NONE, work, work_indices)
+        count = keep_apart(count, np.int64(MOST), APART, work, work_indices)
+    else:
+        count = collide_convex(NONE, a, b, numbers, indices, margin, NONE, work, work_indices)
+    write(count, sign, work, work_indices, out_point, out_normal, out_gap, out_feature)
     return count

@@ -52,4 +52,4 @@ def collide_convex(
     near, normal, gap, between = nearest(a, b, numbers, indices, limit, work, work_indices)
     if not near:
         return count
-    return spread(count, a, b, numbers, indices, normal, gap, between, True, margin, feature, work, work_indices)
+    return spread(count, a, b, numbers, indices, normal, gap, between, near, margin, feature, work, work_indices)

@@ -30,6 +30,8 @@ RIM = 8
 """Corners that stand for the rim of a cylinder; between them its lowest point is a corner of its own."""
 STANDING = 0.7
 """Cosine of the angle between axis and normal above which a cylinder touches with its flat face."""
+LEANING = 0.02
+"""Tilt [rad] over which the contact of a leaning wheel moves from the middle of its rim to the edge."""
 UPRIGHT = 1e-3
 """Sine of that angle below which the corners are counted from the cylinder's own x axis, not from the lowest point."""
 
@@ -153,6 +155,11 @@ def touching_face(
         if abs(d[2]) > STANDING:
             return RIM, rim(size, R, p, d, work, at, ids, id_at)
         outward = rotate(R, (size[0] * d[0] / level, size[0] * d[1] / level, 0.0))
+        if kind == WHEEL:
+            along = size[1] * min(1.0, max(-1.0, d[2] / LEANING))
+            put(work, at, 0, add(p, add(outward, scale(along, column(R, 2)))))
+            ids[id_at] = 0
+            return 1, direction
         line(size, R, p, outward, work, at, ids, id_at)
         return 2, direction
     put(work, at, 0, support(kind, size, R, p, data, numbers, indices, direction))

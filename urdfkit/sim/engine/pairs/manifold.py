@@ -9,21 +9,22 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.pairs.candidates import keep_widest, note
-from urdfkit.sim.engine.pairs.faces import column, touching_face
+from urdfkit.sim.engine.pairs.faces import touching_face
 from urdfkit.sim.engine.pairs.gjk import put
 from urdfkit.sim.engine.pairs.memory import (
     CLIPPED,
     CLIPPED_ID,
     CLIPPED_ID_NEXT,
     CLIPPED_NEXT,
-    GAP,
     ID_A,
     ID_B,
     MOST_CANDIDATES,
     MOST_CLIPPED,
-    POINT,
+    NONE,
     POLYGON_A,
     POLYGON_B,
 )
@@ -32,10 +33,10 @@ from urdfkit.sim.engine.spatial import Vector, add, cross, dot, scale, sub
 
 PARALLEL = 0.05
 """Sine of the angle below which two lines touch along their length."""
+TWO = np.int64(2)
+"""Corners of a line, of the type of counts that are found."""
 LEVEL = 0.05
 """Cosine between a face and the normal below which the face cannot be clipped against."""
-LEANING = 0.02
-"""Tilt [rad] over which the contact of a leaning wheel moves from the middle of its rim to the edge."""
 REACHED = 1e-7
 """How near [m] to the gap of the shapes that of a clipped point must come to stand for it."""
 INSIDE = 1e-9
@@ -48,13 +49,13 @@ B_IS_CLIPPED = 1 << 19
 
 @inlined
 def clip_edge(count: int, start: Vector, outward: Vector, plane: int, work: Any, ids: Any) -> int:
-    """Cut a polygon, or a line, off outside a plane; return how many corners are left.
+    """Cut a polygon, a line or a point off outside a plane; return how many corners are left.
 
     A corner that a cut makes is numbered by the cut and by the edge it is on.
     """
     left = 0
     # A line is gone through once, a polygon all the way round.
-    for k in range(count if count > 2 else count - 1):
+    for k in range(count if count != 2 else 1):
         j = k + 1 if k + 1 < count else 0
         p, q = vertex_at(work, CLIPPED, k), vertex_at(work, CLIPPED, j)
         p_out, q_out = dot(outward, sub(p, start)) - INSIDE, dot(outward, sub(q, start)) - INSIDE
@@ -104,7 +105,7 @@ def clip_to_face(count: int, polygon: int, corners: int, normal: Vector, work: A
         towards = dot(outward, sub(start, centre))
         outward = scale((1.0 if towards >= 0.0 else -1.0) / math.sqrt(square), outward)
         count = clip_edge(count, start, outward, k, work, ids)
-        if count == 0 or (count == 1 and corners > 0):
+        if count == 0:
             break
     return count
 
@@ -115,9 +116,9 @@ def clip_to_line(polygon: int, work: Any, ids: Any) -> int:
     start, end = vertex_at(work, polygon, 0), vertex_at(work, polygon, 1)
     along = sub(end, start)
     along = scale(1.0 / math.sqrt(dot(along, along)), along)
-    count = clip_edge(2, start, scale(-1.0, along), 0, work, ids)
+    count = clip_edge(TWO, start, scale(-1.0, along), NONE, work, ids)
     if count == 2:
-        count = clip_edge(count, end, along, 1, work, ids)
+        count = clip_edge(count, end, along, TWO, work, ids)
     return count
 
 
@@ -128,19 +129,6 @@ def are_parallel(work: Any) -> bool:
     b = sub(vertex_at(work, POLYGON_B, 1), vertex_at(work, POLYGON_B, 0))
     normal = cross(a, b)
     return bool(dot(normal, normal) < PARALLEL * PARALLEL * dot(a, a) * dot(b, b) and dot(a, a) * dot(b, b) > 0.0)
-
-
-@inlined
-def touch_in_the_middle(first: int, count: int, rise: float, axis: Vector, work: Any, work_indices: Any) -> int:
-    """Make the two contacts at the ends of a wheel's line one, which moves to the lower end when the wheel leans."""
-    if count != first + 2:
-        return count
-    p, q = vertex_at(work, POINT, first), vertex_at(work, POINT, first + 1)
-    sign = 1.0 if dot(sub(q, p), axis) >= 0.0 else -1.0
-    t = 0.5 - 0.5 * sign * min(1.0, max(-1.0, rise / LEANING))
-    put(work, POINT, first, add(p, scale(t, sub(q, p))))
-    work[GAP + first] += t * (work[GAP + first + 1] - work[GAP + first])
-    return first + 1
 
 
 @compiled
@@ -190,8 +178,8 @@ def spread(
     level_b = dot(face_b, normal) if corners_b > 2 else 0.0
     clipped = 0
     # The face that is more nearly square to the normal stays whole; of two alike that is b's.
-    clips_a = level_b >= level_a - 1e-6 and level_b > LEVEL and corners_a > 1
-    clips_b = not clips_a and level_a > LEVEL and corners_b > 1
+    clips_a = level_b >= level_a - 1e-6 and level_b > LEVEL
+    clips_b = not clips_a and level_a > LEVEL
     start, facing = vertex_at(work, POLYGON_B, 0), face_b
     if clips_a:
         take(corners_a, POLYGON_A, ID_A, work, work_indices)
@@ -202,7 +190,7 @@ def spread(
         clipped = clip_to_face(corners_b, POLYGON_A, corners_a, normal, work, work_indices)
     elif corners_a == 2 and corners_b == 2 and are_parallel(work):
         clips_a = True
-        take(2, POLYGON_A, ID_A, work, work_indices)
+        take(corners_a, POLYGON_A, ID_A, work, work_indices)
         clipped = clip_to_line(POLYGON_B, work, work_indices)
         # The line of b and what is square to it and most nearly to the normal stand for its face.
         along = sub(vertex_at(work, POLYGON_B, 1), start)
@@ -218,17 +206,10 @@ def spread(
                 middle = add(sub(point, scale(0.5 * height, normal)), shift)
                 number = feature + work_indices[CLIPPED_ID + k] + (0 if clips_a else B_IS_CLIPPED)
                 count = note(count, middle, normal, here - radius_a - radius_b, number, work, work_indices)
-    if a[0] == WHEEL and corners_a == 2:
-        axis = column(a[2], 2)
-        merged = touch_in_the_middle(first, count, dot(axis, normal), axis, work, work_indices)
-    elif b[0] == WHEEL and corners_b == 2:
-        axis = column(b[2], 2)
-        merged = touch_in_the_middle(first, count, -dot(axis, normal), axis, work, work_indices)
-    else:
-        merged = count
-    if merged < count:
-        return merged
-    if has_nearest and gap < limit and least > gap + REACHED and count < MOST_CANDIDATES:
+    # The lower edge of a leaning wheel is left out for the middle of its rim.
+    on_rim = (a[0] == WHEEL and corners_a == 1) or (b[0] == WHEEL and corners_b == 1)
+    reached = least < math.inf if on_rim else least <= gap + REACHED
+    if has_nearest and gap < limit and not reached and count < MOST_CANDIDATES:
         count = note(
             count, add(between, shift), normal, gap - radius_a - radius_b, feature + NEAREST, work, work_indices
         )

@@ -6,6 +6,7 @@ import numpy as np
 
 MOST_POINTS, MOST_FACES, MOST_CORNERS, MOST_CANDIDATES = 128, 256, 64, 64
 """Room for the polytope's points and faces, for the corners of a face, for contacts before they are reduced."""
+NONE = np.int64(0)
 MOST_CLIPPED = 2 * MOST_CORNERS
 
 # Floats. The first points are also the simplex. All are of numpy's kind of integer: numba compiles a function anew for

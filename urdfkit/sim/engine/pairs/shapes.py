@@ -21,8 +21,10 @@ centres of its caps. A plane is the half-space below the z axis of its placement
 (see `geometry`); a triangle is one of a mesh, and its `data` is where its three vertices start among the numbers.
 """
 
-VERTICES, FIRST_VERTEX, FACES, FIRST_NORMAL, FIRST_LOOP, FIRST_CORNER, NODES, FIRST_BOUND, FIRST_CHILD = range(9)
-"""Entries of the head of a hull or mesh among the indices."""
+VERTICES, FIRST_VERTEX, FACES, FIRST_NORMAL, FIRST_LOOP, FIRST_CORNER = range(6)
+"""Entries of the head of a hull among the indices."""
+TRIANGLES, FIRST_TRIANGLE, LEAVES, FIRST_BOUND, FIRST_FLAG = range(5)
+"""Entries of the head of a mesh among the indices."""
 
 
 @inlined
