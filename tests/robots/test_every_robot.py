@@ -10,6 +10,7 @@ import pytest
 
 from urdfkit.description import load
 from urdfkit.description.expand import expand
+from urdfkit.description.world import load_world
 from urdfkit.kinematics import Kinematics
 from urdfkit.lint import lint
 from urdfkit.resources import find_model, robot_names, robots_dir
@@ -119,3 +120,10 @@ def test_pinocchio_and_mujoco_take_it(name, robot):
     joints = sum(joint.is_movable for joint in robot.joints)
     assert pinocchio.buildModelFromXML(xml).nv == joints
     assert mujoco.MjModel.from_xml_string(xml).nv == joints
+
+
+@pytest.mark.parametrize("path", sorted(robots_dir().glob("*/*/worlds/*")), ids=lambda path: path.name)
+def test_its_worlds_load(path):
+    world = load_world(path)
+    assert world.name == path.stem
+    assert world.ground is not None
