@@ -112,7 +112,7 @@ def leans_over(flags: int, normal: Vector, facing: Vector, p: Vector, q: Vector,
         over = 3
     else:
         over = 6
-    return (flags & over) == 0
+    return bool((flags & over) == 0)
 
 
 @compiled
@@ -237,4 +237,4 @@ def collide_meshes(a: Any, b: Any, numbers: Any, indices: Any, margin: float, wo
                 # Features stay below 2⁴⁸ for meshes of any size; of large ones two may share a number.
                 number = (k % (1 << 13)) << 34
                 count = collide_mesh(count, triangle, b, numbers, indices, margin, number, work, work_indices)
-    return count
+    return int(count)
