@@ -1,8 +1,8 @@
-"""The one integrator of wheel odometry, shared by every drive."""
+"""The integrators of wheel odometry, shared by every drive."""
 
 from __future__ import annotations
 
-from math import cos, hypot, sin
+from math import cos, hypot, sin, tan
 
 
 class WheelOdometry:
@@ -51,12 +51,67 @@ class WheelOdometry:
         self._left, self._right = left, right
         arc = (s_left + s_right) / 2
         turn = (s_right - s_left) / self._separation
-        chord = arc
-        if self._exact and abs(turn) > 1e-6:
-            chord = arc * sin(turn / 2) / (turn / 2)
-        middle = self.heading + turn / 2
-        dx, dy = chord * cos(middle), chord * sin(middle)
+        if self._exact:
+            dx, dy = along_arc(arc, self.heading, turn)
+        else:
+            middle = self.heading + turn / 2
+            dx, dy = arc * cos(middle), arc * sin(middle)
         self.x += dx
         self.y += dy
         self.heading += turn
         self.distance, self.turned, self.advanced = hypot(dx, dy), turn, arc
+
+
+class BicycleOdometry:
+    """Planar pose from the distance rolled and the angle of the steered wheel, at the middle of the rear axle.
+
+    The law of the new Gazebo's AckermannSteering: the heading turns by distance·tan(angle)/base. Gazebo follows it step
+    by step and takes the heading at the end of each; here each update follows the exact arc of its mean steering angle,
+    which is the limit for short steps however far apart the updates are.
+
+    Args:
+        base: distance between the axles [m].
+
+    Attributes:
+        x: [m].
+        y: [m].
+        heading: [rad], not wrapped.
+        distance: length of the last update's displacement [m]; never negative.
+        turned: the last update's change of heading [rad].
+        advanced: signed length of the last update's arc [m].
+    """
+
+    def __init__(self, base: float) -> None:
+        self._base = base
+        self._rolled: float | None = None
+        self._angle = 0.0
+        self.x = self.y = self.heading = 0.0
+        self.distance = self.turned = self.advanced = 0.0
+
+    @property
+    def started(self) -> bool:
+        """Whether it knows where the wheels stood first."""
+        return self._rolled is not None
+
+    def update(self, rolled: float, angle: float) -> None:
+        """Integrate up to the distance `rolled` [m] since ever, the steered wheel now at `angle` [rad].
+
+        The first call only remembers where the wheels stand.
+        """
+        if self._rolled is None:
+            self._rolled, self._angle = rolled, angle
+            return
+        arc = rolled - self._rolled
+        turn = arc * tan((angle + self._angle) / 2) / self._base
+        self._rolled, self._angle = rolled, angle
+        dx, dy = along_arc(arc, self.heading, turn)
+        self.x += dx
+        self.y += dy
+        self.heading += turn
+        self.distance, self.turned, self.advanced = hypot(dx, dy), turn, arc
+
+
+def along_arc(arc: float, heading: float, turn: float) -> tuple[float, float]:
+    """Return the displacement along an arc of length `arc` [m] that begins at `heading` and turns by `turn` [rad]."""
+    chord = arc * sin(turn / 2) / (turn / 2) if abs(turn) > 1e-6 else arc
+    return chord * cos(heading + turn / 2), chord * sin(heading + turn / 2)

@@ -49,7 +49,7 @@ in the plugin's header has ``publish_steerangle``, which its code does not read.
 """
 
 ACKERMANN_GZ = PluginSpec(
-    kind="ackermann",
+    kind="ackermann_steering",
     generation="gz",
     filenames=("gz-sim-ackermann-steering-system", "ignition-gazebo-ackermann-steering-system"),
     class_names=("gz::sim::systems::AckermannSteering", "ignition::gazebo::systems::AckermannSteering"),

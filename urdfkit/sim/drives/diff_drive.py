@@ -52,7 +52,7 @@ class DiffDrive(Drive):
             SimulationError: a parameter makes no sense, with its place.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
-        topics = Topics(self.plugin, self.spec, namespace=setup.model)
+        topics = self._topics(setup)
         self._setup = setup
         self._read_wheels(setup, read)
         # The new Gazebo has no torque of its own: the joints' <limit effort> holds.
@@ -67,6 +67,9 @@ class DiffDrive(Drive):
         self._period = max(setup.dt, 1 / self.write_rate if self.write_rate > 0 else 0.0)
         self._listen(setup, read, topics)
         self._announce(setup, read, topics)
+
+    def _topics(self, setup: Setup) -> Topics:
+        return Topics(self.plugin, self.spec, namespace=setup.model)
 
     def _read_wheels(self, setup: Setup, read: Parameters) -> None:
         """Find the joints, and separation and radius of each pair."""

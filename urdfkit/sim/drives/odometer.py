@@ -12,7 +12,7 @@ from urdfkit.messages import ODOMETRY, TF, header, message_type, transform, twis
 
 if TYPE_CHECKING:
     from urdfkit.bus import Bus, Topic
-    from urdfkit.sim.odometry import WheelOdometry
+    from urdfkit.sim.odometry import BicycleOdometry, WheelOdometry
     from urdfkit.sim.parameters import Parameters
     from urdfkit.sim.plugin import Setup
     from urdfkit.sim.topics import Topics
@@ -158,7 +158,7 @@ def by_encoder(read: Parameters) -> bool:
     return source in ("encoder", "0")
 
 
-def from_wheels(odometry: WheelOdometry, period: float, *, signed: bool) -> Estimate:
+def from_wheels(odometry: WheelOdometry | BicycleOdometry, period: float, *, signed: bool) -> Estimate:
     """Return the estimate of encoder odometry.
 
     Args:

@@ -1,0 +1,170 @@
+"""Ackermann drive: gazebo_ros_ackermann_drive (ROS 2). The command's angular.z is the steering angle, not a rate.
+
+Source: gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ackermann_drive.cpp. Gazebo exerts an effort for one step
+after each update; here the same impulse is spread over the time until the next update.
+"""
+
+from __future__ import annotations
+
+from math import atan2, copysign, dist, hypot, tan
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.errors import SimulationError
+from urdfkit.messages import message_type
+from urdfkit.sim.drives.command import Command
+from urdfkit.sim.drives.geometry import wheel_centre, wheel_radius
+from urdfkit.sim.drives.odometer import from_world, odometer
+from urdfkit.sim.drives.pid import Pid
+from urdfkit.sim.drives.steering import put
+from urdfkit.sim.drives.wheels import Wheels
+from urdfkit.sim.parameters import Parameters
+from urdfkit.sim.plugin import Drive, Setup
+from urdfkit.sim.schedule import Ticks
+from urdfkit.sim.topics import Topics
+
+if TYPE_CHECKING:
+    from urdfkit.sim.motors import Motors
+    from urdfkit.sim.state import State
+
+JOINTS = (
+    "front_right_joint",
+    "front_left_joint",
+    "rear_right_joint",
+    "rear_left_joint",
+    "right_steering_joint",
+    "left_steering_joint",
+)
+"""The joints it cannot do without, in the order it publishes them."""
+
+HAND_WHEEL = "steering_wheel_joint"
+"""The driver's wheel, which turns along where there is one."""
+
+
+class Ackermann(Drive):
+    """Two steered front wheels and two driven rear wheels, all by PID: linear.x [m/s] and the steering angle [rad].
+
+    Track, wheel base and wheel radius are those of the collisions. Driving backwards the wheels steer the other way.
+    """
+
+    kind = "ackermann"
+
+    def configure(self, setup: Setup) -> None:
+        """Read the parameters, advertise and subscribe.
+
+        Raises:
+            SimulationError: a parameter makes no sense, with its place.
+        """
+        read = Parameters(self.plugin, self.spec, setup.names)
+        topics = Topics(self.plugin, self.spec)
+        self._setup = setup
+        self._read_geometry(setup, read)
+        self._read_gains(setup, read)
+        self.write_rate = self.read_rate = read.number("update_rate")
+        self._ticks = Ticks(self.write_rate, setup.dt)
+        self._command = Command(setup, topics.resolve("cmd_vel"), lambda: None)
+        self.commands = (self._command.topic,)
+        self._odometer = odometer(
+            setup,
+            read,
+            topics,
+            published=read.flag("publish_odometry"),
+            with_tf=read.flag("publish_odometry_tf"),
+            twist_covariance=True,
+        )
+        hand_wheel = (self._hand_wheel,) if self._hand_wheel else ()
+        self._wheels = Wheels(setup, (*self._joints.values(), *hand_wheel), with_tf=read.flag("publish_wheel_tf"))
+        self._distance_topic = None
+        if read.flag("publish_distance"):
+            self._distance_topic = setup.bus.advertise(topics.resolve("distance"), "std_msgs/msg/Float32")
+        self._distance = 0.0
+        self._last: tuple[float, ...] | None = None
+
+    def _read_geometry(self, setup: Setup, read: Parameters) -> None:
+        """Find the joints, and measure the car."""
+        self._joints = {meaning: setup.joint(read.text(meaning), read.place(meaning)) for meaning in JOINTS}
+        self._hand_wheel = ""
+        if read.has(HAND_WHEEL):
+            self._hand_wheel = setup.joint(read.text(HAND_WHEEL), read.place(HAND_WHEEL))
+        elif HAND_WHEEL in setup.kinematics.joint_names:
+            self._hand_wheel = HAND_WHEEL
+        centres = {meaning: wheel_centre(setup.kinematics, joint) for meaning, joint in self._joints.items()}
+        front_left, front_right = centres["front_left_joint"], centres["front_right_joint"]
+        rear_left, rear_right = centres["rear_left_joint"], centres["rear_right_joint"]
+        self._track = dist(front_left, front_right)
+        front = [(left + right) / 2 for left, right in zip(front_left, front_right, strict=True)]
+        rear = [(left + right) / 2 for left, right in zip(rear_left, rear_right, strict=True)]
+        self._base = dist(front, rear)
+        if self._track <= 0 or self._base <= 0:
+            raise SimulationError(
+                f"the wheels are {self._track:g} m apart and the axles {self._base:g} m; both must be positive",
+                position=read.place("front_left_joint"),
+            )
+        self._radius = wheel_radius(setup.kinematics, self._joints["rear_right_joint"], read.place("rear_right_joint"))
+        self._fastest = read.number("max_speed", positive=True)
+        self._steepest = read.number("max_steer", positive=True)
+        self._ratio = self._steepest / read.number("max_steering_angle", positive=True)
+
+    def _read_gains(self, setup: Setup, read: Parameters) -> None:
+        def pid(meaning: str) -> Pid:
+            p, i, d = read.vector(f"{meaning}_gains", 3)
+            least, most = read.vector(f"{meaning}_range", 2)
+            made = Pid(p, i, d, least, most)
+            if made.idle:
+                tag = read.tag(f"{meaning}_gains")
+                what = "drive" if meaning == "speed" else f"steer with its {meaning.partition('_')[0]} wheel"
+                setup.note(f"{read.place(f'{meaning}_gains')}: <{tag}> is 0 0 0, so the robot does not {what}")
+            return made
+
+        self._pids = {meaning: pid(meaning) for meaning in ("speed", "right_steering", "left_steering")}
+
+    def write(self, state: State, motors: Motors) -> None:
+        """Exert efforts on steering and rear wheels."""
+        joints, period = self._joints, self._ticks.period
+        wanted, angle = self._command.linear[0], self._command.angular[2]
+        right, left = self.angles(copysign(1.0, wanted) * angle)
+        speed = max(-self._fastest, min(self._fastest, wanted))
+        drive = self._pids["speed"].update(state.velocity(joints["rear_right_joint"]) - speed / self._radius, period)
+        efforts = {"rear_right_joint": drive, "rear_left_joint": drive}
+        for meaning, target in (("right_steering", right), ("left_steering", left)):
+            joint = f"{meaning}_joint"
+            efforts[joint] = self._pids[meaning].update(state.position(joints[joint]) - target, period)
+        for meaning, effort in efforts.items():
+            most = motors.limit(joints[meaning])
+            motors.exert(joints[meaning], max(-most, min(most, effort)) / self._ticks.steps)
+        if self._hand_wheel:
+            mean = (state.position(joints["left_steering_joint"]) + state.position(joints["right_steering_joint"])) / 2
+            put(self._hand_wheel, mean / self._ratio, period, setup=self._setup, state=state, motors=motors)
+
+    def angles(self, wanted: float) -> tuple[float, float]:
+        """Return the angles [rad] of the right and the left wheel at which both circle the same point."""
+        slope = tan(max(-self._steepest, min(self._steepest, wanted)))
+        skew = self._track / 2 / self._base * slope
+        return atan2(slope, 1 + skew), atan2(slope, 1 - skew)
+
+    def read(self, state: State) -> None:
+        """Publish odometry, the true pose in the world, wheel transforms and the distance so far."""
+        now = from_world(state.base_pose, state.base_velocity)
+        here = state.base_pose[:2]
+        if self._last is not None:
+            self._distance += hypot(here[0] - self._last[0], here[1] - self._last[1])
+        self._last = here
+        self._odometer.publish(state.t, lambda: now)
+        self._wheels.publish(state)
+        if self._distance_topic is not None:
+            distance = self._distance
+            self._distance_topic.offer(lambda: self._number(distance))
+
+    def _number(self, value: float) -> Any:
+        return message_type("std_msgs/msg/Float32")(value)
+
+    def estimate(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
+        """Return where the robot is: this odometry knows."""
+        return {self._odometer.frame: (state.base_pose[:3], state.base_pose[3:])}
+
+    def reset(self) -> None:
+        """Forget commands, the integrals of errors and the distance."""
+        self._command.clear()
+        for pid in self._pids.values():
+            pid.reset()
+        self._distance = 0.0
+        self._last = None
