@@ -20,8 +20,10 @@ def robot():
 
 
 def let_go(robot, **joints):
-    """Start with the bars at angles [rad]."""
-    return Simulator(robot, spawn=Spawn(z=0.0, joints=joints), note=lambda _: None)
+    """Start with the bars at angles [rad], without anybody to hold them."""
+    simulator = Simulator(robot, spawn=Spawn(z=0.0, joints=joints), note=lambda _: None)
+    simulator.controllers.stop("joint1_position_controller", "joint2_position_controller")
+    return simulator
 
 
 def energy(simulator):

@@ -13,6 +13,7 @@ from urdfkit.description.plugins import PluginSpec, match
 from urdfkit.description.plugins.lookup import stem
 from urdfkit.description.robot import Plugin, Robot
 from urdfkit.sim.controllers import CONTROLLERS
+from urdfkit.sim.controllers.joint_state import JointStatePublisher
 from urdfkit.sim.drives import DRIVES
 from urdfkit.sim.plugin import Controller, Drive, Sensor, Setup
 from urdfkit.sim.publications import JointStates, all_joint_states, joint_states
@@ -57,11 +58,20 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
             works.append(made)
         else:
             setup.note(f"plugin {plugin.filename or plugin.name or 'without file name'}: not simulated yet")
-    for block in robot.ros2_control:
-        setup.note(f"ros2_control {block.name or ''}: not simulated yet")
-    if not installed.joint_states:
+    if robot.ros2_control and not any(controller.kind == "ros2_control" for controller in installed.controllers):
+        for block in robot.ros2_control:
+            setup.note(
+                f"{block.element.origin.position}: no plugin runs ros2_control `{block.name or ''}`: "
+                "gz_ros2_control or gazebo_ros2_control would"
+            )
+    if not installed.joint_states and not _publishes_joint_states(installed):
         installed.joint_states.append(all_joint_states(setup))
     return installed
+
+
+def _publishes_joint_states(installed: Installed) -> bool:
+    loops = [controller.loop for controller in installed.controllers if controller.loop is not None]
+    return any(isinstance(law, JointStatePublisher) for loop in loops for law in loop.laws.values())
 
 
 def _plugins(robot: Robot) -> Iterator[Plugin]:

@@ -14,8 +14,11 @@ from typing import TYPE_CHECKING, ClassVar
 
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.sim.distro import Distro
+from urdfkit.sim.schedule import Ticks
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     import numpy as np
 
     from urdfkit.bus import Bus
@@ -23,6 +26,7 @@ if TYPE_CHECKING:
     from urdfkit.description.robot import Plugin
     from urdfkit.description.source import Position
     from urdfkit.kinematics import Kinematics
+    from urdfkit.sim.controllers.loop import ControlLoop
     from urdfkit.sim.motors import Motors
     from urdfkit.sim.state import State
 
@@ -40,6 +44,7 @@ class Setup:
         random: the generator of this plugin alone, from the simulation's seed.
         note: tells the user something, once per text.
         distro: the ROS distribution whose behaviour is wanted.
+        parameter_files: of controllers, in place of those the robot's packages load.
     """
 
     bus: Bus
@@ -50,6 +55,7 @@ class Setup:
     random: np.random.Generator
     note: Callable[[str], None]
     distro: Distro = field(default_factory=Distro)
+    parameter_files: tuple[Path, ...] = ()
 
     @property
     def names(self) -> dict[str, str]:
@@ -160,15 +166,34 @@ class Controller(ABC):
         kind: the ``kind`` of the tables it answers to.
         specs: tables it brings itself, for plugins that `urdfkit.description.plugins` does not know.
         rate: how often `write` and `read` are due [Hz]; zero means every step.
+        loop: the control loop of controllers that can be listed, started and stopped; None where there are none.
+        initial_positions: joint → where it starts [rad] or [m], where the user does not say.
     """
 
     kind: ClassVar[str]
     specs: ClassVar[tuple[PluginSpec, ...]] = ()
     rate: float = 0.0
+    loop: ControlLoop | None = None
 
     def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
         self.plugin = plugin
         self.spec = spec
+        self.initial_positions: dict[str, float] = {}
+
+    def schedule(self, dt: float) -> None:
+        """Take note of the simulation's step [s], after `configure`."""
+        self._ticks = Ticks(self.rate, dt)
+
+    def due(self, step: int) -> bool:
+        """Whether `write` is due before a step, and `read` after it."""
+        return self._ticks.falls_on(step)
+
+    def after(self, step: int) -> int:
+        """Return the first step after `step` at which it is."""
+        return self._ticks.after(step)
+
+    def begin(self, state: State) -> None:  # noqa: B027 - most have nothing to forget
+        """Forget the past: the robot stands where it starts."""
 
     @abstractmethod
     def configure(self, setup: Setup) -> None:

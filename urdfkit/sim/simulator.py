@@ -17,8 +17,9 @@ from urdfkit.description import Robot
 from urdfkit.description.world import World, load_world
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
-from urdfkit.messages import TWIST, message_type, twist
+from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.scene import Scene, scene_of
+from urdfkit.sim.controllers.switching import Controllers
 from urdfkit.sim.distro import Distro
 from urdfkit.sim.engine import Engine, Ground, warmup
 from urdfkit.sim.engine.engine import Provider
@@ -57,6 +58,7 @@ class Simulator:
         fixed_base: bolt the root link to the world. A root link called ``world`` always is.
         engine: who computes the dynamics: the compiled kernel or Pinocchio (the reference, slow).
         ros_distro: the ROS distribution whose behaviour plugins are to have, such as ``kinetic``; the newest when None.
+        controllers: parameter files of controllers, in place of those the robot's packages load.
         package_path: folders to look for packages in, when `robot` is a file or a name.
         note: receives remarks for the user, once each; the log ``urdfkit.sim`` when None.
 
@@ -71,6 +73,7 @@ class Simulator:
         bus: where it publishes and listens.
         state: the present, read only.
         motors: velocity and position targets by joint name.
+        controllers: the robot's controllers, to list, load, start, stop and switch.
         paused: `run` does not move while set; `step` does.
     """
 
@@ -88,6 +91,7 @@ class Simulator:
         fixed_base: bool = False,
         engine: Provider = "compiled",
         ros_distro: str | None = None,
+        controllers: Sequence[str | Path] = (),
         package_path: Sequence[str | Path] = (),
         note: Callable[[str], None] | None = None,
     ) -> None:
@@ -135,11 +139,18 @@ class Simulator:
         self.name = name or self.robot.name or "robot"
         message_type(TWIST)  # loads the types now, or says that they are missing
         setup = Setup(
-            self.bus, self.kinematics, self.name, self.world.name, dt, np.random.default_rng(seed), self.note, distro
-        )
+            self.bus, self.kinematics, self.name, self.world.name, dt, np.random.default_rng(seed), self.note, distro,
+            tuple(Path(file) for file in controllers),
+        )  # fmt: skip
         self._plugins = install(self.robot, setup, seed=seed)
         self._drives = [(d, Ticks(d.write_rate, dt), Ticks(d.read_rate, dt)) for d in self._plugins.drives]
-        self._controllers = [(c, Ticks(c.rate, dt)) for c in self._plugins.controllers]
+        loops = [c.loop for c in self._plugins.controllers if c.loop is not None]
+        self.controllers = Controllers(loops)
+        for controller in self._plugins.controllers:
+            controller.schedule(dt)
+            if controller.initial_positions:
+                joints = {**controller.initial_positions, **self._spawn.joints}
+                self._spawn = replace(self._spawn, joints=joints)
         self._sensors = [(s, Ticks(s.rate, dt)) for s in self._plugins.sensors]
         self._publications: list[Publication] = [
             *self._plugins.joint_states,
@@ -195,20 +206,20 @@ class Simulator:
         for drive, writes, _ in self._drives:
             if not drive.resting and writes.falls_on(step):
                 drive.write(self.state, self.motors)
-        for controller, ticks in self._controllers:
-            if ticks.falls_on(step):
+        for controller in self._plugins.controllers:
+            if controller.due(step):
                 controller.write(self.state, self.motors)
         if self.motors.has_goals and self._approach.falls_on(step):
             self.motors.approach(self.state.position)
 
     def _next_stop(self) -> int:
         step = self.state.step
-        stops = [publication.next_stop(step) for publication in self._publications]
+        stops = [publication.next_stop(step) for publication in (*self._publications, *self.controllers.publications)]
         for drive, writes, reads in self._drives:
             stops.append(reads.after(step))
             if not drive.resting:
                 stops.append(writes.after(step))
-        stops.extend(ticks.after(step) for _, ticks in self._controllers)
+        stops.extend(controller.after(step) for controller in self._plugins.controllers)
         stops.extend(ticks.after(step) for _, ticks in self._sensors)
         if self.motors.has_goals:
             stops.append(self._approach.after(step))
@@ -221,13 +232,13 @@ class Simulator:
         for drive, _, reads in self._drives:
             if reads.falls_on(step):
                 drive.read(self.state)
-        for controller, ticks in self._controllers:
-            if ticks.falls_on(step):
+        for controller in self._plugins.controllers:
+            if controller.due(step):
                 controller.read(self.state)
         for sensor, ticks in self._sensors:
             if ticks.falls_on(step):
                 sensor.measure(self.state)
-        for publication in self._publications:
+        for publication in (*self._publications, *self.controllers.publications):
             publication.catch_up(self.state)
 
     def reset(self) -> None:
@@ -236,13 +247,15 @@ class Simulator:
         self.motors.release_all()
         for drive, _, _ in self._drives:
             drive.reset()
-        for publication in self._publications:
+        for publication in (*self._publications, *self.controllers.publications):
             publication.reset()
         self._start()
 
     def _start(self) -> None:
         self._engine.reset(*self._spawn.configuration(self.kinematics, self._base))
         self.state.advance(-self.state.step)
+        for controller in self._plugins.controllers:
+            controller.begin(self.state)
 
     # Doing things at a time
 
@@ -263,8 +276,9 @@ class Simulator:
 
     @property
     def command_topics(self) -> tuple[str, ...]:
-        """The topics of type Twist that the robot's drives listen to."""
-        return tuple(dict.fromkeys(topic for drive in self._plugins.drives for topic in drive.commands))
+        """The topics of type Twist (or TwistStamped) that the robot's drives and running controllers listen to."""
+        topics = [topic for drive in self._plugins.drives for topic in drive.commands]
+        return tuple(dict.fromkeys((*topics, *self.controllers.command_topics)))
 
     @property
     def command_period(self) -> float:
@@ -280,7 +294,11 @@ class Simulator:
         if not self.command_topics:
             raise SimulationError(f"robot `{self.name}` has no drive that takes velocity commands")
         for topic in self.command_topics:
-            self.bus.publish(topic, TWIST, twist(linear, angular))
+            if self.controllers.command_topics.get(topic) == TWIST_STAMPED:
+                stamped = message_type(TWIST_STAMPED)(header(self.t, ""), twist(linear, angular))
+                self.bus.publish(topic, TWIST_STAMPED, stamped)
+            else:
+                self.bus.publish(topic, TWIST, twist(linear, angular))
 
     def subscribe(self, topic: str, type: str, callback: Callable[[Any], None]) -> Subscription:
         """Call `callback` with every message on a topic, while the simulation advances, in its thread."""

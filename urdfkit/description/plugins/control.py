@@ -1,4 +1,4 @@
-"""Control: joint state publishers and single-joint controllers.
+"""Control: joint state publishers, single-joint controllers, ros_control and ros2_control.
 
 Defaults in braces are filled in by whoever knows the model: ``{world}``, ``{model}`` and ``{joint}`` are names.
 """
@@ -98,11 +98,63 @@ JOINT_POSITION_CONTROLLER_GZ = PluginSpec(
     source="gz-sim main, src/systems/joint_position_controller/JointPositionController.cc",
 )
 
+GAZEBO_ROS_CONTROL = PluginSpec(
+    kind="gazebo_ros_control",
+    generation="ros1",
+    filenames=("gazebo_ros_control",),
+    class_names=(),
+    parameters=(
+        Parameter("robot_parameter", "robotParam", "robot_description"),
+        Parameter("hardware", "robotSimType", "gazebo_ros_control/DefaultRobotHWSim"),
+        Parameter("control_period", "controlPeriod", unit="[s]"),
+        Parameter("emergency_stop_topic", "eStopTopic", names="topic"),
+        Parameter("legacy_namespace", "legacyModeNS"),
+        *GAZEBO_ROS_1,
+    ),
+    source="gazebo_ros_pkgs noetic-devel, gazebo_ros_control/src/gazebo_ros_control_plugin.cpp (legacyModeNS: kinetic)",
+)
+"""The controllers are those of the parameter server; the joints those of ``<transmission>``."""
+
+GAZEBO_ROS2_CONTROL = PluginSpec(
+    kind="ros2_control",
+    generation="ros2",
+    filenames=("gazebo_ros2_control",),
+    class_names=(),
+    parameters=(
+        Parameter("configuration", "parameters", repeats=True),
+        Parameter("robot_parameter", "robot_param", "robot_description"),
+        Parameter("robot_node", "robot_param_node", "robot_state_publisher"),
+        Parameter("hardware", "robot_sim_type"),
+        *GAZEBO_ROS_2,
+    ),
+    source="gazebo_ros2_control humble, src/gazebo_ros2_control_plugin.cpp",
+)
+
+GZ_ROS2_CONTROL = PluginSpec(
+    kind="ros2_control",
+    generation="gz",
+    filenames=("gz_ros2_control-system", "ign_ros2_control-system"),
+    class_names=("gz_ros2_control::GazeboSimROS2ControlPlugin", "ign_ros2_control::IgnitionROS2ControlPlugin"),
+    parameters=(
+        Parameter("configuration", "parameters", repeats=True),
+        Parameter("robot_parameter", "robot_param", "robot_description"),
+        Parameter("robot_node", "robot_param_node", "robot_state_publisher"),
+        Parameter("controller_manager", "controller_manager_name", "controller_manager"),
+        Parameter("hold_joints", "hold_joints", "true"),
+        Parameter("position_gain", "position_proportional_gain", "0.1"),
+        *GAZEBO_ROS_2,
+    ),
+    source="gz_ros2_control, src/gz_ros2_control_plugin.cpp and gz_system.cpp",
+)
+
 CONTROL = (
     JOINT_STATE_PUBLISHER_ROS_1,
     JOINT_STATE_PUBLISHER_ROS_2,
     JOINT_STATE_PUBLISHER_GZ,
     JOINT_CONTROLLER_GZ,
     JOINT_POSITION_CONTROLLER_GZ,
+    GAZEBO_ROS_CONTROL,
+    GAZEBO_ROS2_CONTROL,
+    GZ_ROS2_CONTROL,
 )
-"""Every joint state publisher and joint controller."""
+"""Every joint state publisher, joint controller and host of controllers."""

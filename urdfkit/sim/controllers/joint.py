@@ -1,0 +1,205 @@
+"""JointHandle: one joint as controllers see it; it turns their commands into motor and servo targets.
+
+A PID law runs as a servo of the engine, which acts on where the step ends: no gain makes it unstable at any step. The
+integral part is added by moving the servo's target, so that the effort limit holds for the sum of all parts.
+"""
+
+from __future__ import annotations
+
+from math import inf, isfinite, pi, remainder
+from typing import TYPE_CHECKING
+
+from urdfkit.sim.controllers.pid import Gains, Integral
+
+if TYPE_CHECKING:
+    from urdfkit.description.robot import Joint
+    from urdfkit.kinematics import Kinematics
+    from urdfkit.sim.motors import Motors
+    from urdfkit.sim.state import State
+
+FASTEST = 20.0
+"""How fast a joint without ``<limit velocity>`` is brought to a commanded position [rad/s] or [m/s]."""
+
+
+class JointHandle:
+    """What one joint can be told.
+
+    Args:
+        kinematics: the robot's model.
+        joint: the joint as written.
+
+    Attributes:
+        name: the joint's.
+        limit: what it can exert [N·m] or [N].
+        fastest: its ``<limit velocity>`` [rad/s] or [m/s]; infinite where there is none.
+    """
+
+    def __init__(self, kinematics: Kinematics, joint: Joint) -> None:
+        self.name = joint.name
+        limit = joint.limit
+        self.limit = limit.effort if limit is not None and limit.effort is not None else inf
+        self.fastest = limit.velocity if limit is not None and limit.velocity else inf
+        self._turns = joint.type == "continuous"
+        self.lower, self.upper = (-inf, inf) if self._turns else kinematics.limits(joint.name)
+        self._driven = False
+
+    def reset(self) -> None:
+        """Forget what was commanded."""
+        self._driven = False
+
+    def within(self, position: float) -> float:
+        """Return the nearest position [rad] or [m] within the limits."""
+        return min(self.upper, max(self.lower, position))
+
+    def target(self, position: float, now: float) -> float:
+        """Return where to go for a commanded position [rad] or [m]: within limits, and the short way round."""
+        if self._turns:
+            return now + remainder(position - now, 2 * pi)
+        return self.within(position)
+
+    # Commands
+
+    def exert(self, motors: Motors, effort: float) -> None:
+        """Exert a constant effort [N·m] or [N], within the limit; beside the motor of a drive, if there is one."""
+        if self._driven:
+            motors.drive(self.name, 0.0, 0.0)
+            self._driven = False
+        motors.exert(self.name, min(self.limit, max(-self.limit, effort)))
+
+    def turn(self, motors: Motors, velocity: float, effort: float | None = None) -> None:
+        """Turn at a velocity [rad/s] or [m/s], within the limits."""
+        self._driven = True
+        motors.exert(self.name, 0.0)
+        motors.drive(
+            self.name, min(self.fastest, max(-self.fastest, velocity)), self.limit if effort is None else effort
+        )
+
+    def place(self, motors: Motors, now: float, position: float, period: float) -> bool:
+        """Bring the joint to a position [rad] or [m] whatever that takes, no faster than it may; True when it is there.
+
+        gazebo_ros_control without gains sets the position and so overcomes gravity and any load; ros_control's joint
+        limits let the command move at ``<limit velocity>``.
+
+        Args:
+            motors: what to write to.
+            now: where it is.
+            position: where it should be.
+            period: until the next call [s].
+        """
+        fastest = self.fastest if isfinite(self.fastest) else FASTEST
+        velocity = (self.target(position, now) - now) / period
+        arrived = abs(velocity) * period < 1e-12
+        self.turn(motors, 0.0 if arrived else min(fastest, max(-fastest, velocity)), inf)
+        return arrived
+
+    def servo(
+        self,
+        motors: Motors,
+        gains: Gains,
+        *,
+        now: float,
+        position: float,
+        velocity: float = 0.0,
+        integral: float = 0.0,
+        feedforward: float = 0.0,
+        limit: float = inf,
+    ) -> None:
+        """Exert p·(position − q) + d·(velocity − q̇) + `integral` + `feedforward`, within the limit.
+
+        Args:
+            motors: what to write to.
+            gains: p and d.
+            now: where the joint is [rad] or [m].
+            position: where it should be.
+            velocity: how fast it should be [rad/s] or [m/s].
+            integral: the integral part [N·m] or [N].
+            feedforward: a further part.
+            limit: besides the joint's own [N·m] or [N].
+        """
+        extra = integral + feedforward
+        most = min(self.limit, limit)
+        if gains.p > 0.0:
+            position += extra / gains.p
+        elif gains.d > 0.0:
+            velocity += extra / gains.d
+        else:
+            self.exert(motors, min(most, max(-most, extra)))
+            return
+        self._driven = True
+        motors.exert(self.name, 0.0)
+        motors.servo(self.name, stiffness=gains.p, damping=gains.d, position=position, velocity=velocity, effort=most)
+
+    def chase(
+        self,
+        motors: Motors,
+        gains: Gains,
+        *,
+        now: float,
+        velocity: float,
+        integral: float,
+        period: float,
+        limit: float = inf,
+    ) -> None:
+        """Exert p·(velocity − q̇) + d·(its rate of change) + `integral`, within the limit.
+
+        The derivative is taken over `period` up to where the step ends, (q̇ now − q̇ then)/period, which makes it a
+        damper too: implicit like the rest.
+
+        Args:
+            motors: what to write to.
+            gains: of the velocity error.
+            now: the joint's velocity [rad/s] or [m/s].
+            velocity: the one it should have.
+            integral: the integral part [N·m] or [N].
+            period: until the next call [s].
+            limit: besides the joint's own [N·m] or [N].
+        """
+        inertia = gains.d / period
+        damping = gains.p + inertia
+        if damping <= 0.0:
+            self.exert(motors, integral)
+            return
+        goal = (gains.p * min(self.fastest, max(-self.fastest, velocity)) + inertia * now + integral) / damping
+        self._driven = True
+        motors.exert(self.name, 0.0)
+        motors.servo(self.name, stiffness=0.0, damping=damping, velocity=goal, effort=min(self.limit, limit))
+
+    def release(self, motors: Motors) -> None:
+        """Let the joint go."""
+        motors.release(self.name)
+
+
+class Follower:
+    """A handle with gains and their integral: what PID controllers hold for each joint."""
+
+    def __init__(self, handle: JointHandle, gains: Gains) -> None:
+        self.handle = handle
+        self.gains = gains
+        self.integral = Integral(gains)
+
+    def follow(
+        self,
+        state: State,
+        motors: Motors,
+        position: float,
+        velocity: float = 0.0,
+        feedforward: float = 0.0,
+        limit: float = inf,
+    ) -> None:
+        """Servo towards a position [rad] or [m] and velocity [rad/s] or [m/s]."""
+        now = state.position(self.handle.name)
+        integral = self.integral.update(state.t, position - now) if self.gains.integrates else 0.0
+        self.handle.servo(
+            motors, self.gains, now=now, position=position, velocity=velocity,
+            integral=integral, feedforward=feedforward, limit=limit,
+        )  # fmt: skip
+
+    def chase(self, state: State, motors: Motors, velocity: float, period: float, limit: float = inf) -> None:
+        """Servo towards a velocity [rad/s] or [m/s]."""
+        now = state.velocity(self.handle.name)
+        integral = self.integral.update(state.t, velocity - now) if self.gains.integrates else 0.0
+        self.handle.chase(motors, self.gains, now=now, velocity=velocity, integral=integral, period=period, limit=limit)
+
+    def rest(self) -> float:
+        """Return how long the joint needs no attention [s]."""
+        return self.gains.period

@@ -1,0 +1,86 @@
+"""Trajectories between waypoints: straight, cubic or quintic, by what the waypoints give.
+
+The rule of joint_trajectory_controller: positions alone are joined by straight lines, with velocities by cubics, with
+accelerations too by quintics (ros_controllers noetic, trajectory_interface/quintic_spline_segment.h).
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Waypoint:
+    """Where to be when.
+
+    Attributes:
+        t: simulated time [s].
+        positions: [rad] or [m]; shape (n,).
+        velocities: [rad/s] or [m/s]; None where they are not given.
+        accelerations: [rad/s²] or [m/s²]; None where they are not given.
+    """
+
+    t: float
+    positions: Array
+    velocities: Array | None = None
+    accelerations: Array | None = None
+
+
+class Trajectory:
+    """Waypoints in the order of their times, the first where it begins."""
+
+    def __init__(self, waypoints: list[Waypoint]) -> None:
+        self.waypoints = waypoints
+        self._times = [point.t for point in waypoints]
+        self._segments = [_coefficients(start, end) for start, end in pairwise(waypoints)]
+
+    @property
+    def end(self) -> float:
+        """When it is over [s]."""
+        return self._times[-1]
+
+    def at(self, t: float) -> tuple[Array, Array, Array]:
+        """Return positions, velocities and accelerations at a time [s]; it stands still before and after."""
+        if t < self._times[0] or t >= self.end or not self._segments:
+            point = self.waypoints[0] if t < self._times[0] else self.waypoints[-1]
+            rest = np.zeros_like(point.positions)
+            return point.positions, rest, rest
+        k = bisect_right(self._times, t) - 1
+        coefficients, s = self._segments[k], t - self._times[k]
+        powers = s ** np.arange(6)
+        order = np.arange(1, 6)
+        first = coefficients[1:] * order[:, None]
+        second = first[1:] * order[:4, None]
+        return powers @ coefficients, powers[:5] @ first, powers[:4] @ second
+
+
+def _coefficients(start: Waypoint, end: Waypoint) -> Array:
+    """Return the polynomial's coefficients, lowest power first; shape (6, n)."""
+    T = end.t - start.t
+    found = np.zeros((6, len(start.positions)))
+    found[0] = start.positions
+    distance = end.positions - start.positions
+    if T <= 0.0:
+        return found
+    if start.velocities is None or end.velocities is None:
+        found[1] = distance / T
+        return found
+    v0, v1 = start.velocities, end.velocities
+    found[1] = v0
+    if start.accelerations is None or end.accelerations is None:
+        found[2] = (3 * distance - (2 * v0 + v1) * T) / T**2
+        found[3] = (-2 * distance + (v0 + v1) * T) / T**3
+        return found
+    a0, a1 = start.accelerations, end.accelerations
+    found[2] = a0 / 2
+    found[3] = (20 * distance - (8 * v1 + 12 * v0) * T - (3 * a0 - a1) * T**2) / (2 * T**3)
+    found[4] = (-30 * distance + (14 * v1 + 16 * v0) * T + (3 * a0 - 2 * a1) * T**2) / (2 * T**4)
+    found[5] = (12 * distance - 6 * (v1 + v0) * T + (a1 - a0) * T**2) / (2 * T**5)
+    return found

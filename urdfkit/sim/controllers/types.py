@@ -1,0 +1,72 @@
+"""The controllers of ros_control and ros2_control that we know, by the names of their types."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from urdfkit.errors import DescriptionError, did_you_mean
+from urdfkit.sim.controllers.diff_drive import DiffDriveController
+from urdfkit.sim.controllers.forward import Forward, ForwardGroup
+from urdfkit.sim.controllers.joint_state import JointStatePublisher
+from urdfkit.sim.controllers.position import PidGroup, PidPosition, PidVelocity
+from urdfkit.sim.controllers.trajectory import TrajectoryFollower
+
+if TYPE_CHECKING:
+    from urdfkit.description.control import Settings
+    from urdfkit.sim.controllers.law import Hardware, Law
+
+LAWS: tuple[type[Law], ...] = (
+    JointStatePublisher,
+    Forward,
+    ForwardGroup,
+    PidPosition,
+    PidVelocity,
+    PidGroup,
+    TrajectoryFollower,
+    DiffDriveController,
+)
+"""Every controller; a test fails if one is missing here."""
+
+ELSEWHERE = (
+    "ackermann_steering_controller/AckermannSteeringController",
+    "admittance_controller/AdmittanceController",
+    "bicycle_steering_controller/BicycleSteeringController",
+    "effort_controllers/GripperActionController",
+    "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
+    "force_torque_sensor_controller/ForceTorqueSensorController",
+    "four_wheel_steering_controller/FourWheelSteeringController",
+    "gpio_controllers/GpioCommandController",
+    "gripper_controllers/GripperActionController",
+    "imu_sensor_broadcaster/IMUSensorBroadcaster",
+    "imu_sensor_controller/ImuSensorController",
+    "mecanum_drive_controller/MecanumDriveController",
+    "parallel_gripper_action_controller/GripperActionController",
+    "pid_controller/PidController",
+    "pos_vel_controllers/JointTrajectoryController",
+    "pos_vel_acc_controllers/JointTrajectoryController",
+    "position_controllers/GripperActionController",
+    "range_sensor_broadcaster/RangeSensorBroadcaster",
+    "steering_controllers_library/SteeringControllersLibrary",
+    "tricycle_controller/TricycleController",
+    "tricycle_steering_controller/TricycleSteeringController",
+)
+"""Controllers that exist and that we do not simulate."""
+
+
+def load_law(name: str, settings: Settings, hardware: Hardware) -> Law | None:
+    """Return a controller, configured; None for one that exists but that we do not simulate.
+
+    Raises:
+        DescriptionError: no such type, or a parameter that makes no sense, with its place.
+    """
+    kind = settings.text("type")
+    known = [name for law in LAWS for name in law.types]
+    for law in LAWS:
+        if kind in law.types:
+            return law(name, settings, hardware)
+    if kind in ELSEWHERE:
+        return None
+    raise DescriptionError(
+        f"no controller type `{kind}`{did_you_mean(kind, (*known, *ELSEWHERE))}",
+        position=settings.group("type").position,
+    )
