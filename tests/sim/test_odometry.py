@@ -1,10 +1,10 @@
-from math import cos, pi, sin
+from math import cos, pi, sin, tan
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfkit.sim.odometry import WheelOdometry
+from urdfkit.sim.odometry import BicycleOdometry, MecanumOdometry, WheelOdometry
 
 
 def drive(odometry: WheelOdometry, v: float, w: float, seconds: float, rate: float, separation: float) -> None:
@@ -50,3 +50,39 @@ def test_turning_on_the_spot_stays_on_the_spot() -> None:
     odometry = WheelOdometry(0.5)
     drive(odometry, 0.0, pi / 2, 4.0, 100.0, 0.5)
     assert (odometry.x, odometry.y, odometry.heading) == pytest.approx((0, 0, 2 * pi), abs=1e-12)
+
+
+@given(st.floats(-1, 1), st.floats(-0.6, 0.6))
+def test_the_bicycle_is_exact_at_any_rate(v: float, angle: float) -> None:
+    odometry = BicycleOdometry(0.8)
+    for n in range(9):
+        odometry.update(v * n / 2, angle)
+    w = v * tan(angle) / 0.8
+    x, y = (v * 4.0, 0.0) if abs(w) < 1e-6 else (v / w * sin(w * 4.0), v / w * (1 - cos(w * 4.0)))
+    assert odometry.heading == pytest.approx(w * 4.0, abs=1e-12)
+    assert (odometry.x, odometry.y) == pytest.approx((x, y), abs=1e-5)
+    assert odometry.advanced == pytest.approx(v / 2)
+
+
+@given(st.floats(-1, 1), st.floats(-1, 1), st.floats(-1, 1))
+def test_mecanum_wheels_are_exact_at_any_rate(vx: float, vy: float, w: float) -> None:
+    odometry = MecanumOdometry(0.4)
+    for n in range(9):
+        t, turn = n / 2, w * 0.4
+        odometry.update(*((vx + s * vy + r * turn) * t for s, r in ((-1, -1), (1, 1), (1, -1), (-1, 1))))
+    angle = w * 4.0
+    s, c = (4.0, 0.0) if abs(w) < 1e-6 else (sin(angle) / w, (1 - cos(angle)) / w)
+    assert odometry.heading == pytest.approx(angle, abs=1e-12)
+    assert (odometry.x, odometry.y) == pytest.approx((vx * s - vy * c, vx * c + vy * s), abs=1e-5)
+    assert odometry.moved == pytest.approx((vx / 2, vy / 2, w / 2), abs=1e-12)
+
+
+def test_the_first_look_at_the_wheels_only_remembers() -> None:
+    bicycle, mecanum = BicycleOdometry(1.0), MecanumOdometry(1.0)
+    assert not bicycle.started
+    assert not mecanum.started
+    bicycle.update(17.0, 0.3)
+    mecanum.update(1.0, 2.0, 3.0, 4.0)
+    assert bicycle.started
+    assert mecanum.started
+    assert (bicycle.x, bicycle.y, bicycle.heading, mecanum.x, mecanum.y, mecanum.heading) == (0,) * 6

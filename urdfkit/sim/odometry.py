@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, hypot, sin, tan
+from math import cos, hypot, pi, sin, tan
 
 
 class WheelOdometry:
@@ -109,6 +109,52 @@ class BicycleOdometry:
         self.y += dy
         self.heading += turn
         self.distance, self.turned, self.advanced = hypot(dx, dy), turn, arc
+
+
+class MecanumOdometry:
+    """Planar pose from the distances that four mecanum wheels have rolled.
+
+    Wheels roll at vx ∓ vy ∓ w·(separation + base)/2 (front left: both minus); four distances make three displacements,
+    their mean with the signs of each. Each update follows the arc of a constant twist.
+
+    Args:
+        reach: (separation + base) / 2 [m].
+
+    Attributes:
+        x: [m].
+        y: [m].
+        heading: [rad], not wrapped.
+        moved: the last update's displacement in its own axes: forward [m], to the left [m], turned [rad].
+    """
+
+    def __init__(self, reach: float) -> None:
+        self._reach = reach
+        self._rolled: tuple[float, float, float, float] | None = None
+        self.x = self.y = self.heading = 0.0
+        self.moved = (0.0, 0.0, 0.0)
+
+    @property
+    def started(self) -> bool:
+        """Whether it knows where the wheels stood first."""
+        return self._rolled is not None
+
+    def update(self, front_left: float, front_right: float, back_left: float, back_right: float) -> None:
+        """Integrate up to the distances [m] that the wheels have rolled since ever.
+
+        The first call only remembers where the wheels stand.
+        """
+        rolled = (front_left, front_right, back_left, back_right)
+        before, self._rolled = self._rolled, rolled
+        if before is None:
+            return
+        a, b, c, d = (now - then for now, then in zip(rolled, before, strict=True))
+        forward, left, turn = (a + b + c + d) / 4, (b + c - a - d) / 4, (b + d - a - c) / 4 / self._reach
+        along = along_arc(forward, self.heading, turn)
+        across = along_arc(left, self.heading + pi / 2, turn)
+        self.x += along[0] + across[0]
+        self.y += along[1] + across[1]
+        self.heading += turn
+        self.moved = (forward, left, turn)
 
 
 def along_arc(arc: float, heading: float, turn: float) -> tuple[float, float]:

@@ -12,7 +12,7 @@ from urdfkit.messages import ODOMETRY, TF, header, message_type, transform, twis
 
 if TYPE_CHECKING:
     from urdfkit.bus import Bus, Topic
-    from urdfkit.sim.odometry import BicycleOdometry, WheelOdometry
+    from urdfkit.sim.odometry import BicycleOdometry, MecanumOdometry, WheelOdometry
     from urdfkit.sim.parameters import Parameters
     from urdfkit.sim.plugin import Setup
     from urdfkit.sim.topics import Topics
@@ -47,7 +47,7 @@ class Odometer:
         tf_topic: of the transform; None to publish none.
         frame: the odometry frame.
         child: the base frame.
-        covariance: variances of x, y [m²] and yaw [rad²]; None leaves the matrix zero (the new Gazebo).
+        covariance: variances along [m²] and about [rad²] x, y, z; None leaves the matrix zero (the new Gazebo).
         twist_covariance: the twist has the same variances as the pose; without, its matrix is zero.
         flat: the message has no height; the transform has the true one.
     """
@@ -60,7 +60,7 @@ class Odometer:
         tf_topic: str | None,
         frame: str,
         child: str,
-        covariance: tuple[float, float, float] | None,
+        covariance: tuple[float, ...] | None,
         twist_covariance: bool = False,
         flat: bool = False,
     ) -> None:
@@ -89,8 +89,7 @@ class Odometer:
         )
         covariance = np.zeros(36)
         if self._covariance is not None:
-            of_x, of_y, of_yaw = self._covariance
-            covariance[::7] = (of_x, of_y, HUGE, HUGE, HUGE, of_yaw)
+            covariance[::7] = self._covariance
         return message_type(ODOMETRY)(
             header(t, self.frame),
             self.child,
@@ -127,7 +126,7 @@ def odometer(
         flat: the message has no height.
     """
     gz = read.generation == "gz"
-    covariance = tuple(
+    x, y, yaw = (
         read.number(f"covariance_{part}", default) for part, default in (("x", 1e-5), ("y", 1e-5), ("yaw", 1e-3))
     )
     return Odometer(
@@ -136,7 +135,7 @@ def odometer(
         tf_topic=(topics.resolve(read.text("tf_topic")) if gz else "/tf") if with_tf else None,
         frame=read.text("odometry_frame"),
         child=read.text("base_frame"),
-        covariance=None if gz else (covariance[0], covariance[1], covariance[2]),
+        covariance=None if gz else (x, y, HUGE, HUGE, HUGE, yaw),
         twist_covariance=twist_covariance,
         flat=flat,
     )
@@ -173,6 +172,17 @@ def from_wheels(odometry: WheelOdometry | BicycleOdometry, period: float, *, sig
         (0.0, 0.0, sin(odometry.heading / 2), cos(odometry.heading / 2)),
         (speed / period, 0.0, 0.0),
         (0.0, 0.0, odometry.turned / period),
+    )
+
+
+def from_mecanum(odometry: MecanumOdometry, period: float) -> Estimate:
+    """Return the estimate of mecanum wheels' odometry, `period` [s] after the update before the last one."""
+    advanced, strafed, turned = odometry.moved
+    return Estimate(
+        (odometry.x, odometry.y, 0.0),
+        (0.0, 0.0, sin(odometry.heading / 2), cos(odometry.heading / 2)),
+        (advanced / period, strafed / period, 0.0),
+        (0.0, 0.0, turned / period),
     )
 
 
