@@ -7,9 +7,16 @@ from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.pairs.gjk import put
-from urdfkit.sim.engine.pairs.memory import FEATURE, GAP, MOST_CANDIDATES, NORMAL, POINT
+from urdfkit.sim.engine.pairs.memory import FEATURE, GAP, MOST_CANDIDATES, NONE, NORMAL, POINT
 from urdfkit.sim.engine.pairs.shapes import vertex_at
 from urdfkit.sim.engine.spatial import Vector, cross, dot, scale, store_vector, sub
+
+MISSING = 0.2
+"""Share of their area that a fifth contact must add to that of the four that are kept, or it is left out."""
+COMMON = 1e-4
+"""One minus the cosine of the angle between normals below which they count as one."""
+SAME = 1e-3
+"""How near two contacts must be, over the size of the shape, for one to repeat the other."""
 
 
 @inlined
@@ -39,7 +46,7 @@ def move(k: int, to: int, work: Any, work_indices: Any) -> None:
 
 @compiled
 def keep_widest(first: int, count: int, work: Any, work_indices: Any) -> int:
-    """Keep, of the candidates from `first` on, four that span the widest area and the deepest if it is none of them.
+    """Keep, of the candidates from `first` on, four that span a wide area, one of them the deepest.
 
     All have nearly the same normal. Returns how many candidates there are then.
     """
@@ -62,6 +69,7 @@ def keep_widest(first: int, count: int, work: Any, work_indices: Any) -> int:
     move(best, first + 1, work, work_indices)
     along = sub(vertex_at(work, POINT, first + 1), p)
     side = cross(normal, along)
+    area = 0.0
     for j in range(2, 4):
         sign = 1.0 if j == 2 else -1.0
         best, most = first + j, -math.inf
@@ -70,9 +78,10 @@ def keep_widest(first: int, count: int, work: Any, work_indices: Any) -> int:
             if reach > most + 1e-12:
                 best, most = k, reach
         move(best, first + j, work, work_indices)
+        area += max(0.0, most)
     # The deepest may lie inside the widest area: then the corner it stands for comes back.
     left = first + 4
-    best, most = -1, 1e-9
+    best, most = -1, max(1e-12, MISSING * area)
     for k in range(left, count):
         q = vertex_at(work, POINT, k)
         gained = uncovered(first, q, normal, work)
@@ -129,12 +138,22 @@ def keep_apart(count: int, most: int, reach: float, work: Any, work_indices: Any
                 nearest = min(nearest, dot(offset, offset) + dot(turn, turn))
             if nearest > furthest + 1e-12:
                 best, furthest = k, nearest
-        if furthest < 1e-6 * reach * reach:
+        if furthest < SAME * SAME * reach * reach:
             # The rest repeats what is kept.
             break
         move(best, kept, work, work_indices)
         kept += 1
     return kept
+
+
+@compiled
+def keep_few(count: int, most: int, reach: float, work: Any, work_indices: Any) -> int:
+    """Keep the contacts with a mesh that hold a body: few where all have one normal; return how many."""
+    count = keep_apart(count, count, reach, work, work_indices)
+    for k in range(1, count):
+        if dot(vertex_at(work, NORMAL, 0), vertex_at(work, NORMAL, k)) < 1.0 - COMMON:
+            return keep_apart(count, most, reach, work, work_indices)
+    return keep_widest(NONE, count, work, work_indices)
 
 
 @inlined

@@ -8,7 +8,7 @@ import numpy as np
 
 from urdfkit.sim.engine.compilation import compiled
 from urdfkit.sim.engine.pairs import memory
-from urdfkit.sim.engine.pairs.candidates import keep_apart, write
+from urdfkit.sim.engine.pairs.candidates import keep_few, write
 from urdfkit.sim.engine.pairs.convex import collide_convex
 from urdfkit.sim.engine.pairs.memory import NONE
 from urdfkit.sim.engine.pairs.mesh import collide_mesh, collide_meshes
@@ -86,7 +86,7 @@ def collide_pair(
             count = collide_meshes(a, b, numbers, indices, margin, work, work_indices)
         else:
             count = collide_mesh(NONE, a, b, numbers, indices, margin, NONE, work, work_indices)
-        count = keep_apart(count, np.int64(MOST), APART, work, work_indices)
+        count = keep_few(count, np.int64(MOST), APART, work, work_indices)
     else:
         count = collide_convex(NONE, a, b, numbers, indices, margin, NONE, work, work_indices)
     write(count, sign, work, work_indices, out_point, out_normal, out_gap, out_feature)

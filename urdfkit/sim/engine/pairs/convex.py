@@ -5,12 +5,36 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.compilation import compiled
+from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.pairs.epa import depth
 from urdfkit.sim.engine.pairs.gjk import APART, FAR, distance
 from urdfkit.sim.engine.pairs.manifold import spread
-from urdfkit.sim.engine.pairs.shapes import radius_of
-from urdfkit.sim.engine.spatial import Vector, dot, scale, sub
+from urdfkit.sim.engine.pairs.shapes import CYLINDER, SPHERE, WHEEL, radius_of, unrotate
+from urdfkit.sim.engine.spatial import Vector, add, dot, rotate, scale, sub
+
+
+@inlined
+def point_and_cylinder(a: Any, b: Any) -> tuple[Vector, float, Vector]:
+    """Return normal, gap and point half-way of a point and a cylinder.
+
+    Inside a cylinder every direction may be as good as any other: a polytope has no end there.
+    """
+    sign = 1.0 if a[0] == SPHERE else -1.0
+    point, size, R, p = (a[3], b[1], b[2], b[3]) if a[0] == SPHERE else (b[3], a[1], a[2], a[3])
+    x, y, z = unrotate(R, sub(point, p))
+    off = math.sqrt(x * x + y * y)
+    outward = (x / off, y / off, 0.0) if off > 1e-12 * size[0] else (1.0, 0.0, 0.0)
+    up = (0.0, 0.0, 1.0 if z >= 0.0 else -1.0)
+    beside, above = off - size[0], abs(z) - size[1]
+    if beside > 0.0 and above > 0.0:
+        gap = math.sqrt(beside * beside + above * above)
+        normal = scale(1.0 / gap, add(scale(beside, outward), scale(above, up)))
+    elif beside > above:
+        gap, normal = beside, outward
+    else:
+        gap, normal = above, up
+    normal = rotate(R, normal)
+    return scale(sign, normal), gap, sub(point, scale(0.5 * gap, normal))
 
 
 @compiled
@@ -31,6 +55,9 @@ def nearest(
     Returns:
         Whether they are nearer than the limit, the unit normal from b to a, the gap [m], and the point half-way [m].
     """
+    if (a[0] == SPHERE and b[0] in (CYLINDER, WHEEL)) or (b[0] == SPHERE and a[0] in (CYLINDER, WHEEL)):
+        normal, gap, between = point_and_cylinder(a, b)
+        return gap < limit, normal, gap, between
     state, count, apart, on_a = distance(a, b, numbers, indices, limit, work)
     if state == FAR:
         return False, apart, limit, on_a

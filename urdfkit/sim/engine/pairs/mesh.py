@@ -144,6 +144,9 @@ def collide_triangle(
         facing = scale(1.0 / math.sqrt(square), facing)
         if flags & ONE_SIDED == 0 and dot(facing, sub(a[3], p)) < 0.0:
             facing = scale(-1.0, facing)
+        leans = abs(dot(normal, facing)) < 1.0 - 0.5 * LEANS * LEANS
+        # Along the triangle's own normal shapes touch inside it, or not this triangle.
+        has_nearest = leans
         if leans_over(flags, normal, facing, p, q, r):
             normal = facing
             lowest = support(a[0], a[1], a[2], a[3], a[4], numbers, indices, scale(-1.0, normal))
