@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim import values
+from urdfkit.cli.sim.controllers import add_controllers
 from urdfkit.cli.sim.distro import add_distro
 from urdfkit.errors import UsageError
 
@@ -73,6 +74,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="who computes the dynamics (pinocchio: the reference, slow)",
     )
     add_distro(parser)
+    add_controllers(parser)
     add("--json", action="store_true", help="print one JSON value")
     parser.epilog = (
         "examples:\n"
@@ -125,6 +127,7 @@ def load(arguments: argparse.Namespace) -> Simulator:
         fixed_base=arguments.fixed_base,
         engine=arguments.engine,
         ros_distro=arguments.ros_distro,
+        controllers=arguments.controllers,
         note=(lambda text: None) if arguments.quiet else (lambda text: print(f"urdfkit: {text}", file=sys.stderr)),
     )
 

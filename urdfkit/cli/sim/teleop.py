@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.page import Page, add_page_options, note, require_page, until_interrupted
 from urdfkit.cli.parser import add_model
+from urdfkit.cli.sim.controllers import add_controllers
 from urdfkit.cli.sim.distro import add_distro
 from urdfkit.errors import SimulationError
 
@@ -37,6 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_model(parser)
     parser.add_argument("--world", default="empty", metavar="WORLD", help="empty, void or an SDF file (default: empty)")
     add_distro(parser)
+    add_controllers(parser)
     add_page_options(parser)
     parser.epilog = "examples:\n  urdfkit sim teleop simpleton\n  urdfkit sim teleop simpleton --port 8080 --no-browser"
 
@@ -60,6 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
                 robot,
                 world=arguments.world,
                 ros_distro=arguments.ros_distro,
+                controllers=arguments.controllers,
                 note=lambda text: note(f"urdfkit: {text}"),
             )
             ride = Ride(simulator, server)

@@ -62,7 +62,6 @@ class TrajectoryFollower(Law):
         self.listen(self.topic("command" if ros1 else "joint_trajectory"), TRAJECTORY, self._take)
         topic = hardware.setup.bus.advertise(self.topic("state" if ros1 else "controller_state"), TRAJECTORY_STATE)
         self.report(topic, settings.number("state_publish_rate", 50.0), self._state)
-        self._now = 0.0
 
     def _chosen(self) -> str:
         """Return the interface that ``command_interfaces`` asks for: positions where they are among them."""
@@ -99,7 +98,7 @@ class TrajectoryFollower(Law):
         super().start(state)
         positions = np.array([state.position(name) for name in self._names])
         self._trajectory = Trajectory([Waypoint(state.t, positions)])
-        self._now = state.t
+        self._present = state
         for follower in self._followers:
             if follower is not None:
                 follower.integral.reset()
@@ -118,7 +117,7 @@ class TrajectoryFollower(Law):
         Raises:
             ValueError: it cannot be followed; says why.
         """
-        now = self._now
+        now = self._present.t
         names = list(message.joint_names)
         for name in names:
             if name not in self._names:
@@ -162,7 +161,6 @@ class TrajectoryFollower(Law):
 
     def update(self, state: State, motors: Motors) -> float:
         """Command the outputs."""
-        self._now = state.t
         # What is commanded now has to be reached at the end of this control period.
         goal = self._trajectory.at(state.t + self.hardware.period)
         rest = max(0.0, self._trajectory.waypoints[0].t - state.t)

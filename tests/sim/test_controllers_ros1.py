@@ -1,0 +1,406 @@
+"""gazebo_ros_control: transmissions, controllers from launch files, PID, limits, the controller manager, errors."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from urdfkit.errors import SimulationError, UrdfkitError
+from urdfkit.messages import (
+    FLOAT,
+    FLOATS,
+    JOINT_CONTROLLER_STATE,
+    JOINT_STATE,
+    TRAJECTORY,
+    from_fields,
+)
+from urdfkit.sim import Simulator, Spawn
+
+_spec = spec_from_file_location("arm_package", Path(__file__).with_name("arm_package.py"))
+assert _spec is not None
+assert _spec.loader is not None
+arm_package = module_from_spec(_spec)
+_spec.loader.exec_module(arm_package)
+transmissions, write_arm, write_control = (
+    arm_package.transmissions,
+    arm_package.write_arm,
+    arm_package.write_control,
+)
+
+STATES = "  states: {type: joint_state_controller/JointStateController, publish_rate: 50}\n"
+PID = "{p: 100.0, i: 50.0, d: 10.0, i_clamp: 20.0}"
+POSITIONS = f"""arm:
+{STATES}
+  a: {{type: effort_controllers/JointPositionController, joint: shoulder, pid: {PID}}}
+  b: {{type: effort_controllers/JointPositionController, joint: elbow, pid: {PID}}}
+"""
+Make = Callable[..., Any]
+
+
+@pytest.fixture
+def make(tmp_path: Path) -> Make:
+    def build(yaml: str, interfaces: tuple[str, str] = ("Effort", "Effort"), spawned: tuple[str, ...] = (),
+              arm: dict[str, Any] | None = None, **options: Any) -> Any:  # fmt: skip
+        write_control(tmp_path, yaml, *spawned)
+        urdf = write_arm(tmp_path, transmissions(*interfaces), **(arm or {}))
+        options.setdefault("note", lambda _: None)
+        return Simulator(urdf, **options)
+
+    return build
+
+
+def send(simulator: Any, topic: str, value: float) -> None:
+    simulator.bus.publish(topic, FLOAT, from_fields(FLOAT, {"data": value}))
+
+
+def positions(simulator: Any) -> tuple[float, float]:
+    return simulator.state.position("shoulder"), simulator.state.position("elbow")
+
+
+def gravity_torque(shoulder: float, elbow: float) -> tuple[float, float]:
+    """What holds two links of 1 kg and 0.4 m, centres half way, at these angles from upright [N·m]."""
+    g = 9.81
+    fore = 0.2 * math.sin(shoulder + elbow)
+    return -g * (0.2 * math.sin(shoulder) + 0.4 * math.sin(shoulder) + fore), -g * fore
+
+
+@pytest.mark.parametrize("dt", [0.001, 0.005])
+def test_pid_with_integral_holds_a_pose_under_gravity(make: Make, dt: float) -> None:
+    simulator = make(POSITIONS, dt=dt)
+    send(simulator, "/arm/a/command", 1.0)
+    send(simulator, "/arm/b/command", -0.5)
+    simulator.run(15.0)
+    assert positions(simulator) == pytest.approx((1.0, -0.5), abs=1e-3)
+    efforts = simulator.state.effort("shoulder"), simulator.state.effort("elbow")
+    assert efforts == pytest.approx(gravity_torque(1.0, -0.5), abs=0.02)
+
+
+@pytest.mark.parametrize("dt", [0.001, 0.005])
+def test_without_integral_it_sags_by_what_the_stiffness_gives(make: Make, dt: float) -> None:
+    simulator = make(POSITIONS.replace("i: 50.0", "i: 0.0"), dt=dt)
+    send(simulator, "/arm/a/command", 1.0)
+    send(simulator, "/arm/b/command", -0.5)
+    simulator.run(10.0)
+    a, b = positions(simulator)
+    assert (100 * (1.0 - a), 100 * (-0.5 - b)) == pytest.approx(gravity_torque(a, b), abs=1e-3)
+
+
+def test_integral_without_clamp_does_nothing_and_is_noted(make: Make) -> None:
+    notes: list[str] = []
+    simulator = make(POSITIONS.replace(", i_clamp: 20.0", ""), note=notes.append)
+    send(simulator, "/arm/a/command", 1.0)
+    simulator.run(5.0)
+    assert abs(positions(simulator)[0] - 1.0) > 0.05
+    assert any("arm.yaml:4:" in note and "`i` has no effect without `i_clamp`" in note for note in notes)
+
+
+def test_efforts_stay_within_the_limit_and_windup_within_the_clamp(make: Make) -> None:
+    simulator = make(POSITIONS.replace("i_clamp: 20.0", "i_clamp: 3.0, antiwindup: true"), arm={"effort": 4.0})
+    send(simulator, "/arm/a/command", 1.2)  # 4 N·m cannot hold that
+    send(simulator, "/arm/b/command", 0.5)
+    largest = 0.0
+    for _ in range(300):
+        simulator.run(0.01)
+        largest = max(largest, abs(simulator.state.effort("shoulder")))
+    assert largest == pytest.approx(4.0, abs=1e-9)
+    # 3 s of a large error would have wound the integral up; its clamp lets it turn round at once.
+    error = 1.2 - simulator.state.position("shoulder")
+    assert abs(error) > 0.2
+    law = simulator.controllers._loops[0].laws["a"]
+    assert abs(law.follower.integral.part) <= 3.0
+    assert abs(law.follower.integral._sum) <= 3.0 / 50.0 + 1e-12
+
+
+def test_commands_beyond_a_limit_end_there(make: Make) -> None:
+    simulator = make(POSITIONS, gravity=(0, 0, 0))
+    send(simulator, "/arm/a/command", 4.0)
+    furthest = 0.0
+    for _ in range(500):
+        simulator.run(0.01)
+        furthest = max(furthest, simulator.state.position("shoulder"))
+    assert furthest <= 2.5 + 1e-4
+    assert positions(simulator)[0] == pytest.approx(2.5, abs=1e-3)
+
+
+def test_a_strong_effort_does_not_break_a_limit(make: Make) -> None:
+    yaml = "arm:\n  a: {type: effort_controllers/JointEffortController, joint: shoulder}\n"
+    simulator = make(yaml, gravity=(0, 0, 0))
+    send(simulator, "/arm/a/command", 1000.0)
+    for _ in range(200):
+        simulator.run(0.01)
+        assert simulator.state.position("shoulder") <= 2.5 + 1e-4
+    assert simulator.state.position("shoulder") == pytest.approx(2.5, abs=1e-4)
+
+
+def test_a_continuous_joint_takes_the_short_way(make: Make) -> None:
+    simulator = make(POSITIONS, arm={"elbow": "continuous"}, gravity=(0, 0, 0), spawn=Spawn(z=0, joints={"elbow": 3.0}))
+    send(simulator, "/arm/b/command", -3.0)
+    simulator.run(8.0)
+    assert simulator.state.position("elbow") == pytest.approx(2 * math.pi - 3.0, abs=1e-3)
+
+
+def test_state_of_a_controller(make: Make) -> None:
+    simulator = make(POSITIONS)
+    seen: list[Any] = []
+    simulator.subscribe("/arm/a/state", JOINT_CONTROLLER_STATE, seen.append)
+    send(simulator, "/arm/a/command", 0.3)
+    simulator.run(0.1)
+    assert len(seen) == 10
+    last = seen[-1]
+    assert (last.set_point, last.p, last.i, last.d, last.i_clamp) == (0.3, 100.0, 50.0, 10.0, 20.0)
+    assert last.process_value == simulator.state.position("shoulder")
+    assert last.error == pytest.approx(0.3 - last.process_value)
+    assert last.header.stamp.nanosec == 100_000_000
+
+
+def test_joint_states_at_their_rate_in_alphabetical_order(make: Make) -> None:
+    simulator = make(POSITIONS)
+    seen: list[Any] = []
+    simulator.subscribe("/arm/joint_states", JOINT_STATE, seen.append)
+    simulator.run(1.0)
+    assert len(seen) == 50
+    assert seen[-1].name == ["elbow", "shoulder"]
+    assert not any(topic.name == "/joint_states" for topic in simulator.bus.topics)
+
+
+@pytest.mark.parametrize("dt", [0.001, 0.005])
+def test_position_interface_without_gains_ignores_gravity_and_keeps_the_velocity_limit(make: Make, dt: float) -> None:
+    yaml = "arm:\n  a: {type: position_controllers/JointPositionController, joint: shoulder}\n"
+    simulator = make(yaml, ("Position", "Position"), arm={"effort": 0.1}, dt=dt)
+    send(simulator, "/arm/a/command", 2.0)
+    simulator.run(0.25)
+    assert positions(simulator) == pytest.approx((1.0, 0.0), abs=4.1 * dt)  # at 4 rad/s; the elbow is held
+    simulator.run(1.0)
+    assert positions(simulator) == pytest.approx((2.0, 0.0), abs=1e-6)
+
+
+def test_position_interface_with_gains_is_a_pid(make: Make) -> None:
+    yaml = (
+        "arm:\n  a: {type: position_controllers/JointPositionController, joint: shoulder}\n"
+        "  gazebo_ros_control:\n    pid_gains:\n      shoulder: {p: 100.0, d: 10.0}\n      elbow: {p: 100.0, d: 10.0}\n"
+    )
+    simulator = make(yaml, ("Position", "Position"))
+    send(simulator, "/arm/a/command", 1.0)
+    simulator.run(10.0)
+    a, b = positions(simulator)
+    assert (100 * (1.0 - a), 100 * (0.0 - b)) == pytest.approx(gravity_torque(a, b), abs=1e-3)
+
+
+def test_velocity_interface_with_and_without_gains(make: Make) -> None:
+    yaml = (
+        "arm:\n  a: {type: velocity_controllers/JointVelocityController, joint: shoulder}\n"
+        "  b: {type: velocity_controllers/JointVelocityController, joint: elbow}\n"
+        "  gazebo_ros_control: {pid_gains: {elbow: {p: 50.0, i: 10.0, i_clamp: 5.0, d: 1.0}}}\n"
+    )
+    simulator = make(yaml, ("Velocity", "Velocity"), gravity=(0, 0, 0))
+    send(simulator, "/arm/a/command", 0.5)
+    send(simulator, "/arm/b/command", -0.25)
+    simulator.run(2.0)
+    rates = simulator.state.velocity("shoulder"), simulator.state.velocity("elbow")
+    assert rates == pytest.approx((0.5, -0.25), abs=1e-3)
+
+
+def test_velocity_pid_with_a_large_derivative_is_stable(make: Make) -> None:
+    yaml = (
+        "arm:\n  a: {type: effort_controllers/JointVelocityController, joint: shoulder, "
+        "pid: {p: 100.0, i: 0.01, d: 10.0}}\n"
+    )
+    simulator = make(yaml, dt=0.005, gravity=(0, 0, 0))
+    send(simulator, "/arm/a/command", 0.5)
+    simulator.run(3.0)
+    assert simulator.state.velocity("shoulder") == pytest.approx(0.5, abs=0.01)
+
+
+def test_velocity_controller_that_goes_to_positions(make: Make) -> None:
+    yaml = (
+        "arm:\n  a: {type: velocity_controllers/JointPositionController, joint: shoulder, "
+        "pid: {p: 5.0, i: 0.0, d: 0.0}}\n"
+    )
+    simulator = make(yaml, ("Velocity", "Velocity"))
+    send(simulator, "/arm/a/command", 1.0)
+    simulator.run(4.0)
+    assert simulator.state.position("shoulder") == pytest.approx(1.0, abs=1e-6)
+
+
+def test_groups(make: Make) -> None:
+    pid = "{p: 100.0, i: 50.0, d: 10.0, i_clamp: 20.0}"
+    yaml = (
+        "arm:\n  g: {type: effort_controllers/JointGroupPositionController, joints: [elbow, shoulder], "
+        f"elbow: {{pid: {pid}}}, shoulder: {{pid: {pid}}}}}\n"
+    )
+    notes: list[str] = []
+    simulator = make(yaml, note=notes.append)
+    simulator.bus.publish("/arm/g/command", FLOATS, from_fields(FLOATS, {"data": [1.0]}))
+    simulator.bus.publish("/arm/g/command", FLOATS, from_fields(FLOATS, {"data": [0.4, -0.6]}))
+    simulator.run(12.0)
+    assert positions(simulator) == pytest.approx((-0.6, 0.4), abs=1e-3)
+    assert any("2 finite values are wanted" in note for note in notes)
+
+
+def trajectory(points: list[tuple[float, list[float]]], velocities: bool = False) -> Any:
+    rates = {"velocities": [0.0, 0.0]} if velocities else {}
+    fields = [
+        {"positions": p, "time_from_start": {"sec": int(t), "nanosec": round(t % 1 * 1e9)}, **rates} for t, p in points
+    ]
+    return from_fields(TRAJECTORY, {"joint_names": ["shoulder", "elbow"], "points": fields})
+
+
+@pytest.mark.parametrize("kind", ["position", "velocity", "effort"])
+def test_trajectories(make: Make, kind: str) -> None:
+    pid = "{p: 300.0, d: 30.0, i: 300.0, i_clamp: 20.0}"
+    gains = f"gains: {{shoulder: {pid}, elbow: {pid}}}"
+    if kind == "velocity":
+        gains = "gains: {shoulder: {p: 10.0}, elbow: {p: 10.0}}"
+    what = f"type: {kind}_controllers/JointTrajectoryController\n    joints: [shoulder, elbow]"
+    yaml = f"arm:\n  t:\n    {what}\n    {gains}\n"
+    simulator = make(yaml, (kind.capitalize(), kind.capitalize()))
+    message = trajectory([(1.0, [0.5, -0.5]), (2.0, [1.0, 0.0])], velocities=True)
+    simulator.at(0.5, lambda: simulator.bus.publish("/arm/t/command", TRAJECTORY, message))
+    simulator.run(1.0)
+    near = {"position": 2e-3, "velocity": 2e-2, "effort": 0.1}[kind]
+    assert positions(simulator) == pytest.approx((0.25, -0.25), abs=near)  # half way of a cubic at rest at both ends
+    simulator.run(0.5)
+    assert positions(simulator) == pytest.approx((0.5, -0.5), abs=near)
+    simulator.run(8.0)
+    assert positions(simulator) == pytest.approx((1.0, 0.0), abs=1e-3)
+
+
+def test_a_trajectory_that_cannot_be_followed_is_dropped_with_a_note(make: Make) -> None:
+    notes: list[str] = []
+    yaml = "arm:\n  t: {type: position_controllers/JointTrajectoryController, joints: [shoulder, elbow]}\n"
+    simulator = make(yaml, ("Position", "Position"), note=notes.append)
+    wrong = trajectory([(1.0, [0.5, -0.5])])
+    wrong.joint_names = ["shoulder", "elbw"]
+    late = trajectory([(1.0, [0.5, -0.5]), (1.0, [0.6, -0.5])])
+    for message in (wrong, late):
+        simulator.bus.publish("/arm/t/command", TRAJECTORY, message)
+    simulator.run(1.5)
+    assert positions(simulator) == pytest.approx((0, 0), abs=1e-9)
+    assert any("no joint `elbw` here; did you mean `elbow`?" in note for note in notes)
+    assert any("point 2 is not later than the one before" in note for note in notes)
+
+
+# The controller manager
+
+
+def test_what_is_spawned_is_started_and_the_file_is_named(make: Make) -> None:
+    notes: list[str] = []
+    simulator = make(POSITIONS, spawned=("states", "a"), note=notes.append)
+    states = {status.name: status.state for status in simulator.controllers.list()}
+    assert states == {"states": "running", "a": "running", "b": "unloaded"}
+    assert any("controllers of /arm" in note and "arm.yaml (loaded by" in note for note in notes)
+
+
+def test_start_stop_switch_and_conflicts(make: Make) -> None:
+    yaml = POSITIONS + "  c: {type: effort_controllers/JointEffortController, joint: shoulder}\n"
+    simulator = make(yaml, spawned=("states", "a", "b"))
+    with pytest.raises(SimulationError, match="controller `c` needs joint `shoulder`, which `a` has"):
+        simulator.controllers.start("c")
+    simulator.controllers.switch(start=["/arm/c"], stop=["a"])
+    states = {status.name: (status.state, status.claims) for status in simulator.controllers.list()}
+    assert states["a"] == ("stopped", ("shoulder/effort",))
+    assert states["c"] == ("running", ("shoulder/effort",))
+    send(simulator, "/arm/a/command", 1.0)  # nobody listens
+    send(simulator, "/arm/c/command", 2.0)
+    simulator.run(0.01)
+    assert simulator.state.tau[0] == pytest.approx(2.0)
+    simulator.controllers.stop("c")
+    simulator.run(0.01)
+    assert simulator.state.tau[0] == pytest.approx(0.0, abs=1e-9)
+    simulator.controllers.unload("c")
+    with pytest.raises(SimulationError, match="controller `b` runs; stop it"):
+        simulator.controllers.unload("b")
+    with pytest.raises(SimulationError, match="no controller `aa`; did you mean `a`"):
+        simulator.controllers.load("aa")
+
+
+def test_reset_starts_the_controllers_anew(make: Make) -> None:
+    simulator = make(POSITIONS)
+    send(simulator, "/arm/a/command", 1.0)
+    simulator.run(3.0)
+    simulator.reset()
+    simulator.run(5.0)
+    assert positions(simulator) == pytest.approx((0.0, 0.0), abs=1e-3)
+
+
+def test_same_calls_same_bits_however_they_are_portioned_out(make: Make) -> None:
+    at_once, singly = make(POSITIONS), make(POSITIONS)
+    singly.subscribe("/arm/joint_states", JOINT_STATE, lambda _: None)
+    for simulator in (at_once, singly):
+        send(simulator, "/arm/a/command", 1.0)
+    at_once.step(400)
+    for _ in range(400):
+        singly.step()
+    assert at_once.state.q.tobytes() == singly.state.q.tobytes()
+
+
+# Files
+
+
+def test_named_files_take_the_place_of_what_launch_files_load(make: Make, tmp_path: Path) -> None:
+    other = tmp_path / "other.yaml"
+    other.write_text("only: {type: effort_controllers/JointEffortController, joint: elbow}\n")  # without namespace
+    simulator = make(POSITIONS, controllers=[other])
+    assert [status.name for status in simulator.controllers.list()] == ["only"]
+
+
+def test_without_launch_file_the_config_folder_is_read(tmp_path: Path) -> None:
+    write_control(tmp_path, POSITIONS, launch=False)
+    simulator = Simulator(write_arm(tmp_path, transmissions()), note=lambda _: None)
+    assert [status.state for status in simulator.controllers.list()] == ["running"] * 3
+
+
+def test_without_any_file_it_says_so(tmp_path: Path) -> None:
+    notes: list[str] = []
+    simulator = Simulator(write_arm(tmp_path, transmissions()), note=notes.append)
+    assert simulator.controllers.list() == ()
+    assert any("no controllers for /arm" in note and "--controllers" in note for note in notes)
+
+
+@pytest.mark.parametrize(
+    ("yaml", "place", "message"),
+    [
+        ("arm:\n  a: {type: effort_controllers/JointEffortController, joint: shoulda}\n",
+         "arm.yaml:2:62", "no joint `shoulda` in robot `arm`; did you mean `shoulder`?"),
+        ("arm:\n  a: {type: effort_controllers/JointEfortController, joint: shoulder}\n",
+         "arm.yaml:2:13", "did you mean `effort_controllers/JointEffortController`?"),
+        ("arm:\n  s: {type: joint_state_controller/JointStateController}\n",
+         "arm.yaml:2:3", "`s` has no `publish_rate`, which it needs"),
+        ("arm:\n  a: {type: position_controllers/JointPositionController, joint: shoulder}\n",
+         "arm.yaml:2:66", "joint `shoulder` takes effort, not position"),
+        ("arm:\n  a: {type: effort_controllers/JointPositionController, joint: shoulder}\n",
+         "arm.yaml:2:3", "`a` has no `pid`"),
+        ("arm:\n  a: {type: effort_controllers/JointPositionController, joint: shoulder, pid: {p: x}}\n",
+         "arm.yaml:2:83", "`p` is `x`; it must be a finite number"),
+        ("arm:\n  a: {type: effort_controllers/JointPositionController, joint: shoulder, pid: {p: -1}}\n",
+         "arm.yaml:2:83", "a negative gain drives the joint away"),
+        ("arm:\n  a: {type: effort_controllers/JointEffortController\n", "arm.yaml:3:1", "no YAML"),
+    ],
+)  # fmt: skip
+def test_wrong_parameters_are_refused_at_their_place(make: Make, yaml: str, place: str, message: str) -> None:
+    with pytest.raises(UrdfkitError) as caught:
+        make(yaml)
+    assert place in str(caught.value)
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_transmission_without_interface_is_refused_at_its_place(tmp_path: Path) -> None:
+    text = transmissions().replace("<hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>", "")
+    with pytest.raises(SimulationError, match=r"arm\.urdf:\d+:5: transmission `tran_shoulder` lacks <hardwareInterf"):
+        Simulator(write_arm(tmp_path, text))
+    odd = transmissions("Efort")
+    with pytest.raises(SimulationError, match=r"no interface `hardware_interface/EfortJointInterface`; did you mean"):
+        Simulator(write_arm(tmp_path, odd))
+
+
+def test_a_controller_we_do_not_simulate_is_noted_and_the_rest_runs(make: Make) -> None:
+    notes: list[str] = []
+    simulator = make(POSITIONS + "  i: {type: imu_sensor_controller/ImuSensorController}\n", note=notes.append)
+    assert any("imu_sensor_controller/ImuSensorController is not simulated yet" in note for note in notes)
+    assert [status.state for status in simulator.controllers.list()] == ["running"] * 3 + ["unloaded"]
