@@ -413,6 +413,26 @@ def test_state_of_nested_models(tmp_path: Path) -> None:
     assert nested.links[0].pose == Pose()
 
 
+def test_state_scales_shapes(tmp_path: Path) -> None:
+    shapes = {
+        "<box><size>1 1 1</size></box>": Box((2.0, 3.0, 4.0)),
+        "<sphere><radius>1</radius></sphere>": Sphere(4.0),
+        "<cylinder><radius>1</radius><length>1</length></cylinder>": Cylinder(3.0, 4.0),
+        "<capsule><radius>1</radius><length>1</length></capsule>": Capsule(3.0, 4.0),
+        "<ellipsoid><radii>1 1 1</radii></ellipsoid>": Ellipsoid((2.0, 3.0, 4.0)),
+        "<plane><size>1 1</size></plane>": Plane(size=(2.0, 3.0)),
+    }
+    text = "".join(f'<collision name="{n}"><geometry>{s}</geometry></collision>' for n, s in enumerate(shapes))
+    world = world_of(
+        tmp_path,
+        f"""<model name="m"><link name="l"><pose>1 0 0 0 0 0</pose>{text}</link></model>
+        <state world_name="w"><model name="m"><pose>0 0 0 0 0 0</pose><scale>2 3 4</scale></model></state>""",
+    )
+    (link,) = world.models[0].links
+    assert [shape.geometry for shape in link.collisions] == list(shapes.values())
+    assert link.pose.xyz == (1.0, 0.0, 0.0)
+
+
 # What is noted
 
 
@@ -472,7 +492,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
             "nothing is fetched from the network; we ship model://coke_can",
         ),
         ("<include><uri>model://box</uri><placement_frame>l</placement_frame></include>", "needs a <pose> beside it"),
-        ('<include merge="true"><uri>model://box</uri></include>', 'merge="true" is not read'),
+        ('<include merge="true"><uri>model://box</uri></include>', 'merge="true" is for models in models'),
         ('<light name="l" type="sopt"/>', "light `l` is of the type `sopt`; did you mean `spot`?"),
         ("<model/>", "<model> lacks its name"),
         ('<model name="m"><static>yes</static></model>', "<static> is `yes`; it must be true or false"),
@@ -519,8 +539,8 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         ),
         (
             """<model name="m"><link name="l"/></model>
-            <state world_name="w"><model name="m"><scale>2 1 1</scale></model></state>""",
-            "<state> scales model `m`; write its sizes instead",
+            <state world_name="w"><model name="m"><scale>2 0 1</scale></model></state>""",
+            "<scale> of model `m` must be greater than zero",
         ),
     ],
 )

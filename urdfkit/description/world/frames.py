@@ -87,6 +87,28 @@ class Scope:
         if nested is not None:
             self._nested[name] = nested
 
+    def merge(self, name: str, inner: Scope, raw: RawPose, placement: str) -> None:
+        """Add the frames of a model that becomes part of this one (``<include merge="true">``, SDF 1.9).
+
+        Args:
+            name: of the model.
+            inner: its frames.
+            raw: its pose.
+            placement: the frame inside it that the pose is of.
+
+        Raises:
+            DescriptionError: a name is taken.
+        """
+        whole = f"__merged__{name}__"
+        link = inner._canonical_link(raw.position)
+        self._frames[whole] = _Frame("frame", raw, raw.relative_to or self.root, link, placement, True)
+        self._nested[whole] = inner
+        for each, frame in inner._frames.items():
+            if not each.startswith("__"):
+                placed = RawPose(inner.pose(each), whole, frame.raw.position)
+                base = whole if frame.attached_to == inner.root else frame.attached_to
+                self.add(each, frame.kind, placed, default=base, nested=inner._nested.get(each))
+
     def names(self, kind: Kind) -> Iterator[str]:
         """Yield the names of the frames of a kind."""
         return (name for name, frame in self._frames.items() if frame.kind == kind)

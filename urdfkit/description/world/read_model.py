@@ -67,6 +67,7 @@ def read_model(context: Context, element: Element) -> Found:
     scope = Scope("__model__", f"model `{name}`")
     strict = context.version >= (1, 7)
     inside: list[Found] = []
+    merged: list[WorldModel] = []
     for child in element.children:
         if child.tag in ("model", "include"):
             found = read_model(context, child) if child.tag == "model" else read_include(context, child)
@@ -74,21 +75,33 @@ def read_model(context: Context, element: Element) -> Found:
                 continue
             if not isinstance(found.thing, WorldModel):
                 raise wrong(child, "a model may include models only, neither lights nor URDF files")
+            if child.get("merge", "false") in ("true", "1") and found.scope is not None:
+                scope.merge(found.thing.name, found.scope, found.raw, found.placement)
+                merged.append(found.thing)
+                continue
             found.add_to(scope, strict=strict)
             inside.append(found)
         else:
             add_frame(scope, child, strict=strict)
     scope.canonical = _canonical(element, scope)
-    models = [found.placed(scope) for found in inside]
+    links = [read_link(context, link, scope) for link in element.find_all("link")]
+    joints = [read_joint(context, joint, scope) for joint in element.find_all("joint")]
+    models = [each for found in inside if isinstance(each := found.placed(scope), WorldModel)]
+    kept = [keep(child) for child in element.children if child.tag not in _READ]
+    for part in merged:
+        links += [replace(each, pose=scope.pose(each.name)) for each in part.links]
+        models += [replace(each, pose=scope.pose(each.name)) for each in part.models]
+        joints += part.joints
+        kept += part.kept
     model = WorldModel(
         name,
         static=boolean(element, "static", False),
-        links=tuple([read_link(context, link, scope) for link in element.find_all("link")]),
-        joints=tuple([read_joint(context, joint, scope) for joint in element.find_all("joint")]),
-        models=tuple([each for each in models if isinstance(each, WorldModel)]),
+        links=tuple(links),
+        joints=tuple(joints),
+        models=tuple(models),
         self_collide=boolean(element, "self_collide", False),
         canonical_link=scope.canonical,
-        kept=tuple([keep(child) for child in element.children if child.tag not in _READ]),
+        kept=tuple(kept),
         position=element.origin.position,
     )
     return Found(model, raw_pose(element), element.get("placement_frame") or "", scope)
@@ -133,8 +146,6 @@ def read_include(context: Context, element: Element) -> Found | None:
     uri = element.find("uri")
     if uri is None:
         raise wrong(element, "<include> lacks its <uri>")
-    if element.get("merge", "false") in ("true", "1"):
-        raise wrong(element, 'merge="true" is not read; include the model as one of its own, or copy its links')
     path = find_model(context, uri)
     called = text(element, "name")
     if path.suffix in (".urdf", ".xacro"):

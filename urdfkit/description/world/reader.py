@@ -174,6 +174,8 @@ def _thing(context: Context, element: Element) -> Found | None:
         return read_model(context, element)
     if element.tag == "light":
         return Found(read_light(context, element, Pose()), raw_pose(element))
+    if element.tag == "include" and element.get("merge", "false") in ("true", "1"):
+        raise wrong(element, 'merge="true" is for models in models; leave it out')
     return read_include(context, element) if element.tag == "include" else None
 
 

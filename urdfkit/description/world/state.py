@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from urdfkit.description.element import Element
-from urdfkit.description.robot import Pose
+from urdfkit.description.robot import Box, Capsule, Cylinder, Mesh, Pose, Sphere, Vector
 from urdfkit.description.world.context import Context
 from urdfkit.description.world.model import WorldLink, WorldModel
 from urdfkit.description.world.poses import between, compose, difference
-from urdfkit.description.world.shape import Light
+from urdfkit.description.world.shape import Ellipsoid, Light, Plane, WorldGeometry
 from urdfkit.description.world.values import name_of, raw_pose, vector, wrong
 from urdfkit.errors import did_you_mean
 
@@ -21,7 +21,7 @@ class State:
     """The state of a world: saved poses of models, links and lights.
 
     Gazebo classic saves where every model and every link is in the world, nested ones too (gazebo, LinkState.cc).
-    Velocities are not taken over.
+    Velocities are not taken over. A saved scale holds for the sizes as written, as when Gazebo loads the file.
 
     Args:
         context: the file.
@@ -46,7 +46,7 @@ class State:
         """Return a model of the world where it was.
 
         Raises:
-            DescriptionError: it was scaled.
+            DescriptionError: a value cannot be used.
         """
         saved = self._saved("model", model.name)
         return model if saved is None else _moved(model, saved, Pose())
@@ -62,8 +62,11 @@ class State:
 
 def _moved(model: WorldModel, saved: Element, around: Pose) -> WorldModel:
     """Return a model where it was; `around` is the pose of what it is in."""
-    if vector(saved, "scale", (1.0, 1.0, 1.0)) != (1.0, 1.0, 1.0):
-        raise wrong(saved, f"<state> scales model `{model.name}`; write its sizes instead")
+    scale = vector(saved, "scale", (1.0, 1.0, 1.0))
+    if min(scale) <= 0:
+        raise wrong(saved.find("scale") or saved, f"<scale> of model `{model.name}` must be greater than zero")
+    if scale != (1.0, 1.0, 1.0):
+        model = replace(model, links=tuple([_scaled(link, scale) for link in model.links]))
     pose = _unless_near(compose(around, model.pose), saved)
     links = {name_of(link): link for link in saved.find_all("link")}
     models = {name_of(nested): nested for nested in saved.find_all("model")}
@@ -80,6 +83,31 @@ def _moved(model: WorldModel, saved: Element, around: Pose) -> WorldModel:
             ]
         ),
     )
+
+
+def _scaled(link: WorldLink, scale: Vector) -> WorldLink:
+    """Return a link with its shapes scaled; poses and masses stay, as in Gazebo classic (Link::SetScale)."""
+    return replace(
+        link,
+        collisions=tuple([replace(each, geometry=scaled(each.geometry, scale)) for each in link.collisions]),
+        visuals=tuple([replace(each, geometry=scaled(each.geometry, scale)) for each in link.visuals]),
+    )
+
+
+def scaled(geometry: WorldGeometry, scale: Vector) -> WorldGeometry:
+    """Return a shape that is `scale` times as large along x, y and z; round ones stay round, by the larger factor."""
+    x, y, z = scale
+    if isinstance(geometry, Box):
+        return Box((geometry.size[0] * x, geometry.size[1] * y, geometry.size[2] * z))
+    if isinstance(geometry, Ellipsoid):
+        return Ellipsoid((geometry.radii[0] * x, geometry.radii[1] * y, geometry.radii[2] * z))
+    if isinstance(geometry, Mesh):
+        return Mesh(geometry.uri, (geometry.scale[0] * x, geometry.scale[1] * y, geometry.scale[2] * z))
+    if isinstance(geometry, Sphere):
+        return Sphere(geometry.radius * max(scale))
+    if isinstance(geometry, Cylinder | Capsule):
+        return type(geometry)(geometry.radius * max(x, y), geometry.length * z)
+    return Plane(geometry.normal, (geometry.size[0] * x, geometry.size[1] * y))
 
 
 def _link(link: WorldLink, saved: Element | None, model: Pose) -> WorldLink:
