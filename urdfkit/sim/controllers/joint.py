@@ -21,6 +21,10 @@ FASTEST = 20.0
 """How fast a joint without ``<limit velocity>`` is brought to a commanded position [rad/s] or [m/s]."""
 
 
+NEAR = 1e-9
+"""A joint this near to where it should be [rad] or [m], and this slow [rad/s] or [m/s], is there."""
+
+
 class JointHandle:
     """What one joint can be told.
 
@@ -74,7 +78,7 @@ class JointHandle:
             self.name, min(self.fastest, max(-self.fastest, velocity)), self.limit if effort is None else effort
         )
 
-    def place(self, motors: Motors, now: float, position: float, period: float) -> bool:
+    def place(self, motors: Motors, state: State, position: float, period: float) -> bool:
         """Bring the joint to a position [rad] or [m] whatever that takes, no faster than it may; True when it is there.
 
         gazebo_ros_control without gains sets the position and so overcomes gravity and any load; ros_control's joint
@@ -82,15 +86,16 @@ class JointHandle:
 
         Args:
             motors: what to write to.
-            now: where it is.
-            position: where it should be.
+            state: the present.
+            position: where it should be [rad] or [m].
             period: until the next call [s].
         """
+        now = state.position(self.name)
         fastest = self.fastest if isfinite(self.fastest) else FASTEST
         velocity = (self.target(position, now) - now) / period
-        arrived = abs(velocity) * period < 1e-12
-        self.turn(motors, 0.0 if arrived else min(fastest, max(-fastest, velocity)), inf)
-        return arrived
+        near = abs(velocity) * period < NEAR
+        self.turn(motors, 0.0 if near else min(fastest, max(-fastest, velocity)), inf)
+        return near and abs(state.velocity(self.name)) < NEAR
 
     def servo(
         self,

@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from math import inf
 from typing import TYPE_CHECKING, ClassVar
 
-from urdfkit.sim.controllers.joint import Follower, JointHandle
+from urdfkit.sim.controllers.joint import NEAR, Follower, JointHandle
 
 if TYPE_CHECKING:
     from urdfkit.sim.controllers.pid import Gains
@@ -19,9 +19,6 @@ if TYPE_CHECKING:
 
 INTERFACES = ("position", "velocity", "effort")
 """What a joint may be commanded by."""
-
-NEAR = 1e-9
-"""A proportional approach ends when the joint is this near [rad] or [m]."""
 
 
 class Output(ABC):
@@ -119,9 +116,9 @@ class PositionOutput(Output):
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
         """Obey a command; return how long that needs no attention [s]."""
         self.command = command
-        now = state.position(self.handle.name)
         if self._follower is None:
-            return inf if self.handle.place(motors, now, command, self.period) else 0.0
+            return inf if self.handle.place(motors, state, command, self.period) else 0.0
+        now = state.position(self.handle.name)
         self._follower.follow(state, motors, self.handle.target(command, now), velocity)
         return self._follower.rest()
 
@@ -146,4 +143,4 @@ class ProportionalOutput(Output):
         error = self.handle.target(command, now) - now
         near = abs(error) < NEAR
         self.handle.turn(motors, 0.0 if near else self._rate * error)
-        return 1.0 if near else 0.0
+        return 1.0 if near and abs(state.velocity(self.handle.name)) < NEAR else 0.0

@@ -76,7 +76,9 @@ class Ros2Control(Controller):
         for name, entry in boss.children.items():
             if (kind := entry.children.get("type")) is not None and kind.value:
                 own = node_settings(root, namespace, name)
-                known[name] = Settings(name, own.position, None, None, {**own.children, "type": kind}, entry.key)
+                known[name] = Settings(
+                    name, own.position, None, None, {**own.children, "type": kind}, own.key or entry.key
+                )
         hold = self.spec.generation != "gz" or read.flag("hold_joints")
         loop = self.loop = ControlLoop(namespace, known, hardware, hold=hold)
         if not known:

@@ -1,0 +1,244 @@
+"""gz_ros2_control and gazebo_ros2_control: parameter files, trajectories, forwarded commands, holding, errors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from urdfkit.errors import SimulationError, UrdfkitError
+from urdfkit.messages import FLOATS, JOINT_STATE, TRAJECTORY, TRAJECTORY_STATE, from_fields
+from urdfkit.sim import Simulator, Spawn
+
+_spec = spec_from_file_location("arm_package", Path(__file__).with_name("arm_package.py"))
+assert _spec is not None
+assert _spec.loader is not None
+arm_package = module_from_spec(_spec)
+_spec.loader.exec_module(arm_package)
+package, write_arm = arm_package.package, arm_package.write_arm
+
+GZ = ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin", "gz_ros2_control/GazeboSimSystem")
+CLASSIC = ("libgazebo_ros2_control.so", "gazebo_ros2_control", "gazebo_ros2_control/GazeboSystem")
+
+BLOCK = """
+  <ros2_control name="arm" type="system"><hardware><plugin>{hardware}</plugin></hardware>
+    <joint name="shoulder">{commands}<state_interface name="position">{initial}</state_interface></joint>
+    <joint name="elbow">{commands}<state_interface name="position"/></joint>
+  </ros2_control>
+  <gazebo><plugin filename="{filename}" name="{name}">
+    <parameters>{path}</parameters>{more}</plugin></gazebo>
+"""
+
+BOSS = """controller_manager:
+  ros__parameters:
+    update_rate: 100
+    joint_state_broadcaster: {type: joint_state_broadcaster/JointStateBroadcaster}
+"""
+
+TRAJECTORIES = (
+    BOSS
+    + """    arm_controller:
+      type: joint_trajectory_controller/JointTrajectoryController
+
+arm_controller:
+  ros__parameters:
+    joints: [shoulder, elbow]
+    command_interfaces: [position]
+    state_interfaces: [position, velocity]
+"""
+)
+Make = Callable[..., Any]
+
+
+def command(kind: str) -> str:
+    return f'<command_interface name="{kind}"/>'
+
+
+@pytest.fixture
+def make(tmp_path: Path) -> Make:
+    def build(yaml: str, flavour: tuple[str, str, str] = GZ, commands: str = command("position"), more: str = "",
+              initial: str = "", arm: dict[str, Any] | None = None, **options: Any) -> Any:  # fmt: skip
+        config = package(tmp_path, "arm_bringup") / "config"
+        config.mkdir(exist_ok=True)
+        (config / "arm.yaml").write_text(yaml)
+        filename, name, hardware = flavour
+        path = options.pop("path", "$(find arm_bringup)/config/arm.yaml")
+        block = BLOCK.format(
+            filename=filename, name=name, hardware=hardware, commands=commands, more=more, initial=initial, path=path
+        )
+        options.setdefault("note", lambda _: None)
+        return Simulator(write_arm(tmp_path, block, **(arm or {})), **options)
+
+    return build
+
+
+def positions(simulator: Any) -> tuple[float, float]:
+    return simulator.state.position("shoulder"), simulator.state.position("elbow")
+
+
+def trajectory(*points: tuple[float, list[float]], joints: tuple[str, ...] = ("shoulder", "elbow")) -> Any:
+    fields = [{"positions": p, "time_from_start": {"sec": int(t), "nanosec": round(t % 1 * 1e9)}} for t, p in points]
+    return from_fields(TRAJECTORY, {"joint_names": list(joints), "points": fields})
+
+
+@pytest.mark.parametrize("flavour", [GZ, CLASSIC], ids=["gz", "classic"])
+@pytest.mark.parametrize("dt", [0.001, 0.005])
+def test_a_trajectory_published_at_a_time_is_followed(make: Make, flavour: tuple[str, str, str], dt: float) -> None:
+    simulator = make(TRAJECTORIES, flavour, dt=dt)
+    message = trajectory((1.0, [0.6, -0.3]), (3.0, [1.0, 0.5]))
+    simulator.at(0.5, lambda: simulator.bus.publish("/arm_controller/joint_trajectory", TRAJECTORY, message))
+    seen: list[Any] = []
+    simulator.subscribe("/arm_controller/controller_state", TRAJECTORY_STATE, seen.append)
+    simulator.run(1.0)
+    wanted = seen[-1]
+    assert wanted.joint_names == ["shoulder", "elbow"]
+    assert wanted.reference.positions == pytest.approx([0.3, -0.15])  # half way of a straight line
+    assert wanted.error.positions == pytest.approx(wanted.reference.positions - wanted.feedback.positions)
+    # gz_ros2_control closes a tenth of the error in each control period: it lags by a speed of ten per second.
+    lag = (0.06, -0.03) if flavour is GZ else (0.0, 0.0)
+    assert positions(simulator) == pytest.approx((0.3 - lag[0], -0.15 - lag[1]), abs=8e-3)
+    simulator.run(4.0)
+    assert positions(simulator) == pytest.approx((1.0, 0.5), abs=1e-3)
+
+
+def test_update_rate_and_gain_decide_how_fast_gz_closes_in(make: Make) -> None:
+    yaml = TRAJECTORIES.replace("update_rate: 100", "update_rate: 50")
+    simulator = make(yaml, more="<position_proportional_gain>0.02</position_proportional_gain>", gravity=(0, 0, 0))
+    message = trajectory((0.0, [0.5, 0.0]), (0.01, [0.5, 0.0]))
+    simulator.bus.publish("/arm_controller/joint_trajectory", TRAJECTORY, message)
+    simulator.run(2.0)
+    assert positions(simulator)[0] == pytest.approx(0.5 * (1 - (1 - 0.02) ** 100), abs=0.01)
+
+
+def test_joint_states(make: Make) -> None:
+    simulator = make(TRAJECTORIES)
+    seen: list[Any] = []
+    simulator.subscribe("/joint_states", JOINT_STATE, seen.append)
+    simulator.run(1.0)
+    assert len(seen) == 100
+    assert seen[-1].name == ["shoulder", "elbow"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "type"),
+    [
+        ("position", "position_controllers/JointGroupPositionController"),
+        ("position", "forward_command_controller/ForwardCommandController"),
+        ("velocity", "velocity_controllers/JointGroupVelocityController"),
+    ],
+)
+def test_forwarded_commands(make: Make, kind: str, type: str) -> None:
+    yaml = (
+        BOSS + f"    f:\n      type: {type}\nf:\n  ros__parameters:\n    joints: [elbow]\n    interface_name: {kind}\n"
+    )
+    simulator = make(yaml, commands=command(kind))
+    simulator.bus.publish("/f/commands", FLOATS, from_fields(FLOATS, {"data": [0.5]}))
+    simulator.run(2.0)
+    assert positions(simulator)[0] == pytest.approx(0.0, abs=1e-3)  # held: nobody commands it
+    assert positions(simulator)[1] == pytest.approx(0.5 if kind == "position" else 1.0, abs=2e-3)
+
+
+def test_efforts_are_forwarded_and_limited(make: Make) -> None:
+    yaml = (
+        BOSS + "    f: {type: effort_controllers/JointGroupEffortController}\n"
+        "/**:\n  ros__parameters:\n    joints: [shoulder]\nf:\n  ros__parameters:\n    joints: [elbow]\n"
+    )
+    simulator = make(yaml, commands=command("effort"), gravity=(0, 0, 0), arm={"effort": 0.5})
+    simulator.bus.publish("/f/commands", FLOATS, from_fields(FLOATS, {"data": [5.0]}))
+    simulator.run(0.02)
+    assert simulator.state.tau[1] == pytest.approx(0.5)
+
+
+def test_trajectories_by_effort(make: Make) -> None:
+    pid = "{p: 300.0, i: 300.0, d: 30.0, i_clamp: 20.0}"
+    gains = f"    gains: {{shoulder: {pid}, elbow: {pid}}}\n"
+    yaml = TRAJECTORIES.replace("command_interfaces: [position]", "command_interfaces: [effort]") + gains
+    simulator = make(yaml, commands=command("effort"))
+    simulator.bus.publish("/arm_controller/joint_trajectory", TRAJECTORY, trajectory((1.0, [1.0, -0.5])))
+    simulator.run(12.0)
+    assert positions(simulator) == pytest.approx((1.0, -0.5), abs=1e-3)
+
+
+def test_joints_without_controller_are_held_unless_told_not_to(make: Make) -> None:
+    held = make(BOSS, spawn=Spawn(z=0, joints={"shoulder": 0.5}))
+    held.run(1.0)
+    assert positions(held) == pytest.approx((0.5, 0.0), abs=1e-6)
+    free = make(BOSS, more="<hold_joints>false</hold_joints>", spawn=Spawn(z=0, joints={"shoulder": 0.5}))
+    free.run(1.0)
+    assert abs(positions(free)[0] - 0.5) > 0.1
+
+
+def test_initial_values_are_where_the_robot_starts(make: Make) -> None:
+    initial = '<param name="initial_value">0.7</param>'
+    simulator = make(TRAJECTORIES, initial=initial)
+    assert positions(simulator) == pytest.approx((0.7, 0.0))
+    simulator.run(1.0)
+    assert positions(simulator) == pytest.approx((0.7, 0.0), abs=1e-6)
+    chosen = make(TRAJECTORIES, initial=initial, spawn=Spawn(z=0, joints={"shoulder": -0.2}))
+    assert positions(chosen)[0] == pytest.approx(-0.2)
+
+
+def test_namespace_of_the_plugin(make: Make) -> None:
+    simulator = make(TRAJECTORIES, more="<ros><namespace>left</namespace></ros>")
+    names = {topic.name for topic in simulator.bus.topics}
+    assert {"/left/joint_states", "/left/arm_controller/joint_trajectory"} <= names
+    assert [status.namespace for status in simulator.controllers.list()] == ["/left", "/left"]
+    assert {status.state for status in simulator.controllers.list()} == {"active"}
+
+
+def test_only_the_first_of_two_that_want_a_joint_is_started(make: Make) -> None:
+    notes: list[str] = []
+    more = "    late: {type: position_controllers/JointGroupPositionController}\n"
+    yaml = (
+        TRAJECTORIES.replace("\narm_controller:", more + "\narm_controller:")
+        + "late: {ros__parameters: {joints: [elbow]}}\n"
+    )
+    simulator = make(yaml, note=notes.append)
+    assert [status.state for status in simulator.controllers.list()] == ["active", "active", "inactive"]
+    assert any(
+        "not started: controller `late` needs joint `elbow`, which `arm_controller` has" in note for note in notes
+    )
+    simulator.controllers.switch(start=["late"], stop=["arm_controller"])
+    assert [status.state for status in simulator.controllers.list()] == ["active", "inactive", "active"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("elbow]", "elbo]", "arm.yaml:10:24: no joint `elbo` in robot `arm`; did you mean `elbow`?"),
+        ("[position]\n", "[velocity]\n", "arm.yaml:10:14: joint `shoulder` takes position, not velocity"),
+        ("[position]\n", "[positon]\n", "arm.yaml:11:26: no interface `positon`; did you mean `position`?"),
+        ("    joints: [shoulder, elbow]\n", "", "arm.yaml:8:1: `arm_controller` has no `joints`"),
+        ("JointTrajectoryController\n", "JointTrajectoryControler\n", "did you mean `joint_trajectory_controller/J"),
+        ("update_rate: 100", "update_rate: fast", "arm.yaml:3:18: `update_rate` is `fast`"),
+    ],
+)
+def test_wrong_parameters_are_refused_at_their_place(make: Make, old: str, new: str, message: str) -> None:
+    assert old in TRAJECTORIES
+    with pytest.raises(UrdfkitError) as caught:
+        make(TRAJECTORIES.replace(old, new))
+    assert message in str(caught.value)
+
+
+def test_missing_files_are_refused_at_their_place(make: Make) -> None:
+    with pytest.raises(SimulationError, match=r"arm\.urdf:\d+:\d+: no file .*; did you mean `arm.yaml`"):
+        make(TRAJECTORIES, path="$(find arm_bringup)/config/arms.yaml")
+    with pytest.raises(SimulationError, match=r"no package `arm_bringp`.*did you mean `arm_bringup`"):
+        make(TRAJECTORIES, path="$(find arm_bringp)/config/arm.yaml")
+
+
+def test_hardware_of_another_is_noted(make: Make) -> None:
+    notes: list[str] = []
+    with pytest.raises(UrdfkitError, match="has no <command_interface> with an interface for position"):
+        make(TRAJECTORIES, (GZ[0], GZ[1], "mock_components/GenericSystem"), note=notes.append)
+    assert any("hardware `mock_components/GenericSystem` is not the simulator's" in note for note in notes)
+
+
+def test_a_block_that_no_plugin_runs_is_noted(tmp_path: Path) -> None:
+    notes: list[str] = []
+    block = BLOCK.format(filename="", name="", hardware=GZ[2], commands="", more="", initial="", path="")
+    Simulator(write_arm(tmp_path, block[: block.index("<gazebo>")]), note=notes.append)
+    assert any("no plugin runs ros2_control `arm`" in note for note in notes)
