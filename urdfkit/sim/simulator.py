@@ -48,7 +48,7 @@ class Simulator:
 
     Args:
         robot: a loaded robot, a file, or the name of a robot we ship.
-        world: a world, a name (``empty``, ``void``) or an SDF file.
+        world: a world, the name of one we ship (``empty``, ``void``, ``house``, …) or an SDF file.
         dt: length of a step [s].
         seed: of everything random.
         spawn: where and how the robot starts.
@@ -99,7 +99,9 @@ class Simulator:
             raise SimulationError(f"a step of {dt:g} s makes no sense; try 0.001")
         distro = Distro(ros_distro)
         self.robot = robot if isinstance(robot, Robot) else load_robot(robot, package_path)
-        self.world = _with_gravity(world if isinstance(world, World) else load_world(world), gravity)
+        self.world = _with_gravity(
+            world if isinstance(world, World) else load_world(world, package_path=package_path), gravity
+        )
         self.dt = dt
         self.bus = Bus() if bus is None else bus
         self.paused = False

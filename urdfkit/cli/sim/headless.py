@@ -34,7 +34,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_model(parser)
     add = parser.add_argument
     add("--for", dest="duration", required=True, type=values.duration, metavar="SECONDS", help="simulated time")
-    add("--world", default="empty", metavar="WORLD", help="empty, void or an SDF file (default: empty)")
+    add(
+        "--world",
+        default="empty",
+        metavar="WORLD",
+        help="a world we ship (empty, void, house, …) or an SDF file (default: empty)",
+    )
     add("--dt", type=values.positive, default=0.001, metavar="S", help="step [s] (default: 0.001)")
     add("--seed", type=int, default=0, metavar="N", help="of everything random (default: 0)")
     add(

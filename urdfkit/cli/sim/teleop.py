@@ -36,7 +36,12 @@ COMPILING = "compiling the physics kernel, some 20 s, once per machine …"
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
     add_model(parser)
-    parser.add_argument("--world", default="empty", metavar="WORLD", help="empty, void or an SDF file (default: empty)")
+    parser.add_argument(
+        "--world",
+        default="empty",
+        metavar="WORLD",
+        help="a world we ship (empty, void, house, …) or an SDF file (default: empty)",
+    )
     add_distro(parser)
     add_controllers(parser)
     add_page_options(parser)
