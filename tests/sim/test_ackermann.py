@@ -363,3 +363,15 @@ def test_wrong_parameters_of_the_new_gazebo(make: Make, parameters: str, said: s
         make(parameters, SYSTEM)
     assert said in str(caught.value)
     assert "car.urdf:" in str(caught.value)
+
+
+@pytest.mark.parametrize(("parameters", "filename"), [(GAINS, CLASSIC), (GZ, SYSTEM)])
+def test_after_a_reset_all_is_as_at_the_start(make: Make, parameters: str, filename: str) -> None:
+    def ride(simulator: Simulator) -> tuple[bytes, Any]:
+        settle(simulator, 0.4, 0.3, 0.5)
+        return simulator.state.q.tobytes(), simulator.odometry()
+
+    simulator = make(parameters, filename)
+    first = ride(simulator)
+    simulator.reset()
+    assert ride(simulator) == first

@@ -292,3 +292,28 @@ def test_the_base_of_a_bolted_robot_cannot_be_moved(make: Make) -> None:
     simulator = make("gz", fixed_base=True, spawn=FLOATING, note=lambda text: None)
     with pytest.raises(SimulationError, match="robot `sled` has no floating base to move"):
         simulator.motors.move_base((0, 0, 0), (0, 0, 0))
+
+
+@pytest.mark.parametrize("generation", GENERATIONS)
+def test_after_a_reset_all_is_as_at_the_start(make: Make, generation: str) -> None:
+    def ride(simulator: Simulator) -> bytes:
+        simulator.run(0.1)
+        simulator.command((0.3, 0.1, 0), (0, 0, 0.5))
+        simulator.run(1.0)
+        return bytes(simulator.state.q.tobytes())
+
+    simulator = make(generation)
+    first = ride(simulator)
+    simulator.reset()
+    assert ride(simulator) == first
+
+
+@pytest.mark.parametrize("generation", GENERATIONS)
+def test_how_steps_are_portioned_out_does_not_matter(make: Make, generation: str) -> None:
+    at_once, singly = make(generation), make(generation)
+    for simulator in (at_once, singly):
+        simulator.command((0.3, 0.1, 0), (0, 0, 0.5))
+    at_once.step(300)
+    for _ in range(300):
+        singly.step()
+    assert at_once.state.q.tobytes() == singly.state.q.tobytes()

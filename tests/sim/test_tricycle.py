@@ -227,6 +227,7 @@ def test_the_default_torque_of_ros_2_is_small(make: Make) -> None:
         ("<steeringJoint>front_steer_joint</steeringJoint>", "no joint `front_steer_joint` in robot `trike`; did you"),
         ("<encoderWheelSeparation>0</encoderWheelSeparation>", "<encoderWheelSeparation> is `0`; it must be a number"),
         ("<actuatedWheelDiameter>-1</actuatedWheelDiameter>", "<actuatedWheelDiameter> is `-1`; it must be a number"),
+        ("<steeringSpeed>-1</steeringSpeed>", "<steeringSpeed> is `-1`; it must be a number, zero or greater"),
         ("<odometrySource>gps</odometrySource>", "<odometrySource> is `gps`; it must be `encoder` or `world`"),
     ],
 )
@@ -235,3 +236,14 @@ def test_wrong_parameters_are_named_with_their_place(make: Make, extra: str, sai
         make("ros1", extra)
     assert said in str(caught.value)
     assert "trike.urdf:" in str(caught.value)
+
+
+def test_after_a_reset_all_is_as_at_the_start(make: Make) -> None:
+    def ride(simulator: Simulator) -> tuple[bytes, Any]:
+        settle(simulator, 0.4, 0.3)
+        return simulator.state.q.tobytes(), simulator.odometry()
+
+    simulator = make("ros1", ENCODER["ros1"] + SLOW["ros1"] + "<wheelAcceleration>8</wheelAcceleration>")
+    first = ride(simulator)
+    simulator.reset()
+    assert ride(simulator) == first

@@ -64,20 +64,20 @@ class Parameters:
         found = self.texts(meaning)
         return found[0] if found else default
 
-    def number(self, meaning: str, default: float = 0.0, *, positive: bool = False) -> float:
+    def number(self, meaning: str, default: float = 0.0, *, positive: bool = False, unsigned: bool = False) -> float:
         """Return the first value as a number.
 
         Raises:
-            SimulationError: it is not a finite number, or not positive where it has to be.
+            SimulationError: it is not a finite number, or negative or not positive where it must not be.
         """
-        found = self.numbers(meaning, positive=positive)
+        found = self.numbers(meaning, positive=positive, unsigned=unsigned)
         return found[0] if found else default
 
-    def numbers(self, meaning: str, *, positive: bool = False) -> tuple[float, ...]:
+    def numbers(self, meaning: str, *, positive: bool = False, unsigned: bool = False) -> tuple[float, ...]:
         """Return every value as a number.
 
         Raises:
-            SimulationError: one is not a finite number, or not positive where it has to be.
+            SimulationError: one is not a finite number, or negative or not positive where it must not be.
         """
         found = []
         for text in self.texts(meaning):
@@ -85,8 +85,9 @@ class Parameters:
                 value = float(text)
             except ValueError:
                 value = float("nan")
-            if not isfinite(value) or (positive and value <= 0):
-                wanted = "a number greater than zero" if positive else "a finite number"
+            if not isfinite(value) or (positive and value <= 0) or (unsigned and value < 0):
+                wanted = "a number, zero or greater" if unsigned else "a finite number"
+                wanted = "a number greater than zero" if positive else wanted
                 raise SimulationError(
                     f"<{self.tag(meaning)}> is `{text}`; it must be {wanted}", position=self.place(meaning)
                 )

@@ -56,8 +56,8 @@ class DiffDrive(Drive):
         self._setup = setup
         self._read_wheels(setup, read)
         # The new Gazebo has no torque of its own: the joints' <limit effort> holds.
-        self._torque = None if self._gz else read.number("max_wheel_torque")
-        self._acceleration = read.number("max_wheel_acceleration")
+        self._torque = None if self._gz else read.number("max_wheel_torque", unsigned=True)
+        self._acceleration = read.number("max_wheel_acceleration", unsigned=True)
         self._instructed = [0.0] * (2 * len(self._pairs))
         if self._gz:
             self.read_rate = read.number("odometry_rate")

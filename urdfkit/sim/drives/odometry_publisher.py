@@ -47,7 +47,7 @@ class OdometryPublisher(Drive):
         self._offset = (x, y, z)
         roll, pitch, yaw = read.vector("rpy_offset", 3)
         self._turn = from_rpy(roll, pitch, yaw)
-        self._noise = read.number("gaussian_noise")
+        self._noise = read.number("gaussian_noise", unsigned=True)
         self._random = setup.random
         frame, child = read.text("odometry_frame"), read.text("base_frame")
         self._odometers = (
@@ -99,7 +99,7 @@ class OdometryPublisher(Drive):
         return Estimate(now.position, now.quaternion, linear, angular)
 
     def _shaken(self, vector: Vector) -> Vector:
-        x, y, z = self._random.normal(0.0, abs(self._noise), 3).tolist()
+        x, y, z = self._random.normal(0.0, self._noise, 3).tolist()
         return vector[0] + x, vector[1] + y, vector[2] + z
 
     def estimate(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:

@@ -51,12 +51,12 @@ class Tricycle(Drive):
         self._radius = read.number("actuated_diameter", positive=True) / 2
         self._encoder_radius = read.number("encoder_diameter", positive=True) / 2
         self._separation = read.number("wheel_separation", positive=True)
-        self._torque = read.number("max_wheel_torque")
-        self._faster = read.number("max_wheel_acceleration")
-        self._slower = read.number("max_wheel_deceleration", self._faster)
-        self._wheel_tolerance = read.number("wheel_tolerance")
-        self._steering_speed = read.number("steering_speed")
-        self._steering_tolerance = read.number("steering_tolerance")
+        self._torque = read.number("max_wheel_torque", unsigned=True)
+        self._faster = read.number("max_wheel_acceleration", unsigned=True)
+        self._slower = read.number("max_wheel_deceleration", self._faster, unsigned=True)
+        self._wheel_tolerance = read.number("wheel_tolerance", unsigned=True)
+        self._steering_speed = read.number("steering_speed", unsigned=True)
+        self._steering_tolerance = read.number("steering_tolerance", unsigned=True)
         self.write_rate = self.read_rate = read.number("update_rate")
         self._period = Ticks(self.write_rate, setup.dt).period
         self._command = Command(setup, topics.resolve(read.text("command_topic", "cmd_vel")), lambda: None)
