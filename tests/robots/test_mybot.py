@@ -3,7 +3,9 @@
 import pytest
 
 from urdfkit.description import load
+from urdfkit.messages import FLOAT, from_fields
 from urdfkit.resources import find_model
+from urdfkit.sim import Simulator
 from urdfkit.teleop import ARROWS
 
 SPEED, TURN = 2.0, 2.0  # [m/s], [rad/s]: those of turtle_teleop_key
@@ -78,3 +80,30 @@ def test_topics_are_below_its_name(robot, driven):
     run = driven(robot).drive(0.5, 0.0, seconds=0.1)
     assert run.simulator.command_topics == ("/mybot/cmd_vel",)
     assert {"/mybot/odom_diffdrive", "/mybot/joint_states", "/tf"} <= {topic.name for topic in run.simulator.bus.topics}
+
+
+def test_an_effort_on_each_wheel_accelerates_it(with_controllers):
+    """1.5 N·m on each: 2τ/r moves all of it and turns the wheels."""
+    simulator = Simulator(with_controllers, note=lambda _: None)
+    for side in ("left", "right"):
+        topic = f"/mybot/{side}Wheel_effort_controller/command"
+        simulator.bus.publish(topic, FLOAT, from_fields(FLOAT, {"data": 1.5}))
+    simulator.run(2.0)
+    mass = sum(link.inertial.mass for link in with_controllers.links if link.inertial is not None)
+    radius = 0.1
+    spin = with_controllers.link_by_name["left_wheel"].inertial.inertia.iyy
+    acceleration = 2 * 1.5 / radius / (mass + 2 * spin / radius**2)
+    assert simulator.state.base_velocity[0] == pytest.approx(2.0 * acceleration, rel=2e-3)
+    assert simulator.link_poses()[0][0] == pytest.approx(acceleration * 2.0**2 / 2, rel=4e-3)
+    assert simulator.command_topics == ()
+
+
+def test_unequal_efforts_turn_it(with_controllers):
+    """The tutorial's: 1.5 on the left wheel, 1.0 on the right one turns it to the right."""
+    simulator = Simulator(with_controllers, note=lambda _: None)
+    for side, effort in (("left", 1.5), ("right", 1.0)):
+        topic = f"/mybot/{side}Wheel_effort_controller/command"
+        simulator.bus.publish(topic, FLOAT, from_fields(FLOAT, {"data": effort}))
+    simulator.run(1.0)
+    assert simulator.link_poses()[0][0] > 0.15
+    assert simulator.state.base_velocity[5] < -0.5

@@ -1,4 +1,4 @@
-"""RRBot: a damped double pendulum that falls over, swings, and comes to rest hanging."""
+"""RRBot: a damped double pendulum that hangs, or is held by its position controllers as firmly as their gains allow."""
 
 import math
 
@@ -8,6 +8,7 @@ import pytest
 
 from urdfkit.description import load
 from urdfkit.description.expand import expand
+from urdfkit.messages import FLOAT, from_fields
 from urdfkit.resources import find_model
 from urdfkit.sim import Simulator, Spawn
 
@@ -104,3 +105,15 @@ def test_a_small_swing_is_that_of_a_double_pendulum(robot, pendulum):
         simulator.run(0.25)
         ideal = (shapes @ (np.exp(rates * simulator.t) * np.linalg.solve(shapes, start.astype(complex)))).real
         np.testing.assert_allclose(angles(simulator) - pendulum.rest, ideal[:2], atol=2e-5)
+
+
+def test_its_controllers_hold_it_as_firmly_as_their_gains(robot, pendulum):
+    simulator = Simulator(robot, note=lambda _: None)
+    command = from_fields(FLOAT, {"data": 1.5})
+    simulator.bus.publish("/rrbot/joint1_position_controller/command", FLOAT, command)
+    simulator.run(10.0)
+    q = np.array([simulator.state.position(joint) for joint in ("joint1", "joint2")])
+    configuration = np.array([math.cos(q[0]), math.sin(q[0]), math.cos(q[1]), math.sin(q[1])])
+    pull = pinocchio.computeGeneralizedGravity(pendulum.model, pendulum.data, configuration)
+    np.testing.assert_allclose(100.0 * (np.array([1.5, 0.0]) - q), pull, atol=1e-3)  # the I is clamped to zero
+    assert 0.15 < q[0] - 1.5 < 0.2

@@ -3,12 +3,15 @@
 import math
 
 import numpy as np
+import pinocchio
 import pytest
 import yaml
 
 from urdfkit.description import load
 from urdfkit.kinematics import Kinematics
+from urdfkit.messages import FLOAT, JOINT_STATE, from_fields
 from urdfkit.resources import find_model, robots_dir
+from urdfkit.sim import Simulator
 
 NAMES = ("seven_dof_arm", "seven_dof_arm_with_rgbd")
 JOINTS = (
@@ -99,3 +102,46 @@ def test_the_camera_publishes_every_picture_once():
         "/rgbd_camera/depth/image_raw",
         "/rgbd_camera/depth/points",
     } <= set(topics)
+
+
+def command(simulator, controller, position):
+    topic = f"/seven_dof_arm/{controller}_position_controller/command"
+    simulator.bus.publish(topic, FLOAT, from_fields(FLOAT, {"data": position}))
+
+
+def sag(robot, simulator):
+    """Return how far gravity and dry friction may push each joint from its target with P = 100 N·m/rad [rad]."""
+    kinematics = Kinematics(robot)
+    q = kinematics.configuration({name: simulator.state.position(name) for name in (*JOINTS, *FINGERS)})
+    pull = pinocchio.computeGeneralizedGravity(kinematics.model, kinematics.model.createData(), q)
+    return {name: pull[kinematics.velocity_index(name)] / 100.0 for name in JOINTS}
+
+
+def test_joint_4_goes_to_one_radian(robot):
+    """As in the book; every joint ends where P times its error is what gravity pulls, give or take dry friction."""
+    simulator = Simulator(robot, note=lambda _: None)
+    command(simulator, "joint4", 1.0)
+    simulator.run(5.0)
+    pulled = sag(robot, simulator)
+    for name in JOINTS:
+        wanted = 1.0 if name == "elbow_pitch_joint" else 0.0
+        error = wanted - simulator.state.position(name)
+        assert abs(error - pulled[name]) < 1.1e-3, name  # 0.1 N·m of dry friction, and a little creep
+    assert simulator.state.position("elbow_pitch_joint") == pytest.approx(1.0, abs=0.03)
+
+
+def test_the_gripper_closes(robot):
+    simulator = Simulator(robot, note=lambda _: None)
+    command(simulator, "finger1", 0.02)
+    command(simulator, "finger2", -0.02)
+    simulator.run(2.0)
+    assert simulator.state.position("finger_joint1") == pytest.approx(0.02, abs=2e-4)
+    assert simulator.state.position("finger_joint2") == pytest.approx(-0.02, abs=2e-4)
+
+
+def test_joint_states_come_50_times_a_second(robot):
+    simulator = Simulator(robot, note=lambda _: None)
+    stamps = []
+    simulator.subscribe("/seven_dof_arm/joint_states", JOINT_STATE, lambda m: stamps.append(len(m.name)))
+    simulator.run(2.0)
+    assert stamps == [9] * 100
