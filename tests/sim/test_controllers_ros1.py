@@ -399,8 +399,9 @@ def test_a_transmission_without_interface_is_refused_at_its_place(tmp_path: Path
         Simulator(write_arm(tmp_path, odd))
 
 
-def test_a_controller_we_do_not_simulate_is_noted_and_the_rest_runs(make: Make) -> None:
+@pytest.mark.parametrize("kind", ["imu_sensor_controller/ImuSensorController", "unitree_legged_control/UnitreeJoint"])
+def test_a_controller_we_do_not_simulate_is_noted_and_the_rest_runs(make: Make, kind: str) -> None:
     notes: list[str] = []
-    simulator = make(POSITIONS + "  i: {type: imu_sensor_controller/ImuSensorController}\n", note=notes.append)
-    assert any("imu_sensor_controller/ImuSensorController is not simulated yet" in note for note in notes)
+    simulator = make(POSITIONS + f"  i: {{type: {kind}}}\n", note=notes.append)
+    assert any(f"{kind} is not simulated" in note for note in notes)
     assert [status.state for status in simulator.controllers.list()] == ["running"] * 3 + ["unloaded"]

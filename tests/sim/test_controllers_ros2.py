@@ -141,6 +141,14 @@ def test_forwarded_commands(make: Make, kind: str, type: str) -> None:
     assert positions(simulator)[1] == pytest.approx(0.5 if kind == "position" else 1.0, abs=2e-3)
 
 
+def test_a_type_among_the_controllers_own_parameters(make: Make) -> None:
+    yaml = TRAJECTORIES.replace("      type: joint_trajectory_controller/JointTrajectoryController\n", "").replace(
+        "    arm_controller:\n", ""
+    )
+    simulator = make(yaml + "    type: joint_trajectory_controller/JointTrajectoryController\n")
+    assert [status.name for status in simulator.controllers.list()] == ["joint_state_broadcaster", "arm_controller"]
+
+
 def test_efforts_are_forwarded_and_limited(make: Make) -> None:
     yaml = (
         BOSS + "    f: {type: effort_controllers/JointGroupEffortController}\n"
@@ -228,6 +236,14 @@ def test_missing_files_are_refused_at_their_place(make: Make) -> None:
         make(TRAJECTORIES, path="$(find arm_bringup)/config/arms.yaml")
     with pytest.raises(SimulationError, match=r"no package `arm_bringp`.*did you mean `arm_bringup`"):
         make(TRAJECTORIES, path="$(find arm_bringp)/config/arm.yaml")
+
+
+def test_a_file_that_installing_would_move_is_found_in_the_sources(make: Make, tmp_path: Path) -> None:
+    moved = tmp_path / "arm_bringup" / "bringup" / "config" / "other.yaml"
+    moved.parent.mkdir(parents=True)
+    moved.write_text(TRAJECTORIES)
+    simulator = make(BOSS, path="$(find arm_bringup)/config/other.yaml")
+    assert [status.name for status in simulator.controllers.list()] == ["joint_state_broadcaster", "arm_controller"]
 
 
 def test_hardware_of_another_is_noted(make: Make) -> None:

@@ -124,8 +124,9 @@ class State:
         return float(self._engine.v[self._index[joint]])
 
     def effort(self, joint: str) -> float:
-        """Return what the joint's motor exerted in the last step [N·m] or [N]."""
-        return float(self._engine.effort[self._index[joint]])
+        """Return what the joint's motor, its servo and efforts beside them exerted in the last step [N·m] or [N]."""
+        index = self._index[joint]
+        return float(self._engine.effort[index] + self._engine.applied[index])
 
     @property
     def base_pose(self) -> tuple[float, ...]:

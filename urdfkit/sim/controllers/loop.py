@@ -148,7 +148,8 @@ class ControlLoop:
         law = load_law(name, self.known[name], self.hardware)
         if law is None:
             kind = self.known[name].text("type", "")
-            self.hardware.setup.note(f"controller `{name}`: {kind} is not simulated yet")
+            place = self.known[name].group("type").position
+            self.hardware.setup.note(f"{place}: controller `{name}`: {kind} is not simulated")
             return False
         self.laws[name] = law
         self.publications += law.publications

@@ -72,13 +72,7 @@ class Ros2Control(Controller):
         gain = read.number("position_gain", 0.1) if self.spec.generation == "gz" else None
         hardware = Hardware(setup, topics.resolve, 2, period, {}, (), lambda: loop.wake(), "<command_interface>")
         hardware.joints = tuple(self._joints(setup, hardware, gain))
-        known = {}
-        for name, entry in boss.children.items():
-            if (kind := entry.children.get("type")) is not None and kind.value:
-                own = node_settings(root, namespace, name)
-                known[name] = Settings(
-                    name, own.position, None, None, {**own.children, "type": kind}, own.key or entry.key
-                )
+        known = _controllers(root, namespace, boss)
         hold = self.spec.generation != "gz" or read.flag("hold_joints")
         loop = self.loop = ControlLoop(namespace, known, hardware, hold=hold)
         if not known:
@@ -167,6 +161,24 @@ class Ros2Control(Controller):
         """Do nothing: controllers publish at rates of their own."""
 
 
+def _controllers(root: Settings, namespace: str, boss: Settings) -> dict[str, Settings]:
+    """Return name → parameters of what has a ``type``: at the controller manager, or (newer) among its own."""
+    known = {}
+    for name, entry in boss.children.items():
+        if (kind := entry.children.get("type")) is not None and kind.value:
+            own = node_settings(root, namespace, name)
+            children = {**own.children, "type": kind}
+            known[name] = Settings(name, own.position, None, None, children, own.key or entry.key)
+    for path, _ in root.walk():
+        node, _, last = path.rpartition("/")
+        name = node.rpartition("/")[2]
+        if last == "ros__parameters" and name not in known:
+            own = node_settings(root, namespace, name)
+            if (kind := own.children.get("type")) is not None and "/" in (kind.value or ""):
+                known[name] = own
+    return known
+
+
 def _path(text: str, setup: Setup, position: Position) -> Path:
     """Return the file a ``<parameters>`` means.
 
@@ -188,4 +200,9 @@ def _path(text: str, setup: Setup, position: Position) -> Path:
     moved = packages.relocate(path) if packages is not None else None
     if moved is not None:
         return moved
+    # What installs as <share>/config may lie in the sources as bringup/config.
+    for package in (folder for folder in path.parents if (folder / "package.xml").is_file()):
+        found = sorted(package.glob(f"*/{path.relative_to(package)}"))
+        if len(found) == 1:
+            return found[0]
     raise SimulationError(f"no file {text.strip()}{near_path(path)}", position=position)

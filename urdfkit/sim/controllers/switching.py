@@ -47,7 +47,7 @@ class Controllers:
         """
         loop, own = self._find(name)
         if not loop.load(own):
-            raise SimulationError(f"controller `{name}`: its type is not simulated yet")
+            raise SimulationError(f"controller `{name}`: its type is not simulated")
 
     def unload(self, name: str) -> None:
         """Forget a controller; it has to be stopped.

@@ -54,10 +54,10 @@ ELSEWHERE = (
 
 
 def load_law(name: str, settings: Settings, hardware: Hardware) -> Law | None:
-    """Return a controller, configured; None for one that exists but that we do not simulate.
+    """Return a controller, configured; None for one that exists, or may, but that we do not simulate.
 
     Raises:
-        DescriptionError: no such type, or a parameter that makes no sense, with its place.
+        DescriptionError: no such type in a package that we know, or a parameter that makes no sense, with its place.
     """
     kind = settings.text("type")
     known = [name for law in LAWS for name in law.types]
@@ -66,7 +66,8 @@ def load_law(name: str, settings: Settings, hardware: Hardware) -> Law | None:
             return law(name, settings, hardware)
     if kind in ELSEWHERE:
         return None
-    raise DescriptionError(
-        f"no controller type `{kind}`{did_you_mean(kind, (*known, *ELSEWHERE))}",
-        position=settings.group("type").position,
-    )
+    package, packages = kind.partition("/")[0], {name.partition("/")[0] for name in known}
+    if package not in packages and not did_you_mean(package, packages):
+        return None  # somebody's own: Gazebo would need its library, and goes on without
+    hint = did_you_mean(kind, (*known, *ELSEWHERE))
+    raise DescriptionError(f"no controller type `{kind}`{hint}", position=settings.group("type").position)
