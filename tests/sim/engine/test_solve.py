@@ -13,8 +13,8 @@ from urdfkit.sim.engine.warmup import load_compiled
 
 def solved(A, g, low, high, mu, before=None):
     n = len(g)
-    arrays = allocate([1, 6, 7, 0, 0, 0, 0, n, 0], floating=True)
-    arrays["A"][:], arrays["g"][:], arrays["low"][:], arrays["high"][:], arrays["mu"][:] = A, g, low, high, mu
+    arrays = allocate([1, 6, 7, 0, 0, 0, 0, n, 0, 1, 36, 6 * n, n * n, 0, 0, 0], width=6)
+    arrays["A"][:], arrays["g"][:], arrays["low"][:], arrays["high"][:], arrays["mu"][:] = A.ravel(), g, low, high, mu
     if before is not None:
         arrays["before"][:] = before
     find = load_compiled(find_impulses, ("floats", "integers", "count"))
@@ -46,7 +46,7 @@ def violation(A, g, low, high, mu, x):
 def rows_of(engine):
     a = engine._arrays
     n = int(a["counts"][FOUND_ROWS])
-    A = a["A"].ravel()[: n * n].reshape(n, n)
+    A = a["A"][: n * n].reshape(n, n)
     return A, a["g"][:n], a["low"][:n], a["high"][:n], a["mu"][:n], a["x"][:n]
 
 

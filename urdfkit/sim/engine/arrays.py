@@ -1,6 +1,6 @@
-"""Everything a robot needs to be simulated, in one block of floats and one of integers.
+"""Everything a world needs to be simulated, in one block of floats and one of integers.
 
-The kernel takes the two blocks, so that a call costs the same for every robot; Python sees the same memory through
+The kernel takes the two blocks, so that a call costs the same for every world; Python sees the same memory through
 named views. A copy of the blocks is a copy of the whole simulation.
 """
 
@@ -14,14 +14,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.pairs import collide_pair as memory
 
 Size = tuple[str, ...]
 
 # name → shape; the letters are counts: b bodies, d dofs, s coordinates, k shapes, p vertices, m mimic joints,
-# c contacts, r rows, a slots of remembered impulses.
+# c contacts, r rows, a slots of remembered impulses, t trees, e entries of all their mass matrices, y entries of rows,
+# q entries of a matrix of rows, f pairs of shapes, n numbers and i indices of hulls and meshes in pairs.
 FLOATS: dict[str, Size] = {
-    # the robot
+    # the trees: robots and free bodies
     "place_R": ("b", "9"),
     "place_p": ("b", "3"),
     "mass": ("b",),
@@ -39,9 +40,10 @@ FLOATS: dict[str, Size] = {
     "shape_size": ("k", "3"),
     "shape_radius": ("k",),
     "shape_mu": ("k",),
+    "floor_mu": ("k",),
     "vertices": ("p", "3"),
     "extreme": ("8",),
-    "base": ("3",),
+    "base": ("t", "3"),
     "gravity": ("3",),
     "numbers": ("4",),
     # targets
@@ -57,12 +59,13 @@ FLOATS: dict[str, Size] = {
     "s": ("s",),
     "v": ("d",),
     "memory": ("a",),
+    "last": ("a",),
     # what a step found
     "effort": ("d",),
     "tau": ("d",),
     "R": ("b", "9"),
     "r": ("b", "3"),
-    "P": ("3",),
+    "P": ("t", "3"),
     "S": ("d", "6"),
     "twist": ("b", "6"),
     "bias_acceleration": ("b", "6"),
@@ -70,20 +73,33 @@ FLOATS: dict[str, Size] = {
     "composite_h": ("b", "3"),
     "composite_T": ("b", "6"),
     "force": ("b", "6"),
-    "M": ("d", "d"),
+    "M": ("e",),
     "bias": ("d",),
-    "L": ("d", "d"),
+    "L": ("e",),
     "inverse_diagonal": ("d",),
     "u": ("d",),
     "v_start": ("d",),
     "s_ahead": ("s",),
     "v_ahead": ("d",),
-    "contact_origin": ("3",),
+    "contact_origin": ("t", "3"),
     "contact_point": ("c", "3"),
     "contact_frame": ("c", "9"),
     "contact_gap": ("c",),
     "contact_mu": ("c",),
-    "Y": ("r", "d"),
+    "contact_impulse": ("c", "3"),
+    "pair_before": ("c", "3"),
+    "shape_at": ("k", "3"),
+    "shape_reach": ("k", "3"),
+    "tree_low": ("t", "3"),
+    "tree_high": ("t", "3"),
+    "still": ("t",),
+    "asked": ("t",),
+    "pair_numbers": ("n",),
+    "pair_work": (str(memory.WORK),),
+    "found_point": ("24",),
+    "found_normal": ("24",),
+    "found_gap": ("8",),
+    "Y": ("y",),
     "row_bias": ("r",),
     "g": ("r",),
     "low": ("r",),
@@ -93,11 +109,33 @@ FLOATS: dict[str, Size] = {
     "slip": ("r",),
     "x": ("r",),
     "y": ("r",),
-    "A": ("r", "r"),
-    "B": ("r", "r"),
+    "A": ("q",),
+    "B": ("q",),
 }
 
 INTEGERS: dict[str, Size] = {
+    "tree_body": ("t+1",),
+    "tree_dof": ("t+1",),
+    "tree_s": ("t+1",),
+    "tree_shape": ("t+1",),
+    "tree_mimic": ("t+1",),
+    "tree_floats": ("t",),
+    "tree_meets": ("t",),
+    "near": ("t",),
+    "asleep": ("t",),
+    "island": ("t",),
+    "island_next": ("t",),
+    "island_contact": ("t",),
+    "pair_a": ("f",),
+    "pair_b": ("f",),
+    "last_a": ("c",),
+    "last_b": ("c",),
+    "last_feature": ("c",),
+    "last_at": ("c",),
+    "pair_indices": ("i",),
+    "pair_work_indices": (str(memory.WORK_INDICES),),
+    "found_feature": ("8",),
+    "body_tree": ("b",),
     "kind": ("b",),
     "parent": ("b",),
     "first_s": ("b",),
@@ -105,16 +143,25 @@ INTEGERS: dict[str, Size] = {
     "body_last_dof": ("b",),
     "dof_parent": ("d",),
     "dof_s": ("d",),
+    "dof_row": ("d",),
     "mimic_dof": ("m",),
     "mimic_master": ("m",),
     "shape_kind": ("k",),
     "shape_body": ("k",),
     "shape_feature": ("k",),
     "shape_vertex": ("k+1",),
+    "shape_owner": ("k",),
+    "shape_data": ("k",),
     "contact_body": ("c",),
+    "contact_other": ("c",),
+    "contact_shape": ("c",),
+    "contact_against": ("c",),
+    "contact_next": ("c",),
     "contact_feature": ("c",),
     "contact_row": ("c",),
     "slot": ("r",),
+    "row_a": ("r",),
+    "row_b": ("r",),
     "state": ("r",),
     "index": ("r",),
     "extreme_vertex": ("8",),
@@ -123,14 +170,16 @@ INTEGERS: dict[str, Size] = {
 }
 
 # Where in the head of the block of integers the kernel finds sizes and the start of each field.
-HEAD = 10
-(BODIES, DOFS, COORDINATES, SHAPES, VERTICES, MIMICS, CONTACTS, ROWS, SLOTS, FLOATING) = range(HEAD)
-LETTERS = "bdskpmcra"
+LETTERS = "bdskpmcrateyqfni"
+HEAD = len(LETTERS) + 1
+(BODIES, DOFS, COORDINATES, SHAPES, VERTICES, MIMICS, CONTACTS, ROWS, SLOTS, TREES) = range(10)
+PAIRS, WIDTH = LETTERS.index("f"), len(LETTERS)
 
-DT, FLOOR, HAS_FLOOR = range(3)
-"""Entries of ``numbers``: step [s], height of the ground plane [m], whether there is one."""
-FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS = range(5)
-"""Entries of ``counts``: of the last step the contacts, rows, and how they were solved; of all how many were hard."""
+DT, FLOOR, HAS_FLOOR, HAS_PAIRS = range(4)
+"""Entries of ``numbers``: step [s], height of the ground plane [m], whether there is one, whether shapes can meet."""
+FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS, LAST_PAIRS, OVERFULL = range(7)
+"""Entries of ``counts``: of the last step the contacts, rows, and how they were solved; of all how many were hard; how
+many contacts of pairs are remembered; whether there were more contacts than there is room for."""
 
 _enumeration: Any = IntEnum
 At: Any = _enumeration(
@@ -140,12 +189,6 @@ At: Any = _enumeration(
 )
 """Where in the block of integers the start of each field is found."""
 FIRST_INTEGER = HEAD + len(FLOATS) + 1 + len(INTEGERS) + 1
-
-
-@inlined
-def field(block: Any, integers: Any, at: int) -> Any:
-    """Return the part of a block that holds one field."""
-    return block[integers[at] : integers[at + 1]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,8 +210,8 @@ class Arrays:
         return self.views[name]
 
 
-def allocate(sizes: Sequence[int], *, floating: bool) -> Arrays:
-    """Return blocks of zeros for these counts, in the order of `LETTERS`."""
+def allocate(sizes: Sequence[int], *, width: int) -> Arrays:
+    """Return blocks of zeros for these counts, in the order of `LETTERS`; rows of J have `width` entries."""
     counts = dict(zip(LETTERS, sizes, strict=True))
 
     def number(size: str) -> int:
@@ -184,7 +227,7 @@ def allocate(sizes: Sequence[int], *, floating: bool) -> Arrays:
     floats = np.zeros(int(float_starts[-1]))
     integers = np.zeros(int(integer_starts[-1]), dtype=np.int64)
     integers[: len(sizes)] = sizes
-    integers[FLOATING] = floating
+    integers[WIDTH] = width
     integers[HEAD : HEAD + len(FLOATS) + 1] = float_starts
     integers[HEAD + len(FLOATS) + 1 : FIRST_INTEGER] = integer_starts
     views: dict[str, NDArray[Any]] = {}

@@ -46,10 +46,19 @@ REACH = 100.0
 
 @inlined
 def near_plane(
-    shapes: int, shape_body: Any, shape_p: Any, shape_radius: Any, floor: float, dt: float, R: Any, r: Any, twist: Any
+    first: int,
+    beyond: int,
+    shape_body: Any,
+    shape_p: Any,
+    shape_radius: Any,
+    floor: float,
+    dt: float,
+    R: Any,
+    r: Any,
+    twist: Any,
 ) -> bool:
-    """Return whether any shape can reach the plane within a step."""
-    for k in range(shapes):  # noqa: SIM110
+    """Return whether any of some shapes can reach the plane within a step."""
+    for k in range(first, beyond):  # noqa: SIM110
         if reaches(k, shape_body, shape_p, shape_radius, floor, dt, R, r, twist):
             return True
     return False
@@ -125,6 +134,8 @@ def touch(
     dt: float,
     twist: Any,
     contact_body: Any,
+    contact_other: Any,
+    contact_against: Any,
     contact_feature: Any,
     contact_point: Any,
     contact_frame: Any,
@@ -137,6 +148,7 @@ def touch(
     if not can_close(gap, point, load_spatial(twist, body), dt) or count >= most:
         return count
     contact_body[count] = body
+    contact_other[count] = contact_against[count] = -1
     contact_feature[count] = feature
     contact_gap[count] = gap
     contact_mu[count] = mu
@@ -148,7 +160,9 @@ def touch(
 
 @inlined
 def collide_with_plane(
-    shapes: int,
+    count: int,
+    first: int,
+    beyond: int,
     most: int,
     shape_kind: Any,
     shape_body: Any,
@@ -168,15 +182,21 @@ def collide_with_plane(
     r: Any,
     twist: Any,
     contact_body: Any,
+    contact_other: Any,
+    contact_shape: Any,
+    contact_against: Any,
     contact_feature: Any,
     contact_point: Any,
     contact_frame: Any,
     contact_gap: Any,
     contact_mu: Any,
 ) -> int:
-    """Find the contacts of all shapes with the plane z = `floor` (of the same point as `r`); return how many."""
-    count = 0
-    for k in range(shapes):
+    """Find the contacts of some shapes with the plane z = `floor` (of the same point as `r`).
+
+    Returns:
+        How many contacts there are now, after `count`.
+    """
+    for k in range(first, beyond):
         if not reaches(k, shape_body, shape_p, shape_radius, floor, dt, R, r, twist):
             continue
         body = shape_body[k]
@@ -230,7 +250,7 @@ def collide_with_plane(
                 if not valid:
                     continue
                 point = add(centre, offset)
-            count = touch(
+            found_now = touch(
                 count,
                 most,
                 body,
@@ -241,12 +261,17 @@ def collide_with_plane(
                 dt,
                 twist,
                 contact_body,
+                contact_other,
+                contact_against,
                 contact_feature,
                 contact_point,
                 contact_frame,
                 contact_gap,
                 contact_mu,
             )
+            if found_now > count:
+                contact_shape[count] = k
+            count = found_now
     return count
 
 

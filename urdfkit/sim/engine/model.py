@@ -1,47 +1,59 @@
-"""Kinematics and shapes → the engine's arrays."""
+"""Robots, bodies and shapes → the engine's arrays."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.robot import Box, Capsule, Cylinder, Mesh, Sphere
+from urdfkit.description.world import Plane
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.scene import Shape
 from urdfkit.sim.engine import collide
-from urdfkit.sim.engine.arrays import DT, FLOOR, HAS_FLOOR, Arrays, allocate
-from urdfkit.sim.engine.dynamics import FREE, PLANAR, PRISMATIC, REVOLUTE
+from urdfkit.sim.engine.arrays import Arrays, allocate
+from urdfkit.sim.engine.body import Body, Member
+from urdfkit.sim.engine.pairs.collide_pair import MOST
+from urdfkit.sim.engine.pairs.geometry import Geometry
+from urdfkit.sim.engine.pairs.hull import convex_hull
+from urdfkit.sim.engine.pairs.shapes import HULL, MESH, PLANE
 from urdfkit.sim.engine.surface import Ground, Surface
+from urdfkit.sim.engine.tree import fill_free, fill_member, joint_subspace, pose_matrix
 
 Array = NDArray[np.float64]
 
-KINDS = {1: (PRISMATIC, REVOLUTE), 3: (PLANAR, PLANAR), 6: (FREE, FREE)}
-"""Number of dofs → kind of joint that only shifts, kind of any other."""
+MOST_PAIRS = 32768
+"""Most pairs of shapes whose boxes may overlap at once."""
+BOUNDLESS = 1e9
+"""Radius of the ball round a plane [m]."""
+MOST_ROWS = 1500
+"""Most rows that one island may have; its matrix has the square of that."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Touching:
-    """A collision shape on a moving body, as the kernel knows it.
+    """A collision shape, as the kernel knows it.
 
     Attributes:
-        link: the link it belongs to.
-        joint: Pinocchio's joint that moves it.
+        link: what contacts call it.
+        body: number of the body it is on; -1 when it does not move, and then it is placed in the world.
+        owner: number of the robot or body it belongs to.
         kind: of shape.
         size: [m], see `collide`.
         R: axes in the body.
         p: centre in the body [m].
         radius: of a ball round the centre that holds the shape [m].
-        mu: friction coefficient of the pair with the ground.
-        vertices: of a hull [m], shape (n, 3).
+        mu: friction coefficient.
+        vertices: of a hull or mesh [m], shape (n, 3).
+        triangles: of a mesh [m], shape (m, 3, 3); of a hull those it was made from do not matter.
     """
 
     link: str
-    joint: int
+    body: int
+    owner: int
     kind: int
     size: tuple[float, float, float]
     R: Array
@@ -49,41 +61,56 @@ class Touching:
     radius: float
     mu: float
     vertices: Array
+    triangles: Array
 
 
-def touching(
-    kinematics: Kinematics, shapes: Sequence[Shape], surfaces: Mapping[str, Surface], ground: Ground | None
-) -> list[Touching]:
-    """Return what can touch the ground: the collision shapes of links that move."""
-    found = []
-    for shape in shapes:
-        frame = kinematics.model.frames[kinematics.frame(shape.body)]
-        if shape.role != "collision" or frame.parentJoint == 0:
-            continue
-        placement = frame.placement.homogeneous @ shape.placement
-        kind, size, vertices = _solid(shape)
-        if kind == collide.CYLINDER and _turns_about(kinematics, frame.parentJoint, placement):
-            kind = collide.WHEEL
-        radius = float(np.linalg.norm(size)) if kind != collide.CAPSULE else size[0] + size[1]
-        if kind in (collide.SPHERE, collide.HULL):
-            radius = size[0] if kind == collide.SPHERE else float(np.linalg.norm(vertices, axis=1).max())
-        mu = surfaces.get(shape.body, Surface()).mu
-        if ground is not None:
-            mu = min(mu, ground.mu)
-        found.append(
-            Touching(
-                shape.body,
-                int(frame.parentJoint),
-                kind,
-                size,
-                placement[:3, :3],
-                placement[:3, 3],
-                radius,
-                mu,
-                vertices,
-            )
-        )
-    return found
+def touching(members: Sequence[Member], bodies: Sequence[Body]) -> list[Touching]:
+    """Return what can touch: the shapes of what moves in the order of their trees, then what does not move."""
+    moving, still = [], []
+    first = 0
+    for owner, member in enumerate(members):
+        model = member.kinematics.model
+        prefix = f"{member.name}::" if member.name else ""
+        base = pose_matrix(member.base)
+        for shape in member.shapes:
+            if shape.role != "collision":
+                continue
+            frame = model.frames[member.kinematics.frame(shape.body)]
+            placement = frame.placement.homogeneous @ shape.placement
+            surface, link = member.surfaces.get(shape.body, Surface()), prefix + shape.body
+            if frame.parentJoint == 0:
+                still.append(_touch(shape, surface, link, -1, owner, base @ placement))
+                continue
+            touch = _touch(shape, surface, link, first + frame.parentJoint - 1, owner, placement)
+            if touch.kind == collide.CYLINDER and _turns_about(member.kinematics, frame.parentJoint, placement):
+                touch = replace(touch, kind=collide.WHEEL)
+            moving.append(touch)
+        first += model.njoints - 1
+    for owner, body in enumerate(bodies, len(members)):
+        pose = pose_matrix(body.pose) if body.static else np.eye(4)
+        for piece in body.pieces:
+            at = -1 if body.static else first
+            touch = _touch(piece.shape, piece.surface, body.name, at, owner, pose @ piece.shape.placement)
+            (still if body.static else moving).append(touch)
+        first += not body.static
+    return moving + still
+
+
+def _touch(shape: Shape, surface: Surface, link: str, body: int, owner: int, placement: Array) -> Touching:
+    kind, size, vertices = _solid(shape)
+    triangles = np.zeros((0, 3, 3))
+    if kind == HULL and body < 0 and shape.mesh is not None:
+        # What does not move is taken as it is; what moves for its convex hull.
+        kind, triangles = MESH, np.asarray(shape.mesh.vertices, dtype=np.float64)[shape.mesh.faces]
+    radius = float(np.linalg.norm(size)) if kind != collide.CAPSULE else size[0] + size[1]
+    if kind == collide.SPHERE:
+        radius = size[0]
+    elif kind in (HULL, MESH):
+        radius = float(np.linalg.norm(vertices, axis=1).max())
+    elif kind == PLANE:
+        radius = BOUNDLESS
+    R, p = placement[:3, :3], placement[:3, 3]
+    return Touching(link, body, owner, kind, size, R, p, radius, surface.mu, vertices, triangles)
 
 
 def _solid(shape: Shape) -> tuple[int, tuple[float, float, float], Array]:
@@ -99,10 +126,12 @@ def _solid(shape: Shape) -> tuple[int, tuple[float, float, float], Array]:
         return collide.CYLINDER, (geometry.radius, geometry.length / 2, 0.0), none
     if isinstance(geometry, Capsule):
         return collide.CAPSULE, (geometry.radius, geometry.length / 2, 0.0), none
+    if isinstance(geometry, Plane):
+        return PLANE, (0.0, 0.0, 0.0), none
     assert isinstance(geometry, Mesh)
     if shape.mesh is None:
         raise SimulationError(f"collision `{shape.name}` is a mesh that was not loaded")
-    return collide.HULL, (0.0, 0.0, 0.0), hull_vertices(np.asarray(shape.mesh.vertices, dtype=float))
+    return HULL, (0.0, 0.0, 0.0), hull_vertices(np.asarray(shape.mesh.vertices, dtype=float))
 
 
 def hull_vertices(points: Array) -> Array:
@@ -126,105 +155,100 @@ def _turns_about(kinematics: Kinematics, joint: int, placement: Array) -> bool:
     return bool(np.linalg.norm(along) < 1e-3 and np.linalg.norm(off) < 1e-3)
 
 
-def joint_subspace(model: Any, joint: int) -> Array:
-    """Return the motion subspace of a joint in the frame it moves, linear first; shape (6, nv of the joint)."""
-    kind = model.joints[joint]
-    state = kind.createData()
-    q = np.zeros(model.nq)
-    q[kind.idx_q : kind.idx_q + kind.nq] = _neutral(kind)
-    kind.calc(state, q, np.zeros(model.nv))
-    return np.array(state.S, dtype=float).reshape(6, kind.nv)
-
-
-def _neutral(kind: Any) -> list[float]:
-    return {1: [0.0], 2: [1.0, 0.0], 4: [0.0, 0.0, 1.0, 0.0], 7: [0, 0, 0, 0, 0, 0, 1.0]}[kind.nq]
-
-
 def fill(
-    kinematics: Kinematics,
+    members: Sequence[Member],
+    bodies: Sequence[Body],
     touches: Sequence[Touching],
     *,
     dt: float,
     gravity: Sequence[float],
     ground: Ground | None,
-    base: Array,
 ) -> Arrays:
-    """Return the arrays of a robot with these shapes."""
-    model = kinematics.model
-    bodies, dofs = model.njoints - 1, model.nv
-    joints = [model.joints[i] for i in range(1, model.njoints)]
-    widths = [joint.nv if joint.nv < 6 else 7 for joint in joints]
+    """Return the arrays of a world of robots and bodies with these shapes."""
+    free = [body for body in bodies if not body.static]
+    models = [member.kinematics.model for member in members]
+    joints = [[model.joints[i].nv for i in range(1, model.njoints)] for model in models] + [[6]] * len(free)
+    dofs = [sum(each) for each in joints]
+    widths = [sum(nv if nv < 6 else 7 for nv in each) for each in joints]
     features = [_features(touch) for touch in touches]
-    contacts = sum(min(collide.MOST[touch.kind], n) for touch, n in zip(touches, features, strict=True))
-    mimics = [kinematics.couplings[name] for name in kinematics.mimic_names]
-    rows = len(mimics) + 2 * dofs + 3 * contacts
-    slots = 2 * dofs + len(mimics) + 3 * sum(features)
+    geometry = Geometry()
+    moving = [touch for touch in touches if touch.body >= 0]
+    mimics = [len(member.kinematics.mimic_names) for member in members] + [0] * len(free)
+    owners = {touch.owner for touch in touches}
+    meets = len(owners) > 1 or any(member.self_collide for member in members)
+    places = [_add(geometry, touch) if meets else 0 for touch in touches]
+    pairs = min(MOST_PAIRS, len(moving) * len(touches)) if meets else 0
+    contacts = sum(
+        min(collide.MOST[touch.kind], n) for touch, n in zip(touches, features, strict=True) if touch.body >= 0
+    )
+    contacts += min(pairs * MOST, 64 + 16 * len(moving)) if meets else 0
+    rows = min(MOST_ROWS, sum(mimics) + 2 * sum(dofs) + 3 * contacts)
+    slots = 2 * sum(dofs) + sum(mimics) + 3 * (sum(features) + contacts)
     vertices = sum(len(touch.vertices) for touch in touches)
-    sizes = (bodies, dofs, sum(widths), len(touches), vertices, len(mimics), contacts, rows, slots)
-    arrays = allocate(sizes, floating=kinematics.floating_base)
-    arrays["numbers"][[DT, FLOOR, HAS_FLOOR]] = dt, ground.height if ground else 0.0, ground is not None
+    width = max(dofs, default=0) * (2 if meets else 1)
+    entries = sum(n * n for n in dofs)
+    sizes = (
+        sum(len(each) for each in joints),
+        sum(dofs),
+        sum(widths),
+        len(touches),
+        vertices,
+        sum(mimics),
+        contacts,
+        rows,
+        slots,
+        len(joints),
+        entries,
+        rows * width,
+        rows * rows,
+        pairs,
+        len(geometry.numbers),
+        len(geometry.indices),
+    )
+    arrays = allocate(sizes, width=width)
+    arrays["numbers"][:] = dt, ground.height if ground else 0.0, ground is not None, meets
     arrays["gravity"][:] = gravity
-    arrays["base"][:] = base[:3, 3]
-    _fill_bodies(arrays, kinematics, widths, base)
-    _fill_dofs(arrays, model)
-    for k, coupling in enumerate(mimics):
-        arrays["mimic_dof"][k] = kinematics.velocity_index(coupling.joint)
-        arrays["mimic_master"][k] = -1 if coupling.master is None else kinematics.velocity_index(coupling.master)
-        arrays["mimic_factor"][k], arrays["mimic_offset"][k] = coupling.multiplier, coupling.offset
-    _fill_shapes(arrays, touches, features)
+    arrays["tree_body"][1:] = np.cumsum([len(each) for each in joints])
+    arrays["tree_dof"][1:] = np.cumsum(dofs)
+    arrays["tree_s"][1:] = np.cumsum(widths)
+    arrays["tree_mimic"][1:] = np.cumsum(mimics)
+    arrays["servo_effort"][:] = np.inf
+    arrays["lower"][:], arrays["upper"][:] = -np.inf, np.inf
+    entry = 0
+    for tree, n in enumerate(dofs):
+        first = int(arrays["tree_dof"][tree])
+        arrays["dof_row"][first : first + n] = entry + np.arange(n) * n - first
+        arrays["body_tree"][arrays["tree_body"][tree] : arrays["tree_body"][tree + 1]] = tree
+        entry += n * n
+    for tree, member in enumerate(members):
+        fill_member(arrays, tree, member)
+    for tree, body in enumerate(free, len(members)):
+        fill_free(arrays, tree, body)
+    arrays["shape_data"][:] = places
+    arrays["pair_numbers"][:], arrays["pair_indices"][:] = geometry.numbers, geometry.indices
+    _fill_shapes(arrays, touches, features, 100.0 if ground is None else ground.mu)
     return arrays
 
 
+def _add(geometry: Geometry, touch: Touching) -> int:
+    """Add a hull or mesh to those that pairs know; return its place."""
+    if touch.kind == HULL:
+        return geometry.add_hull(convex_hull(touch.vertices))
+    return geometry.add_mesh(touch.triangles) if touch.kind == MESH else 0
+
+
 def _features(touch: Touching) -> int:
-    return len(touch.vertices) if touch.kind == collide.HULL else collide.FEATURES[touch.kind]
+    if touch.body < 0:  # only what moves touches the ground
+        return 0
+    return len(touch.vertices) if touch.kind == HULL else collide.FEATURES[touch.kind]
 
 
-def _fill_bodies(arrays: Arrays, kinematics: Kinematics, widths: Sequence[int], base: Array) -> None:
-    model = kinematics.model
-    arrays["first_s"][:] = np.cumsum([0, *widths[:-1]])
-    arrays["body_last_dof"][:] = -1
-    for b in range(model.njoints - 1):
-        joint, inertia = model.joints[b + 1], model.inertias[b + 1]
-        placement = model.jointPlacements[b + 1].homogeneous
-        parent = int(model.parents[b + 1]) - 1
-        if parent < 0 and not kinematics.floating_base:
-            placement = base @ placement
-        subspace = joint_subspace(model, b + 1)
-        shifts = not subspace[3:].any()
-        arrays["kind"][b] = KINDS[joint.nv][0 if shifts else 1]
-        arrays["parent"][b] = parent
-        arrays["place_R"][b] = placement[:3, :3].ravel()
-        arrays["place_p"][b] = placement[:3, 3]
-        arrays["mass"][b] = inertia.mass
-        arrays["centre"][b] = inertia.lever
-        arrays["tensor"][b] = inertia.inertia[[0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]]
-        first = joint.idx_v
-        arrays["first_v"][b], arrays["first_v"][b + 1] = first, first + joint.nv
-        arrays["body_last_dof"][b] = first + joint.nv - 1
-        for k in range(joint.nv):
-            d = first + k
-            arrays["subspace"][d] = subspace[:, k]
-            arrays["dof_s"][d] = arrays["first_s"][b] + k
-            arrays["dof_parent"][d] = d - 1 if k else (arrays["body_last_dof"][parent] if parent >= 0 else -1)
-
-
-def _fill_dofs(arrays: Arrays, model: Any) -> None:
-    arrays["damping"][:] = model.damping
-    arrays["friction"][:] = model.upperDryFrictionLimit
-    arrays["lower"][:] = -np.inf
-    arrays["upper"][:] = np.inf
-    arrays["servo_effort"][:] = np.inf
-    for joint in list(model.joints)[1:]:
-        if joint.nq == joint.nv == 1:
-            arrays["lower"][joint.idx_v] = model.lowerPositionLimit[joint.idx_q]
-            arrays["upper"][joint.idx_v] = model.upperPositionLimit[joint.idx_q]
-
-
-def _fill_shapes(arrays: Arrays, touches: Sequence[Touching], features: Sequence[int]) -> None:
+def _fill_shapes(arrays: Arrays, touches: Sequence[Touching], features: Sequence[int], floor_mu: float) -> None:
     feature = vertex = 0
     for k, touch in enumerate(touches):
         arrays["shape_kind"][k] = touch.kind
-        arrays["shape_body"][k] = touch.joint - 1
+        arrays["shape_body"][k] = touch.body
+        arrays["shape_owner"][k] = touch.owner
         arrays["shape_feature"][k] = feature
         arrays["shape_vertex"][k] = vertex
         arrays["shape_R"][k] = touch.R.ravel()
@@ -232,7 +256,13 @@ def _fill_shapes(arrays: Arrays, touches: Sequence[Touching], features: Sequence
         arrays["shape_size"][k] = touch.size
         arrays["shape_radius"][k] = touch.radius
         arrays["shape_mu"][k] = touch.mu
+        arrays["floor_mu"][k] = min(touch.mu, floor_mu)
         arrays["vertices"][vertex : vertex + len(touch.vertices)] = touch.vertices
         feature += features[k]
         vertex += len(touch.vertices)
     arrays["shape_vertex"][len(touches)] = vertex
+    trees = [int(arrays["body_tree"][touch.body]) for touch in touches if touch.body >= 0]
+    arrays["tree_shape"][:] = np.searchsorted(trees, np.arange(len(arrays["tree_shape"])))
+    for k in range(len(trees), len(touches)):
+        arrays["shape_at"][k] = touches[k].p
+        arrays["shape_reach"][k] = touches[k].radius

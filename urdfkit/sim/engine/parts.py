@@ -4,41 +4,20 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfkit.sim.engine.arrays import CONTACTS, DT, FLOOR, SHAPES, At, field
-from urdfkit.sim.engine.collide import collide_with_plane
+from urdfkit.sim.engine.arrays import At
+from urdfkit.sim.engine.compilation import field
 from urdfkit.sim.engine.solve import solve
+from urdfkit.sim.engine.world.search import candidates, touching
 
 
-def find_contacts(floats: Any, integers: Any) -> int:
-    """Find the contacts of bodies placed by other means; return how many."""
-    numbers = field(floats, integers, At.numbers)
-    return collide_with_plane(
-        integers[SHAPES],
-        integers[CONTACTS],
-        field(integers, integers, At.shape_kind),
-        field(integers, integers, At.shape_body),
-        field(integers, integers, At.shape_feature),
-        field(integers, integers, At.shape_vertex),
-        field(floats, integers, At.shape_R),
-        field(floats, integers, At.shape_p),
-        field(floats, integers, At.shape_size),
-        field(floats, integers, At.shape_radius),
-        field(floats, integers, At.shape_mu),
-        field(floats, integers, At.vertices),
-        field(floats, integers, At.extreme),
-        field(integers, integers, At.extreme_vertex),
-        numbers[FLOOR] - floats[integers[At.P] + 2],
-        numbers[DT],
-        field(floats, integers, At.R),
-        field(floats, integers, At.r),
-        field(floats, integers, At.twist),
-        field(integers, integers, At.contact_body),
-        field(integers, integers, At.contact_feature),
-        field(floats, integers, At.contact_point),
-        field(floats, integers, At.contact_frame),
-        field(floats, integers, At.contact_gap),
-        field(floats, integers, At.contact_mu),
-    )
+def find_candidates(floats: Any, integers: Any) -> int:
+    """List pairs and mark trees, as `search.candidates` does, for bodies placed by other means."""
+    return candidates(floats, integers)
+
+
+def find_contacts(floats: Any, integers: Any, pairs: int) -> int:
+    """Find the contacts, as `search.touching` does, of bodies placed by other means."""
+    return touching(floats, integers, pairs)
 
 
 def find_impulses(floats: Any, integers: Any, rows: int) -> int:

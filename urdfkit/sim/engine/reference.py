@@ -6,20 +6,22 @@ hundred times slower.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from urdfkit.kinematics.model import Kinematics
-from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_ROWS, GUESSES, HAS_FLOOR, ITERATED, STEPS, Arrays
+from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS, Arrays
+from urdfkit.sim.engine.body import Body, Member
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
-from urdfkit.sim.engine.parts import find_contacts, find_impulses
+from urdfkit.sim.engine.parts import find_candidates, find_contacts, find_impulses
 from urdfkit.sim.engine.rows import MOBILITY, RECOVERY
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS
 from urdfkit.sim.engine.state import configuration, turning
-from urdfkit.sim.engine.warmup import load_compiled
+from urdfkit.sim.engine.tree import pose_matrix
+from urdfkit.sim.engine.warmup import load_compiled, world_digest
 
 Array = NDArray[np.float64]
 
@@ -28,30 +30,28 @@ class Reference:
     """`advance` in Python.
 
     Args:
-        kinematics: the robot.
+        members: the robots.
+        bodies: the free bodies.
         arrays: the engine's; targets and state are read from and written to them.
-        base: pose of a bolted robot's root link, shape (4, 4).
     """
 
-    def __init__(self, kinematics: Kinematics, arrays: Arrays, base: Array) -> None:
+    def __init__(self, members: Sequence[Member], bodies: Sequence[Body], arrays: Arrays) -> None:
         self.a = arrays
-        self.model = pin.Model(kinematics.model)
-        self.model.gravity.linear = arrays["gravity"]
-        if not kinematics.floating_base:
-            for joint in range(1, self.model.njoints):
-                if self.model.parents[joint] == 0:
-                    self.model.jointPlacements[joint] = pin.SE3(base) * self.model.jointPlacements[joint]
-        self.data = self.model.createData()
-        self.floating = kinematics.floating_base
+        self.trees = [Tree(model_of(member), arrays, k) for k, member in enumerate(members)]
+        self.trees += [Tree(free_model(body), arrays, k) for k, body in enumerate(bodies, len(members))]
         self.dt = float(arrays["numbers"][DT])
-        self._search = load_compiled(find_contacts, ("floats", "integers"))
+        digest = world_digest()
+        self._candidates = load_compiled(find_candidates, ("floats", "integers"), digest=digest)
+        self._search = load_compiled(find_contacts, ("floats", "integers", "count"), digest=digest)
         self._find = load_compiled(find_impulses, ("floats", "integers", "count"))
 
     def advance(self, floats: Array, integers: NDArray[np.int64], steps: int, only_terms: bool) -> int:
         """Advance by `steps`; return how many were done, fewer only if the state stopped being finite."""
         if only_terms:
             M, bias = self._terms(self.a["v"])
-            self.a["M"][:], self.a["bias"][:] = np.tril(M), bias
+            for tree in self.trees:
+                self.a["M"][tree.entries] = np.tril(M[tree.dofs, tree.dofs]).ravel()
+            self.a["bias"][:] = bias
             self._place(self.a["v"])
             return 0
         for done in range(steps):
@@ -66,46 +66,92 @@ class Reference:
         start = a["v"].copy()
         M, bias = self._terms(start)
         joint_rows = self._joint_rows(start)
-        contact_rows = self._contact_rows(start, len(joint_rows))
-        has_servo = bool((a["kp"] != 0.0).any() or (a["kd"] != 0.0).any())
-        limited = any(len(start) <= row.slot < 2 * len(start) for row in joint_rows)
+        a["last"][:] = a["memory"]
+        contact_rows = self._contact_rows(start)
+        a["memory"][:] = 0.0
         a["saturated"][:] = 0
+        a["counts"][FOUND_ROWS] = 0
+        for island in self._islands():
+            dofs = np.concatenate([np.arange(self.trees[t].dofs.start, self.trees[t].dofs.stop) for t in island])
+            inside = set(dofs.tolist())
+            own = [row for row in joint_rows if set(np.flatnonzero(row.J).tolist()) <= inside]
+            touching = [row for row in contact_rows if row.tree in island]
+            self._settle(M, bias, start, dofs, own, touching)
+        for k in range(int(a["counts"][FOUND_CONTACTS])):
+            a["contact_impulse"][k] = self.impulses[k]
+        self._account(a["v"].copy())
+        move(a, a["s"], a["v"], 0.5 * dt)
+        a["counts"][STEPS] += 1
+
+    def _islands(self) -> list[list[int]]:
+        """Return the trees of each island."""
+        a = self.a
+        label = list(range(len(self.trees)))
+        for k in range(int(a["counts"][FOUND_CONTACTS])):
+            if a["contact_other"][k] >= 0:
+                one, other = (label[a["body_tree"][a[name][k]]] for name in ("contact_body", "contact_other"))
+                label = [min(one, other) if each in (one, other) else each for each in label]
+        return [[t for t, each in enumerate(label) if each == name] for name in sorted(set(label))]
+
+    def _settle(
+        self, M: Array, bias: Array, start: Array, dofs: Array, joint_rows: list[Row], contact_rows: list[Row]
+    ) -> None:
+        """Find the velocities of an island's dofs."""
+        a, n = self.a, len(start)
+        own = np.ix_(dofs, dofs)
+        has_servo = bool((a["kp"][dofs] != 0.0).any() or (a["kd"][dofs] != 0.0).any())
+        limited = any(n <= row.slot < 2 * n for row in joint_rows)
         if not contact_rows and not has_servo and not limited:
             inertia, impulse = self._smooth(M, bias, start)
-            M, bias = self._terms(start + 0.5 * np.linalg.solve(inertia, impulse))
+            half = start.copy()
+            half[dofs] += 0.5 * np.linalg.solve(inertia[own], impulse[dofs])
+            M, bias = self._terms(half)
+        rows = joint_rows + contact_rows
         attempt = 0
+        v = start.copy()
         while True:
             inertia, impulse = self._smooth(M, bias, start)
-            v = self._solve(inertia, impulse, start, joint_rows + contact_rows)
+            v[dofs] = self._solve(inertia[own], impulse[dofs], start[dofs], rows, dofs)
             attempt += 1
-            if not has_servo or not self._overloaded(v, attempt < SERVO_ATTEMPTS):
+            if not has_servo or not self._overloaded(v, dofs, attempt < SERVO_ATTEMPTS):
                 break
-        a["v"][:] = v
-        self._account(v, joint_rows + contact_rows)
-        move(a, a["s"], a["v"], 0.5 * dt)
-        a["counts"][FOUND_ROWS] = len(joint_rows) + len(contact_rows)
-        a["counts"][STEPS] += 1
+        a["v"][dofs] = v[dofs]
+        a["memory"][[row.slot for row in rows]] = a["x"][: len(rows)]
+        a["counts"][FOUND_ROWS] += len(rows)
+        for at, row in enumerate(rows):
+            if row.contact >= 0:
+                normal = a["x"][at]
+                first, second = a["x"][at + 1 : at + 3] if row.mu > 0.0 else (0.0, 0.0)
+                self.impulses[row.contact] = first, second, normal
 
     def _terms(self, v: Array) -> tuple[Array, Array]:
         """Return M and the bias that keeps linear velocities constant in space."""
-        q = configuration(self.model, self.a)
-        M = np.triu(pin.crba(self.model, self.data, q))
-        M += np.triu(M, 1).T
-        return M, pin.nonLinearEffects(self.model, self.data, q, v) - M @ turning(self.a, v)
+        n = len(v)
+        M, bias = np.zeros((n, n)), np.zeros(n)
+        for tree in self.trees:
+            q = configuration(tree.model, self.a, tree.number)
+            own = np.triu(pin.crba(tree.model, tree.data, q))
+            M[tree.dofs, tree.dofs] = own + np.triu(own, 1).T
+            bias[tree.dofs] = pin.nonLinearEffects(tree.model, tree.data, q, v[tree.dofs])
+        return M, bias - M @ turning(self.a, v)
 
     def _place(self, v: Array) -> None:
         """Write the poses and twists that the contact search needs."""
         a = self.a
-        q = configuration(self.model, a)
-        pin.forwardKinematics(self.model, self.data, q, v)
-        a["P"][:] = q[:3] if self.floating else a["base"]
-        for b in range(self.model.njoints - 1):
-            pose = self.data.oMi[b + 1]
-            a["R"][b], a["r"][b] = pose.rotation.ravel(), pose.translation - a["P"]
-            spatial = pose.act(self.data.v[b + 1])
-            # Of the point P, as the kernel has it.
-            a["twist"][b, :3] = spatial.linear + np.cross(spatial.angular, a["P"])
-            a["twist"][b, 3:] = spatial.angular
+        for tree in self.trees:
+            model, data = tree.model, tree.data
+            q = configuration(model, a, tree.number)
+            pin.forwardKinematics(model, data, q, v[tree.dofs])
+            P = q[:3] if a["tree_floats"][tree.number] else a["base"][tree.number]
+            a["P"][tree.number] = P
+            for k in range(model.njoints - 1):
+                b = tree.first_body + k
+                pose = data.oMi[k + 1]
+                a["R"][b], a["r"][b] = pose.rotation.ravel(), pose.translation - P
+                spatial = pose.act(data.v[k + 1])
+                # Of the point P, as the kernel has it.
+                a["twist"][b, :3] = spatial.linear + np.cross(spatial.angular, P)
+                a["twist"][b, 3:] = spatial.angular
 
     def _joint_rows(self, v: Array) -> list[Row]:
         a, dt, n = self.a, self.dt, len(v)
@@ -132,54 +178,67 @@ class Reference:
                 rows.append(Row(unit[d] if below <= above else -unit[d], recovery(gap, dt), 0.0, np.inf, 0.0, n + d))
         return rows
 
-    def _contact_rows(self, v: Array, first: int) -> list[Row]:
-        a, dt = self.a, self.dt
+    def _contact_rows(self, v: Array) -> list[Row]:
+        a, dt, n = self.a, self.dt, len(v)
         a["counts"][FOUND_CONTACTS] = 0
-        if a["numbers"][HAS_FLOOR] == 0.0 or len(a["shape_kind"]) == 0:
+        self._place(v)
+        pairs = self._candidates(a.floats, a.integers)
+        near = np.flatnonzero(a["near"])
+        if len(near) == 0:
             return []
         kept, start = a["s"].copy(), v.copy()
-        self._place(v)
         twist, origin = a["twist"].copy(), a["P"].copy()
-        axes = [self.data.oMi[b + 1].rotation.copy() for b in range(len(a["kind"]))]
+        axes = [a["R"][b].reshape(3, 3).copy() for b in range(len(a["kind"]))]
         move(a, a["s"], start, 0.5 * dt)
         self._place(start)
-        a["r"][:] += a["P"] - origin
+        a["r"][:] += (a["P"] - origin)[a["body_tree"]]
         a["P"][:], a["twist"][:] = origin, twist
-        q = configuration(self.model, a)
-        count = self._search(a.floats, a.integers)
+        for tree in self.trees:
+            pin.computeJointJacobians(tree.model, tree.data, configuration(tree.model, a, tree.number))
+        count = self._search(a.floats, a.integers, pairs)
         a["s"][:] = kept
         a["counts"][FOUND_CONTACTS] = count
-        a["contact_origin"][:] = origin
-        pin.computeJointJacobians(self.model, self.data, q)
+        first_slot, first_pair_slot = 2 * n + len(a["mimic_dof"]), len(a["memory"]) - 3 * len(a["contact_body"])
+        self.impulses = np.zeros((count, 3))
         rows: list[Row] = []
         for rubs in (False, True):
             for k in range(count):
                 if (a["contact_mu"][k] > 0.0) != rubs:
                     continue
-                J = self._point_jacobian(int(a["contact_body"][k]), a["contact_point"][k] + origin, axes)
+                number = int(a["body_tree"][a["contact_body"][k]])
+                point = a["contact_point"][k] + origin[number]
+                J = self._point_jacobian(int(a["contact_body"][k]), point, axes)
+                if a["contact_other"][k] >= 0:
+                    J = J - self._point_jacobian(int(a["contact_other"][k]), point, axes)
                 along, across, normal = a["contact_frame"][k].reshape(3, 3) @ J
                 a["contact_row"][k] = -1
                 if normal @ normal <= MOBILITY * (J * J).sum():
                     continue
                 gap = a["contact_gap"][k] - 0.5 * dt * (normal @ v)
-                slot = 2 * len(v) + len(a["mimic_dof"]) + 3 * int(a["contact_feature"][k])
-                a["contact_row"][k] = first + len(rows)
-                rows.append(Row(normal, recovery(gap, dt), 0.0, np.inf, a["contact_mu"][k] if rubs else 0.0, slot))
+                ground = a["contact_against"][k] < 0
+                slot = first_slot + 3 * int(a["contact_feature"][k]) if ground else first_pair_slot + 3 * k
+                a["contact_row"][k] = len(rows)
+                mu = a["contact_mu"][k] if rubs else 0.0
+                rows.append(Row(normal, recovery(gap, dt), 0.0, np.inf, mu, slot, number, k))
                 if rubs:
-                    rows.append(Row(along, 0.0, -np.inf, np.inf, 0.0, slot + 1))
-                    rows.append(Row(across, 0.0, -np.inf, np.inf, 0.0, slot + 2))
+                    rows.append(Row(along, 0.0, -np.inf, np.inf, 0.0, slot + 1, number))
+                    rows.append(Row(across, 0.0, -np.inf, np.inf, 0.0, slot + 2, number))
         return rows
 
     def _point_jacobian(self, body: int, point: Array, axes: list[Array]) -> Array:
         """Return what v moves a point of a body with, in the world; a free body's v is still in its `axes` of now."""
+        tree = self.trees[int(self.a["body_tree"][body])]
         world = pin.ReferenceFrame.WORLD
-        spatial = np.array(pin.getJointJacobian(self.model, self.data, body + 1, world))
-        J: Array = spatial[:3] - pin.skew(point) @ spatial[3:]
-        for b, kind in enumerate(self.a["kind"]):
+        spatial = np.array(pin.getJointJacobian(tree.model, tree.data, body - tree.first_body + 1, world))
+        J = np.zeros((3, len(self.a["v"])))
+        J[:, tree.dofs] = spatial[:3] - pin.skew(point) @ spatial[3:]
+        for k in range(tree.model.njoints - 1):
+            b = tree.first_body + k
+            kind = self.a["kind"][b]
             if kind in (FREE, PLANAR):
                 n = 3 if kind == FREE else 2
                 d = self.a["first_v"][b]
-                turn = self.data.oMi[b + 1].rotation.T @ axes[b]
+                turn = tree.data.oMi[k + 1].rotation.T @ axes[b]
                 J[:, d : d + n] = J[:, d : d + n] @ turn[:n, :n]
         return J
 
@@ -196,18 +255,18 @@ class Reference:
                 effort[d] += a["saturated"][d] * a["servo_effort"][d]
         return M + dt * np.diag(softness), dt * effort
 
-    def _solve(self, inertia: Array, impulse: Array, v: Array, rows: list[Row]) -> Array:
+    def _solve(self, inertia: Array, impulse: Array, v: Array, rows: list[Row], dofs: Array) -> Array:
         a = self.a
         free = v + np.linalg.solve(inertia, impulse)
         n = len(rows)
         if n == 0:
             return free
-        J = np.array([row.J for row in rows])
-        a["A"].ravel()[: n * n] = (J @ np.linalg.solve(inertia, J.T)).ravel()
+        J = np.array([row.J[dofs] for row in rows])
+        a["A"][: n * n] = (J @ np.linalg.solve(inertia, J.T)).ravel()
         a["g"][:n] = J @ free + [row.bias for row in rows]
         a["low"][:n], a["high"][:n] = [row.low for row in rows], [row.high for row in rows]
         a["mu"][:n] = [row.mu for row in rows]
-        a["before"][:n] = a["memory"][[row.slot for row in rows]]
+        a["before"][:n] = a["last"][[row.slot for row in rows]]
         guesses = self._find(a.floats, a.integers, n)
         a["counts"][GUESSES] = guesses
         a["counts"][ITERATED] += guesses < 0
@@ -220,14 +279,14 @@ class Reference:
             a["kp"] * (a["position_target"] - position - self.dt * v) + a["kd"] * (a["velocity_target"] - v)
         )
 
-    def _overloaded(self, v: Array, release: bool) -> bool:
+    def _overloaded(self, v: Array, dofs: Array, release: bool) -> bool:
         a = self.a
         needed, most = self._servo(v), a["servo_effort"] * (1.0 + 1e-12)
         now = (needed > most).astype(int) - (needed < -most).astype(int)
         if not release:
             now = np.where(a["saturated"] != 0, a["saturated"], now)
-        changed = bool((now != a["saturated"]).any())
-        a["saturated"][:] = now
+        changed = bool((now != a["saturated"])[dofs].any())
+        a["saturated"][dofs] = now[dofs]
         return changed
 
     def _beside(self, v: Array) -> Array:
@@ -238,10 +297,8 @@ class Reference:
         against = -np.copysign(rub, np.where(np.abs(v) > 1e-9, v, target))
         return np.array(np.where(both, np.where(effort > rub, against, np.copysign(effort, target - v)), 0.0))
 
-    def _account(self, v: Array, rows: list[Row]) -> None:
+    def _account(self, v: Array) -> None:
         a, n = self.a, len(v)
-        a["memory"][:] = 0.0
-        a["memory"][[row.slot for row in rows]] = a["x"][: len(rows)]
         row, most, beside = a["memory"][:n] / self.dt, a["motor_effort"], self._beside(v)
         weak = (a["friction"] > 0.0) & (most <= a["friction"]) & (a["motor_velocity"] != 0.0)
         motor = np.where(most == 0.0, 0.0, np.where(weak, beside, np.clip(row, -most, most)))
@@ -250,8 +307,42 @@ class Reference:
         a["tau"][:] = row + beside + servo + a["applied"] - a["damping"] * v
 
 
+class Tree:
+    """A robot or free body: Pinocchio's model of it, and where it is in the arrays."""
+
+    def __init__(self, model: Any, arrays: Arrays, number: int) -> None:
+        self.model = model
+        self.data = model.createData()
+        self.model.gravity.linear = arrays["gravity"]
+        self.number = number
+        self.first_body = int(arrays["tree_body"][number])
+        first, beyond = arrays["tree_dof"][number : number + 2].tolist()
+        self.dofs = slice(first, beyond)
+        entry = sum(int(n) ** 2 for n in np.diff(arrays["tree_dof"])[:number])
+        self.entries = slice(entry, entry + (beyond - first) ** 2)
+
+
+def model_of(member: Member) -> Any:
+    """Return Pinocchio's model of a robot, its base bolted where it is."""
+    model = pin.Model(member.kinematics.model)
+    if not member.kinematics.floating_base:
+        for joint in range(1, model.njoints):
+            if model.parents[joint] == 0:
+                model.jointPlacements[joint] = pin.SE3(pose_matrix(member.base)) * model.jointPlacements[joint]
+    return model
+
+
+def free_model(body: Body) -> Any:
+    """Return Pinocchio's model of a free body."""
+    model = pin.Model()
+    joint = model.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), body.name)
+    inertia = pin.Inertia(body.mass, np.array(body.centre, dtype=float), np.array(body.inertia, dtype=float))
+    model.appendBodyToJoint(joint, inertia, pin.SE3.Identity())
+    return model
+
+
 class Row(NamedTuple):
-    """One row: see `urdfkit.sim.engine.rows`."""
+    """One row: see `urdfkit.sim.engine.rows`; with a number of its contact in the row of the normal."""
 
     J: Array
     bias: float
@@ -259,6 +350,8 @@ class Row(NamedTuple):
     high: float
     mu: float
     slot: int
+    tree: int = -1
+    contact: int = -1
 
 
 def recovery(gap: float, dt: float) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
-from urdfkit.sim.engine.arrays import FOUND_CONTACTS, Arrays
+from urdfkit.sim.engine.arrays import FOUND_CONTACTS, HAS_PAIRS, Arrays
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
 from urdfkit.sim.engine.model import Touching
 from urdfkit.sim.engine.surface import Contact
@@ -17,11 +17,11 @@ from urdfkit.sim.engine.surface import Contact
 Array = NDArray[np.float64]
 
 
-def configuration(model: Any, arrays: Arrays) -> Array:
-    """Return q in Pinocchio's layout; shape (nq,)."""
+def configuration(model: Any, arrays: Arrays, tree: int = 0) -> Array:
+    """Return q of a robot in Pinocchio's layout; shape (nq,)."""
     q = np.empty(model.nq)
     s = arrays["s"]
-    for b, at in enumerate(arrays["first_s"]):
+    for b, at in enumerate(_starts(arrays, tree)):
         iq, nq = model.idx_qs[b + 1], model.nqs[b + 1]
         if nq == 2:
             q[iq], q[iq + 1] = np.cos(s[at]), np.sin(s[at])
@@ -32,10 +32,10 @@ def configuration(model: Any, arrays: Arrays) -> Array:
     return q
 
 
-def set_configuration(model: Any, arrays: Arrays, q: Array) -> None:
-    """Write the coordinates of a configuration in Pinocchio's layout."""
+def set_configuration(model: Any, arrays: Arrays, q: Array, tree: int = 0) -> None:
+    """Write the coordinates of a robot's configuration in Pinocchio's layout."""
     s = arrays["s"]
-    for b, at in enumerate(arrays["first_s"]):
+    for b, at in enumerate(_starts(arrays, tree)):
         iq, nq = model.idx_qs[b + 1], model.nqs[b + 1]
         if nq == 2:
             s[at] = np.arctan2(q[iq + 1], q[iq])
@@ -50,13 +50,20 @@ def set_configuration(model: Any, arrays: Arrays, q: Array) -> None:
                 s[at + 3 : at + 7] /= norm
 
 
-def positions(arrays: Arrays) -> Array:
-    """Return the position of each dof, NaN for those of floating joints; shape (nv,)."""
+def _starts(arrays: Arrays, tree: int) -> NDArray[np.int64]:
+    """Return where the coordinates of each body of a tree start."""
+    first, beyond = arrays["tree_body"][tree : tree + 2]
+    return arrays["first_s"][first:beyond]
+
+
+def positions(arrays: Arrays, tree: int = 0) -> Array:
+    """Return the position of each dof of a tree, NaN for those of floating joints; shape (nv,)."""
     found = arrays["s"][arrays["dof_s"] % max(1, len(arrays["s"]))]
     for b, kind in enumerate(arrays["kind"]):
         if kind == FREE:
             found[arrays["first_v"][b] : arrays["first_v"][b + 1]] = np.nan
-    return np.array(found)
+    first, beyond = arrays["tree_dof"][tree : tree + 2]
+    return np.array(found[first:beyond])
 
 
 def turning(arrays: Arrays, v: Array) -> Array:
@@ -73,22 +80,25 @@ def turning(arrays: Arrays, v: Array) -> Array:
 def contacts(arrays: Arrays, touches: Sequence[Touching], ground: str, dt: float) -> tuple[Contact, ...]:
     """Return the contacts of the last step, with their forces."""
     found = []
+    alone = len(arrays["tree_floats"]) == 1 and not arrays["numbers"][HAS_PAIRS]
     for k in range(int(arrays["counts"][FOUND_CONTACTS])):
         frame = arrays["contact_frame"][k].reshape(3, 3)
-        at = int(arrays["contact_row"][k])
-        if at < 0:  # nothing can move that point along the normal: no force would change anything
+        if int(arrays["contact_row"][k]) < 0:  # nothing can move that point along the normal, so there is no force
             continue
-        impulse = arrays["x"][at] * frame[2]
-        if arrays["mu"][at] > 0.0:
-            impulse = impulse + arrays["x"][at + 1] * frame[0] + arrays["x"][at + 2] * frame[1]
+        at, impulse = int(arrays["contact_row"][k]), arrays["contact_impulse"][k]
+        if alone:
+            rubs = arrays["contact_mu"][k] > 0.0
+            impulse = np.array([*(arrays["x"][at + 1 : at + 3] if rubs else (0.0, 0.0)), arrays["x"][at]])
+        tree = int(arrays["body_tree"][arrays["contact_body"][k]])
+        against = int(arrays["contact_against"][k])
         found.append(
             Contact(
-                touches[shape_of_feature(arrays, int(arrays["contact_feature"][k]))].link,
-                ground,
-                _vector(arrays["contact_origin"] + arrays["contact_point"][k]),
+                touches[int(arrays["contact_shape"][k])].link,
+                ground if against < 0 else touches[against].link,
+                _vector(arrays["contact_origin"][tree] + arrays["contact_point"][k]),
                 _vector(frame[2]),
                 -float(arrays["contact_gap"][k]),
-                _vector(impulse / dt),
+                _vector(impulse @ frame / dt),
             )
         )
     return tuple(found)
@@ -97,8 +107,3 @@ def contacts(arrays: Arrays, touches: Sequence[Touching], ground: str, dt: float
 def _vector(values: Array) -> tuple[float, float, float]:
     x, y, z = values.tolist()
     return (x, y, z)
-
-
-def shape_of_feature(arrays: Arrays, feature: int) -> int:
-    """Return the number of the shape that has a feature."""
-    return int(np.searchsorted(arrays["shape_feature"], feature, side="right")) - 1

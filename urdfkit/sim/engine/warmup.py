@@ -15,14 +15,15 @@ KERNEL_MODULES = (
     "compilation",
     "dynamics",
     "integrate",
-    "parts",
     "rows",
     "servo",
     "solve",
     "spatial",
     "step",
 )
-"""Modules of this package with compiled functions."""
+"""Modules of this package with compiled functions, for one robot on its plane."""
+WORLD_FOLDERS = ("pairs", "world")
+"""Packages in this one with the compiled functions that a world of several bodies needs besides."""
 
 Kernel = Callable[..., int]
 Progress = Callable[[int], None]
@@ -37,11 +38,20 @@ def kernel() -> Kernel:
     return load_compiled(advance, ("floats", "integers", "count", "flag"))
 
 
-def warmup(progress: Progress | None = None) -> bool:
+@lru_cache(maxsize=1)
+def world_kernel() -> Kernel:
+    """Return the compiled `world.step.advance`, from the cache where there is one."""
+    from urdfkit.sim.engine.world.step import advance
+
+    return load_compiled(advance, ("floats", "integers", "count", "flag"), digest=world_digest())
+
+
+def warmup(progress: Progress | None = None, *, world: bool = False) -> bool:
     """Make the kernel ready to run; return whether it had to be compiled (some 20 s) rather than loaded.
 
     Args:
         progress: called with 0 before a compilation starts and with a growing count while it runs.
+        world: whether it is the kernel for a world of several bodies, rather than for one robot on its plane.
     """
     from numba.core import event
 
@@ -57,7 +67,7 @@ def warmup(progress: Progress | None = None) -> bool:
             pass
 
     with event.install_listener("numba:compile", Listener()):
-        kernel()
+        (world_kernel if world else kernel)()
     return bool(compiled)
 
 
@@ -66,6 +76,15 @@ def sources_digest() -> str:
     digest = hashlib.sha256()
     for name in KERNEL_MODULES:
         digest.update((Path(__file__).parent / f"{name}.py").read_bytes())
+    return digest.hexdigest()
+
+
+def world_digest() -> str:
+    """Return a digest of the sources of the kernel for worlds."""
+    digest = hashlib.sha256(sources_digest().encode())
+    for folder in WORLD_FOLDERS:
+        for path in sorted((Path(__file__).parent / folder).glob("*.py")):
+            digest.update(path.read_bytes())
     return digest.hexdigest()
 
 

@@ -1,0 +1,128 @@
+"""One robot of an engine: its targets and its state."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError
+from urdfkit.kinematics.model import Kinematics
+from urdfkit.sim.engine.arrays import Arrays
+from urdfkit.sim.engine.state import configuration, positions, set_configuration
+
+Array = NDArray[np.float64]
+
+
+class Part:
+    """A robot of an engine. Per-dof arrays are in the order of ``kinematics.model``'s ``v``.
+
+    Args:
+        kinematics: the robot.
+        arrays: the engine's.
+        tree: its number among the engine's robots.
+
+    Attributes:
+        motor_velocity: target of the velocity motor of each dof [rad/s or m/s]; shape (nv,).
+        motor_effort: what that motor can do [N·m or N]; 0 is no motor; shape (nv,).
+        applied: effort added to each dof [N·m or N]; shape (nv,).
+        position_target: target of the position servo of each dof [rad or m]; shape (nv,).
+        kp: its stiffness, [N·m/rad] or [N/m]; 0 is none; shape (nv,).
+        kd: its damping towards `velocity_target`, [N·m·s/rad] or [N·s/m]; 0 is none; shape (nv,).
+        velocity_target: [rad/s or m/s]; shape (nv,).
+        servo_effort: what the servo can do [N·m or N]; infinite at the start; shape (nv,).
+    """
+
+    def __init__(self, kinematics: Kinematics, arrays: Arrays, tree: int) -> None:
+        self.kinematics = kinematics
+        self._arrays = arrays
+        self._tree = tree
+        first, beyond = arrays["tree_dof"][tree : tree + 2].tolist()
+        a = {name: arrays[name][first:beyond] for name in _PER_DOF}
+        self.motor_velocity, self.motor_effort, self.applied = a["motor_velocity"], a["motor_effort"], a["applied"]
+        self.position_target, self.velocity_target = a["position_target"], a["velocity_target"]
+        self.kp, self.kd, self.servo_effort = a["kp"], a["kd"], a["servo_effort"]
+        self._own_v, self._own_effort, self._own_tau = a["v"], a["effort"], a["tau"]
+        self._v, self._effort, self._tau = _read_only(a["v"]), _read_only(a["effort"]), _read_only(a["tau"])
+
+    @property
+    def q(self) -> Array:
+        """Configuration in the layout of ``kinematics.model``, a copy; shape (nq,). Set it by `put`."""
+        return configuration(self.kinematics.model, self._arrays, self._tree)
+
+    @property
+    def v(self) -> Array:
+        """Velocity, a floating base's twist in its own axes and linear first; read-only, shape (nv,)."""
+        return self._v
+
+    @property
+    def positions(self) -> Array:
+        """Position of each dof [rad or m], continuous joints not wrapped; NaN for those of floating joints; (nv,)."""
+        return positions(self._arrays, self._tree)
+
+    @property
+    def effort(self) -> Array:
+        """Effort that motors and servos exerted in the last step [N·m or N]; read-only, shape (nv,)."""
+        return self._effort
+
+    @property
+    def tau(self) -> Array:
+        """All effort of the last step but contacts and limits: motors, servos, damping, friction, `applied`; (nv,)."""
+        return self._tau
+
+    def set_base_velocity(self, twist: Sequence[float]) -> None:
+        """Set the floating base's twist, in its own axes and linear first; what it meets in the step may change it.
+
+        Raises:
+            SimulationError: the robot has no floating base, or a value is not finite.
+        """
+        if not self.kinematics.floating_base:
+            raise SimulationError(f"robot `{self.kinematics.robot.name}` has no floating base to move")
+        if len(twist) != 6 or not all(math.isfinite(part) for part in twist):
+            raise SimulationError(f"a twist is six finite numbers, not {tuple(twist)}")
+        self._own_v[:6] = twist
+
+    def put(self, q: Array | None = None, v: Array | None = None) -> None:
+        """Put the robot at `q`, `v` (neutral, zero); targets stay.
+
+        Raises:
+            SimulationError: wrong shape, or not finite.
+        """
+        model = self.kinematics.model
+        q = self.kinematics.neutral() if q is None else _checked("q", q, model.nq)
+        v = np.zeros(model.nv) if v is None else _checked("v", v, model.nv)
+        set_configuration(model, self._arrays, q, self._tree)
+        self._own_v[:] = v
+        self._own_effort[:] = self._own_tau[:] = 0.0
+
+
+_PER_DOF = (
+    "motor_velocity",
+    "motor_effort",
+    "applied",
+    "position_target",
+    "velocity_target",
+    "kp",
+    "kd",
+    "servo_effort",
+    "v",
+    "effort",
+    "tau",
+)
+
+
+def _checked(name: str, values: Array, size: int) -> Array:
+    found = np.asarray(values, dtype=float)
+    if found.shape != (size,):
+        raise SimulationError(f"{name} has shape {found.shape}; this robot needs ({size},)")
+    if not np.isfinite(found).all():
+        raise SimulationError(f"{name} has an entry that is not finite: {found[~np.isfinite(found)][0]}")
+    return found
+
+
+def _read_only(array: Array) -> Array:
+    view = array[:]
+    view.flags.writeable = False
+    return view

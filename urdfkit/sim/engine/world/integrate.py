@@ -1,0 +1,53 @@
+"""Configurations moved by velocities."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.spatial import rotate, scale, turn_of
+from urdfkit.sim.engine.world.dynamics import FREE, PLANAR
+
+
+@inlined
+def move(first: int, beyond: int, kind: Any, first_s: Any, first_v: Any, s: Any, v: Any, dt: float) -> None:
+    """Let the coordinates `s` of some bodies go on for `dt` at the velocities `v`.
+
+    A free body goes straight on while it turns, as it does when nothing acts on it: its linear velocity stays the same
+    in the axes of what it moves in, so its coordinates in the body's own axes, in `v`, turn back.
+    """
+    for i in range(first, beyond):
+        at, d = first_s[i], first_v[i]
+        if kind[i] == FREE:
+            x, y, z, w = s[at + 3], s[at + 4], s[at + 5], s[at + 6]
+            linear = rotate(turn_of(x, y, z, w), (v[d], v[d + 1], v[d + 2]))
+            s[at] += dt * linear[0]
+            s[at + 1] += dt * linear[1]
+            s[at + 2] += dt * linear[2]
+            turn = scale(0.5 * dt, (v[d + 3], v[d + 4], v[d + 5]))
+            half = math.sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2])
+            # sin(half)/half by series where that is exact to rounding; it avoids 0/0.
+            share = 1.0 - half * half / 6.0 if half < 1e-4 else math.sin(half) / half
+            a, b, c, e = share * turn[0], share * turn[1], share * turn[2], math.cos(half)
+            x, y, z, w = (
+                w * a + x * e + y * c - z * b,
+                w * b - x * c + y * e + z * a,
+                w * c + x * b - y * a + z * e,
+                w * e - x * a - y * b - z * c,
+            )
+            # One Newton step towards unit length is exact to rounding for a quaternion that was unit before.
+            norm = 1.5 - 0.5 * (x * x + y * y + z * z + w * w)
+            s[at + 3], s[at + 4], s[at + 5], s[at + 6] = norm * x, norm * y, norm * z, norm * w
+            v[d], v[d + 1], v[d + 2] = rotate(turn_of(-norm * x, -norm * y, -norm * z, norm * w), linear)
+        elif kind[i] == PLANAR:
+            # The same in the plane.
+            cosine, sine = math.cos(s[at + 2]), math.sin(s[at + 2])
+            along, across = cosine * v[d] - sine * v[d + 1], sine * v[d] + cosine * v[d + 1]
+            s[at] += dt * along
+            s[at + 1] += dt * across
+            s[at + 2] += dt * v[d + 2]
+            cosine, sine = math.cos(s[at + 2]), math.sin(s[at + 2])
+            v[d], v[d + 1] = cosine * along + sine * across, cosine * across - sine * along
+        else:
+            s[at] += dt * v[d]

@@ -1,0 +1,330 @@
+"""Which shapes meet: the search for pairs, their contacts, and last step's forces found again.
+
+Shapes of trees meet those of other trees, what does not move, and, where asked, their own tree's; never those of the
+same body or of bodies with a joint between them. Pairs come in the order of their numbers, so contacts do too.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from urdfkit.sim.engine.collide import REACH
+from urdfkit.sim.engine.compilation import compiled, inlined
+from urdfkit.sim.engine.pairs.collide_pair import collide_pair
+from urdfkit.sim.engine.spatial import (
+    IDENTITY,
+    ZERO,
+    add,
+    compose,
+    cross,
+    dot,
+    load_rotation,
+    load_spatial,
+    load_vector,
+    rotate,
+    scale,
+    store_rotation,
+    store_vector,
+    sub,
+)
+
+
+@inlined
+def apart(low: Any, high: Any, i: int, other_low: Any, other_high: Any, j: int) -> bool:
+    """Return whether two boxes do not overlap."""
+    for k in range(3):  # noqa: SIM110
+        if low[3 * i + k] > other_high[3 * j + k] or high[3 * i + k] < other_low[3 * j + k]:
+            return True
+    return False
+
+
+@inlined
+def bound(
+    tree: int,
+    tree_shape: Any,
+    shape_body: Any,
+    shape_p: Any,
+    shape_radius: Any,
+    P: Any,
+    R: Any,
+    r: Any,
+    twist: Any,
+    dt: float,
+    shape_at: Any,
+    shape_reach: Any,
+    tree_low: Any,
+    tree_high: Any,
+) -> None:
+    """Find where the shapes of a tree can be within a step, each in a box, and a box round all of them."""
+    for k in range(3):
+        tree_low[3 * tree + k], tree_high[3 * tree + k] = 1e300, -1e300
+    for k in range(tree_shape[tree], tree_shape[tree + 1]):
+        body = shape_body[k]
+        centre = add(load_vector(r, body), rotate(load_rotation(R, body), load_vector(shape_p, k)))
+        velocity = load_spatial(twist, body)
+        speed = add(velocity[0], cross(velocity[1], centre))
+        turn = abs(velocity[1][0]) + abs(velocity[1][1]) + abs(velocity[1][2])
+        reach = shape_radius[k] * (1.0 + 2.0 * dt * turn) + dt * dt * REACH
+        store_vector(shape_at, k, add(centre, load_vector(P, tree)))
+        store_vector(
+            shape_reach,
+            k,
+            (
+                reach + 2.0 * dt * abs(speed[0]),
+                reach + 2.0 * dt * abs(speed[1]),
+                reach + 2.0 * dt * abs(speed[2]),
+            ),
+        )
+        for j in range(3):
+            at, far = shape_at[3 * k + j], shape_reach[3 * k + j]
+            tree_low[3 * tree + j] = min(tree_low[3 * tree + j], at - far)
+            tree_high[3 * tree + j] = max(tree_high[3 * tree + j], at + far)
+
+
+@inlined
+def overlap(a: int, b: int, shape_at: Any, shape_reach: Any) -> bool:
+    """Return whether the boxes of two shapes overlap."""
+    for k in range(3):
+        if abs(shape_at[3 * a + k] - shape_at[3 * b + k]) > shape_reach[3 * a + k] + shape_reach[3 * b + k]:
+            return False
+    return True
+
+
+@compiled
+def find_pairs(
+    trees: int,
+    shapes: int,
+    room: int,
+    tree_shape: Any,
+    tree_meets: Any,
+    asleep: Any,
+    shape_body: Any,
+    shape_owner: Any,
+    parent: Any,
+    shape_at: Any,
+    shape_reach: Any,
+    tree_low: Any,
+    tree_high: Any,
+    near: Any,
+    pair_a: Any,
+    pair_b: Any,
+) -> int:
+    """List the pairs of shapes whose boxes overlap and mark their trees; return how many, -1 if there is no room."""
+    count = 0
+    still = tree_shape[trees]
+    for i in range(trees):
+        for j in range(i, trees):
+            if (asleep[i] != 0 and asleep[j] != 0) or (i == j and tree_meets[i] == 0):
+                continue
+            if i != j and apart(tree_low, tree_high, i, tree_low, tree_high, j):
+                continue
+            for a in range(tree_shape[i], tree_shape[i + 1]):
+                for b in range(a + 1 if i == j else tree_shape[j], tree_shape[j + 1]):
+                    if i == j:
+                        one, other = shape_body[a], shape_body[b]
+                        if one == other or parent[one] == other or parent[other] == one:
+                            continue
+                    elif shape_owner[a] == shape_owner[b] and tree_meets[i] == 0:
+                        continue
+                    if overlap(a, b, shape_at, shape_reach):
+                        if count >= room:
+                            return -1
+                        pair_a[count], pair_b[count] = a, b
+                        near[i] = near[j] = 1
+                        count += 1
+        if asleep[i] != 0:
+            continue
+        for b in range(still, shapes):
+            for k in range(3):
+                at, far = shape_at[3 * b + k], shape_reach[3 * b + k]
+                if tree_low[3 * i + k] > at + far or tree_high[3 * i + k] < at - far:
+                    break
+            else:
+                for a in range(tree_shape[i], tree_shape[i + 1]):
+                    # What is bolted to the world and carries a joint does not meet what hangs on it.
+                    if shape_owner[a] == shape_owner[b] and (tree_meets[i] == 0 or parent[shape_body[a]] < 0):
+                        continue
+                    if overlap(a, b, shape_at, shape_reach):
+                        if count >= room:
+                            return -1
+                        pair_a[count], pair_b[count] = a, b
+                        near[i] = 1
+                        count += 1
+    # They are almost in order.
+    for k in range(1, count):
+        a, b = pair_a[k], pair_b[k]
+        j = k
+        while j > 0 and (pair_a[j - 1] > a or (pair_a[j - 1] == a and pair_b[j - 1] > b)):
+            pair_a[j], pair_b[j] = pair_a[j - 1], pair_b[j - 1]
+            j -= 1
+        pair_a[j], pair_b[j] = a, b
+    return count
+
+
+@inlined
+def tangents(normal: Any) -> Any:
+    """Return two unit vectors across a unit vector, the first level wherever it can be."""
+    first = cross((0.0, 1.0, 0.0), normal) if abs(normal[2]) > 0.9 else cross(normal, (0.0, 0.0, 1.0))
+    first = scale(1.0 / dot(first, first) ** 0.5, first)
+    return first, cross(normal, first)
+
+
+@compiled
+def collide_pairs(
+    count: int,
+    room: int,
+    pairs: int,
+    pair_a: Any,
+    pair_b: Any,
+    body_tree: Any,
+    shape_kind: Any,
+    shape_body: Any,
+    shape_size: Any,
+    shape_R: Any,
+    shape_p: Any,
+    shape_data: Any,
+    shape_mu: Any,
+    pair_numbers: Any,
+    pair_indices: Any,
+    pair_work: Any,
+    pair_work_indices: Any,
+    found_point: Any,
+    found_normal: Any,
+    found_gap: Any,
+    found_feature: Any,
+    P: Any,
+    R: Any,
+    r: Any,
+    twist: Any,
+    dt: float,
+    contact_body: Any,
+    contact_other: Any,
+    contact_shape: Any,
+    contact_against: Any,
+    contact_feature: Any,
+    contact_point: Any,
+    contact_frame: Any,
+    contact_gap: Any,
+    contact_mu: Any,
+) -> int:
+    """Find the contacts of pairs of shapes that can close within a step; return how many there are, -1 if no room."""
+    for pair in range(pairs):
+        a, b = pair_a[pair], pair_b[pair]
+        body, other = shape_body[a], shape_body[b]
+        origin = load_vector(P, body_tree[body])
+        R_a = load_rotation(R, body)
+        p_a = add(load_vector(r, body), rotate(R_a, load_vector(shape_p, a)))
+        R_b, p_b, shift = IDENTITY, ZERO, scale(-1.0, origin)
+        still = (ZERO, ZERO)
+        moving = still
+        if other >= 0:
+            R_b, p_b = load_rotation(R, other), load_vector(r, other)
+            shift = sub(load_vector(P, body_tree[other]), origin)
+            moving = load_spatial(twist, other)
+        p_b = add(add(p_b, rotate(R_b, load_vector(shape_p, b))), shift)
+        velocity = load_spatial(twist, body)
+        # No two points of them close in faster than this.
+        apart = sub(add(velocity[0], cross(velocity[1], p_a)), add(moving[0], cross(moving[1], sub(p_b, shift))))
+        fastest = abs(apart[0]) + abs(apart[1]) + abs(apart[2])
+        for k in range(3):
+            fastest += 2.0 * shape_size[3 * a + k] * dot(velocity[1], velocity[1]) ** 0.5
+            fastest += 2.0 * shape_size[3 * b + k] * dot(moving[1], moving[1]) ** 0.5
+        found = collide_pair(
+            shape_kind[a],
+            load_vector(shape_size, a),
+            compose(R_a, load_rotation(shape_R, a)),
+            p_a,
+            shape_data[a],
+            shape_kind[b],
+            load_vector(shape_size, b),
+            compose(R_b, load_rotation(shape_R, b)),
+            p_b,
+            shape_data[b],
+            pair_numbers,
+            pair_indices,
+            2.0 * dt * fastest + dt * dt * REACH,
+            pair_work,
+            pair_work_indices,
+            found_point,
+            found_normal,
+            found_gap,
+            found_feature,
+        )
+        for k in range(found):
+            point, normal = load_vector(found_point, k), load_vector(found_normal, k)
+            closing = add(velocity[0], cross(velocity[1], point))
+            closing = sub(closing, add(moving[0], cross(moving[1], sub(point, shift))))
+            if found_gap[k] > 2.0 * dt * abs(dot(closing, normal)) + dt * dt * REACH:
+                continue
+            if count >= room:
+                return -1
+            first, second = tangents(normal)
+            contact_body[count], contact_other[count] = body, other
+            contact_shape[count], contact_against[count] = a, b
+            contact_feature[count] = found_feature[k]
+            contact_gap[count] = found_gap[k]
+            # Surfaces meet with the smaller friction, as in Gazebo.
+            contact_mu[count] = min(shape_mu[a], shape_mu[b])
+            store_vector(contact_point, count, point)
+            store_rotation(
+                contact_frame,
+                count,
+                (
+                    first[0],
+                    first[1],
+                    first[2],
+                    second[0],
+                    second[1],
+                    second[2],
+                    normal[0],
+                    normal[1],
+                    normal[2],
+                ),
+            )
+            count += 1
+    return count
+
+
+@inlined
+def find_again(
+    first: int,
+    count: int,
+    last: int,
+    first_slot: int,
+    memory: Any,
+    last_a: Any,
+    last_b: Any,
+    last_feature: Any,
+    last_at: Any,
+    contact_shape: Any,
+    contact_against: Any,
+    contact_feature: Any,
+    pair_before: Any,
+) -> int:
+    """Move what is remembered of the contacts of pairs to where their like is now; return how many to remember.
+
+    Both lists are in the order of their pairs, so one walk through them does.
+    """
+    at = 0
+    for k in range(first, count):
+        a, b = contact_shape[k], contact_against[k]
+        while at < last and (last_a[at] < a or (last_a[at] == a and last_b[at] < b)):
+            at += 1
+        store_vector(pair_before, k, ZERO)
+        j = at
+        while j < last and last_a[j] == a and last_b[j] == b:
+            if last_feature[j] == contact_feature[k]:
+                slot = first_slot + 3 * last_at[j]
+                store_vector(pair_before, k, (memory[slot], memory[slot + 1], memory[slot + 2]))
+                break
+            j += 1
+    for j in range(last):
+        slot = first_slot + 3 * last_at[j]
+        memory[slot] = memory[slot + 1] = memory[slot + 2] = 0.0
+    for k in range(first, count):
+        j = k - first
+        last_a[j], last_b[j], last_feature[j] = contact_shape[k], contact_against[k], contact_feature[k]
+        last_at[j] = k
+        slot = first_slot + 3 * k
+        memory[slot], memory[slot + 1], memory[slot + 2] = load_vector(pair_before, k)
+    return count - first

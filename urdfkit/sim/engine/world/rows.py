@@ -1,0 +1,380 @@
+"""What constrains the next velocity, as rows: each asks for J·v + bias and has an impulse between two bounds.
+
+Order: mimic joints, motors and dry friction, joint limits, contacts without friction, then contacts with friction in
+threes (normal and two tangents). A slot tells where the impulse of the last step is remembered.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.spatial import add, cross, dot, load_spatial, load_vector, sub
+from urdfkit.sim.engine.world.dynamics import solve_transposed
+
+RECOVERY = 0.2
+"""Part of a penetration, or of another violation, that is taken back in a step."""
+MOBILITY = 1e-18
+"""Square of the share of a point's velocities along the normal below which nothing can move it that way.
+
+A wheel of a bolted robot that touches the ground is such a case: no impulse along the normal changes anything, so the
+contact is left out, and with it its friction.
+"""
+
+
+@inlined
+def recovery_speed(gap: float, dt: float) -> float:
+    """Return the bias of a gap: it may close within the step when open, is taken back slowly when violated [m/s]."""
+    return gap / dt if gap > 0.0 else RECOVERY * gap / dt
+
+
+@inlined
+def open_row(
+    row: int,
+    width: int,
+    tree: int,
+    Y: Any,
+    bias: Any,
+    low: Any,
+    high: Any,
+    mu: Any,
+    slot: Any,
+    row_a: Any,
+    row_b: Any,
+    b: float,
+    lo: float,
+    hi: float,
+    at: int,
+) -> None:
+    """Clear a row and give it its tree, bias, bounds and slot."""
+    for d in range(row * width, (row + 1) * width):
+        Y[d] = 0.0
+    bias[row], low[row], high[row], mu[row], slot[row] = b, lo, hi, 0.0, at
+    row_a[row], row_b[row] = tree, -1
+
+
+@inlined
+def joint_rows(
+    rows: int,
+    tree: int,
+    dofs: int,
+    width: int,
+    tree_dof: Any,
+    tree_mimic: Any,
+    mimic_dof: Any,
+    mimic_master: Any,
+    mimic_factor: Any,
+    mimic_offset: Any,
+    dof_s: Any,
+    s: Any,
+    v: Any,
+    friction: Any,
+    lower: Any,
+    upper: Any,
+    motor_velocity: Any,
+    motor_effort: Any,
+    dt: float,
+    Y: Any,
+    bias: Any,
+    low: Any,
+    high: Any,
+    mu: Any,
+    slot: Any,
+    row_a: Any,
+    row_b: Any,
+) -> int:
+    """Write the rows of a tree's mimic joints, motors, dry friction and limits after the first `rows`.
+
+    Returns:
+        How many rows there are.
+    """
+    first, beyond = tree_dof[tree], tree_dof[tree + 1]
+    for k in range(tree_mimic[tree], tree_mimic[tree + 1]):
+        d, m, factor = mimic_dof[k], mimic_master[k], mimic_factor[k]
+        target = mimic_offset[k] + (factor * s[dof_s[m]] if m >= 0 else 0.0)
+        b = RECOVERY * (s[dof_s[d]] - target) / dt
+        at = 2 * dofs + k
+        open_row(rows, width, tree, Y, bias, low, high, mu, slot, row_a, row_b, b, -math.inf, math.inf, at)
+        Y[rows * width + d - first] = 1.0
+        if m >= 0:
+            Y[rows * width + m - first] = -factor
+        rows += 1
+    for d in range(first, beyond):
+        effort, rub = motor_effort[d], friction[d]
+        if effort > 0.0 and (rub == 0.0 or (effort > rub and motor_velocity[d] != 0.0)):
+            hold = effort
+            b = -motor_velocity[d]
+        elif rub > 0.0:
+            # Where a motor holds still, or is too weak to move the joint, motor and friction pull at one rope.
+            hold = rub + effort if motor_velocity[d] == 0.0 else rub
+            b = 0.0
+        else:
+            continue
+        open_row(rows, width, tree, Y, bias, low, high, mu, slot, row_a, row_b, b, -hold * dt, hold * dt, d)
+        Y[rows * width + d - first] = 1.0
+        rows += 1
+    for d in range(first, beyond):
+        if lower[d] == -math.inf and upper[d] == math.inf:
+            continue
+        position = s[dof_s[d]]
+        near = 2.0 * dt * abs(v[d]) + 1e-3
+        gap, sign = position - lower[d], 1.0
+        if not (gap < near and gap <= upper[d] - position):
+            gap, sign = upper[d] - position, -1.0
+        if gap < near:
+            b = recovery_speed(gap, dt)
+            open_row(rows, width, tree, Y, bias, low, high, mu, slot, row_a, row_b, b, 0.0, math.inf, dofs + d)
+            Y[rows * width + d - first] = sign
+            rows += 1
+    return rows
+
+
+@inlined
+def friction_beside_motor(d: int, v: Any, friction: Any, motor_velocity: Any, motor_effort: Any) -> float:
+    """Return the effort [N·m] beside the row that `joint_rows` writes for a dof with motor and dry friction."""
+    effort, rub, target = motor_effort[d], friction[d], motor_velocity[d]
+    if effort == 0.0 or rub == 0.0 or target == 0.0:
+        return 0.0
+    if effort > rub:
+        # The motor wins: friction acts against the motion, or against the one about to begin.
+        return -math.copysign(rub, v[d] if abs(v[d]) > 1e-9 else target)
+    return math.copysign(effort, target - v[d])
+
+
+@inlined
+def contact_rows(
+    rows: int,
+    first_contact: int,
+    width: int,
+    first_slot: int,
+    first_pair_slot: int,
+    tree_dof: Any,
+    body_tree: Any,
+    body_last_dof: Any,
+    dof_parent: Any,
+    S: Any,
+    contact_next: Any,
+    contact_body: Any,
+    contact_other: Any,
+    contact_against: Any,
+    contact_feature: Any,
+    contact_origin: Any,
+    contact_point: Any,
+    contact_frame: Any,
+    contact_gap: Any,
+    contact_mu: Any,
+    contact_row: Any,
+    v: Any,
+    dt: float,
+    Y: Any,
+    bias: Any,
+    low: Any,
+    high: Any,
+    mu: Any,
+    slot: Any,
+    row_a: Any,
+    row_b: Any,
+) -> int:
+    """Write the rows of an island's contacts after the first `rows`, those without friction first.
+
+    Returns:
+        How many rows there are.
+    """
+    for rubbing in range(2):
+        k = first_contact
+        while k >= 0:
+            here = k
+            k = contact_next[k]
+            if (contact_mu[here] > 0.0) != (rubbing == 1):
+                continue
+            contact_row[here] = rows
+            tree = body_tree[contact_body[here]]
+            # What two shapes touch with is remembered by the number of the contact, see `remember_pairs`.
+            at = first_slot + 3 * contact_feature[here] if contact_against[here] < 0 else first_pair_slot + 3 * here
+            open_row(rows, width, tree, Y, bias, low, high, mu, slot, row_a, row_b, 0.0, 0.0, math.inf, at)
+            mu[rows] = contact_mu[here]
+            if rubbing == 1:
+                for j in range(1, 3):
+                    open_row(
+                        rows + j,
+                        width,
+                        tree,
+                        Y,
+                        bias,
+                        low,
+                        high,
+                        mu,
+                        slot,
+                        row_a,
+                        row_b,
+                        0.0,
+                        -math.inf,
+                        math.inf,
+                        at + j,
+                    )
+            point = load_vector(contact_point, here)
+            first = load_vector(contact_frame, 3 * here)
+            second = load_vector(contact_frame, 3 * here + 1)
+            normal = load_vector(contact_frame, 3 * here + 2)
+            speed, along, in_all = 0.0, 0.0, 0.0
+            shift = rows * width - tree_dof[tree]
+            d = body_last_dof[contact_body[here]]
+            while d >= 0:
+                lin, ang = load_spatial(S, d)
+                lin = add(lin, cross(ang, point))
+                entry = dot(normal, lin)
+                Y[shift + d] = entry
+                along += entry * entry
+                in_all += dot(lin, lin)
+                speed += entry * v[d]
+                if rubbing == 1:
+                    Y[shift + width + d] = dot(first, lin)
+                    Y[shift + 2 * width + d] = dot(second, lin)
+                d = dof_parent[d]
+            other = contact_other[here]
+            if other >= 0:
+                one = body_tree[other]
+                if one != tree:
+                    shift += tree_dof[tree + 1] - tree_dof[one]
+                    row_b[rows] = one
+                    if rubbing == 1:
+                        row_b[rows + 1] = row_b[rows + 2] = one
+                    point = add(point, sub(load_vector(contact_origin, tree), load_vector(contact_origin, one)))
+                d = body_last_dof[other]
+                while d >= 0:
+                    lin, ang = load_spatial(S, d)
+                    lin = add(lin, cross(ang, point))
+                    entry = dot(normal, lin)
+                    Y[shift + d] -= entry
+                    along += entry * entry
+                    in_all += dot(lin, lin)
+                    speed -= entry * v[d]
+                    if rubbing == 1:
+                        Y[shift + width + d] -= dot(first, lin)
+                        Y[shift + 2 * width + d] -= dot(second, lin)
+                    d = dof_parent[d]
+            if along <= MOBILITY * in_all:
+                contact_row[here] = -1
+                continue
+            # The gap was taken at the end of the step, if the velocity stays; its half is where the velocity changes.
+            bias[rows] = recovery_speed(contact_gap[here] - 0.5 * dt * speed, dt)
+            rows += 3 if rubbing == 1 else 1
+    return rows
+
+
+@inlined
+def row_product(i: int, j: int, width: int, tree_dof: Any, row_a: Any, row_b: Any, Y: Any) -> float:
+    """Return the product of two whitened rows; those of different trees meet nowhere."""
+    total = 0.0
+    a, b = row_a[i], row_b[i]
+    n = tree_dof[a + 1] - tree_dof[a]
+    at, to = i * width, j * width
+    if row_a[j] == a:
+        for d in range(n):
+            total += Y[at + d] * Y[to + d]
+    elif row_b[j] == a:
+        to += tree_dof[row_a[j] + 1] - tree_dof[row_a[j]]
+        for d in range(n):
+            total += Y[at + d] * Y[to + d]
+    if b >= 0:
+        at += n
+        to = j * width
+        m = tree_dof[b + 1] - tree_dof[b]
+        if row_a[j] == b:
+            for d in range(m):
+                total += Y[at + d] * Y[to + d]
+        elif row_b[j] == b:
+            to += tree_dof[row_a[j] + 1] - tree_dof[row_a[j]]
+            for d in range(m):
+                total += Y[at + d] * Y[to + d]
+    return total
+
+
+@inlined
+def whiten(
+    rows: int,
+    single: int,
+    width: int,
+    tree_dof: Any,
+    dof_row: Any,
+    dof_parent: Any,
+    L: Any,
+    inverse_diagonal: Any,
+    row_a: Any,
+    row_b: Any,
+    v: Any,
+    u: Any,
+    Y: Any,
+    bias: Any,
+    g: Any,
+    A: Any,
+) -> None:
+    """Turn rows J into Y = J·L⁻¹, their biases into velocities g with no impulse, and get A = J·M⁻¹·Jᵀ.
+
+    The velocity with no impulse is v + L⁻¹·u. Most islands are a `single` tree, whose number this is; otherwise it is
+    -1.
+    """
+    if single >= 0:
+        first, beyond = tree_dof[single], tree_dof[single + 1]
+        for k in range(rows):
+            at = k * width
+            start = at - first
+            free = bias[k]
+            for d in range(first, beyond):
+                free += Y[start + d] * v[d]
+            solve_transposed(first, beyond, dof_row, dof_parent, L, inverse_diagonal, Y, start)
+            for d in range(first, beyond):
+                free += Y[start + d] * u[d]
+            g[k] = free
+            for j in range(k + 1):
+                total = 0.0
+                to = j * width
+                for d in range(beyond - first):
+                    total += Y[at + d] * Y[to + d]
+                A[k * rows + j] = total
+                A[j * rows + k] = total
+        return
+    for k in range(rows):
+        free = bias[k]
+        at = k * width
+        for side in range(2):
+            tree = row_a[k] if side == 0 else row_b[k]
+            if tree < 0:
+                continue
+            first, beyond = tree_dof[tree], tree_dof[tree + 1]
+            start = at - first
+            for d in range(first, beyond):
+                free += Y[start + d] * v[d]
+            solve_transposed(first, beyond, dof_row, dof_parent, L, inverse_diagonal, Y, start)
+            for d in range(first, beyond):
+                free += Y[start + d] * u[d]
+            at += beyond - first
+        g[k] = free
+        for j in range(k + 1):
+            total = row_product(k, j, width, tree_dof, row_a, row_b, Y)
+            A[k * rows + j] = total
+            A[j * rows + k] = total
+
+
+@inlined
+def push(rows: int, single: int, width: int, tree_dof: Any, row_a: Any, row_b: Any, Y: Any, x: Any, u: Any) -> None:
+    """Add what the impulses x do to u."""
+    if single >= 0:
+        first = tree_dof[single]
+        for k in range(rows):
+            xk = x[k]
+            for d in range(tree_dof[single + 1] - first):
+                u[first + d] += Y[k * width + d] * xk
+        return
+    for k in range(rows):
+        xk = x[k]
+        at = k * width
+        for side in range(2):
+            tree = row_a[k] if side == 0 else row_b[k]
+            if tree < 0:
+                continue
+            first, beyond = tree_dof[tree], tree_dof[tree + 1]
+            for d in range(first, beyond):
+                u[d] += Y[at - first + d] * xk
+            at += beyond - first
