@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from importlib import import_module
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from pkgutil import iter_modules
 from typing import Any
 
 import pytest
@@ -20,6 +22,8 @@ from urdfkit.messages import (
     from_fields,
 )
 from urdfkit.sim import Simulator, Spawn
+from urdfkit.sim.controllers.law import Law
+from urdfkit.sim.controllers.types import ELSEWHERE, LAWS
 
 _spec = spec_from_file_location("arm_package", Path(__file__).with_name("arm_package.py"))
 assert _spec is not None
@@ -405,3 +409,16 @@ def test_a_controller_we_do_not_simulate_is_noted_and_the_rest_runs(make: Make, 
     simulator = make(POSITIONS + f"  i: {{type: {kind}}}\n", note=notes.append)
     assert any(f"{kind} is not simulated" in note for note in notes)
     assert [status.state for status in simulator.controllers.list()] == ["running"] * 3 + ["unloaded"]
+
+
+def test_every_law_is_in_its_tuple() -> None:
+    package = import_module("urdfkit.sim.controllers")
+    found = set()
+    for module in iter_modules(package.__path__):
+        for value in vars(import_module(f"urdfkit.sim.controllers.{module.name}")).values():
+            if isinstance(value, type) and issubclass(value, Law) and value is not Law:
+                found.add(value)
+    assert found == set(LAWS)
+    names = [name for law in LAWS for name in law.types]
+    assert len(names) == len(set(names))
+    assert not set(names) & set(ELSEWHERE)
