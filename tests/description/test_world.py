@@ -495,6 +495,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         ('<include merge="true"><uri>model://box</uri></include>', 'merge="true" is for models in models'),
         ('<light name="l" type="sopt"/>', "light `l` is of the type `sopt`; did you mean `spot`?"),
         ("<model/>", "<model> lacks its name"),
+        ('<model name="m"/>', "model `m` has no link; give it one or make it <static>"),
         ('<model name="m"><static>yes</static></model>', "<static> is `yes`; it must be true or false"),
         ('<model name="m"><pose>1 2 3</pose></model>', "<pose> is `1 2 3`; it must be 6 finite numbers"),
         (

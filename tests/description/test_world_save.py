@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -52,11 +53,10 @@ positive = st.floats(1e-6, 1e6)
 names = st.text("abcäß_-. <&\"'1", min_size=1, max_size=6).map(lambda text: f"x{text}x")
 vectors = st.tuples(numbers, numbers, numbers)
 sizes = st.tuples(positive, positive, positive)
-colors = st.tuples(*[st.floats(0, 1)] * 4)
+colors = st.tuples(*[st.integers(0, 255).map(lambda level: level / 255)] * 4)
 poses = st.builds(Pose, vectors, vectors)
-plugins = st.sampled_from(
-    [kept('<plugin name="p" filename="libx.so"><a b="&lt;1">2 &amp; 3</a><c/></plugin>'), kept("<sensor/>")]
-)
+plugins = st.just(kept('<plugin name="p" filename="libx.so"><a b="&lt;1">2 &amp; 3</a><c/></plugin>'))
+sensors = st.just(kept('<sensor name="s" type="contact"><always_on>true</always_on></sensor>'))
 geometries = st.one_of(
     st.builds(Box, sizes),
     st.builds(Sphere, positive),
@@ -78,7 +78,7 @@ surfaces = st.builds(
     positive,
     positive,
     positive,
-    st.floats(0, 1),
+    st.floats(0, 1, allow_subnormal=False),
     positive,
     st.integers(0, 2**16 - 1),
     st.booleans(),
@@ -90,7 +90,7 @@ visuals = st.builds(
     geometries,
     poses,
     rgba=st.none() | colors,
-    transparency=st.floats(0, 1),
+    transparency=st.floats(0, 1, allow_subnormal=False),
     material=st.sampled_from(["", "Gazebo/Grey"]),
 )
 lights = st.builds(
@@ -112,7 +112,10 @@ def some(strategy: st.SearchStrategy, most: int = 2) -> st.SearchStrategy:
     return st.lists(strategy, max_size=most, unique_by=lambda thing: thing.name).map(tuple)
 
 
-inertials = st.builds(lambda m, p, d: WorldInertial(m, p, d[0], 0.0, 0.0, d[1], 0.0, d[2]), positive, poses, sizes)
+spans = st.tuples(*[st.floats(0.1, 10.0)] * 3)  # ∫x², ∫y², ∫z² dm: any three make an inertia that a body has
+inertials = st.builds(
+    lambda m, p, d: WorldInertial(m, p, d[1] + d[2], 0.0, 0.0, d[0] + d[2], 0.0, d[0] + d[1]), positive, poses, spans
+)
 links = st.builds(
     WorldLink,
     names,
@@ -125,7 +128,7 @@ links = st.builds(
     st.booleans(),
     st.tuples(positive, positive),
     some(lights, 1),
-    st.lists(plugins, max_size=1).map(tuple),
+    st.lists(sensors, max_size=1).map(tuple),
 )
 limits = st.sampled_from([(float("-inf"), float("inf")), (-1.5, 2.0), (0.0, float("inf"))])
 axes = st.builds(
@@ -151,8 +154,9 @@ def models(draw: st.DrawFn, nested: bool = True) -> WorldModel:
             WorldJoint("joint", kind, draw(st.sampled_from([ends[0], "world"])), ends[1], draw(poses), joint_axes)
         )
     extras = draw(st.lists(plugins, max_size=2))
+    static = draw(st.booleans()) or not (own or inner)
     return WorldModel(
-        draw(names), draw(poses), draw(st.booleans()), own, tuple(joints), inner, draw(st.booleans()), "", tuple(extras)
+        draw(names), draw(poses), static, own, tuple(joints), inner, draw(st.booleans()), "", tuple(extras)
     )
 
 
@@ -181,6 +185,17 @@ def test_what_is_saved_reads_back_equal(world: World, tmp_path_factory: pytest.T
     assert to_sdf(again) == to_sdf(world)
 
 
+@pytest.mark.ros
+@settings(max_examples=20)
+@given(world=worlds)
+def test_sdformat_accepts_what_is_saved(
+    world: World, sdformat: Callable[..., list[list[str]]], tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    path = tmp_path_factory.getbasetemp() / "accepted.sdf"
+    path.write_text(to_sdf(world))
+    assert [line for line in sdformat(path) if line[0] == "error"] == []
+
+
 @pytest.mark.parametrize("name", world_names())
 def test_our_worlds_read_back_equal(name: str, tmp_path: Path) -> None:
     world = load_world(name)
@@ -205,9 +220,13 @@ def test_places_do_not_count() -> None:
 @pytest.mark.parametrize(
     ("world", "said"),
     [
-        (World("w", models=(WorldModel("a::b"),)), "the name `a::b` cannot be written in SDF: `::` separates models"),
-        (World("w", models=(WorldModel(""),)), "it is empty"),
+        (
+            World("w", models=(WorldModel("a::b", static=True),)),
+            "the name `a::b` cannot be written in SDF: `::` separates models",
+        ),
+        (World("w", models=(WorldModel("", static=True),)), "it is empty"),
         (World("w", lights=(Light("__x__"),)), "it is reserved"),
+        (World("w", models=(WorldModel("m"),)), "it has no link and is not static"),
         (World("w\x00"), "the character '\\x00' cannot be written in XML"),
     ],
 )

@@ -203,8 +203,12 @@ def _physics(element: Element) -> Physics:
 
 
 def _require_masses(model: WorldModel, *, static: bool) -> None:
-    """Refuse what moves without a mass, or with an inertia that nothing has."""
+    """Refuse what moves without a body or a mass, or with an inertia that nothing has."""
     static = static or model.static
+    if not (model.static or model.links or model.models):  # as sdformat has it
+        raise DescriptionError(
+            f"model `{model.name}` has no link; give it one or make it <static>", position=model.position
+        )
     for link in () if static else model.links:
         body = link.inertial
         fault = ""

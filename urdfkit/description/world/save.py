@@ -107,6 +107,8 @@ def _light(out: Markup, light: Light) -> None:
 
 
 def _model(out: Markup, model: WorldModel) -> None:
+    if not (model.static or model.links or model.models):
+        raise DescriptionError(f"model `{model.name}` cannot be written in SDF: it has no link and is not static")
     with out.inside("model", name=_name(model.name), canonical_link=model.canonical_link):
         out.pose(model.pose)
         out.truth("static", model.static, False)
