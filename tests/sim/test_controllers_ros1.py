@@ -100,7 +100,9 @@ def test_integral_without_clamp_does_nothing_and_is_noted(make: Make) -> None:
     send(simulator, "/arm/a/command", 1.0)
     simulator.run(5.0)
     assert abs(positions(simulator)[0] - 1.0) > 0.05
-    assert any("arm.yaml:4:" in note and "`i` has no effect without `i_clamp`" in note for note in notes)
+    assert [note.rpartition("/")[2] for note in notes if "i_clamp" in note] == [
+        "arm.yaml: `i` has no effect without `i_clamp`, which is 0 when left out"
+    ]
 
 
 def test_efforts_stay_within_the_limit_and_windup_within_the_clamp(make: Make) -> None:
@@ -181,6 +183,18 @@ def test_position_interface_without_gains_ignores_gravity_and_keeps_the_velocity
     assert positions(simulator) == pytest.approx((1.0, 0.0), abs=4.1 * dt)  # at 4 rad/s; the elbow is held
     simulator.run(1.0)
     assert positions(simulator) == pytest.approx((2.0, 0.0), abs=1e-6)
+
+
+def test_a_pid_that_nobody_reads_is_noted_once(make: Make) -> None:
+    notes: list[str] = []
+    law = "{{type: position_controllers/JointPositionController, joint: {}, pid: {{p: 100.0}}}}"
+    yaml = f"arm:\n  a: {law.format('shoulder')}\n  b: {law.format('elbow')}\n"
+    make(yaml, ("Position", "Position"), note=notes.append)
+    assert len([note for note in notes if "does not read `pid`" in note]) == 1
+    gains = "  gazebo_ros_control: {pid_gains: {shoulder: {p: 9.0}, elbow: {p: 9.0}}}\n"
+    notes.clear()
+    make(yaml + gains, ("Position", "Position"), note=notes.append)
+    assert not [note for note in notes if "does not read `pid`" in note]
 
 
 def test_position_interface_with_gains_is_a_pid(make: Make) -> None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, ClassVar
 from urdfkit.errors import DescriptionError, did_you_mean
 from urdfkit.messages import FLOAT, FLOATS
 from urdfkit.sim.controllers.law import Law
-from urdfkit.sim.controllers.output import INTERFACES
+from urdfkit.sim.controllers.output import INTERFACES, PositionOutput
 
 if TYPE_CHECKING:
     from urdfkit.sim.motors import Motors
@@ -38,10 +38,11 @@ class Forward(Law):
         (entry,) = self.settings.texts("joint")[:1]
         self.outputs = (self.hardware.output(entry, self.types[self.type]),)
         self.listen(self.topic("command"), FLOAT, lambda message: self.take([float(message.data)]))
-        if self.settings.find("pid") is not None and self.types[self.type] == "position":
-            self.note(
-                f"{self.type} does not read `pid`: it takes gazebo_ros_control/pid_gains/{entry.value}, "
-                "and without them the position is set, whatever that takes"
+        (output,) = self.outputs
+        if isinstance(output, PositionOutput) and not output.has_gains and self.settings.find("pid") is not None:
+            self.hardware.setup.note(
+                f"{self.settings.place.file}: {self.type} does not read `pid`: the hardware takes "
+                "gazebo_ros_control/pid_gains/JOINT, and without those the position is set, whatever that takes"
             )
 
     def start(self, state: State) -> None:

@@ -107,6 +107,11 @@ class PositionOutput(Output):
         super().__init__(handle, period)
         self._follower = Follower(handle, gains) if gains is not None else None
 
+    @property
+    def has_gains(self) -> bool:
+        """Whether positions are reached by PID."""
+        return self._follower is not None
+
     def start(self, state: State) -> None:
         """Command standing where it stands."""
         self.command = state.position(self.handle.name)
