@@ -6,11 +6,12 @@ import math
 from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
-from urdfkit.sim.engine.pairs.epa import depth
-from urdfkit.sim.engine.pairs.gjk import APART, FAR, distance
+from urdfkit.sim.engine.pairs.epa import across, depth
+from urdfkit.sim.engine.pairs.faces import column
+from urdfkit.sim.engine.pairs.gjk import APART, FAR, distance, support_of_difference
 from urdfkit.sim.engine.pairs.manifold import spread
-from urdfkit.sim.engine.pairs.shapes import CYLINDER, SPHERE, WHEEL, radius_of, unrotate
-from urdfkit.sim.engine.spatial import Vector, add, dot, rotate, scale, sub
+from urdfkit.sim.engine.pairs.shapes import CAPSULE, CYLINDER, SPHERE, WHEEL, radius_of, unrotate
+from urdfkit.sim.engine.spatial import Vector, add, cross, dot, rotate, scale, sub
 
 
 @inlined
@@ -35,6 +36,28 @@ def point_and_cylinder(a: Any, b: Any) -> tuple[Vector, float, Vector]:
         gap, normal = above, up
     normal = rotate(R, normal)
     return scale(sign, normal), gap, sub(point, scale(0.5 * gap, normal))
+
+
+@inlined
+def side_by_side(a: Any, b: Any, normal: Vector, apart: Vector, numbers: Any, indices: Any) -> tuple[Vector, Vector]:
+    """Return the better of what was found of two overlapping round shapes and the way apart of their sides.
+
+    Shapes round one axis come apart in all directions across it alike, and a polytope has no end there either.
+    """
+    axis_a, axis_b = column(a[2], 2), column(b[2], 2)
+    offset = sub(a[3], b[3])
+    across_both = cross(axis_a, axis_b)
+    if dot(across_both, across_both) < 1e-20:
+        across_both = sub(offset, scale(dot(offset, axis_b), axis_b))
+    if dot(across_both, across_both) < 1e-20:
+        across_both = across(axis_b)
+    length = math.sqrt(dot(across_both, across_both))
+    sideways = scale((1.0 if dot(across_both, offset) >= 0.0 else -1.0) / length, across_both)
+    w, _ = support_of_difference(a, b, numbers, indices, scale(-1.0, sideways))
+    gap = dot(sideways, w)
+    if gap > dot(normal, apart):
+        return sideways, scale(gap, sideways)
+    return normal, apart
 
 
 @compiled
@@ -66,6 +89,8 @@ def nearest(
         normal = scale(1.0 / gap, apart)
     else:
         normal, apart, on_a = depth(count, a, b, numbers, indices, work, work_indices)
+        if a[0] in (CYLINDER, WHEEL, CAPSULE) and b[0] in (CYLINDER, WHEEL, CAPSULE):
+            normal, apart = side_by_side(a, b, normal, apart, numbers, indices)
         gap = dot(normal, apart)
     return gap < limit, normal, gap, sub(on_a, scale(0.5, apart))
 

@@ -199,7 +199,8 @@ def spread(
     for k in range(clipped):
         point = vertex_at(work, CLIPPED, k)
         height = dot(facing, sub(point, start)) / dot(facing, normal)
-        here = height if clips_a else -height
+        # Past the end of a line that is not quite parallel the other seems nearer than anything is.
+        here = max(gap, height if clips_a else -height)
         if here < limit:
             least = min(least, here)
             if count < MOST_CANDIDATES:

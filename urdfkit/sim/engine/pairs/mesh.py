@@ -87,8 +87,6 @@ def near_triangle(box: Any, numbers: Any, at: int) -> bool:
 @inlined
 def leans_over(flags: int, normal: Vector, facing: Vector, p: Vector, q: Vector, r: Vector) -> bool:
     """Return whether a normal leans over edges of a triangle none of which can be hit."""
-    if flags & ONE_SIDED and dot(normal, facing) < -LEANS:
-        return True
     lateral = sub(normal, scale(dot(normal, facing), facing))
     square = dot(lateral, lateral)
     if square < LEANS * LEANS:
@@ -144,6 +142,9 @@ def collide_triangle(
         facing = scale(1.0 / math.sqrt(square), facing)
         if flags & ONE_SIDED == 0 and dot(facing, sub(a[3], p)) < 0.0:
             facing = scale(-1.0, facing)
+        if flags & ONE_SIDED and dot(normal, facing) < -LEANS:
+            # The shape is behind: that is for the faces it came in by, or a thin plate would be left at its far side.
+            return count
         leans = abs(dot(normal, facing)) < 1.0 - 0.5 * LEANS * LEANS
         # Along the triangle's own normal shapes touch inside it, or not this triangle.
         has_nearest = leans
