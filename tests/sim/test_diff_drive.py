@@ -176,9 +176,11 @@ def test_covariance(make: Make) -> None:
     matrix = simulator.bus.latest("/rover/odom").pose.covariance
     assert [matrix[i] for i in (0, 7, 14, 21, 28, 35)] == [1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3]
     assert matrix.sum() == pytest.approx(3e12 + 1.02e-3)
+    assert not simulator.bus.latest("/rover/odom").twist.covariance.any()
     simulator = make("ros2", PUBLISH["ros2"] + "<covariance_x>0.25</covariance_x>")
     simulator.run(0.1)
-    assert simulator.bus.latest("/odom").pose.covariance[0] == 0.25
+    for part in (simulator.bus.latest("/odom").pose, simulator.bus.latest("/odom").twist):
+        assert part.covariance[::7].tolist() == [0.25, 1e-5, 1e12, 1e12, 1e12, 1e-3]
 
 
 def test_wheel_states_and_wheel_transforms(make: Make) -> None:

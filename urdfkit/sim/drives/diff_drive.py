@@ -130,7 +130,14 @@ class DiffDrive(Drive):
         with_tf = self._gz or read.flag("publish_odometry_tf")
         if self.spec.generation == "ros1":
             with_tf = published and (with_tf or setup.distro.before("kinetic"))
-        self._odometer = odometer(setup, read, topics, published=published, with_tf=with_tf)
+        self._odometer = odometer(
+            setup,
+            read,
+            topics,
+            published=published,
+            with_tf=with_tf,
+            twist_covariance=self.spec.generation == "ros2",
+        )
         self._odometry = WheelOdometry(self._separations[0], exact=self._gz)
         self._last_read = 0.0
         wheel_states = self.spec.generation == "ros1" and read.flag("publish_wheel_joint_state")
