@@ -50,7 +50,7 @@ def kept(text: str) -> Kept:
 
 numbers = st.floats(-1e6, 1e6, allow_subnormal=False)
 positive = st.floats(1e-6, 1e6)
-names = st.text("abcäß_-. <&\"'1", min_size=1, max_size=6).map(lambda text: f"x{text}x")
+names = st.text("abcäß_-. <&\"'1", min_size=1, max_size=6).map(lambda text: " ".join(f"x{text}x".split()))
 vectors = st.tuples(numbers, numbers, numbers)
 sizes = st.tuples(positive, positive, positive)
 colors = st.tuples(*[st.integers(0, 255).map(lambda level: level / 255)] * 4)
@@ -226,6 +226,7 @@ def test_places_do_not_count() -> None:
         ),
         (World("w", models=(WorldModel("", static=True),)), "it is empty"),
         (World("w", lights=(Light("__x__"),)), "it is reserved"),
+        (World("w", models=(WorldModel("a  b", static=True),)), "the name 'a  b' cannot be written in SDF"),
         (World("w", models=(WorldModel("m"),)), "it has no link and is not static"),
         (World("w\x00"), "the character '\\x00' cannot be written in XML"),
     ],

@@ -70,6 +70,8 @@ def save_world(world: World, path: str | Path) -> None:
 
 
 def _name(name: str) -> str:
+    if " ".join(name.split()) != name:  # sdformat collapses it in texts, so that joints would miss their links
+        raise DescriptionError(f"the name {name!r} cannot be written in SDF: single blanks only")
     if not name or "::" in name or name == "world" or (name.startswith("__") and name.endswith("__")):
         why = "it is empty" if not name else "`::` separates models" if "::" in name else "it is reserved"
         raise DescriptionError(f"the name `{name}` cannot be written in SDF: {why}")
