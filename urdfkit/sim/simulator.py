@@ -21,7 +21,7 @@ from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.scene import Scene, scene_of
 from urdfkit.sim.controllers.switching import Controllers
 from urdfkit.sim.distro import Distro
-from urdfkit.sim.engine import Engine, Ground, warmup
+from urdfkit.sim.engine import Engine, Ground, Loose, warmup
 from urdfkit.sim.engine.engine import Provider
 from urdfkit.sim.installed import install
 from urdfkit.sim.loading import load_robot, require_masses
@@ -32,6 +32,7 @@ from urdfkit.sim.schedule import Ticks
 from urdfkit.sim.spawn import Spawn
 from urdfkit.sim.state import State
 from urdfkit.sim.surfaces import surfaces_of
+from urdfkit.sim.things import bodies_of
 
 Array = NDArray[np.float64]
 
@@ -107,7 +108,7 @@ class Simulator:
         self.paused = False
         self._note = note or LOG.warning
         self._noted: set[str] = set()
-        _require_only_ground(self.world)
+        things = bodies_of(self.world)
         for line in self.world.notes:
             self.note(line)
         bolted = fixed_base or self.robot.roots()[0].name == "world"
@@ -115,7 +116,7 @@ class Simulator:
         self.scene: Scene = scene_of(self.robot)
         self._spawn = spawn or Spawn(z=0.0 if self.robot.roots()[0].name == "world" else None)
         if engine == "compiled":
-            warmup(self._announce)
+            warmup(self._announce, world=bool(things))
         ground = self.world.ground
         self._base = self._spawn.place(self.kinematics, self.scene, None if ground is None else ground.height)
         require_masses(self.kinematics, self._spawn.configuration(self.kinematics, self._base)[0], self.note)
@@ -128,7 +129,9 @@ class Simulator:
             surfaces=surfaces_of(self.robot),
             base=self._base.tolist(),
             provider=engine,
+            bodies=things,
         )
+        self._still = {thing.name: tuple(thing.pose) for thing in things if thing.static}
         self.state = State(self.kinematics, self._engine, self._base if bolted else None)
         self.motors = Motors(
             self.kinematics,
@@ -310,6 +313,15 @@ class Simulator:
         """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7)."""
         return self.state.link_poses()
 
+    @property
+    def bodies(self) -> Mapping[str, Loose]:
+        """The world's bodies that are free to move, by name: look where they are, place them, push them."""
+        return self._engine.bodies
+
+    def body_poses(self) -> dict[str, tuple[float, ...]]:
+        """Return name → x y z [m] and quaternion x y z w of everything in the world but robots and ground."""
+        return {**self._still, **{name: body.pose for name, body in self._engine.bodies.items()}}
+
     def odometry(self) -> Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]]:
         """Return odometry frame → position [m] and quaternion x y z w at which the drives believe the robot to be."""
         found: dict[str, tuple[tuple[float, ...], tuple[float, ...]]] = {}
@@ -335,14 +347,3 @@ def _with_gravity(world: World, gravity: Sequence[float] | None) -> World:
     if len(gravity) != 3 or not np.isfinite(gravity).all():
         raise SimulationError(f"gravity {tuple(gravity)} must be three finite numbers [m/s²]")
     return replace(world, gravity=(float(gravity[0]), float(gravity[1]), float(gravity[2])))
-
-
-def _require_only_ground(world: World) -> None:
-    """Refuse what would be left out silently."""
-    ground = None if world.ground is None else world.ground.name
-    things = [(thing.name, thing.position) for thing in world.models]
-    things += [(thing.name, thing.position) for thing in world.robots]
-    for name, position in things:
-        if name != ground:
-            message = f"model `{name}` cannot be simulated yet: worlds hold a ground plane and lights"
-            raise SimulationError(message, position=position)

@@ -56,7 +56,10 @@ def as_json(simulator: Simulator, spent: Effort) -> dict[str, Any]:
             frame: {"position": list(position), "quaternion": list(quaternion)}
             for frame, (position, quaternion) in simulator.odometry().items()
         },
-        "bodies": {},
+        "bodies": {
+            name: {"position": list(pose[:3]), "quaternion": list(pose[3:])}
+            for name, pose in simulator.body_poses().items()
+        },
         "contacts": [
             {
                 "a": contact.a,

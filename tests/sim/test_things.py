@@ -1,0 +1,78 @@
+"""Bodies of a world in the simulator: at rest, in the way, pushed, placed and refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from urdfkit.errors import SimulationError
+from urdfkit.sim import Simulator, Spawn
+
+WORLD = """<sdf version="1.7"><world name="probe"><gravity>0 0 -9.81</gravity>
+<model name="ground_plane"><static>true</static><link name="link"><collision name="c"><geometry><plane>
+<normal>0 0 1</normal></plane></geometry></collision></link></model>{models}</world></sdf>"""
+
+BOX = """<model name="{name}"><pose>{pose}</pose><static>{static}</static><link name="link"><inertial><mass>1</mass>
+<inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><collision name="c"><geometry><box>
+<size>0.2 0.4 0.2</size></box></geometry></collision></link>{more}</model>"""
+
+
+def box(name: str, pose: str, *, static: bool = False, more: str = "") -> str:
+    return BOX.format(name=name, pose=pose, static=str(static).lower(), more=more)
+
+
+@pytest.fixture
+def world(tmp_path: Path):  # type: ignore[no-untyped-def]
+    def make(*models: str) -> Path:
+        path = tmp_path / "probe.world"
+        path.write_text(WORLD.format(models="".join(models)))
+        return path
+
+    return make
+
+
+def test_bodies_fall_are_placed_pushed_and_put_back(world) -> None:  # type: ignore[no-untyped-def]
+    simulator = Simulator("simpleton", world=world(box("box", "2 0 1 0 0 0")), spawn=Spawn(x=-2.0))
+    simulator.run(0.3)
+    assert simulator.bodies["box"].pose[2] == pytest.approx(1.0 - 0.5 * 9.81 * 0.09, abs=1e-9)
+    simulator.run(1.0)
+    assert simulator.bodies["box"].pose[2] == pytest.approx(0.1, abs=1e-6)
+    simulator.bodies["box"].push((9.81 + 2.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    simulator.run(0.5)
+    assert simulator.bodies["box"].twist[0] == pytest.approx(1.0, rel=1e-2)
+    simulator.bodies["box"].place((3.0, 1.0, 0.1, 0.0, 0.0, 0.0, 1.0))
+    simulator.bodies["box"].push((0.0,) * 6)
+    simulator.run(0.5)
+    assert simulator.bodies["box"].pose[:3] == pytest.approx((3.0, 1.0, 0.1), abs=1e-6)
+    simulator.reset()
+    assert simulator.bodies["box"].pose[:3] == (2.0, 0.0, 1.0)
+
+
+def test_furniture_stays_where_it_stands() -> None:
+    simulator = Simulator("simpleton", world="house")
+    before = simulator.body_poses()
+    simulator.run(0.5)
+    for name, pose in simulator.body_poses().items():
+        assert pose == pytest.approx(before[name], abs=1e-4), name
+
+
+def test_links_held_by_fixed_joints_are_one_body(world) -> None:  # type: ignore[no-untyped-def]
+    more = (
+        '<link name="top"><pose>0 0 0.5 0 0 0</pose><inertial><mass>3</mass></inertial></link>'
+        '<joint name="glue" type="fixed"><parent>link</parent><child>top</child></joint>'
+    )
+    simulator = Simulator("simpleton", world=world(box("post", "3 0 0.1 0 0 0", more=more)))
+    body = simulator.bodies["post"].body
+    assert body.mass == 4.0
+    assert body.centre == pytest.approx((0.0, 0.0, 0.375))
+
+
+def test_what_cannot_be_simulated_is_refused_with_its_place(world) -> None:  # type: ignore[no-untyped-def]
+    more = (
+        '<link name="door"/><joint name="hinge" type="revolute"><parent>link</parent><child>door</child>'
+        "<axis><xyz>0 0 1</xyz></axis></joint>"
+    )
+    with pytest.raises(SimulationError, match=r"joint `hinge` of model `cupboard` cannot be simulated yet") as caught:
+        Simulator("simpleton", world=world(box("cupboard", "3 0 0.1 0 0 0", more=more)))
+    assert "probe.world" in str(caught.value)
