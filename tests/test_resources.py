@@ -215,3 +215,8 @@ def test_resources_stay_light():
     code = "import sys, urdfkit.resources as r; r.find_model(['simpleton']); print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
     assert not {"numpy", "xml.dom.minidom", "xacro", "pinocchio"} & set(loaded)
+
+
+def test_what_is_neither_a_file_nor_a_folder_is_called_so() -> None:
+    with pytest.raises(ResourceError, match=r"^/dev/null is neither a file nor a folder$"):
+        find_model(["/dev/null"])

@@ -151,6 +151,8 @@ def _find(word: str) -> Path:
         return _the_one(entries, f"folder {word}")
     if word in robot_names():
         return _shipped_model(word)
+    if path.exists():
+        raise ResourceError(f"{word} is neither a file nor a folder")
     if _looks_like_a_path(word):
         raise ResourceError(f"no such file or folder: {word}{_near(path)}")
     here = [p.name for p in _children(Path.cwd()) if p.is_dir() or p.suffix in MODEL_SUFFIXES]

@@ -94,7 +94,9 @@ def serve_for_all(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable
         yield start
 
 
-@pytest.fixture(scope="session")
+# Not for the whole session: while Playwright runs, this thread's event loop counts as running, and no other test could
+# have one.
+@pytest.fixture(scope="module")
 def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
     if not CHROMIUM.exists():
         if os.environ.get("CI"):

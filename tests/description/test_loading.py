@@ -136,3 +136,12 @@ def test_arguments_and_package_path(write: Write) -> None:
 def test_harmless_problems_do_not_stop_loading(write: Write) -> None:
     robot = load(write("m.urdf", model('<link name="a"><visual/><inertial/></link>')))
     assert {problem.kind for problem in robot.problems} == {"missing"}
+
+
+def test_a_reduction_nobody_reads_may_be_no_number(tmp_path: Path) -> None:
+    model = tmp_path / "arm.urdf"
+    model.write_text(
+        '<robot name="arm"><link name="base"/><transmission name="t"><type>SimpleTransmission</type>'
+        '<actuator name="motor"><mechanicalReduction>one</mechanicalReduction></actuator></transmission></robot>'
+    )
+    assert len(load(model).problems) == 1

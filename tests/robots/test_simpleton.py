@@ -11,7 +11,7 @@ import pytest
 
 from urdfkit.description import load
 from urdfkit.description.expand import expand
-from urdfkit.kinematics import Kinematics
+from urdfkit.kinematics import Kinematics, TransformTree
 from urdfkit.lint import lint
 from urdfkit.resources import find_model, robots_dir, templates_dir
 from urdfkit.scaffold import load_template
@@ -134,11 +134,27 @@ def test_other_readers_agree(tmp_path):
 
 
 def test_mujoco_agrees_on_the_mass(tmp_path, robot):
-    mujoco = pytest.importorskip("mujoco")
+    import mujoco
+
     model = mujoco.MjModel.from_xml_string(expand(find_model(["simpleton"]).path).xml)
     assert model.njnt == 2
     # MuJoCo welds the root to the world, with everything that is fixed to it: only the wheels are bodies of their own.
     assert model.body_mass.sum() == pytest.approx(0.4)
+
+
+def test_yourdfpy_places_every_link_where_we_do(tmp_path, kinematics):
+    import yourdfpy
+
+    path = tmp_path / "simpleton.urdf"
+    path.write_text(expand(find_model(["simpleton"]).path).xml)
+    peer = yourdfpy.URDF.load(str(path))
+    turned = {"left_wheel_joint": 0.7, "right_wheel_joint": -2.0}
+    peer.update_cfg(turned)
+    tree = TransformTree(kinematics)
+    q = kinematics.configuration(turned)
+    for link in kinematics.link_names:
+        ours = tree.placement(link, "base_footprint", q).homogeneous
+        np.testing.assert_allclose(ours, peer.get_transform(link, "base_footprint"), atol=1e-12)
 
 
 def drive(command, *, ramp, seconds):

@@ -15,6 +15,8 @@ from urdfkit.errors import ModelError, did_you_mean
 
 _HARMLESS = frozenset({"unknown-value", "missing"})
 _NEEDED = {("joint", "type"), ("parent", "link"), ("child", "link"), ("mimic", "joint")}
+_UNREAD = frozenset({"mechanicalReduction"})
+"""Elements whose text nothing here computes with and urdfdom does not read: the linter's business alone."""
 _OTHER_ROOTS = {
     "sdf": "an SDF file",
     "gazebo": "an SDF file",
@@ -138,6 +140,8 @@ def _reasons(robot: Robot) -> Iterator[ModelError]:
 
 def _unusable_values(robot: Robot) -> Iterator[ModelError]:
     for problem in robot.problems:
+        if problem.element.tag in _UNREAD:
+            continue
         if problem.kind not in _HARMLESS or _is_needed(problem):
             yield _error(problem.message, problem.element)
 

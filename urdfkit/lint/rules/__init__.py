@@ -60,17 +60,29 @@ def robot_rules() -> tuple[type[RobotRule], ...]:
     from urdfkit.lint.rules.inertial.inertia_not_positive_definite import InertiaNotPositiveDefinite
     from urdfkit.lint.rules.inertial.inertia_triangle_inequality import InertiaTriangleInequality
     from urdfkit.lint.rules.joints.joint_type_missing import JointTypeMissing
+    from urdfkit.lint.rules.joints.joint_type_unknown import JointTypeUnknown
     from urdfkit.lint.rules.joints.limit_lower_above_upper import LimitLowerAboveUpper
     from urdfkit.lint.rules.joints.limit_missing import LimitMissing
+    from urdfkit.lint.rules.tree.child_link_undefined import ChildLinkUndefined
+    from urdfkit.lint.rules.tree.duplicate_joint import DuplicateJoint
+    from urdfkit.lint.rules.tree.duplicate_link import DuplicateLink
     from urdfkit.lint.rules.tree.multiple_parents import MultipleParents
     from urdfkit.lint.rules.tree.multiple_roots import MultipleRoots
+    from urdfkit.lint.rules.tree.no_root_or_cycle import NoRootOrCycle
+    from urdfkit.lint.rules.tree.parent_link_undefined import ParentLinkUndefined
 
     return (
         UnknownElement,
         BadNumber,
+        ParentLinkUndefined,
+        ChildLinkUndefined,
         MultipleRoots,
+        NoRootOrCycle,
         MultipleParents,
+        DuplicateLink,
+        DuplicateJoint,
         JointTypeMissing,
+        JointTypeUnknown,
         LimitMissing,
         LimitLowerAboveUpper,
         InertiaNotPositiveDefinite,
