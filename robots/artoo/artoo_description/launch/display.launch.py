@@ -15,28 +15,30 @@ def generate_launch_description():
     model = PathJoinSubstitution([share, "urdf", "artoo.urdf.xacro"])
     rviz_config = PathJoinSubstitution([share, "rviz", "artoo.rviz"])
     gui = LaunchConfiguration("gui")
-    return LaunchDescription([
-        DeclareLaunchArgument("gui", default_value="true", description="Sliders for the joints."),
-        DeclareLaunchArgument("rviz", default_value="true", description="Open RViz."),
-        Node(
-            package="robot_state_publisher",
-            executable="robot_state_publisher",
-            parameters=[{"robot_description": ParameterValue(Command(["xacro ", model]), value_type=str)}],
-        ),
-        Node(
-            package="joint_state_publisher_gui",
-            executable="joint_state_publisher_gui",
-            condition=IfCondition(gui),
-        ),
-        Node(
-            package="joint_state_publisher",
-            executable="joint_state_publisher",
-            condition=UnlessCondition(gui),
-        ),
-        Node(
-            package="rviz2",
-            executable="rviz2",
-            arguments=["-d", rviz_config],
-            condition=IfCondition(LaunchConfiguration("rviz")),
-        ),
-    ])
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument("gui", default_value="true", description="Sliders for the joints."),
+            DeclareLaunchArgument("rviz", default_value="true", description="Open RViz."),
+            Node(
+                package="robot_state_publisher",
+                executable="robot_state_publisher",
+                parameters=[{"robot_description": ParameterValue(Command(["xacro ", model]), value_type=str)}],
+            ),
+            Node(
+                package="joint_state_publisher_gui",
+                executable="joint_state_publisher_gui",
+                condition=IfCondition(gui),
+            ),
+            Node(
+                package="joint_state_publisher",
+                executable="joint_state_publisher",
+                condition=UnlessCondition(gui),
+            ),
+            Node(
+                package="rviz2",
+                executable="rviz2",
+                arguments=["-d", rviz_config],
+                condition=IfCondition(LaunchConfiguration("rviz")),
+            ),
+        ]
+    )

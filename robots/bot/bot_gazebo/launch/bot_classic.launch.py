@@ -17,33 +17,40 @@ def generate_launch_description():
     gazebo = FindPackageShare("bot_gazebo")
     model = PathJoinSubstitution([FindPackageShare("bot_description"), "urdf", "bot.urdf.xacro"])
     description = ParameterValue(Command(["xacro ", model, " gazebo:=classic"]), value_type=str)
-    return LaunchDescription([
-        DeclareLaunchArgument("world", default_value=PathJoinSubstitution([gazebo, "worlds", "rooms.world"])),
-        DeclareLaunchArgument("x", default_value="0"),
-        DeclareLaunchArgument("y", default_value="0"),
-        DeclareLaunchArgument("yaw", default_value="0"),
-        IncludeLaunchDescription(
-            PythonLaunchDescriptionSource(
-                PathJoinSubstitution([FindPackageShare("gazebo_ros"), "launch", "gazebo.launch.py"])
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument("world", default_value=PathJoinSubstitution([gazebo, "worlds", "rooms.world"])),
+            DeclareLaunchArgument("x", default_value="0"),
+            DeclareLaunchArgument("y", default_value="0"),
+            DeclareLaunchArgument("yaw", default_value="0"),
+            IncludeLaunchDescription(
+                PythonLaunchDescriptionSource(
+                    PathJoinSubstitution([FindPackageShare("gazebo_ros"), "launch", "gazebo.launch.py"])
+                ),
+                launch_arguments={"world": LaunchConfiguration("world")}.items(),
             ),
-            launch_arguments={"world": LaunchConfiguration("world")}.items(),
-        ),
-        Node(
-            package="robot_state_publisher",
-            executable="robot_state_publisher",
-            remappings=[("joint_states", "/robot_0/joint_states")],
-            parameters=[{"use_sim_time": True, "robot_description": description}],
-        ),
-        Node(
-            package="gazebo_ros",
-            executable="spawn_entity.py",
-            arguments=[
-                "-entity", "robot_0",
-                "-topic", "robot_description",
-                "-x", LaunchConfiguration("x"),
-                "-y", LaunchConfiguration("y"),
-                "-Y", LaunchConfiguration("yaw"),
-            ],
-            output="screen",
-        ),
-    ])
+            Node(
+                package="robot_state_publisher",
+                executable="robot_state_publisher",
+                remappings=[("joint_states", "/robot_0/joint_states")],
+                parameters=[{"use_sim_time": True, "robot_description": description}],
+            ),
+            Node(
+                package="gazebo_ros",
+                executable="spawn_entity.py",
+                arguments=[
+                    "-entity",
+                    "robot_0",
+                    "-topic",
+                    "robot_description",
+                    "-x",
+                    LaunchConfiguration("x"),
+                    "-y",
+                    LaunchConfiguration("y"),
+                    "-Y",
+                    LaunchConfiguration("yaw"),
+                ],
+                output="screen",
+            ),
+        ]
+    )
