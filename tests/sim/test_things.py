@@ -23,7 +23,7 @@ def box(name: str, pose: str, *, static: bool = False, more: str = "") -> str:
 
 
 @pytest.fixture
-def world(tmp_path: Path):  # type: ignore[no-untyped-def]
+def world(tmp_path: Path):
     def make(*models: str) -> Path:
         path = tmp_path / "probe.world"
         path.write_text(WORLD.format(models="".join(models)))
@@ -32,7 +32,7 @@ def world(tmp_path: Path):  # type: ignore[no-untyped-def]
     return make
 
 
-def test_bodies_fall_are_placed_pushed_and_put_back(world) -> None:  # type: ignore[no-untyped-def]
+def test_bodies_fall_are_placed_pushed_and_put_back(world) -> None:
     simulator = Simulator("simpleton", world=world(box("box", "2 0 1 0 0 0")), spawn=Spawn(x=-2.0))
     simulator.run(0.3)
     assert simulator.bodies["box"].pose[2] == pytest.approx(1.0 - 0.5 * 9.81 * 0.09, abs=1e-9)
@@ -57,7 +57,7 @@ def test_furniture_stays_where_it_stands() -> None:
         assert pose == pytest.approx(before[name], abs=1e-4), name
 
 
-def test_links_held_by_fixed_joints_are_one_body(world) -> None:  # type: ignore[no-untyped-def]
+def test_links_held_by_fixed_joints_are_one_body(world) -> None:
     more = (
         '<link name="top"><pose>0 0 0.5 0 0 0</pose><inertial><mass>3</mass></inertial></link>'
         '<joint name="glue" type="fixed"><parent>link</parent><child>top</child></joint>'
@@ -68,7 +68,7 @@ def test_links_held_by_fixed_joints_are_one_body(world) -> None:  # type: ignore
     assert body.centre == pytest.approx((0.0, 0.0, 0.375))
 
 
-def test_what_cannot_be_simulated_is_refused_with_its_place(world) -> None:  # type: ignore[no-untyped-def]
+def test_what_cannot_be_simulated_is_refused_with_its_place(world) -> None:
     more = (
         '<link name="door"/><joint name="hinge" type="revolute"><parent>link</parent><child>door</child>'
         "<axis><xyz>0 0 1</xyz></axis></joint>"
@@ -76,3 +76,30 @@ def test_what_cannot_be_simulated_is_refused_with_its_place(world) -> None:  # t
     with pytest.raises(SimulationError, match=r"joint `hinge` of model `cupboard` cannot be simulated yet") as caught:
         Simulator("simpleton", world=world(box("cupboard", "3 0 0.1 0 0 0", more=more)))
     assert "probe.world" in str(caught.value)
+
+
+def test_a_wall_stops_a_robot_with_all_the_force_its_wheels_have(world) -> None:
+    simulator = Simulator("simpleton", world=world(box("wall", "0.8 0 0.1 0 0 0", static=True)))
+    simulator.command((0.3, 0, 0), (0, 0, 0))
+    simulator.run(3.0)
+    stopped = simulator.link_poses()[0].copy()
+    simulator.run(1.0)
+    assert simulator.link_poses()[0] == pytest.approx(stopped, abs=1e-6)
+    on_the_wall = [contact.force for contact in simulator.state.contacts if "wall" in (contact.a, contact.b)]
+    # Two wheels of radius 0.1 m with motors of 0.3 N·m.
+    assert abs(sum(force[0] for force in on_the_wall)) == pytest.approx(6.0, rel=1e-6)
+
+
+def test_a_robot_pushes_what_slides(world) -> None:
+    smooth = "<surface><friction><ode><mu>0.1</mu><mu2>0.1</mu2></ode></friction></surface>"
+    crate = box("crate", "0.8 0 0.1 0 0 0").replace("</geometry></collision>", f"</geometry>{smooth}</collision>")
+    simulator = Simulator("simpleton", world=world(crate))
+    simulator.command((0.3, 0, 0), (0, 0, 0))
+    simulator.run(3.0)
+    before = simulator.link_poses()[0][0]
+    gap = simulator.bodies["crate"].pose[0] - before
+    simulator.run(1.0)
+    robot = simulator.link_poses()[0]
+    assert robot[0] - before == pytest.approx(0.3, abs=1e-4)
+    assert simulator.bodies["crate"].pose[0] - robot[0] == pytest.approx(gap, abs=1e-4)
+    assert abs(robot[1]) < 1e-4
