@@ -6,8 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from urdfkit.description.world import load_world
 from urdfkit.errors import SimulationError
 from urdfkit.sim import Simulator, Spawn
+from urdfkit.sim.things import bodies_of, looks_of
 
 WORLD = """<sdf version="1.7"><world name="probe"><gravity>0 0 -9.81</gravity>
 <model name="ground_plane"><static>true</static><link name="link"><collision name="c"><geometry><plane>
@@ -103,3 +105,13 @@ def test_a_robot_pushes_what_slides(world) -> None:
     assert robot[0] - before == pytest.approx(0.3, abs=1e-4)
     assert simulator.bodies["crate"].pose[0] - robot[0] == pytest.approx(gap, abs=1e-4)
     assert abs(robot[1]) < 1e-4
+
+
+def test_what_a_world_looks_like_hangs_on_its_bodies() -> None:
+    world = load_world("house")
+    looks = looks_of(world)
+    bodies = {body.name for body in bodies_of(world)}
+    assert {shape.body for shape in looks} <= bodies
+    assert len({shape.body for shape in looks}) > 5
+    assert len({shape.name for shape in looks}) == len(looks)
+    assert all(shape.has_color for shape in looks)

@@ -13,6 +13,7 @@ from urdfkit.description.robot import Geometry, Mesh
 from urdfkit.description.world import Ellipsoid, Plane, World, WorldJoint, WorldLink, WorldModel, WorldRobot, WorldShape
 from urdfkit.errors import SimulationError
 from urdfkit.scene import MeshLoader, Shape
+from urdfkit.scene.colors import DEFAULT, GAZEBO
 from urdfkit.scene.placement import pose_matrix
 from urdfkit.sim.engine import Body, Piece, Surface
 
@@ -41,6 +42,26 @@ def bodies_of(world: World) -> tuple[Body, ...]:
 
 
 def _bodies(model: WorldModel, meshes: MeshLoader, *, is_ground: bool) -> Iterator[Body]:
+    for name, static, links in groups_of(model):
+        if not static:
+            yield _merged(name, links, meshes)
+            continue
+        _, pose, link = links[0]
+        pieces = tuple(
+            _piece(shape, np.eye(4), name, meshes)
+            for shape in link.collisions
+            if not (is_ground and isinstance(shape.geometry, Plane))
+        )
+        if pieces or not is_ground:
+            yield Body(name, _seven(pose), pieces, static=True)
+
+
+def groups_of(model: WorldModel) -> Iterator[tuple[str, bool, list[Placed]]]:
+    """Yield name, whether it is static, and the links of each body of a model; the first link's frame is the body's.
+
+    Raises:
+        SimulationError: a joint that cannot be simulated, with its place.
+    """
     root = pose_matrix(model.pose)
     links: list[Placed] = [(name, root @ pose_matrix(pose), link) for name, pose, link in model.all_links()]
     static, joined = model.static, False
@@ -60,22 +81,11 @@ def _bodies(model: WorldModel, meshes: MeshLoader, *, is_ground: bool) -> Iterat
             f"model `{model.name}` cannot be simulated yet: fixed joints hold some of its links together, but not all",
             position=model.position,
         )
-    alone = len(links) == 1
     if joined and not static:
-        yield _merged(model.name, links, meshes)
+        yield model.name, False, links
         return
-    for name, pose, link in links:
-        called = model.name if alone else f"{model.name}::{name}"
-        if not static:
-            yield _merged(called, [(name, pose, link)], meshes)
-            continue
-        pieces = tuple(
-            _piece(shape, np.eye(4), called, meshes)
-            for shape in link.collisions
-            if not (is_ground and isinstance(shape.geometry, Plane))
-        )
-        if pieces or not is_ground:
-            yield Body(called, _seven(pose), pieces, static=True)
+    for link in links:
+        yield model.name if len(links) == 1 else f"{model.name}::{link[0]}", static, [link]
 
 
 def _merged(name: str, links: list[Placed], meshes: MeshLoader) -> Body:
@@ -112,6 +122,39 @@ def _merged(name: str, links: list[Placed], meshes: MeshLoader) -> Body:
         off = c - centre
         inertia += tensor + m * (off @ off * np.eye(3) - np.outer(off, off))
     return Body(name, _seven(frame), tuple(pieces), mass=mass, centre=tuple(centre.tolist()), inertia=inertia.tolist())
+
+
+def looks_of(world: World) -> tuple[Shape, ...]:
+    """Return what the bodies of a world look like, each shape under the name that its body has in `bodies_of`.
+
+    Planes and ellipsoids, and visuals whose mesh is not there, are left out.
+
+    Raises:
+        ResourceError: a mesh is broken.
+    """
+    meshes = MeshLoader()
+    found: list[Shape] = []
+    for model in world.models:
+        for body, _, links in groups_of(model):
+            into = np.linalg.inv(links[0][1])
+            for _, pose, link in links:
+                for shape in link.visuals:
+                    geometry: Any = shape.geometry
+                    if isinstance(geometry, (Plane, Ellipsoid)) or (isinstance(geometry, Mesh) and not shape.file):
+                        continue
+                    mesh = meshes.load(Path(shape.file), geometry.scale) if isinstance(geometry, Mesh) else None
+                    placement = into @ pose @ pose_matrix(shape.pose)
+                    name = f"{body}/visual/{len(found)}"
+                    rgba = _color(shape)
+                    found.append(
+                        Shape(name, body, "visual", geometry, placement, rgba or DEFAULT, rgba is not None, mesh)
+                    )
+    return tuple(found)
+
+
+def _color(shape: WorldShape) -> tuple[float, float, float, float] | None:
+    rgba = shape.rgba or GAZEBO.get(shape.material.removeprefix("Gazebo/"))
+    return None if rgba is None else (*rgba[:3], rgba[3] * (1.0 - shape.transparency))
 
 
 def _piece(shape: WorldShape, frame: Array, name: str, meshes: MeshLoader) -> Piece:

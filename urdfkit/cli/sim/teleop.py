@@ -142,20 +142,39 @@ class Ride:
         self._marks: deque[tuple[float, float]] = deque(maxlen=round(1 / STATUS))
         kinematics = simulator.kinematics
         self._root = kinematics.link_names.index(kinematics.root)
+        self._drawn = tuple(simulator.body_poses())
 
     def show(self) -> None:
-        """Put the robot on the page where it starts."""
+        """Put the robot and what else the world holds on the page where they start."""
+        from dataclasses import replace
+
+        from urdfkit.scene import Scene
+        from urdfkit.sim.things import looks_of
         from urdfkit.view.nodes import draw, link_path
 
         simulator = self.simulator
+        # No link has a slash where a body of the world has its first.
+        bodies = (*simulator.kinematics.link_names, *(f"world/{name}" for name in self._drawn))
+        looks = (replace(shape, body=f"world/{shape.body}") for shape in looks_of(simulator.world))
+        scene = Scene(bodies, (*simulator.scene.shapes, *looks))
         self.server.show(
             name=simulator.name,
-            nodes=[link_path(name) for name in simulator.kinematics.link_names],
+            nodes=[link_path(name) for name in bodies],
             root=self._root,
-            draw=lambda server: draw(simulator.scene, server, server.geometries),
+            draw=lambda server: draw(scene, server, server.geometries),
         )
         self.server.declare("teleop", **wheel(simulator))
-        self.server.publish(simulator.t, simulator.link_poses())
+        self.server.publish(simulator.t, self._poses())
+
+    def _poses(self) -> Any:
+        """Return where everything on the page is; shape (bodies, 7), the robot's links first."""
+        import numpy as np
+
+        poses = self.simulator.link_poses()
+        if not self._drawn:
+            return poses
+        others = self.simulator.body_poses()
+        return np.vstack([poses, np.array([others[name] for name in self._drawn])])
 
     def run(self) -> None:
         """Simulate in real time for ever."""
@@ -230,7 +249,7 @@ class Ride:
 
     def _report(self) -> None:
         simulator, now = self.simulator, self._clock()
-        poses = simulator.link_poses()
+        poses = self._poses()
         self.server.publish(simulator.t, poses)
         if now - self._reported < STATUS:
             return
