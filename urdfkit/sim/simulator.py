@@ -116,7 +116,10 @@ class Simulator:
         self.scene: Scene = scene_of(self.robot)
         self._spawn = spawn or Spawn(z=0.0 if self.robot.roots()[0].name == "world" else None)
         if engine == "compiled":
-            warmup(self._announce, world=bool(things))
+            about = "for worlds that hold bodies, once, about 60 s …" if things else "once, about 20 s …"
+            warmup(
+                lambda count: None if count else self.note(f"compiling the physics kernel, {about}"), world=bool(things)
+            )
         ground = self.world.ground
         self._base = self._spawn.place(self.kinematics, self.scene, None if ground is None else ground.height)
         require_masses(self.kinematics, self._spawn.configuration(self.kinematics, self._base)[0], self.note)
@@ -329,10 +332,6 @@ class Simulator:
             for frame, pose in drive.estimate(self.state).items():
                 found.setdefault(frame, pose)
         return found
-
-    def _announce(self, functions: int) -> None:
-        if functions == 0:
-            self.note("compiling the physics kernel, once, about 20 s …")
 
     def note(self, text: str) -> None:
         """Tell the user something; the same text only once."""

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from typing import TextIO
 
-SECONDS = 20
-"""About how long compilation takes."""
+SECONDS, SECONDS_WORLD = 20, 60
+"""About how long the compilation of either kernel takes."""
 
 
-def prepare_kernel(out: TextIO) -> bool:
+def prepare_kernel(out: TextIO, *, world: bool = False) -> bool:
     """Make sure that the kernel is compiled and loaded, so that no later step waits for it.
 
     Args:
         out: where to announce a compilation; a terminal also sees how it gets on.
+        world: whether it is the kernel for worlds that hold bodies.
 
     Returns:
         Whether it had to be compiled.
@@ -32,11 +33,12 @@ def prepare_kernel(out: TextIO) -> bool:
 
     def progress(functions: int) -> None:
         if functions == 0:
-            print(f"compiling the physics kernel, once, about {SECONDS} s …", file=out, flush=True)
+            what, seconds = (" for worlds that hold bodies", SECONDS_WORLD) if world else ("", SECONDS)
+            print(f"compiling the physics kernel{what}, once, about {seconds} s …", file=out, flush=True)
         elif terminal:
             print(f"\r{functions} functions", end="", file=out, flush=True)
 
-    compiled = warmup(progress)
+    compiled = warmup(progress, world=world)
     if compiled and terminal:
         print("\r\x1b[K", end="", file=out, flush=True)
     return compiled

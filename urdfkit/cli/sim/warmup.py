@@ -1,4 +1,4 @@
-"""`urdfkit sim warmup`: compile the physics kernel ahead of its first use."""
+"""`urdfkit sim warmup`: compile the physics kernels ahead of their first use."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.cli.sim.kernel import prepare_kernel
 
     begin = time.perf_counter()
-    compiled = prepare_kernel(sys.stderr)
+    compiled = [prepare_kernel(sys.stderr), prepare_kernel(sys.stderr, world=True)]
     spent = time.perf_counter() - begin
-    print(f"the physics kernel is compiled and cached ({spent:.1f} s)" if compiled else "the physics kernel was ready")
+    ready = "the physics kernels were ready"
+    print(f"the physics kernels are compiled and cached ({spent:.1f} s)" if any(compiled) else ready)
     return 0
