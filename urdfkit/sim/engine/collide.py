@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.compilation import compiled, inlined
+from urdfkit.sim.engine.arrays import At
+from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.spatial import (
     add,
     compose,
@@ -45,30 +46,23 @@ REACH = 100.0
 
 
 @inlined
-def near_plane(
-    first: int,
-    beyond: int,
-    shape_body: Any,
-    shape_p: Any,
-    shape_radius: Any,
-    floor: float,
-    dt: float,
-    R: Any,
-    r: Any,
-    twist: Any,
-) -> bool:
+def near_plane(floats: Any, integers: Any, first: int, beyond: int, floor: float, dt: float) -> bool:
     """Return whether any of some shapes can reach the plane within a step."""
     for k in range(first, beyond):  # noqa: SIM110
-        if reaches(k, shape_body, shape_p, shape_radius, floor, dt, R, r, twist):
+        if reaches(floats, integers, k, floor, dt):
             return True
     return False
 
 
 @inlined
-def reaches(
-    k: int, shape_body: Any, shape_p: Any, shape_radius: Any, floor: float, dt: float, R: Any, r: Any, twist: Any
-) -> bool:
+def reaches(floats: Any, integers: Any, k: int, floor: float, dt: float) -> bool:
     """Return whether a shape, taken for a ball, can reach the plane within a step."""
+    shape_body = field(integers, integers, At.shape_body)
+    shape_p = field(floats, integers, At.shape_p)
+    shape_radius = field(floats, integers, At.shape_radius)
+    R = field(floats, integers, At.R)
+    r = field(floats, integers, At.r)
+    twist = field(floats, integers, At.twist)
     body = shape_body[k]
     centre = add(load_vector(r, body), rotate(load_rotation(R, body), load_vector(shape_p, k)))
     velocity = load_spatial(twist, body)
@@ -87,18 +81,12 @@ def can_close(gap: float, point: Any, velocity: Any, dt: float) -> bool:
 
 @compiled
 def find_extremes(
-    first: int,
-    beyond: int,
-    vertices: Any,
-    axes: Any,
-    centre: Any,
-    floor: float,
-    dt: float,
-    velocity: Any,
-    extreme: Any,
-    extreme_vertex: Any,
+    floats: Any, integers: Any, first: int, beyond: int, axes: Any, centre: Any, floor: float, dt: float, velocity: Any
 ) -> None:
     """Find, of the vertices of a hull that can touch, those furthest out in each direction."""
+    vertices = field(floats, integers, At.vertices)
+    extreme = field(floats, integers, At.extreme)
+    extreme_vertex = field(integers, integers, At.extreme_vertex)
     for j in range(DIRECTIONS):
         extreme[j], extreme_vertex[j] = -math.inf, -1
     for k in range(first, beyond):
@@ -114,8 +102,9 @@ def find_extremes(
 
 
 @inlined
-def has_feature(count: int, feature: int, contact_feature: Any) -> bool:
+def has_feature(floats: Any, integers: Any, count: int, feature: int) -> bool:
     """Return whether a contact of this feature has been noted."""
+    contact_feature = field(integers, integers, At.contact_feature)
     for k in range(count):  # noqa: SIM110
         if contact_feature[k] == feature:
             return True
@@ -124,6 +113,8 @@ def has_feature(count: int, feature: int, contact_feature: Any) -> bool:
 
 @inlined
 def touch(
+    floats: Any,
+    integers: Any,
     count: int,
     most: int,
     body: int,
@@ -132,17 +123,17 @@ def touch(
     floor: float,
     mu: float,
     dt: float,
-    twist: Any,
-    contact_body: Any,
-    contact_other: Any,
-    contact_against: Any,
-    contact_feature: Any,
-    contact_point: Any,
-    contact_frame: Any,
-    contact_gap: Any,
-    contact_mu: Any,
 ) -> int:
     """Note a contact at `point` if it can close within a step; return how many there are."""
+    twist = field(floats, integers, At.twist)
+    contact_body = field(integers, integers, At.contact_body)
+    contact_other = field(integers, integers, At.contact_other)
+    contact_against = field(integers, integers, At.contact_against)
+    contact_feature = field(integers, integers, At.contact_feature)
+    contact_point = field(floats, integers, At.contact_point)
+    contact_frame = field(floats, integers, At.contact_frame)
+    contact_gap = field(floats, integers, At.contact_gap)
+    contact_mu = field(floats, integers, At.contact_mu)
     gap = point[2] - floor
     # In this order: with `count` asked first, LLVM makes a step of a robot on wheels a third slower.
     if not can_close(gap, point, load_spatial(twist, body), dt) or count >= most:
@@ -160,44 +151,29 @@ def touch(
 
 @inlined
 def collide_with_plane(
-    count: int,
-    first: int,
-    beyond: int,
-    most: int,
-    shape_kind: Any,
-    shape_body: Any,
-    shape_feature: Any,
-    shape_vertex: Any,
-    shape_R: Any,
-    shape_p: Any,
-    shape_size: Any,
-    shape_radius: Any,
-    shape_mu: Any,
-    vertices: Any,
-    extreme: Any,
-    extreme_vertex: Any,
-    floor: float,
-    dt: float,
-    R: Any,
-    r: Any,
-    twist: Any,
-    contact_body: Any,
-    contact_other: Any,
-    contact_shape: Any,
-    contact_against: Any,
-    contact_feature: Any,
-    contact_point: Any,
-    contact_frame: Any,
-    contact_gap: Any,
-    contact_mu: Any,
+    floats: Any, integers: Any, count: int, first: int, beyond: int, most: int, floor: float, dt: float
 ) -> int:
     """Find the contacts of some shapes with the plane z = `floor` (of the same point as `r`).
 
     Returns:
         How many contacts there are now, after `count`.
     """
+    shape_kind = field(integers, integers, At.shape_kind)
+    shape_body = field(integers, integers, At.shape_body)
+    shape_feature = field(integers, integers, At.shape_feature)
+    shape_vertex = field(integers, integers, At.shape_vertex)
+    shape_R = field(floats, integers, At.shape_R)
+    shape_p = field(floats, integers, At.shape_p)
+    shape_size = field(floats, integers, At.shape_size)
+    shape_mu = field(floats, integers, At.floor_mu)
+    vertices = field(floats, integers, At.vertices)
+    extreme_vertex = field(integers, integers, At.extreme_vertex)
+    R = field(floats, integers, At.R)
+    r = field(floats, integers, At.r)
+    twist = field(floats, integers, At.twist)
+    contact_shape = field(integers, integers, At.contact_shape)
     for k in range(first, beyond):
-        if not reaches(k, shape_body, shape_p, shape_radius, floor, dt, R, r, twist):
+        if not reaches(floats, integers, k, floor, dt):
             continue
         body = shape_body[k]
         body_R = load_rotation(R, body)
@@ -215,16 +191,15 @@ def collide_with_plane(
                 found = 2
             elif kind == HULL:
                 find_extremes(
+                    floats,
+                    integers,
                     shape_vertex[k],
                     shape_vertex[k + 1],
-                    vertices,
                     axes,
                     centre,
                     floor,
                     dt,
                     load_spatial(twist, body),
-                    extreme,
-                    extreme_vertex,
                 )
                 found = DIRECTIONS
             else:
@@ -242,7 +217,7 @@ def collide_with_plane(
             elif kind == HULL:
                 # Two directions may find the same vertex.
                 part = extreme_vertex[j]
-                if part < 0 or has_feature(count, feature + part, contact_feature):
+                if part < 0 or has_feature(floats, integers, count, feature + part):
                     continue
                 point = add(centre, rotate(axes, load_vector(vertices, shape_vertex[k] + part)))
             else:
@@ -250,25 +225,7 @@ def collide_with_plane(
                 if not valid:
                     continue
                 point = add(centre, offset)
-            found_now = touch(
-                count,
-                most,
-                body,
-                feature + part,
-                point,
-                floor,
-                mu,
-                dt,
-                twist,
-                contact_body,
-                contact_other,
-                contact_against,
-                contact_feature,
-                contact_point,
-                contact_frame,
-                contact_gap,
-                contact_mu,
-            )
+            found_now = touch(floats, integers, count, most, body, feature + part, point, floor, mu, dt)
             if found_now > count:
                 contact_shape[count] = k
             count = found_now

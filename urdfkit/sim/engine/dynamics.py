@@ -14,7 +14,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.arrays import At
+from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.spatial import (
     IDENTITY,
     ZERO,
@@ -48,27 +49,23 @@ REVOLUTE, PRISMATIC, PLANAR, FREE = range(4)
 
 
 @inlined
-def place(
-    bodies: int,
-    kind: Any,
-    parent: Any,
-    first_s: Any,
-    first_v: Any,
-    place_R: Any,
-    place_p: Any,
-    subspace: Any,
-    P: Any,
-    s: Any,
-    R: Any,
-    r: Any,
-    S: Any,
-    ahead: bool,
-) -> None:
+def place(floats: Any, integers: Any, bodies: int, s: Any, ahead: bool) -> None:
     """Place the bodies and their motion subspaces at the coordinates `s`.
 
     With `ahead`, `s` is where things will be but the velocities are of now: the axes in which a free body's linear
     velocity is written stay where they are.
     """
+    kind = field(integers, integers, At.kind)
+    parent = field(integers, integers, At.parent)
+    first_s = field(integers, integers, At.first_s)
+    first_v = field(integers, integers, At.first_v)
+    place_R = field(floats, integers, At.place_R)
+    place_p = field(floats, integers, At.place_p)
+    subspace = field(floats, integers, At.subspace)
+    P = field(floats, integers, At.P)
+    R = field(floats, integers, At.R)
+    r = field(floats, integers, At.r)
+    S = field(floats, integers, At.S)
     point = load_vector(P, 0)
     for i in range(bodies):
         above = parent[i]
@@ -101,27 +98,25 @@ def place(
 
 
 @inlined
-def forward_sweep(
-    bodies: int,
-    kind: Any,
-    parent: Any,
-    first_v: Any,
-    mass: Any,
-    centre: Any,
-    tensor: Any,
-    gravity: Any,
-    v: Any,
-    R: Any,
-    r: Any,
-    S: Any,
-    twist: Any,
-    bias_acceleration: Any,
-    composite_mass: Any,
-    composite_h: Any,
-    composite_T: Any,
-    force: Any,
-) -> None:
+def forward_sweep(floats: Any, integers: Any, bodies: int) -> None:
     """Compute velocities, inertias and the forces that make the bodies follow at zero joint acceleration."""
+    kind = field(integers, integers, At.kind)
+    parent = field(integers, integers, At.parent)
+    first_v = field(integers, integers, At.first_v)
+    mass = field(floats, integers, At.mass)
+    centre = field(floats, integers, At.centre)
+    tensor = field(floats, integers, At.tensor)
+    gravity = field(floats, integers, At.gravity)
+    v = field(floats, integers, At.v)
+    R = field(floats, integers, At.R)
+    r = field(floats, integers, At.r)
+    S = field(floats, integers, At.S)
+    twist = field(floats, integers, At.twist)
+    bias_acceleration = field(floats, integers, At.bias_acceleration)
+    composite_mass = field(floats, integers, At.composite_mass)
+    composite_h = field(floats, integers, At.composite_h)
+    composite_T = field(floats, integers, At.composite_T)
+    force = field(floats, integers, At.force)
     g = load_vector(gravity, 0)
     for i in range(bodies):
         above = parent[i]
@@ -165,21 +160,18 @@ def forward_sweep(
 
 
 @inlined
-def backward_sweep(
-    bodies: int,
-    dofs: int,
-    parent: Any,
-    first_v: Any,
-    dof_parent: Any,
-    S: Any,
-    composite_mass: Any,
-    composite_h: Any,
-    composite_T: Any,
-    force: Any,
-    M: Any,
-    bias: Any,
-) -> None:
+def backward_sweep(floats: Any, integers: Any, bodies: int, dofs: int) -> None:
     """Gather inertias and forces from the tips to the root: the lower triangle of M, and bias."""
+    parent = field(integers, integers, At.parent)
+    first_v = field(integers, integers, At.first_v)
+    dof_parent = field(integers, integers, At.dof_parent)
+    S = field(floats, integers, At.S)
+    composite_mass = field(floats, integers, At.composite_mass)
+    composite_h = field(floats, integers, At.composite_h)
+    composite_T = field(floats, integers, At.composite_T)
+    force = field(floats, integers, At.force)
+    M = field(floats, integers, At.M)
+    bias = field(floats, integers, At.bias)
     for i in range(bodies - 1, -1, -1):
         m, h, T = composite_mass[i], load_vector(composite_h, i), load_tensor(composite_T, i)
         f = load_spatial(force, i)
@@ -205,8 +197,11 @@ def backward_sweep(
 
 
 @inlined
-def factor(dofs: int, dof_parent: Any, L: Any, inverse_diagonal: Any) -> None:
+def factor(floats: Any, integers: Any, dofs: int) -> None:
     """Factor M = LᵀL in place, lower triangle; entries between branches are never touched."""
+    dof_parent = field(integers, integers, At.dof_parent)
+    L = field(floats, integers, At.L)
+    inverse_diagonal = field(floats, integers, At.inverse_diagonal)
     for k in range(dofs - 1, -1, -1):
         inverse = 1.0 / math.sqrt(L[k * dofs + k])
         inverse_diagonal[k] = inverse
@@ -225,8 +220,11 @@ def factor(dofs: int, dof_parent: Any, L: Any, inverse_diagonal: Any) -> None:
 
 
 @inlined
-def solve_transposed(dofs: int, dof_parent: Any, L: Any, inverse_diagonal: Any, x: Any, start: int) -> None:
+def solve_transposed(floats: Any, integers: Any, dofs: int, x: Any, start: int) -> None:
     """Turn x = x[start : start + dofs] into L⁻ᵀ·x."""
+    dof_parent = field(integers, integers, At.dof_parent)
+    L = field(floats, integers, At.L)
+    inverse_diagonal = field(floats, integers, At.inverse_diagonal)
     for i in range(dofs - 1, -1, -1):
         xi = x[start + i] * inverse_diagonal[i]
         x[start + i] = xi
@@ -238,8 +236,12 @@ def solve_transposed(dofs: int, dof_parent: Any, L: Any, inverse_diagonal: Any, 
 
 
 @inlined
-def solve_forward(dofs: int, dof_parent: Any, L: Any, inverse_diagonal: Any, x: Any) -> None:
+def solve_forward(floats: Any, integers: Any, dofs: int) -> None:
     """Turn x into L⁻¹·x."""
+    dof_parent = field(integers, integers, At.dof_parent)
+    L = field(floats, integers, At.L)
+    inverse_diagonal = field(floats, integers, At.inverse_diagonal)
+    x = field(floats, integers, At.u)
     for i in range(dofs):
         xi = x[i]
         j = dof_parent[i]

@@ -5,18 +5,22 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.arrays import At
+from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
 from urdfkit.sim.engine.spatial import rotate, scale, turn_of
 
 
 @inlined
-def move(bodies: int, kind: Any, first_s: Any, first_v: Any, s: Any, v: Any, dt: float) -> None:
+def move(floats: Any, integers: Any, bodies: int, s: Any, v: Any, dt: float) -> None:
     """Let the coordinates `s` go on for `dt` at the velocities `v`.
 
     A free body goes straight on while it turns, as it does when nothing acts on it: its linear velocity stays the same
     in the axes of what it moves in, so its coordinates in the body's own axes, in `v`, turn back.
     """
+    kind = field(integers, integers, At.kind)
+    first_s = field(integers, integers, At.first_s)
+    first_v = field(integers, integers, At.first_v)
     for i in range(bodies):
         at, d = first_s[i], first_v[i]
         if kind[i] == FREE:

@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.arrays import At
+from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.dynamics import solve_transposed
 from urdfkit.sim.engine.spatial import add, cross, dot, load_spatial, load_vector
 
@@ -30,21 +31,14 @@ def recovery_speed(gap: float, dt: float) -> float:
 
 
 @inlined
-def open_row(
-    row: int,
-    dofs: int,
-    Y: Any,
-    bias: Any,
-    low: Any,
-    high: Any,
-    mu: Any,
-    slot: Any,
-    b: float,
-    lo: float,
-    hi: float,
-    at: int,
-) -> int:
+def open_row(floats: Any, integers: Any, row: int, dofs: int, b: float, lo: float, hi: float, at: int) -> int:
     """Clear a row and give it its bias, bounds and slot; return its number."""
+    Y = field(floats, integers, At.Y)
+    bias = field(floats, integers, At.row_bias)
+    low = field(floats, integers, At.low)
+    high = field(floats, integers, At.high)
+    mu = field(floats, integers, At.mu)
+    slot = field(integers, integers, At.slot)
     for d in range(dofs):
         Y[row * dofs + d] = 0.0
     bias[row], low[row], high[row], mu[row], slot[row] = b, lo, hi, 0.0, at
@@ -52,36 +46,27 @@ def open_row(
 
 
 @inlined
-def joint_rows(
-    dofs: int,
-    mimics: int,
-    mimic_dof: Any,
-    mimic_master: Any,
-    mimic_factor: Any,
-    mimic_offset: Any,
-    dof_s: Any,
-    s: Any,
-    v: Any,
-    friction: Any,
-    lower: Any,
-    upper: Any,
-    motor_velocity: Any,
-    motor_effort: Any,
-    dt: float,
-    Y: Any,
-    bias: Any,
-    low: Any,
-    high: Any,
-    mu: Any,
-    slot: Any,
-) -> int:
+def joint_rows(floats: Any, integers: Any, dofs: int, mimics: int, dt: float) -> int:
     """Write the rows of mimic joints, motors, dry friction and limits; return how many."""
+    mimic_dof = field(integers, integers, At.mimic_dof)
+    mimic_master = field(integers, integers, At.mimic_master)
+    mimic_factor = field(floats, integers, At.mimic_factor)
+    mimic_offset = field(floats, integers, At.mimic_offset)
+    dof_s = field(integers, integers, At.dof_s)
+    s = field(floats, integers, At.s)
+    v = field(floats, integers, At.v_start)
+    friction = field(floats, integers, At.friction)
+    lower = field(floats, integers, At.lower)
+    upper = field(floats, integers, At.upper)
+    motor_velocity = field(floats, integers, At.motor_velocity)
+    motor_effort = field(floats, integers, At.motor_effort)
+    Y = field(floats, integers, At.Y)
     rows = 0
     for k in range(mimics):
         d, m, factor = mimic_dof[k], mimic_master[k], mimic_factor[k]
         target = mimic_offset[k] + (factor * s[dof_s[m]] if m >= 0 else 0.0)
         b = RECOVERY * (s[dof_s[d]] - target) / dt
-        open_row(rows, dofs, Y, bias, low, high, mu, slot, b, -math.inf, math.inf, 2 * dofs + k)
+        open_row(floats, integers, rows, dofs, b, -math.inf, math.inf, 2 * dofs + k)
         Y[rows * dofs + d] = 1.0
         if m >= 0:
             Y[rows * dofs + m] = -factor
@@ -89,11 +74,11 @@ def joint_rows(
     for d in range(dofs):
         effort, rub = motor_effort[d], friction[d]
         if effort > 0.0 and (rub == 0.0 or (effort > rub and motor_velocity[d] != 0.0)):
-            open_row(rows, dofs, Y, bias, low, high, mu, slot, -motor_velocity[d], -effort * dt, effort * dt, d)
+            open_row(floats, integers, rows, dofs, -motor_velocity[d], -effort * dt, effort * dt, d)
         elif rub > 0.0:
             # Where a motor holds still, or is too weak to move the joint, motor and friction pull at one rope.
             hold = rub + effort if motor_velocity[d] == 0.0 else rub
-            open_row(rows, dofs, Y, bias, low, high, mu, slot, 0.0, -hold * dt, hold * dt, d)
+            open_row(floats, integers, rows, dofs, 0.0, -hold * dt, hold * dt, d)
         else:
             continue
         Y[rows * dofs + d] = 1.0
@@ -105,20 +90,23 @@ def joint_rows(
         near = 2.0 * dt * abs(v[d]) + 1e-3
         if position - lower[d] < near and position - lower[d] <= upper[d] - position:
             b = recovery_speed(position - lower[d], dt)
-            open_row(rows, dofs, Y, bias, low, high, mu, slot, b, 0.0, math.inf, dofs + d)
+            open_row(floats, integers, rows, dofs, b, 0.0, math.inf, dofs + d)
             Y[rows * dofs + d] = 1.0
             rows += 1
         elif upper[d] - position < near:
             b = recovery_speed(upper[d] - position, dt)
-            open_row(rows, dofs, Y, bias, low, high, mu, slot, b, 0.0, math.inf, dofs + d)
+            open_row(floats, integers, rows, dofs, b, 0.0, math.inf, dofs + d)
             Y[rows * dofs + d] = -1.0
             rows += 1
     return rows
 
 
 @inlined
-def friction_beside_motor(d: int, v: Any, friction: Any, motor_velocity: Any, motor_effort: Any) -> float:
+def friction_beside_motor(floats: Any, integers: Any, d: int, v: Any) -> float:
     """Return the effort [N·m] beside the row that `joint_rows` writes for a dof with motor and dry friction."""
+    friction = field(floats, integers, At.friction)
+    motor_velocity = field(floats, integers, At.motor_velocity)
+    motor_effort = field(floats, integers, At.motor_effort)
     effort, rub, target = motor_effort[d], friction[d], motor_velocity[d]
     if effort == 0.0 or rub == 0.0 or target == 0.0:
         return 0.0
@@ -129,42 +117,33 @@ def friction_beside_motor(d: int, v: Any, friction: Any, motor_velocity: Any, mo
 
 
 @inlined
-def contact_rows(
-    rows: int,
-    contacts: int,
-    dofs: int,
-    first_slot: int,
-    body_last_dof: Any,
-    dof_parent: Any,
-    S: Any,
-    contact_body: Any,
-    contact_feature: Any,
-    contact_point: Any,
-    contact_frame: Any,
-    contact_gap: Any,
-    contact_mu: Any,
-    contact_row: Any,
-    v: Any,
-    dt: float,
-    Y: Any,
-    bias: Any,
-    low: Any,
-    high: Any,
-    mu: Any,
-    slot: Any,
-) -> int:
+def contact_rows(floats: Any, integers: Any, rows: int, contacts: int, dofs: int, first_slot: int, dt: float) -> int:
     """Write the rows of contacts after the first `rows`, those without friction first; return how many there are."""
+    body_last_dof = field(integers, integers, At.body_last_dof)
+    dof_parent = field(integers, integers, At.dof_parent)
+    S = field(floats, integers, At.S)
+    contact_body = field(integers, integers, At.contact_body)
+    contact_feature = field(integers, integers, At.contact_feature)
+    contact_point = field(floats, integers, At.contact_point)
+    contact_frame = field(floats, integers, At.contact_frame)
+    contact_gap = field(floats, integers, At.contact_gap)
+    contact_mu = field(floats, integers, At.contact_mu)
+    contact_row = field(integers, integers, At.contact_row)
+    v = field(floats, integers, At.v_start)
+    Y = field(floats, integers, At.Y)
+    bias = field(floats, integers, At.row_bias)
+    mu = field(floats, integers, At.mu)
     for rubbing in range(2):
         for k in range(contacts):
             if (contact_mu[k] > 0.0) != (rubbing == 1):
                 continue
             contact_row[k] = rows
             at = first_slot + 3 * contact_feature[k]
-            open_row(rows, dofs, Y, bias, low, high, mu, slot, 0.0, 0.0, math.inf, at)
+            open_row(floats, integers, rows, dofs, 0.0, 0.0, math.inf, at)
             mu[rows] = contact_mu[k]
             if rubbing == 1:
-                open_row(rows + 1, dofs, Y, bias, low, high, mu, slot, 0.0, -math.inf, math.inf, at + 1)
-                open_row(rows + 2, dofs, Y, bias, low, high, mu, slot, 0.0, -math.inf, math.inf, at + 2)
+                open_row(floats, integers, rows + 1, dofs, 0.0, -math.inf, math.inf, at + 1)
+                open_row(floats, integers, rows + 2, dofs, 0.0, -math.inf, math.inf, at + 2)
             point = load_vector(contact_point, k)
             first = load_vector(contact_frame, 3 * k)
             second = load_vector(contact_frame, 3 * k + 1)
@@ -192,29 +171,23 @@ def contact_rows(
 
 
 @inlined
-def whiten(
-    rows: int,
-    dofs: int,
-    dof_parent: Any,
-    L: Any,
-    inverse_diagonal: Any,
-    v: Any,
-    u: Any,
-    Y: Any,
-    bias: Any,
-    g: Any,
-    A: Any,
-) -> None:
+def whiten(floats: Any, integers: Any, rows: int, dofs: int) -> None:
     """Turn rows J into Y = J·L⁻¹, their biases into velocities g with no impulse, and get A = J·M⁻¹·Jᵀ.
 
     The velocity with no impulse is v + L⁻¹·u.
     """
+    v = field(floats, integers, At.v_start)
+    u = field(floats, integers, At.u)
+    Y = field(floats, integers, At.Y)
+    bias = field(floats, integers, At.row_bias)
+    g = field(floats, integers, At.g)
+    A = field(floats, integers, At.A)
     for k in range(rows):
         at = k * dofs
         free = bias[k]
         for d in range(dofs):
             free += Y[at + d] * v[d]
-        solve_transposed(dofs, dof_parent, L, inverse_diagonal, Y, at)
+        solve_transposed(floats, integers, dofs, Y, at)
         for d in range(dofs):
             free += Y[at + d] * u[d]
         g[k] = free

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.arrays import At
+from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.dynamics import factor, solve_transposed
 from urdfkit.sim.engine.rows import friction_beside_motor
 
@@ -13,68 +14,61 @@ SERVO_ATTEMPTS = 8
 
 
 @inlined
-def servo_effort_at(
-    d: int, position: float, velocity: float, position_target: Any, velocity_target: Any, kp: Any, kd: Any, dt: float
-) -> float:
+def servo_effort_at(floats: Any, integers: Any, d: int, position: float, velocity: float, dt: float) -> float:
     """Return what the servo of a dof exerts when the step ends at `velocity` [N·m or N]."""
+    position_target = field(floats, integers, At.position_target)
+    velocity_target = field(floats, integers, At.velocity_target)
+    kp = field(floats, integers, At.kp)
+    kd = field(floats, integers, At.kd)
     effort: float = kp[d] * (position_target[d] - position - dt * velocity) + kd[d] * (velocity_target[d] - velocity)
     return effort
 
 
 @inlined
-def smooth_motion(
-    dofs: int,
-    dof_parent: Any,
-    dof_s: Any,
-    s: Any,
-    v: Any,
-    M: Any,
-    bias: Any,
-    damping: Any,
-    friction: Any,
-    applied: Any,
-    motor_velocity: Any,
-    motor_effort: Any,
-    position_target: Any,
-    velocity_target: Any,
-    kp: Any,
-    kd: Any,
-    servo_effort: Any,
-    saturated: Any,
-    dt: float,
-    L: Any,
-    inverse_diagonal: Any,
-    u: Any,
-) -> bool:
+def smooth_motion(floats: Any, integers: Any, dofs: int, dt: float) -> bool:
     """Factor M + dt·D + dt²·K = LᵀL and leave L⁻ᵀ·(impulse) in u; the change of v without rows is L⁻¹·u.
 
     Damping and servos act on the velocity at the end of the step, so no stiffness makes them unstable. Returns whether
     there is a servo.
     """
+    dof_s = field(integers, integers, At.dof_s)
+    s = field(floats, integers, At.s)
+    v = field(floats, integers, At.v_start)
+    M = field(floats, integers, At.M)
+    bias = field(floats, integers, At.bias)
+    damping = field(floats, integers, At.damping)
+    applied = field(floats, integers, At.applied)
+    kp = field(floats, integers, At.kp)
+    kd = field(floats, integers, At.kd)
+    servo_effort = field(floats, integers, At.servo_effort)
+    saturated = field(integers, integers, At.saturated)
+    L = field(floats, integers, At.L)
+    u = field(floats, integers, At.u)
     has_servo = False
     for d in range(dofs):
         for e in range(d + 1):
             L[d * dofs + e] = M[d * dofs + e]
         effort = applied[d] - bias[d] - damping[d] * v[d]
-        effort += friction_beside_motor(d, v, friction, motor_velocity, motor_effort)
+        effort += friction_beside_motor(floats, integers, d, v)
         softness = damping[d]
         if kp[d] != 0.0 or kd[d] != 0.0:
             has_servo = True
             if saturated[d] == 0:
-                effort += servo_effort_at(d, s[dof_s[d]], v[d], position_target, velocity_target, kp, kd, dt)
+                effort += servo_effort_at(floats, integers, d, s[dof_s[d]], v[d], dt)
                 softness += kd[d] + dt * kp[d]
             else:
                 effort += saturated[d] * servo_effort[d]
         L[d * dofs + d] += dt * softness
         u[d] = dt * effort
-    factor(dofs, dof_parent, L, inverse_diagonal)
-    solve_transposed(dofs, dof_parent, L, inverse_diagonal, u, 0)
+    factor(floats, integers, dofs)
+    solve_transposed(floats, integers, dofs, u, 0)
     return has_servo
 
 
 @inlined
-def limited(rows: int, dofs: int, slot: Any) -> bool:
+def limited(floats: Any, integers: Any, rows: int, dofs: int) -> bool:
     """Return whether one of the rows is a joint limit."""
+    slot = field(integers, integers, At.slot)
     for k in range(rows):  # noqa: SIM110
         if dofs <= slot[k] < 2 * dofs:
             return True
@@ -82,29 +76,23 @@ def limited(rows: int, dofs: int, slot: Any) -> bool:
 
 
 @inlined
-def overloaded(
-    dofs: int,
-    dof_s: Any,
-    s: Any,
-    v: Any,
-    position_target: Any,
-    velocity_target: Any,
-    kp: Any,
-    kd: Any,
-    servo_effort: Any,
-    saturated: Any,
-    dt: float,
-    release: bool,
-) -> bool:
+def overloaded(floats: Any, integers: Any, dofs: int, dt: float, release: bool) -> bool:
     """Mark the servos that would exert more than they can; return whether that changed anything.
 
     What a servo exerts falls with the velocity the step ends at, so repeating this is Newton's method on a monotone
     law. Without `release`, servos once marked stay so, and repeating it comes to an end.
     """
+    dof_s = field(integers, integers, At.dof_s)
+    s = field(floats, integers, At.s)
+    v = field(floats, integers, At.v)
+    kp = field(floats, integers, At.kp)
+    kd = field(floats, integers, At.kd)
+    servo_effort = field(floats, integers, At.servo_effort)
+    saturated = field(integers, integers, At.saturated)
     changed = False
     for d in range(dofs):
         if kp[d] != 0.0 or kd[d] != 0.0:
-            needed = servo_effort_at(d, s[dof_s[d]], v[d], position_target, velocity_target, kp, kd, dt)
+            needed = servo_effort_at(floats, integers, d, s[dof_s[d]], v[d], dt)
             most = servo_effort[d] * (1.0 + 1e-12)
             now = 1 if needed > most else (-1 if needed < -most else 0)
             if saturated[d] != 0 and not release:
@@ -116,32 +104,25 @@ def overloaded(
 
 
 @inlined
-def account(
-    dofs: int,
-    dof_s: Any,
-    s: Any,
-    v: Any,
-    damping: Any,
-    friction: Any,
-    applied: Any,
-    motor_velocity: Any,
-    motor_effort: Any,
-    position_target: Any,
-    velocity_target: Any,
-    kp: Any,
-    kd: Any,
-    servo_effort: Any,
-    saturated: Any,
-    memory: Any,
-    dt: float,
-    effort: Any,
-    tau: Any,
-) -> None:
+def account(floats: Any, integers: Any, dofs: int, dt: float) -> None:
     """Write what motors and servos exerted (`effort`), and with damping, friction and `applied` (`tau`)."""
+    dof_s = field(integers, integers, At.dof_s)
+    s = field(floats, integers, At.s)
+    v = field(floats, integers, At.v)
+    damping = field(floats, integers, At.damping)
+    friction = field(floats, integers, At.friction)
+    applied = field(floats, integers, At.applied)
+    motor_velocity = field(floats, integers, At.motor_velocity)
+    motor_effort = field(floats, integers, At.motor_effort)
+    servo_effort = field(floats, integers, At.servo_effort)
+    saturated = field(integers, integers, At.saturated)
+    memory = field(floats, integers, At.memory)
+    effort = field(floats, integers, At.effort)
+    tau = field(floats, integers, At.tau)
     for d in range(dofs):
         row = memory[d] / dt
         most = motor_effort[d]
-        beside = friction_beside_motor(d, v, friction, motor_velocity, motor_effort)
+        beside = friction_beside_motor(floats, integers, d, v)
         if most == 0.0:
             motor = 0.0
         elif friction[d] > 0.0 and most <= friction[d] and motor_velocity[d] != 0.0:
@@ -151,6 +132,6 @@ def account(
         if saturated[d] != 0:
             servo = saturated[d] * servo_effort[d]
         else:
-            servo = servo_effort_at(d, s[dof_s[d]], v[d], position_target, velocity_target, kp, kd, dt)
+            servo = servo_effort_at(floats, integers, d, s[dof_s[d]], v[d], dt)
         effort[d] = motor + servo
         tau[d] = row + beside + servo + applied[d] - damping[d] * v[d]

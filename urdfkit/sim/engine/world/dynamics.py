@@ -14,7 +14,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.arrays import At
+from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.spatial import (
     IDENTITY,
     ZERO,
@@ -48,28 +49,24 @@ REVOLUTE, PRISMATIC, PLANAR, FREE = range(4)
 
 
 @inlined
-def place(
-    tree: int,
-    tree_body: Any,
-    kind: Any,
-    parent: Any,
-    first_s: Any,
-    first_v: Any,
-    place_R: Any,
-    place_p: Any,
-    subspace: Any,
-    P: Any,
-    s: Any,
-    R: Any,
-    r: Any,
-    S: Any,
-    ahead: bool,
-) -> None:
+def place(floats: Any, integers: Any, tree: int, s: Any, ahead: bool) -> None:
     """Place the bodies of a tree and their motion subspaces at the coordinates `s`.
 
     With `ahead`, `s` is where things will be but the velocities are of now: the axes in which a free body's linear
     velocity is written stay where they are.
     """
+    tree_body = field(integers, integers, At.tree_body)
+    kind = field(integers, integers, At.kind)
+    parent = field(integers, integers, At.parent)
+    first_s = field(integers, integers, At.first_s)
+    first_v = field(integers, integers, At.first_v)
+    place_R = field(floats, integers, At.place_R)
+    place_p = field(floats, integers, At.place_p)
+    subspace = field(floats, integers, At.subspace)
+    P = field(floats, integers, At.P)
+    R = field(floats, integers, At.R)
+    r = field(floats, integers, At.r)
+    S = field(floats, integers, At.S)
     point = load_vector(P, tree)
     for i in range(tree_body[tree], tree_body[tree + 1]):
         above = parent[i]
@@ -102,28 +99,26 @@ def place(
 
 
 @inlined
-def forward_sweep(
-    tree: int,
-    tree_body: Any,
-    kind: Any,
-    parent: Any,
-    first_v: Any,
-    mass: Any,
-    centre: Any,
-    tensor: Any,
-    gravity: Any,
-    v: Any,
-    R: Any,
-    r: Any,
-    S: Any,
-    twist: Any,
-    bias_acceleration: Any,
-    composite_mass: Any,
-    composite_h: Any,
-    composite_T: Any,
-    force: Any,
-) -> None:
+def forward_sweep(floats: Any, integers: Any, tree: int) -> None:
     """Compute velocities, inertias and the forces that make the bodies follow at zero joint acceleration."""
+    tree_body = field(integers, integers, At.tree_body)
+    kind = field(integers, integers, At.kind)
+    parent = field(integers, integers, At.parent)
+    first_v = field(integers, integers, At.first_v)
+    mass = field(floats, integers, At.mass)
+    centre = field(floats, integers, At.centre)
+    tensor = field(floats, integers, At.tensor)
+    gravity = field(floats, integers, At.gravity)
+    v = field(floats, integers, At.v)
+    R = field(floats, integers, At.R)
+    r = field(floats, integers, At.r)
+    S = field(floats, integers, At.S)
+    twist = field(floats, integers, At.twist)
+    bias_acceleration = field(floats, integers, At.bias_acceleration)
+    composite_mass = field(floats, integers, At.composite_mass)
+    composite_h = field(floats, integers, At.composite_h)
+    composite_T = field(floats, integers, At.composite_T)
+    force = field(floats, integers, At.force)
     g = load_vector(gravity, 0)
     for i in range(tree_body[tree], tree_body[tree + 1]):
         above = parent[i]
@@ -167,22 +162,20 @@ def forward_sweep(
 
 
 @inlined
-def backward_sweep(
-    tree: int,
-    tree_body: Any,
-    dof_row: Any,
-    parent: Any,
-    first_v: Any,
-    dof_parent: Any,
-    S: Any,
-    composite_mass: Any,
-    composite_h: Any,
-    composite_T: Any,
-    force: Any,
-    M: Any,
-    bias: Any,
-) -> None:
+def backward_sweep(floats: Any, integers: Any, tree: int) -> None:
     """Gather inertias and forces from the tips to the root: the lower triangle of M, and bias."""
+    tree_body = field(integers, integers, At.tree_body)
+    dof_row = field(integers, integers, At.dof_row)
+    parent = field(integers, integers, At.parent)
+    first_v = field(integers, integers, At.first_v)
+    dof_parent = field(integers, integers, At.dof_parent)
+    S = field(floats, integers, At.S)
+    composite_mass = field(floats, integers, At.composite_mass)
+    composite_h = field(floats, integers, At.composite_h)
+    composite_T = field(floats, integers, At.composite_T)
+    force = field(floats, integers, At.force)
+    M = field(floats, integers, At.M)
+    bias = field(floats, integers, At.bias)
     for i in range(tree_body[tree + 1] - 1, tree_body[tree] - 1, -1):
         m, h, T = composite_mass[i], load_vector(composite_h, i), load_tensor(composite_T, i)
         f = load_spatial(force, i)
@@ -209,73 +202,19 @@ def backward_sweep(
 
 
 @inlined
-def terms(
-    tree: int,
-    tree_body: Any,
-    dof_row: Any,
-    kind: Any,
-    parent: Any,
-    first_v: Any,
-    dof_parent: Any,
-    mass: Any,
-    centre: Any,
-    tensor: Any,
-    gravity: Any,
-    v: Any,
-    R: Any,
-    r: Any,
-    S: Any,
-    twist: Any,
-    bias_acceleration: Any,
-    composite_mass: Any,
-    composite_h: Any,
-    composite_T: Any,
-    force: Any,
-    M: Any,
-    bias: Any,
-) -> None:
+def terms(floats: Any, integers: Any, tree: int) -> None:
     """Compute M and bias of a tree whose bodies have been placed."""
-    forward_sweep(
-        tree,
-        tree_body,
-        kind,
-        parent,
-        first_v,
-        mass,
-        centre,
-        tensor,
-        gravity,
-        v,
-        R,
-        r,
-        S,
-        twist,
-        bias_acceleration,
-        composite_mass,
-        composite_h,
-        composite_T,
-        force,
-    )
-    backward_sweep(
-        tree,
-        tree_body,
-        dof_row,
-        parent,
-        first_v,
-        dof_parent,
-        S,
-        composite_mass,
-        composite_h,
-        composite_T,
-        force,
-        M,
-        bias,
-    )
+    forward_sweep(floats, integers, tree)
+    backward_sweep(floats, integers, tree)
 
 
 @inlined
-def factor(first: int, beyond: int, dof_row: Any, dof_parent: Any, L: Any, inverse_diagonal: Any) -> None:
+def factor(floats: Any, integers: Any, first: int, beyond: int) -> None:
     """Factor M = LᵀL of a tree in place, lower triangle; entries between branches are never touched."""
+    dof_row = field(integers, integers, At.dof_row)
+    dof_parent = field(integers, integers, At.dof_parent)
+    L = field(floats, integers, At.L)
+    inverse_diagonal = field(floats, integers, At.inverse_diagonal)
     for k in range(beyond - 1, first - 1, -1):
         row = dof_row[k]
         inverse = 1.0 / math.sqrt(L[row + k])
@@ -296,10 +235,12 @@ def factor(first: int, beyond: int, dof_row: Any, dof_parent: Any, L: Any, inver
 
 
 @inlined
-def solve_transposed(
-    first: int, beyond: int, dof_row: Any, dof_parent: Any, L: Any, inverse_diagonal: Any, x: Any, start: int
-) -> None:
+def solve_transposed(floats: Any, integers: Any, first: int, beyond: int, x: Any, start: int) -> None:
     """Turn the entries of x for a tree's dofs, from `start` + the number of its first dof on, into L⁻ᵀ·x."""
+    dof_row = field(integers, integers, At.dof_row)
+    dof_parent = field(integers, integers, At.dof_parent)
+    L = field(floats, integers, At.L)
+    inverse_diagonal = field(floats, integers, At.inverse_diagonal)
     for i in range(beyond - 1, first - 1, -1):
         xi = x[start + i] * inverse_diagonal[i]
         x[start + i] = xi
@@ -312,10 +253,13 @@ def solve_transposed(
 
 
 @inlined
-def solve_forward(
-    first: int, beyond: int, dof_row: Any, dof_parent: Any, L: Any, inverse_diagonal: Any, x: Any
-) -> None:
+def solve_forward(floats: Any, integers: Any, first: int, beyond: int) -> None:
     """Turn the entries of x for a tree's dofs into L⁻¹·x."""
+    dof_row = field(integers, integers, At.dof_row)
+    dof_parent = field(integers, integers, At.dof_parent)
+    L = field(floats, integers, At.L)
+    inverse_diagonal = field(floats, integers, At.inverse_diagonal)
+    x = field(floats, integers, At.u)
     for i in range(first, beyond):
         row = dof_row[i]
         xi = x[i]

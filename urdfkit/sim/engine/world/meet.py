@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.collide import REACH
-from urdfkit.sim.engine.compilation import compiled, inlined
+from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.pairs.collide_pair import collide_pair
 from urdfkit.sim.engine.spatial import (
     IDENTITY,
@@ -30,8 +31,12 @@ from urdfkit.sim.engine.spatial import (
 
 
 @inlined
-def apart(low: Any, high: Any, i: int, other_low: Any, other_high: Any, j: int) -> bool:
+def apart(floats: Any, integers: Any, i: int, j: int) -> bool:
     """Return whether two boxes do not overlap."""
+    low = field(floats, integers, At.tree_low)
+    high = field(floats, integers, At.tree_high)
+    other_low = field(floats, integers, At.tree_low)
+    other_high = field(floats, integers, At.tree_high)
     for k in range(3):  # noqa: SIM110
         if low[3 * i + k] > other_high[3 * j + k] or high[3 * i + k] < other_low[3 * j + k]:
             return True
@@ -39,23 +44,20 @@ def apart(low: Any, high: Any, i: int, other_low: Any, other_high: Any, j: int) 
 
 
 @inlined
-def bound(
-    tree: int,
-    tree_shape: Any,
-    shape_body: Any,
-    shape_p: Any,
-    shape_radius: Any,
-    P: Any,
-    R: Any,
-    r: Any,
-    twist: Any,
-    dt: float,
-    shape_at: Any,
-    shape_reach: Any,
-    tree_low: Any,
-    tree_high: Any,
-) -> None:
+def bound(floats: Any, integers: Any, tree: int, dt: float) -> None:
     """Find where the shapes of a tree can be within a step, each in a box, and a box round all of them."""
+    tree_shape = field(integers, integers, At.tree_shape)
+    shape_body = field(integers, integers, At.shape_body)
+    shape_p = field(floats, integers, At.shape_p)
+    shape_radius = field(floats, integers, At.shape_radius)
+    P = field(floats, integers, At.P)
+    R = field(floats, integers, At.R)
+    r = field(floats, integers, At.r)
+    twist = field(floats, integers, At.twist)
+    shape_at = field(floats, integers, At.shape_at)
+    shape_reach = field(floats, integers, At.shape_reach)
+    tree_low = field(floats, integers, At.tree_low)
+    tree_high = field(floats, integers, At.tree_high)
     for k in range(3):
         tree_low[3 * tree + k], tree_high[3 * tree + k] = 1e300, -1e300
     for k in range(tree_shape[tree], tree_shape[tree + 1]):
@@ -82,8 +84,10 @@ def bound(
 
 
 @inlined
-def overlap(a: int, b: int, shape_at: Any, shape_reach: Any) -> bool:
+def overlap(floats: Any, integers: Any, a: int, b: int) -> bool:
     """Return whether the boxes of two shapes overlap."""
+    shape_at = field(floats, integers, At.shape_at)
+    shape_reach = field(floats, integers, At.shape_reach)
     for k in range(3):
         if abs(shape_at[3 * a + k] - shape_at[3 * b + k]) > shape_reach[3 * a + k] + shape_reach[3 * b + k]:
             return False
@@ -91,32 +95,28 @@ def overlap(a: int, b: int, shape_at: Any, shape_reach: Any) -> bool:
 
 
 @compiled
-def find_pairs(
-    trees: int,
-    shapes: int,
-    room: int,
-    tree_shape: Any,
-    tree_meets: Any,
-    asleep: Any,
-    shape_body: Any,
-    shape_owner: Any,
-    parent: Any,
-    shape_at: Any,
-    shape_reach: Any,
-    tree_low: Any,
-    tree_high: Any,
-    near: Any,
-    pair_a: Any,
-    pair_b: Any,
-) -> int:
+def find_pairs(floats: Any, integers: Any, trees: int, shapes: int, room: int) -> int:
     """List the pairs of shapes whose boxes overlap and mark their trees; return how many, -1 if there is no room."""
+    tree_shape = field(integers, integers, At.tree_shape)
+    tree_meets = field(integers, integers, At.tree_meets)
+    asleep = field(integers, integers, At.asleep)
+    shape_body = field(integers, integers, At.shape_body)
+    shape_owner = field(integers, integers, At.shape_owner)
+    parent = field(integers, integers, At.parent)
+    shape_at = field(floats, integers, At.shape_at)
+    shape_reach = field(floats, integers, At.shape_reach)
+    tree_low = field(floats, integers, At.tree_low)
+    tree_high = field(floats, integers, At.tree_high)
+    near = field(integers, integers, At.near)
+    pair_a = field(integers, integers, At.pair_a)
+    pair_b = field(integers, integers, At.pair_b)
     count = 0
     still = tree_shape[trees]
     for i in range(trees):
         for j in range(i, trees):
             if (asleep[i] != 0 and asleep[j] != 0) or (i == j and tree_meets[i] == 0):
                 continue
-            if i != j and apart(tree_low, tree_high, i, tree_low, tree_high, j):
+            if i != j and apart(floats, integers, i, j):
                 continue
             for a in range(tree_shape[i], tree_shape[i + 1]):
                 for b in range(a + 1 if i == j else tree_shape[j], tree_shape[j + 1]):
@@ -126,7 +126,7 @@ def find_pairs(
                             continue
                     elif shape_owner[a] == shape_owner[b] and tree_meets[i] == 0:
                         continue
-                    if overlap(a, b, shape_at, shape_reach):
+                    if overlap(floats, integers, a, b):
                         if count >= room:
                             return -1
                         pair_a[count], pair_b[count] = a, b
@@ -144,7 +144,7 @@ def find_pairs(
                     # What is bolted to the world and carries a joint does not meet what hangs on it.
                     if shape_owner[a] == shape_owner[b] and (tree_meets[i] == 0 or parent[shape_body[a]] < 0):
                         continue
-                    if overlap(a, b, shape_at, shape_reach):
+                    if overlap(floats, integers, a, b):
                         if count >= room:
                             return -1
                         pair_a[count], pair_b[count] = a, b
@@ -170,44 +170,39 @@ def tangents(normal: Any) -> Any:
 
 
 @compiled
-def collide_pairs(
-    count: int,
-    room: int,
-    pairs: int,
-    pair_a: Any,
-    pair_b: Any,
-    body_tree: Any,
-    shape_kind: Any,
-    shape_body: Any,
-    shape_size: Any,
-    shape_R: Any,
-    shape_p: Any,
-    shape_data: Any,
-    shape_mu: Any,
-    pair_numbers: Any,
-    pair_indices: Any,
-    pair_work: Any,
-    pair_work_indices: Any,
-    found_point: Any,
-    found_normal: Any,
-    found_gap: Any,
-    found_feature: Any,
-    P: Any,
-    R: Any,
-    r: Any,
-    twist: Any,
-    dt: float,
-    contact_body: Any,
-    contact_other: Any,
-    contact_shape: Any,
-    contact_against: Any,
-    contact_feature: Any,
-    contact_point: Any,
-    contact_frame: Any,
-    contact_gap: Any,
-    contact_mu: Any,
-) -> int:
+def collide_pairs(floats: Any, integers: Any, count: int, room: int, pairs: int, dt: float) -> int:
     """Find the contacts of pairs of shapes that can close within a step; return how many there are, -1 if no room."""
+    pair_a = field(integers, integers, At.pair_a)
+    pair_b = field(integers, integers, At.pair_b)
+    body_tree = field(integers, integers, At.body_tree)
+    shape_kind = field(integers, integers, At.shape_kind)
+    shape_body = field(integers, integers, At.shape_body)
+    shape_size = field(floats, integers, At.shape_size)
+    shape_R = field(floats, integers, At.shape_R)
+    shape_p = field(floats, integers, At.shape_p)
+    shape_data = field(integers, integers, At.shape_data)
+    shape_mu = field(floats, integers, At.shape_mu)
+    pair_numbers = field(floats, integers, At.pair_numbers)
+    pair_indices = field(integers, integers, At.pair_indices)
+    pair_work = field(floats, integers, At.pair_work)
+    pair_work_indices = field(integers, integers, At.pair_work_indices)
+    found_point = field(floats, integers, At.found_point)
+    found_normal = field(floats, integers, At.found_normal)
+    found_gap = field(floats, integers, At.found_gap)
+    found_feature = field(integers, integers, At.found_feature)
+    P = field(floats, integers, At.P)
+    R = field(floats, integers, At.R)
+    r = field(floats, integers, At.r)
+    twist = field(floats, integers, At.twist)
+    contact_body = field(integers, integers, At.contact_body)
+    contact_other = field(integers, integers, At.contact_other)
+    contact_shape = field(integers, integers, At.contact_shape)
+    contact_against = field(integers, integers, At.contact_against)
+    contact_feature = field(integers, integers, At.contact_feature)
+    contact_point = field(floats, integers, At.contact_point)
+    contact_frame = field(floats, integers, At.contact_frame)
+    contact_gap = field(floats, integers, At.contact_gap)
+    contact_mu = field(floats, integers, At.contact_mu)
     for pair in range(pairs):
         a, b = pair_a[pair], pair_b[pair]
         body, other = shape_body[a], shape_body[b]
@@ -286,25 +281,20 @@ def collide_pairs(
 
 
 @inlined
-def find_again(
-    first: int,
-    count: int,
-    last: int,
-    first_slot: int,
-    memory: Any,
-    last_a: Any,
-    last_b: Any,
-    last_feature: Any,
-    last_at: Any,
-    contact_shape: Any,
-    contact_against: Any,
-    contact_feature: Any,
-    pair_before: Any,
-) -> int:
+def find_again(floats: Any, integers: Any, first: int, count: int, last: int, first_slot: int) -> int:
     """Move what is remembered of the contacts of pairs to where their like is now; return how many to remember.
 
     Both lists are in the order of their pairs, so one walk through them does.
     """
+    memory = field(floats, integers, At.last)
+    last_a = field(integers, integers, At.last_a)
+    last_b = field(integers, integers, At.last_b)
+    last_feature = field(integers, integers, At.last_feature)
+    last_at = field(integers, integers, At.last_at)
+    contact_shape = field(integers, integers, At.contact_shape)
+    contact_against = field(integers, integers, At.contact_against)
+    contact_feature = field(integers, integers, At.contact_feature)
+    pair_before = field(floats, integers, At.pair_before)
     at = 0
     for k in range(first, count):
         a, b = contact_shape[k], contact_against[k]

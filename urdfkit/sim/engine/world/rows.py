@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.arrays import At
+from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.spatial import add, cross, dot, load_spatial, load_vector, sub
 from urdfkit.sim.engine.world.dynamics import solve_transposed
 
@@ -31,23 +32,17 @@ def recovery_speed(gap: float, dt: float) -> float:
 
 @inlined
 def open_row(
-    row: int,
-    width: int,
-    tree: int,
-    Y: Any,
-    bias: Any,
-    low: Any,
-    high: Any,
-    mu: Any,
-    slot: Any,
-    row_a: Any,
-    row_b: Any,
-    b: float,
-    lo: float,
-    hi: float,
-    at: int,
+    floats: Any, integers: Any, row: int, width: int, tree: int, b: float, lo: float, hi: float, at: int
 ) -> None:
     """Clear a row and give it its tree, bias, bounds and slot."""
+    Y = field(floats, integers, At.Y)
+    bias = field(floats, integers, At.row_bias)
+    low = field(floats, integers, At.low)
+    high = field(floats, integers, At.high)
+    mu = field(floats, integers, At.mu)
+    slot = field(integers, integers, At.slot)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
     for d in range(row * width, (row + 1) * width):
         Y[d] = 0.0
     bias[row], low[row], high[row], mu[row], slot[row] = b, lo, hi, 0.0, at
@@ -55,47 +50,34 @@ def open_row(
 
 
 @inlined
-def joint_rows(
-    rows: int,
-    tree: int,
-    dofs: int,
-    width: int,
-    tree_dof: Any,
-    tree_mimic: Any,
-    mimic_dof: Any,
-    mimic_master: Any,
-    mimic_factor: Any,
-    mimic_offset: Any,
-    dof_s: Any,
-    s: Any,
-    v: Any,
-    friction: Any,
-    lower: Any,
-    upper: Any,
-    motor_velocity: Any,
-    motor_effort: Any,
-    dt: float,
-    Y: Any,
-    bias: Any,
-    low: Any,
-    high: Any,
-    mu: Any,
-    slot: Any,
-    row_a: Any,
-    row_b: Any,
-) -> int:
+def joint_rows(floats: Any, integers: Any, rows: int, tree: int, dofs: int, width: int, dt: float) -> int:
     """Write the rows of a tree's mimic joints, motors, dry friction and limits after the first `rows`.
 
     Returns:
         How many rows there are.
     """
+    tree_dof = field(integers, integers, At.tree_dof)
+    tree_mimic = field(integers, integers, At.tree_mimic)
+    mimic_dof = field(integers, integers, At.mimic_dof)
+    mimic_master = field(integers, integers, At.mimic_master)
+    mimic_factor = field(floats, integers, At.mimic_factor)
+    mimic_offset = field(floats, integers, At.mimic_offset)
+    dof_s = field(integers, integers, At.dof_s)
+    s = field(floats, integers, At.s)
+    v = field(floats, integers, At.v_start)
+    friction = field(floats, integers, At.friction)
+    lower = field(floats, integers, At.lower)
+    upper = field(floats, integers, At.upper)
+    motor_velocity = field(floats, integers, At.motor_velocity)
+    motor_effort = field(floats, integers, At.motor_effort)
+    Y = field(floats, integers, At.Y)
     first, beyond = tree_dof[tree], tree_dof[tree + 1]
     for k in range(tree_mimic[tree], tree_mimic[tree + 1]):
         d, m, factor = mimic_dof[k], mimic_master[k], mimic_factor[k]
         target = mimic_offset[k] + (factor * s[dof_s[m]] if m >= 0 else 0.0)
         b = RECOVERY * (s[dof_s[d]] - target) / dt
         at = 2 * dofs + k
-        open_row(rows, width, tree, Y, bias, low, high, mu, slot, row_a, row_b, b, -math.inf, math.inf, at)
+        open_row(floats, integers, rows, width, tree, b, -math.inf, math.inf, at)
         Y[rows * width + d - first] = 1.0
         if m >= 0:
             Y[rows * width + m - first] = -factor
@@ -111,7 +93,7 @@ def joint_rows(
             b = 0.0
         else:
             continue
-        open_row(rows, width, tree, Y, bias, low, high, mu, slot, row_a, row_b, b, -hold * dt, hold * dt, d)
+        open_row(floats, integers, rows, width, tree, b, -hold * dt, hold * dt, d)
         Y[rows * width + d - first] = 1.0
         rows += 1
     for d in range(first, beyond):
@@ -124,15 +106,18 @@ def joint_rows(
             gap, sign = upper[d] - position, -1.0
         if gap < near:
             b = recovery_speed(gap, dt)
-            open_row(rows, width, tree, Y, bias, low, high, mu, slot, row_a, row_b, b, 0.0, math.inf, dofs + d)
+            open_row(floats, integers, rows, width, tree, b, 0.0, math.inf, dofs + d)
             Y[rows * width + d - first] = sign
             rows += 1
     return rows
 
 
 @inlined
-def friction_beside_motor(d: int, v: Any, friction: Any, motor_velocity: Any, motor_effort: Any) -> float:
+def friction_beside_motor(floats: Any, integers: Any, d: int, v: Any) -> float:
     """Return the effort [N·m] beside the row that `joint_rows` writes for a dof with motor and dry friction."""
+    friction = field(floats, integers, At.friction)
+    motor_velocity = field(floats, integers, At.motor_velocity)
+    motor_effort = field(floats, integers, At.motor_effort)
     effort, rub, target = motor_effort[d], friction[d], motor_velocity[d]
     if effort == 0.0 or rub == 0.0 or target == 0.0:
         return 0.0
@@ -144,43 +129,41 @@ def friction_beside_motor(d: int, v: Any, friction: Any, motor_velocity: Any, mo
 
 @inlined
 def contact_rows(
+    floats: Any,
+    integers: Any,
     rows: int,
     first_contact: int,
     width: int,
     first_slot: int,
     first_pair_slot: int,
-    tree_dof: Any,
-    body_tree: Any,
-    body_last_dof: Any,
-    dof_parent: Any,
-    S: Any,
-    contact_next: Any,
-    contact_body: Any,
-    contact_other: Any,
-    contact_against: Any,
-    contact_feature: Any,
-    contact_origin: Any,
-    contact_point: Any,
-    contact_frame: Any,
-    contact_gap: Any,
-    contact_mu: Any,
-    contact_row: Any,
-    v: Any,
     dt: float,
-    Y: Any,
-    bias: Any,
-    low: Any,
-    high: Any,
-    mu: Any,
-    slot: Any,
-    row_a: Any,
-    row_b: Any,
 ) -> int:
     """Write the rows of an island's contacts after the first `rows`, those without friction first.
 
     Returns:
         How many rows there are.
     """
+    tree_dof = field(integers, integers, At.tree_dof)
+    body_tree = field(integers, integers, At.body_tree)
+    body_last_dof = field(integers, integers, At.body_last_dof)
+    dof_parent = field(integers, integers, At.dof_parent)
+    S = field(floats, integers, At.S)
+    contact_next = field(integers, integers, At.contact_next)
+    contact_body = field(integers, integers, At.contact_body)
+    contact_other = field(integers, integers, At.contact_other)
+    contact_against = field(integers, integers, At.contact_against)
+    contact_feature = field(integers, integers, At.contact_feature)
+    contact_origin = field(floats, integers, At.contact_origin)
+    contact_point = field(floats, integers, At.contact_point)
+    contact_frame = field(floats, integers, At.contact_frame)
+    contact_gap = field(floats, integers, At.contact_gap)
+    contact_mu = field(floats, integers, At.contact_mu)
+    contact_row = field(integers, integers, At.contact_row)
+    v = field(floats, integers, At.v_start)
+    Y = field(floats, integers, At.Y)
+    bias = field(floats, integers, At.row_bias)
+    mu = field(floats, integers, At.mu)
+    row_b = field(integers, integers, At.row_b)
     for rubbing in range(2):
         k = first_contact
         while k >= 0:
@@ -192,27 +175,11 @@ def contact_rows(
             tree = body_tree[contact_body[here]]
             # What two shapes touch with is remembered by the number of the contact, see `remember_pairs`.
             at = first_slot + 3 * contact_feature[here] if contact_against[here] < 0 else first_pair_slot + 3 * here
-            open_row(rows, width, tree, Y, bias, low, high, mu, slot, row_a, row_b, 0.0, 0.0, math.inf, at)
+            open_row(floats, integers, rows, width, tree, 0.0, 0.0, math.inf, at)
             mu[rows] = contact_mu[here]
             if rubbing == 1:
                 for j in range(1, 3):
-                    open_row(
-                        rows + j,
-                        width,
-                        tree,
-                        Y,
-                        bias,
-                        low,
-                        high,
-                        mu,
-                        slot,
-                        row_a,
-                        row_b,
-                        0.0,
-                        -math.inf,
-                        math.inf,
-                        at + j,
-                    )
+                    open_row(floats, integers, rows + j, width, tree, 0.0, -math.inf, math.inf, at + j)
             point = load_vector(contact_point, here)
             first = load_vector(contact_frame, 3 * here)
             second = load_vector(contact_frame, 3 * here + 1)
@@ -264,8 +231,12 @@ def contact_rows(
 
 
 @inlined
-def row_product(i: int, j: int, width: int, tree_dof: Any, row_a: Any, row_b: Any, Y: Any) -> float:
+def row_product(floats: Any, integers: Any, i: int, j: int, width: int) -> float:
     """Return the product of two whitened rows; those of different trees meet nowhere."""
+    tree_dof = field(integers, integers, At.tree_dof)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    Y = field(floats, integers, At.Y)
     total = 0.0
     a, b = row_a[i], row_b[i]
     n = tree_dof[a + 1] - tree_dof[a]
@@ -292,29 +263,21 @@ def row_product(i: int, j: int, width: int, tree_dof: Any, row_a: Any, row_b: An
 
 
 @inlined
-def whiten(
-    rows: int,
-    single: int,
-    width: int,
-    tree_dof: Any,
-    dof_row: Any,
-    dof_parent: Any,
-    L: Any,
-    inverse_diagonal: Any,
-    row_a: Any,
-    row_b: Any,
-    v: Any,
-    u: Any,
-    Y: Any,
-    bias: Any,
-    g: Any,
-    A: Any,
-) -> None:
+def whiten(floats: Any, integers: Any, rows: int, single: int, width: int) -> None:
     """Turn rows J into Y = J·L⁻¹, their biases into velocities g with no impulse, and get A = J·M⁻¹·Jᵀ.
 
     The velocity with no impulse is v + L⁻¹·u. Most islands are a `single` tree, whose number this is; otherwise it is
     -1.
     """
+    tree_dof = field(integers, integers, At.tree_dof)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    v = field(floats, integers, At.v_start)
+    u = field(floats, integers, At.u)
+    Y = field(floats, integers, At.Y)
+    bias = field(floats, integers, At.row_bias)
+    g = field(floats, integers, At.g)
+    A = field(floats, integers, At.A)
     if single >= 0:
         first, beyond = tree_dof[single], tree_dof[single + 1]
         for k in range(rows):
@@ -323,7 +286,7 @@ def whiten(
             free = bias[k]
             for d in range(first, beyond):
                 free += Y[start + d] * v[d]
-            solve_transposed(first, beyond, dof_row, dof_parent, L, inverse_diagonal, Y, start)
+            solve_transposed(floats, integers, first, beyond, Y, start)
             for d in range(first, beyond):
                 free += Y[start + d] * u[d]
             g[k] = free
@@ -346,20 +309,26 @@ def whiten(
             start = at - first
             for d in range(first, beyond):
                 free += Y[start + d] * v[d]
-            solve_transposed(first, beyond, dof_row, dof_parent, L, inverse_diagonal, Y, start)
+            solve_transposed(floats, integers, first, beyond, Y, start)
             for d in range(first, beyond):
                 free += Y[start + d] * u[d]
             at += beyond - first
         g[k] = free
         for j in range(k + 1):
-            total = row_product(k, j, width, tree_dof, row_a, row_b, Y)
+            total = row_product(floats, integers, k, j, width)
             A[k * rows + j] = total
             A[j * rows + k] = total
 
 
 @inlined
-def push(rows: int, single: int, width: int, tree_dof: Any, row_a: Any, row_b: Any, Y: Any, x: Any, u: Any) -> None:
+def push(floats: Any, integers: Any, rows: int, single: int, width: int) -> None:
     """Add what the impulses x do to u."""
+    tree_dof = field(integers, integers, At.tree_dof)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    Y = field(floats, integers, At.Y)
+    x = field(floats, integers, At.x)
+    u = field(floats, integers, At.u)
     if single >= 0:
         first = tree_dof[single]
         for k in range(rows):

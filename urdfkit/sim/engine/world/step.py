@@ -34,43 +34,13 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     With `only_terms`, compute poses, M and bias of the state as it is, and advance nothing.
     """
     trees, slots = integers[TREES], integers[SLOTS]
-    place_R = field(floats, integers, At.place_R)
-    place_p = field(floats, integers, At.place_p)
-    mass = field(floats, integers, At.mass)
-    centre = field(floats, integers, At.centre)
-    tensor = field(floats, integers, At.tensor)
-    subspace = field(floats, integers, At.subspace)
-    damping = field(floats, integers, At.damping)
-    friction = field(floats, integers, At.friction)
     base = field(floats, integers, At.base)
-    gravity = field(floats, integers, At.gravity)
     numbers = field(floats, integers, At.numbers)
-    motor_velocity = field(floats, integers, At.motor_velocity)
-    motor_effort = field(floats, integers, At.motor_effort)
-    applied = field(floats, integers, At.applied)
-    position_target = field(floats, integers, At.position_target)
-    velocity_target = field(floats, integers, At.velocity_target)
-    kp = field(floats, integers, At.kp)
-    kd = field(floats, integers, At.kd)
-    servo_effort = field(floats, integers, At.servo_effort)
     s = field(floats, integers, At.s)
     v = field(floats, integers, At.v)
     memory = field(floats, integers, At.memory)
     last = field(floats, integers, At.last)
-    effort = field(floats, integers, At.effort)
-    tau = field(floats, integers, At.tau)
-    R = field(floats, integers, At.R)
-    r = field(floats, integers, At.r)
     P = field(floats, integers, At.P)
-    S = field(floats, integers, At.S)
-    twist = field(floats, integers, At.twist)
-    bias_acceleration = field(floats, integers, At.bias_acceleration)
-    composite_mass = field(floats, integers, At.composite_mass)
-    composite_h = field(floats, integers, At.composite_h)
-    composite_T = field(floats, integers, At.composite_T)
-    force = field(floats, integers, At.force)
-    M = field(floats, integers, At.M)
-    bias = field(floats, integers, At.bias)
     v_start = field(floats, integers, At.v_start)
     s_ahead = field(floats, integers, At.s_ahead)
     v_ahead = field(floats, integers, At.v_ahead)
@@ -80,19 +50,6 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     tree_floats = field(integers, integers, At.tree_floats)
     near = field(integers, integers, At.near)
     island = field(integers, integers, At.island)
-    island_next = field(integers, integers, At.island_next)
-    island_contact = field(integers, integers, At.island_contact)
-    body_tree = field(integers, integers, At.body_tree)
-    kind = field(integers, integers, At.kind)
-    parent = field(integers, integers, At.parent)
-    first_s = field(integers, integers, At.first_s)
-    first_v = field(integers, integers, At.first_v)
-    dof_parent = field(integers, integers, At.dof_parent)
-    dof_s = field(integers, integers, At.dof_s)
-    dof_row = field(integers, integers, At.dof_row)
-    contact_body = field(integers, integers, At.contact_body)
-    contact_other = field(integers, integers, At.contact_other)
-    contact_next = field(integers, integers, At.contact_next)
     saturated = field(integers, integers, At.saturated)
     counts = field(integers, integers, At.counts)
     dt = numbers[DT]
@@ -100,39 +57,15 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
         for tree in range(trees):
             first, beyond = tree_dof[tree], tree_dof[tree + 1]
             if not only_terms:
-                move(tree_body[tree], tree_body[tree + 1], kind, first_s, first_v, s, v, 0.5 * dt)
+                move(floats, integers, tree_body[tree], tree_body[tree + 1], s, v, 0.5 * dt)
             for d in range(first, beyond):
                 v_start[d] = v[d]
                 saturated[d] = 0
             # All of a tree is reckoned from one point, its floating base: far from the origin nothing is lost.
             for k in range(3):
                 P[3 * tree + k] = s[tree_s[tree] + k] if tree_floats[tree] != 0 else base[3 * tree + k]
-            place(tree, tree_body, kind, parent, first_s, first_v, place_R, place_p, subspace, P, s, R, r, S, False)
-            terms(
-                tree,
-                tree_body,
-                dof_row,
-                kind,
-                parent,
-                first_v,
-                dof_parent,
-                mass,
-                centre,
-                tensor,
-                gravity,
-                v,
-                R,
-                r,
-                S,
-                twist,
-                bias_acceleration,
-                composite_mass,
-                composite_h,
-                composite_T,
-                force,
-                M,
-                bias,
-            )
+            place(floats, integers, tree, s, False)
+            terms(floats, integers, tree)
         if only_terms:
             return 0
         pairs = candidates(floats, integers)
@@ -147,10 +80,8 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                 s_ahead[k] = s[k]
             for d in range(tree_dof[tree], tree_dof[tree + 1]):
                 v_ahead[d] = v[d]
-            move(tree_body[tree], tree_body[tree + 1], kind, first_s, first_v, s_ahead, v_ahead, 0.5 * dt)
-            place(
-                tree, tree_body, kind, parent, first_s, first_v, place_R, place_p, subspace, P, s_ahead, R, r, S, True
-            )
+            move(floats, integers, tree_body[tree], tree_body[tree + 1], s_ahead, v_ahead, 0.5 * dt)
+            place(floats, integers, tree, s_ahead, True)
         for k in range(slots):
             last[k] = memory[k]
             memory[k] = 0.0
@@ -159,17 +90,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
             contacts = touching(floats, integers, pairs)
             if contacts < 0:
                 return done
-        join(
-            trees,
-            contacts,
-            body_tree,
-            contact_body,
-            contact_other,
-            contact_next,
-            island,
-            island_next,
-            island_contact,
-        )
+        join(floats, integers, trees, contacts)
         all_rows = 0
         for root in range(trees):
             if island[root] != root:
@@ -181,31 +102,10 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
         total = 0.0
         for tree in range(trees):
             first, beyond = tree_dof[tree], tree_dof[tree + 1]
-            account(
-                first,
-                beyond,
-                dof_s,
-                s,
-                v,
-                damping,
-                friction,
-                applied,
-                motor_velocity,
-                motor_effort,
-                position_target,
-                velocity_target,
-                kp,
-                kd,
-                servo_effort,
-                saturated,
-                memory,
-                dt,
-                effort,
-                tau,
-            )
+            account(floats, integers, first, beyond, dt)
             for d in range(first, beyond):
                 total += v[d]
-            move(tree_body[tree], tree_body[tree + 1], kind, first_s, first_v, s, v, 0.5 * dt)
+            move(floats, integers, tree_body[tree], tree_body[tree + 1], s, v, 0.5 * dt)
         counts[FOUND_CONTACTS], counts[FOUND_ROWS] = contacts, all_rows
         if not math.isfinite(total):
             return done
