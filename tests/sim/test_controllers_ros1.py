@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from importlib import import_module
-from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from pkgutil import iter_modules
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -25,17 +25,6 @@ from urdfkit.sim import Simulator, Spawn
 from urdfkit.sim.controllers.law import Law
 from urdfkit.sim.controllers.types import ELSEWHERE, LAWS
 
-_spec = spec_from_file_location("arm_package", Path(__file__).with_name("arm_package.py"))
-assert _spec is not None
-assert _spec.loader is not None
-arm_package = module_from_spec(_spec)
-_spec.loader.exec_module(arm_package)
-transmissions, write_arm, write_control = (
-    arm_package.transmissions,
-    arm_package.write_arm,
-    arm_package.write_control,
-)
-
 STATES = "  states: {type: joint_state_controller/JointStateController, publish_rate: 50}\n"
 PID = "{p: 100.0, i: 50.0, d: 10.0, i_clamp: 20.0}"
 POSITIONS = f"""arm:
@@ -47,11 +36,11 @@ Make = Callable[..., Any]
 
 
 @pytest.fixture
-def make(tmp_path: Path) -> Make:
+def make(tmp_path: Path, arm_package: ModuleType) -> Make:
     def build(yaml: str, interfaces: tuple[str, str] = ("Effort", "Effort"), spawned: tuple[str, ...] = (),
               arm: dict[str, Any] | None = None, **options: Any) -> Any:  # fmt: skip
-        write_control(tmp_path, yaml, *spawned)
-        urdf = write_arm(tmp_path, transmissions(*interfaces), **(arm or {}))
+        arm_package.write_control(tmp_path, yaml, *spawned)
+        urdf = arm_package.write_arm(tmp_path, arm_package.transmissions(*interfaces), **(arm or {}))
         options.setdefault("note", lambda _: None)
         return Simulator(urdf, **options)
 
@@ -367,15 +356,15 @@ def test_named_files_take_the_place_of_what_launch_files_load(make: Make, tmp_pa
     assert [status.name for status in simulator.controllers.list()] == ["only"]
 
 
-def test_without_launch_file_the_config_folder_is_read(tmp_path: Path) -> None:
-    write_control(tmp_path, POSITIONS, launch=False)
-    simulator = Simulator(write_arm(tmp_path, transmissions()), note=lambda _: None)
+def test_without_launch_file_the_config_folder_is_read(tmp_path: Path, arm_package: ModuleType) -> None:
+    arm_package.write_control(tmp_path, POSITIONS, launch=False)
+    simulator = Simulator(arm_package.write_arm(tmp_path, arm_package.transmissions()), note=lambda _: None)
     assert [status.state for status in simulator.controllers.list()] == ["running"] * 3
 
 
-def test_without_any_file_it_says_so(tmp_path: Path) -> None:
+def test_without_any_file_it_says_so(tmp_path: Path, arm_package: ModuleType) -> None:
     notes: list[str] = []
-    simulator = Simulator(write_arm(tmp_path, transmissions()), note=notes.append)
+    simulator = Simulator(arm_package.write_arm(tmp_path, arm_package.transmissions()), note=notes.append)
     assert simulator.controllers.list() == ()
     assert any("no controllers for /arm" in note and "--controllers" in note for note in notes)
 
@@ -408,13 +397,15 @@ def test_wrong_parameters_are_refused_at_their_place(make: Make, yaml: str, plac
     assert "\n" not in str(caught.value)
 
 
-def test_a_transmission_without_interface_is_refused_at_its_place(tmp_path: Path) -> None:
-    text = transmissions().replace("<hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>", "")
+def test_a_transmission_without_interface_is_refused_at_its_place(tmp_path: Path, arm_package: ModuleType) -> None:
+    text = arm_package.transmissions().replace(
+        "<hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>", ""
+    )
     with pytest.raises(SimulationError, match=r"arm\.urdf:\d+:5: transmission `tran_shoulder` lacks <hardwareInterf"):
-        Simulator(write_arm(tmp_path, text))
-    odd = transmissions("Efort")
+        Simulator(arm_package.write_arm(tmp_path, text))
+    odd = arm_package.transmissions("Efort")
     with pytest.raises(SimulationError, match=r"no interface `hardware_interface/EfortJointInterface`; did you mean"):
-        Simulator(write_arm(tmp_path, odd))
+        Simulator(arm_package.write_arm(tmp_path, odd))
 
 
 @pytest.mark.parametrize("kind", ["imu_sensor_controller/ImuSensorController", "unitree_legged_control/UnitreeJoint"])

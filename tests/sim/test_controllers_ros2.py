@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -12,13 +12,6 @@ import pytest
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.messages import FLOATS, JOINT_STATE, TRAJECTORY, TRAJECTORY_STATE, from_fields
 from urdfkit.sim import Simulator, Spawn
-
-_spec = spec_from_file_location("arm_package", Path(__file__).with_name("arm_package.py"))
-assert _spec is not None
-assert _spec.loader is not None
-arm_package = module_from_spec(_spec)
-_spec.loader.exec_module(arm_package)
-package, write_arm = arm_package.package, arm_package.write_arm
 
 GZ = ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin", "gz_ros2_control/GazeboSimSystem")
 CLASSIC = ("libgazebo_ros2_control.so", "gazebo_ros2_control", "gazebo_ros2_control/GazeboSystem")
@@ -58,10 +51,10 @@ def command(kind: str) -> str:
 
 
 @pytest.fixture
-def make(tmp_path: Path) -> Make:
+def make(tmp_path: Path, arm_package: ModuleType) -> Make:
     def build(yaml: str, flavour: tuple[str, str, str] = GZ, commands: str = command("position"), more: str = "",
               initial: str = "", arm: dict[str, Any] | None = None, **options: Any) -> Any:  # fmt: skip
-        config = package(tmp_path, "arm_bringup") / "config"
+        config = arm_package.package(tmp_path, "arm_bringup") / "config"
         config.mkdir(exist_ok=True)
         (config / "arm.yaml").write_text(yaml)
         filename, name, hardware = flavour
@@ -70,7 +63,7 @@ def make(tmp_path: Path) -> Make:
             filename=filename, name=name, hardware=hardware, commands=commands, more=more, initial=initial, path=path
         )
         options.setdefault("note", lambda _: None)
-        return Simulator(write_arm(tmp_path, block, **(arm or {})), **options)
+        return Simulator(arm_package.write_arm(tmp_path, block, **(arm or {})), **options)
 
     return build
 
@@ -253,8 +246,8 @@ def test_hardware_of_another_is_noted(make: Make) -> None:
     assert any("hardware `mock_components/GenericSystem` is not the simulator's" in note for note in notes)
 
 
-def test_a_block_that_no_plugin_runs_is_noted(tmp_path: Path) -> None:
+def test_a_block_that_no_plugin_runs_is_noted(tmp_path: Path, arm_package: ModuleType) -> None:
     notes: list[str] = []
     block = BLOCK.format(filename="", name="", hardware=GZ[2], commands="", more="", initial="", path="")
-    Simulator(write_arm(tmp_path, block[: block.index("<gazebo>")]), note=notes.append)
+    Simulator(arm_package.write_arm(tmp_path, block[: block.index("<gazebo>")]), note=notes.append)
     assert any("no plugin runs ros2_control `arm`" in note for note in notes)
