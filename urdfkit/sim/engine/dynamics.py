@@ -49,12 +49,13 @@ REVOLUTE, PRISMATIC, PLANAR, FREE = range(4)
 
 
 @inlined
-def place(floats: Any, integers: Any, bodies: int, s: Any, ahead: bool) -> None:
-    """Place the bodies and their motion subspaces at the coordinates `s`.
+def place(floats: Any, integers: Any, tree: int, s: Any, ahead: bool) -> None:
+    """Place the bodies of a tree and their motion subspaces at the coordinates `s`.
 
     With `ahead`, `s` is where things will be but the velocities are of now: the axes in which a free body's linear
     velocity is written stay where they are.
     """
+    tree_body = field(integers, integers, At.tree_body)
     kind = field(integers, integers, At.kind)
     parent = field(integers, integers, At.parent)
     first_s = field(integers, integers, At.first_s)
@@ -66,8 +67,8 @@ def place(floats: Any, integers: Any, bodies: int, s: Any, ahead: bool) -> None:
     R = field(floats, integers, At.R)
     r = field(floats, integers, At.r)
     S = field(floats, integers, At.S)
-    point = load_vector(P, 0)
-    for i in range(bodies):
+    point = load_vector(P, tree)
+    for i in range(tree_body[tree], tree_body[tree + 1]):
         above = parent[i]
         if above < 0:
             R0, r0 = IDENTITY, sub(ZERO, point)
@@ -98,8 +99,9 @@ def place(floats: Any, integers: Any, bodies: int, s: Any, ahead: bool) -> None:
 
 
 @inlined
-def forward_sweep(floats: Any, integers: Any, bodies: int) -> None:
+def forward_sweep(floats: Any, integers: Any, tree: int) -> None:
     """Compute velocities, inertias and the forces that make the bodies follow at zero joint acceleration."""
+    tree_body = field(integers, integers, At.tree_body)
     kind = field(integers, integers, At.kind)
     parent = field(integers, integers, At.parent)
     first_v = field(integers, integers, At.first_v)
@@ -118,7 +120,7 @@ def forward_sweep(floats: Any, integers: Any, bodies: int) -> None:
     composite_T = field(floats, integers, At.composite_T)
     force = field(floats, integers, At.force)
     g = load_vector(gravity, 0)
-    for i in range(bodies):
+    for i in range(tree_body[tree], tree_body[tree + 1]):
         above = parent[i]
         velocity, acceleration = (ZERO, ZERO), (ZERO, ZERO)
         if above >= 0:
@@ -160,8 +162,10 @@ def forward_sweep(floats: Any, integers: Any, bodies: int) -> None:
 
 
 @inlined
-def backward_sweep(floats: Any, integers: Any, bodies: int, dofs: int) -> None:
+def backward_sweep(floats: Any, integers: Any, tree: int) -> None:
     """Gather inertias and forces from the tips to the root: the lower triangle of M, and bias."""
+    tree_body = field(integers, integers, At.tree_body)
+    dof_row = field(integers, integers, At.dof_row)
     parent = field(integers, integers, At.parent)
     first_v = field(integers, integers, At.first_v)
     dof_parent = field(integers, integers, At.dof_parent)
@@ -172,16 +176,17 @@ def backward_sweep(floats: Any, integers: Any, bodies: int, dofs: int) -> None:
     force = field(floats, integers, At.force)
     M = field(floats, integers, At.M)
     bias = field(floats, integers, At.bias)
-    for i in range(bodies - 1, -1, -1):
+    for i in range(tree_body[tree + 1] - 1, tree_body[tree] - 1, -1):
         m, h, T = composite_mass[i], load_vector(composite_h, i), load_tensor(composite_T, i)
         f = load_spatial(force, i)
         for d in range(first_v[i], first_v[i + 1]):
             subspace = load_spatial(S, d)
             bias[d] = spatial_dot(subspace, f)
             F = momentum(m, h, T, subspace)
+            row = dof_row[d]
             e = d
             while e >= 0:
-                M[d * dofs + e] = spatial_dot(load_spatial(S, e), F)
+                M[row + e] = spatial_dot(load_spatial(S, e), F)
                 e = dof_parent[e]
         above = parent[i]
         if above >= 0:
@@ -197,55 +202,69 @@ def backward_sweep(floats: Any, integers: Any, bodies: int, dofs: int) -> None:
 
 
 @inlined
-def factor(floats: Any, integers: Any, dofs: int) -> None:
-    """Factor M = LᵀL in place, lower triangle; entries between branches are never touched."""
+def terms(floats: Any, integers: Any, tree: int) -> None:
+    """Compute M and bias of a tree whose bodies have been placed."""
+    forward_sweep(floats, integers, tree)
+    backward_sweep(floats, integers, tree)
+
+
+@inlined
+def factor(floats: Any, integers: Any, first: int, beyond: int) -> None:
+    """Factor M = LᵀL of a tree in place, lower triangle; entries between branches are never touched."""
+    dof_row = field(integers, integers, At.dof_row)
     dof_parent = field(integers, integers, At.dof_parent)
     L = field(floats, integers, At.L)
     inverse_diagonal = field(floats, integers, At.inverse_diagonal)
-    for k in range(dofs - 1, -1, -1):
-        inverse = 1.0 / math.sqrt(L[k * dofs + k])
+    for k in range(beyond - 1, first - 1, -1):
+        row = dof_row[k]
+        inverse = 1.0 / math.sqrt(L[row + k])
         inverse_diagonal[k] = inverse
         i = dof_parent[k]
         while i >= 0:
-            L[k * dofs + i] *= inverse
+            L[row + i] *= inverse
             i = dof_parent[i]
         i = dof_parent[k]
         while i >= 0:
-            ki = L[k * dofs + i]
+            ki = L[row + i]
+            above = dof_row[i]
             j = i
             while j >= 0:
-                L[i * dofs + j] -= ki * L[k * dofs + j]
+                L[above + j] -= ki * L[row + j]
                 j = dof_parent[j]
             i = dof_parent[i]
 
 
 @inlined
-def solve_transposed(floats: Any, integers: Any, dofs: int, x: Any, start: int) -> None:
-    """Turn x = x[start : start + dofs] into L⁻ᵀ·x."""
+def solve_transposed(floats: Any, integers: Any, first: int, beyond: int, x: Any, start: int) -> None:
+    """Turn the entries of x for a tree's dofs, from `start` + the number of its first dof on, into L⁻ᵀ·x."""
+    dof_row = field(integers, integers, At.dof_row)
     dof_parent = field(integers, integers, At.dof_parent)
     L = field(floats, integers, At.L)
     inverse_diagonal = field(floats, integers, At.inverse_diagonal)
-    for i in range(dofs - 1, -1, -1):
+    for i in range(beyond - 1, first - 1, -1):
         xi = x[start + i] * inverse_diagonal[i]
         x[start + i] = xi
         if xi != 0.0:
+            row = dof_row[i]
             j = dof_parent[i]
             while j >= 0:
-                x[start + j] -= L[i * dofs + j] * xi
+                x[start + j] -= L[row + j] * xi
                 j = dof_parent[j]
 
 
 @inlined
-def solve_forward(floats: Any, integers: Any, dofs: int) -> None:
-    """Turn x into L⁻¹·x."""
+def solve_forward(floats: Any, integers: Any, first: int, beyond: int) -> None:
+    """Turn the entries of x for a tree's dofs into L⁻¹·x."""
+    dof_row = field(integers, integers, At.dof_row)
     dof_parent = field(integers, integers, At.dof_parent)
     L = field(floats, integers, At.L)
     inverse_diagonal = field(floats, integers, At.inverse_diagonal)
     x = field(floats, integers, At.u)
-    for i in range(dofs):
+    for i in range(first, beyond):
+        row = dof_row[i]
         xi = x[i]
         j = dof_parent[i]
         while j >= 0:
-            xi -= L[i * dofs + j] * x[j]
+            xi -= L[row + j] * x[j]
             j = dof_parent[j]
         x[i] = xi * inverse_diagonal[i]

@@ -12,8 +12,8 @@ from urdfkit.sim.engine.spatial import rotate, scale, turn_of
 
 
 @inlined
-def move(floats: Any, integers: Any, bodies: int, s: Any, v: Any, dt: float) -> None:
-    """Let the coordinates `s` go on for `dt` at the velocities `v`.
+def move(floats: Any, integers: Any, first: int, beyond: int, s: Any, v: Any, dt: float) -> None:
+    """Let the coordinates `s` of some bodies go on for `dt` at the velocities `v`.
 
     A free body goes straight on while it turns, as it does when nothing acts on it: its linear velocity stays the same
     in the axes of what it moves in, so its coordinates in the body's own axes, in `v`, turn back.
@@ -21,7 +21,7 @@ def move(floats: Any, integers: Any, bodies: int, s: Any, v: Any, dt: float) -> 
     kind = field(integers, integers, At.kind)
     first_s = field(integers, integers, At.first_s)
     first_v = field(integers, integers, At.first_v)
-    for i in range(bodies):
+    for i in range(first, beyond):
         at, d = first_s[i], first_v[i]
         if kind[i] == FREE:
             x, y, z, w = s[at + 3], s[at + 4], s[at + 5], s[at + 6]

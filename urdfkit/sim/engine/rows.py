@@ -187,7 +187,7 @@ def whiten(floats: Any, integers: Any, rows: int, dofs: int) -> None:
         free = bias[k]
         for d in range(dofs):
             free += Y[at + d] * v[d]
-        solve_transposed(floats, integers, dofs, Y, at)
+        solve_transposed(floats, integers, 0, dofs, Y, at)
         for d in range(dofs):
             free += Y[at + d] * u[d]
         g[k] = free

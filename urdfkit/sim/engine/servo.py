@@ -60,8 +60,8 @@ def smooth_motion(floats: Any, integers: Any, dofs: int, dt: float) -> bool:
                 effort += saturated[d] * servo_effort[d]
         L[d * dofs + d] += dt * softness
         u[d] = dt * effort
-    factor(floats, integers, dofs)
-    solve_transposed(floats, integers, dofs, u, 0)
+    factor(floats, integers, 0, dofs)
+    solve_transposed(floats, integers, 0, dofs, u, 0)
     return has_servo
 
 

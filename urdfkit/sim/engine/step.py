@@ -29,12 +29,7 @@ from urdfkit.sim.engine.arrays import (
 )
 from urdfkit.sim.engine.collide import collide_with_plane, near_plane
 from urdfkit.sim.engine.compilation import field
-from urdfkit.sim.engine.dynamics import (
-    backward_sweep,
-    forward_sweep,
-    place,
-    solve_forward,
-)
+from urdfkit.sim.engine.dynamics import place, solve_forward, terms
 from urdfkit.sim.engine.integrate import move
 from urdfkit.sim.engine.rows import contact_rows, joint_rows, whiten
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, account, limited, overloaded, smooth_motion
@@ -85,7 +80,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     dt, floor = numbers[DT], numbers[FLOOR]
     first_contact_slot = 2 * dofs + mimics
     for done in range(steps):
-        move(floats, integers, bodies, s, v, 0.0 if only_terms else 0.5 * dt)
+        move(floats, integers, 0, bodies, s, v, 0.0 if only_terms else 0.5 * dt)
         for d in range(dofs):
             v_start[d] = v[d]
             saturated[d] = 0
@@ -98,9 +93,8 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
             if attempt == 0:
                 for k in range(3):
                     P[k] = s[k] if floating else base[k]
-                place(floats, integers, bodies, s, False)
-                forward_sweep(floats, integers, bodies)
-                backward_sweep(floats, integers, bodies, dofs)
+                place(floats, integers, 0, s, False)
+                terms(floats, integers, 0)
                 if only_terms:
                     return 0
                 if (
@@ -112,15 +106,15 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                         s_ahead[k] = s[k]
                     for d in range(dofs):
                         v_ahead[d] = v[d]
-                    move(floats, integers, bodies, s_ahead, v_ahead, 0.5 * dt)
-                    place(floats, integers, bodies, s_ahead, True)
+                    move(floats, integers, 0, bodies, s_ahead, v_ahead, 0.5 * dt)
+                    place(floats, integers, 0, s_ahead, True)
                     for k in range(3):
                         contact_origin[k] = P[k]
                     contacts = collide_with_plane(floats, integers, 0, 0, shapes, most_contacts, floor - P[2], dt)
             has_servo = smooth_motion(floats, integers, dofs, dt)
             rows = joint_rows(floats, integers, dofs, mimics, dt)
             if not halfway and contacts == 0 and not has_servo and not limited(floats, integers, rows, dofs):
-                solve_forward(floats, integers, dofs)
+                solve_forward(floats, integers, 0, dofs)
                 for d in range(dofs):
                     v[d] = v_start[d] + 0.5 * u[d]
                 halfway = True
@@ -137,7 +131,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                         u[d] += Y[k * dofs + d] * xk
                 counts[GUESSES] = guesses
                 counts[ITERATED] += guesses < 0
-            solve_forward(floats, integers, dofs)
+            solve_forward(floats, integers, 0, dofs)
             for d in range(dofs):
                 v[d] = v_start[d] + u[d]
             attempt += 1
@@ -151,7 +145,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
         total = 0.0
         for d in range(dofs):
             total += v[d]
-        move(floats, integers, bodies, s, v, 0.5 * dt)
+        move(floats, integers, 0, bodies, s, v, 0.5 * dt)
         counts[FOUND_CONTACTS], counts[FOUND_ROWS] = contacts, rows
         if not math.isfinite(total):
             return done

@@ -11,8 +11,8 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.dynamics import solve_transposed
 from urdfkit.sim.engine.spatial import add, cross, dot, load_spatial, load_vector, sub
-from urdfkit.sim.engine.world.dynamics import solve_transposed
 
 RECOVERY = 0.2
 """Part of a penetration, or of another violation, that is taken back in a step."""

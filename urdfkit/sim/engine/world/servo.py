@@ -6,7 +6,7 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
-from urdfkit.sim.engine.world.dynamics import factor, solve_transposed
+from urdfkit.sim.engine.dynamics import factor, solve_transposed
 from urdfkit.sim.engine.world.rows import friction_beside_motor
 
 SERVO_ATTEMPTS = 8

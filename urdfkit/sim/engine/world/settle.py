@@ -18,8 +18,8 @@ from urdfkit.sim.engine.arrays import (
     At,
 )
 from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.dynamics import place, solve_forward, terms
 from urdfkit.sim.engine.solve import solve
-from urdfkit.sim.engine.world.dynamics import place, solve_forward, terms
 from urdfkit.sim.engine.world.islands import contacts_of
 from urdfkit.sim.engine.world.rows import contact_rows, joint_rows, push, whiten
 from urdfkit.sim.engine.world.servo import SERVO_ATTEMPTS, limited, overloaded, smooth_motion

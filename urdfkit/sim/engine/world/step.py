@@ -15,8 +15,8 @@ from urdfkit.sim.engine.arrays import (
     At,
 )
 from urdfkit.sim.engine.compilation import field
-from urdfkit.sim.engine.world.dynamics import place, terms
-from urdfkit.sim.engine.world.integrate import move
+from urdfkit.sim.engine.dynamics import place, terms
+from urdfkit.sim.engine.integrate import move
 from urdfkit.sim.engine.world.islands import join
 from urdfkit.sim.engine.world.search import candidates, touching
 from urdfkit.sim.engine.world.servo import account
