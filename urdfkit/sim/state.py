@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,7 @@ from urdfkit.sim.rotation import product, rotate
 
 if TYPE_CHECKING:
     from urdfkit.sim.engine import Contact, Engine
+    from urdfkit.sim.engine.part import Part
 
 Array = NDArray[np.float64]
 Placement = tuple[tuple[float, float, float], tuple[float, float, float, float]]
@@ -63,25 +64,32 @@ class State:
         kinematics: the robot's model.
         engine: what moves it.
         base: pose of the root link of a robot that is bolted down; None for one that floats.
+        part: which of the engine's robots it is; the first when None.
 
     Attributes:
         step: steps since the start.
     """
 
-    def __init__(self, kinematics: Kinematics, engine: Engine, base: Array | None) -> None:
+    def __init__(self, kinematics: Kinematics, engine: Engine, base: Array | None, part: Part | None = None) -> None:
         self._kinematics = kinematics
-        self._engine = engine
         self._base = base
         self.step = 0
+        self.attach(engine, part)
         names = (*kinematics.joint_names, *kinematics.mimic_names)
         self._index = {name: kinematics.velocity_index(name) for name in names}
+
+    def attach(self, engine: Engine, part: Part | None = None) -> None:
+        """Look at another engine from now on: one for the same robot in a world that has changed."""
+        self._engine = engine
+        self._part: Part = engine if part is None else part
         self._snapshot: Snapshot | None = None
         self._positions: list[float] | None = None
+        self._pose: tuple[float, ...] | None = None
 
     def advance(self, steps: int) -> None:
         """Take note that the engine moved on by `steps`."""
         self.step += steps
-        self._snapshot = self._positions = None
+        self._snapshot = self._positions = self._pose = None
 
     @property
     def t(self) -> float:
@@ -91,62 +99,89 @@ class State:
     @property
     def q(self) -> Array:
         """Configuration, in the order of `Kinematics`, read-only; shape (nq,)."""
-        return self._engine.q
+        return self._part.q
 
     @property
     def v(self) -> Array:
         """Velocity, a floating base's twist in its own axes and linear first, read-only; shape (nv,)."""
-        return self._engine.v
+        return self._part.v
 
     @property
     def tau(self) -> Array:
         """All effort of the last step but contacts and limits [N·m] or [N], read-only; shape (nv,)."""
-        return self._engine.tau
+        return self._part.tau
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
-        """Where the robot touched something in the last step."""
+        """What touched what in the last step, in the whole world."""
         return self._engine.contacts()
 
     @property
     def energy(self) -> tuple[float, float]:
-        """Kinetic and potential energy [J], the latter zero at the world's origin."""
-        return self._engine.energy()
+        """Kinetic and potential energy of the robot [J], the latter zero at the world's origin."""
+        if self._part is self._engine:
+            return self._engine.energy()
+        return energy_of(self._kinematics, self._part.q, self._part.v, self._base, self._engine._arrays["gravity"])
 
     def position(self, joint: str) -> float:
         """Return a joint's position [rad] or [m]; that of a continuous joint counts its turns."""
         if self._positions is None:
-            self._positions = self._engine.positions.tolist()
+            self._positions = self._part.positions.tolist()
         return self._positions[self._index[joint]]
 
     def velocity(self, joint: str) -> float:
         """Return a joint's velocity [rad/s] or [m/s]."""
-        return float(self._engine.v[self._index[joint]])
+        return float(self._part.v[self._index[joint]])
 
     def effort(self, joint: str) -> float:
         """Return what the joint's motor, its servo and efforts beside them exerted in the last step [N·m] or [N]."""
         index = self._index[joint]
-        return float(self._engine.effort[index] + self._engine.applied[index])
+        return float(self._part.effort[index] + self._part.applied[index])
 
     @property
     def base_pose(self) -> tuple[float, ...]:
         """The root link in the world: x y z [m] and quaternion x y z w."""
-        return tuple((self._engine.q[:7] if self._base is None else self._base).tolist())
+        if self._pose is None:
+            self._pose = tuple((self._part.q[:7] if self._base is None else self._base).tolist())
+        return self._pose
 
     @property
     def base_velocity(self) -> tuple[float, ...]:
         """Velocity of the root link's origin [m/s] and its angular velocity [rad/s], along the world's axes."""
         if self._base is not None:
             return (0.0,) * 6
-        rotation, v = self._engine.q[3:7], self._engine.v
-        return (*rotate(rotation, v[:3]), *rotate(rotation, v[3:6]))
+        rotation, v = self.base_pose[3:], self._part.v[:6].tolist()
+        return (*rotate(rotation, v[:3]), *rotate(rotation, v[3:]))
 
     def snapshot(self) -> Snapshot:
         """Return this moment, kept; the same object for everybody who asks before the next step."""
         if self._snapshot is None:
-            self._snapshot = Snapshot(self._kinematics, self.t, self._engine.q, self._base)
+            self._snapshot = Snapshot(self._kinematics, self.t, self._part.q, self._base)
         return self._snapshot
 
     def link_poses(self) -> Array:
         """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7)."""
         return self.snapshot().link_poses()
+
+
+def energy_of(
+    kinematics: Kinematics, q: Array, v: Array, base: Array | None, gravity: Array
+) -> tuple[float, float]:
+    """Return kinetic and potential energy of a robot [J], the latter zero at the world's origin.
+
+    Args:
+        kinematics: the robot's model.
+        q: configuration; shape (nq,).
+        v: velocity; shape (nv,).
+        base: pose of the root link of a robot that is bolted down; None for one that floats.
+        gravity: [m/s²]; shape (3,).
+    """
+    import pinocchio
+
+    pin: Any = pinocchio
+    model, data = kinematics.model, kinematics.data
+    kinetic = pin.computeKineticEnergy(model, data, q, v)
+    centre = pin.centerOfMass(model, data, q)
+    if base is not None:
+        centre = base[:3] + rotate(base[3:], centre)
+    return float(kinetic), float(-data.mass[0] * (gravity @ centre))

@@ -143,12 +143,12 @@ class Ackermann(Drive):
 
     def read(self, state: State) -> None:
         """Publish odometry, the true pose in the world, wheel transforms and the distance so far."""
-        now = from_world(state.base_pose, state.base_velocity)
-        here = state.base_pose[:2]
+        pose, velocity = state.base_pose, state.base_velocity
+        here = pose[:2]
         if self._last is not None:
             self._distance += hypot(here[0] - self._last[0], here[1] - self._last[1])
         self._last = here
-        self._odometer.publish(state.t, lambda: now)
+        self._odometer.publish(state.t, lambda: from_world(pose, velocity))
         self._wheels.publish(state)
         if self._distance_topic is not None:
             distance = self._distance

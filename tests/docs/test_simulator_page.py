@@ -1,0 +1,75 @@
+"""The code on the simulator's page runs, block after block, and says what the page says."""
+
+from __future__ import annotations
+
+import re
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from threading import Event, Thread
+from typing import Any
+
+import pytest
+
+from urdfkit import Simulator
+
+PAGE = Path(__file__).parents[2] / "docs" / "simulator.md"
+
+
+def blocks() -> list[str]:
+    return re.findall(r"^```python\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+
+
+def test_every_block_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    names: dict[str, Any] = {}
+    assert len(blocks()) >= 8
+    for block in blocks():
+        exec(compile(block, str(PAGE), "exec"), names)
+    said = capsys.readouterr().out
+    assert "did you mean `simpleton`?" in said
+    assert "one and a half seconds" in said
+
+
+def test_ten_lines_are_enough() -> None:
+    assert len(blocks()[0].splitlines()) <= 10
+
+
+def drive(turn: float) -> bytes:
+    simulator = Simulator("mybot", world="house", note=lambda _: None)
+    simulator.command((0.6, 0.0, 0.0), (0.0, 0.0, turn))
+    simulator.run(3.0)
+    return simulator.state.q.tobytes() + simulator.state.v.tobytes()
+
+
+def test_threads_give_the_same_bytes_as_one_after_the_other() -> None:
+    turns = [-0.5, 0.0, 0.3, 0.7]
+    one_by_one = [drive(turn) for turn in turns]
+    assert len(set(one_by_one)) == len(turns)
+    with ThreadPoolExecutor(2) as pool:
+        assert list(pool.map(drive, turns)) == one_by_one
+
+
+def test_the_kernel_lets_go_of_the_lock(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where threads are never switched by force, another one runs during a call of the engine only if that lets it."""
+    simulator = Simulator("simpleton", note=lambda _: None)
+    simulator.command((0.5, 0, 0), (0, 0, 0.2))
+    simulator.run(0.1)
+    begun, done = Event(), []
+
+    def advance() -> None:
+        begun.set()
+        simulator._engine.step(100_000)
+        done.append(True)
+
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(1000.0)
+    try:
+        thread = Thread(target=advance)
+        thread.start()
+        begun.wait()
+        was_done = bool(done)
+    finally:
+        sys.setswitchinterval(before)
+        thread.join()
+    assert done
+    assert not was_done
