@@ -25,12 +25,13 @@ def servo_effort_at(floats: Any, integers: Any, d: int, position: float, velocit
 
 
 @inlined
-def smooth_motion(floats: Any, integers: Any, dofs: int, dt: float) -> bool:
+def smooth_motion(floats: Any, integers: Any, first: int, beyond: int, dt: float) -> bool:
     """Factor M + dt·D + dt²·K = LᵀL and leave L⁻ᵀ·(impulse) in u; the change of v without rows is L⁻¹·u.
 
     Damping and servos act on the velocity at the end of the step, so no stiffness makes them unstable. Returns whether
     there is a servo.
     """
+    dof_row = field(integers, integers, At.dof_row)
     dof_s = field(integers, integers, At.dof_s)
     s = field(floats, integers, At.s)
     v = field(floats, integers, At.v_start)
@@ -45,9 +46,10 @@ def smooth_motion(floats: Any, integers: Any, dofs: int, dt: float) -> bool:
     L = field(floats, integers, At.L)
     u = field(floats, integers, At.u)
     has_servo = False
-    for d in range(dofs):
-        for e in range(d + 1):
-            L[d * dofs + e] = M[d * dofs + e]
+    for d in range(first, beyond):
+        row = dof_row[d]
+        for e in range(first, d + 1):
+            L[row + e] = M[row + e]
         effort = applied[d] - bias[d] - damping[d] * v[d]
         effort += friction_beside_motor(floats, integers, d, v)
         softness = damping[d]
@@ -58,10 +60,10 @@ def smooth_motion(floats: Any, integers: Any, dofs: int, dt: float) -> bool:
                 softness += kd[d] + dt * kp[d]
             else:
                 effort += saturated[d] * servo_effort[d]
-        L[d * dofs + d] += dt * softness
+        L[row + d] += dt * softness
         u[d] = dt * effort
-    factor(floats, integers, 0, dofs)
-    solve_transposed(floats, integers, 0, dofs, u, 0)
+    factor(floats, integers, first, beyond)
+    solve_transposed(floats, integers, first, beyond, u, 0)
     return has_servo
 
 
@@ -76,7 +78,7 @@ def limited(floats: Any, integers: Any, rows: int, dofs: int) -> bool:
 
 
 @inlined
-def overloaded(floats: Any, integers: Any, dofs: int, dt: float, release: bool) -> bool:
+def overloaded(floats: Any, integers: Any, first: int, beyond: int, dt: float, release: bool) -> bool:
     """Mark the servos that would exert more than they can; return whether that changed anything.
 
     What a servo exerts falls with the velocity the step ends at, so repeating this is Newton's method on a monotone
@@ -90,7 +92,7 @@ def overloaded(floats: Any, integers: Any, dofs: int, dt: float, release: bool) 
     servo_effort = field(floats, integers, At.servo_effort)
     saturated = field(integers, integers, At.saturated)
     changed = False
-    for d in range(dofs):
+    for d in range(first, beyond):
         if kp[d] != 0.0 or kd[d] != 0.0:
             needed = servo_effort_at(floats, integers, d, s[dof_s[d]], v[d], dt)
             most = servo_effort[d] * (1.0 + 1e-12)
@@ -104,7 +106,7 @@ def overloaded(floats: Any, integers: Any, dofs: int, dt: float, release: bool) 
 
 
 @inlined
-def account(floats: Any, integers: Any, dofs: int, dt: float) -> None:
+def account(floats: Any, integers: Any, first: int, beyond: int, dt: float) -> None:
     """Write what motors and servos exerted (`effort`), and with damping, friction and `applied` (`tau`)."""
     dof_s = field(integers, integers, At.dof_s)
     s = field(floats, integers, At.s)
@@ -119,7 +121,7 @@ def account(floats: Any, integers: Any, dofs: int, dt: float) -> None:
     memory = field(floats, integers, At.memory)
     effort = field(floats, integers, At.effort)
     tau = field(floats, integers, At.tau)
-    for d in range(dofs):
+    for d in range(first, beyond):
         row = memory[d] / dt
         most = motor_effort[d]
         beside = friction_beside_motor(floats, integers, d, v)

@@ -31,9 +31,12 @@ from urdfkit.sim.engine.collide import collide_with_plane, near_plane
 from urdfkit.sim.engine.compilation import field
 from urdfkit.sim.engine.dynamics import place, solve_forward, terms
 from urdfkit.sim.engine.integrate import move
-from urdfkit.sim.engine.rows import contact_rows, joint_rows, whiten
+from urdfkit.sim.engine.rows import contact_rows, joint_rows, push, whiten
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, account, limited, overloaded, smooth_motion
 from urdfkit.sim.engine.solve import solve
+
+ALONE = True
+"""There is but one tree: what is asked for others falls away when the kernel is compiled."""
 
 
 def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
@@ -60,7 +63,6 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     s_ahead = field(floats, integers, At.s_ahead)
     v_ahead = field(floats, integers, At.v_ahead)
     contact_origin = field(floats, integers, At.contact_origin)
-    Y = field(floats, integers, At.Y)
     g = field(floats, integers, At.g)
     low = field(floats, integers, At.low)
     high = field(floats, integers, At.high)
@@ -111,37 +113,34 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                     for k in range(3):
                         contact_origin[k] = P[k]
                     contacts = collide_with_plane(floats, integers, 0, 0, shapes, most_contacts, floor - P[2], dt)
-            has_servo = smooth_motion(floats, integers, dofs, dt)
-            rows = joint_rows(floats, integers, dofs, mimics, dt)
+            has_servo = smooth_motion(floats, integers, 0, dofs, dt)
+            rows = joint_rows(floats, integers, 0, 0, dofs, dofs, dt, ALONE)
             if not halfway and contacts == 0 and not has_servo and not limited(floats, integers, rows, dofs):
                 solve_forward(floats, integers, 0, dofs)
                 for d in range(dofs):
                     v[d] = v_start[d] + 0.5 * u[d]
                 halfway = True
                 continue
-            rows = contact_rows(floats, integers, rows, contacts, dofs, first_contact_slot, dt)
+            rows = contact_rows(floats, integers, rows, 0, contacts, dofs, first_contact_slot, 0, dt, ALONE)
             if rows > 0:
-                whiten(floats, integers, rows, dofs)
+                whiten(floats, integers, rows, 0, dofs, ALONE)
                 for k in range(rows):
                     before[k] = memory[slot[k]]
                 guesses = solve(rows, A, g, low, high, mu, before, state, slip, B, y, index, x)
-                for k in range(rows):
-                    xk = x[k]
-                    for d in range(dofs):
-                        u[d] += Y[k * dofs + d] * xk
+                push(floats, integers, rows, 0, dofs, ALONE)
                 counts[GUESSES] = guesses
                 counts[ITERATED] += guesses < 0
             solve_forward(floats, integers, 0, dofs)
             for d in range(dofs):
                 v[d] = v_start[d] + u[d]
             attempt += 1
-            if not has_servo or not overloaded(floats, integers, dofs, dt, attempt < SERVO_ATTEMPTS):
+            if not has_servo or not overloaded(floats, integers, 0, dofs, dt, attempt < SERVO_ATTEMPTS):
                 break
         for k in range(slots):
             memory[k] = 0.0
         for k in range(rows):
             memory[slot[k]] = x[k]
-        account(floats, integers, dofs, dt)
+        account(floats, integers, 0, dofs, dt)
         total = 0.0
         for d in range(dofs):
             total += v[d]

@@ -19,10 +19,10 @@ from urdfkit.sim.engine.arrays import (
 )
 from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.dynamics import place, solve_forward, terms
+from urdfkit.sim.engine.rows import contact_rows, joint_rows, push, whiten
+from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, limited, overloaded, smooth_motion
 from urdfkit.sim.engine.solve import solve
 from urdfkit.sim.engine.world.islands import contacts_of
-from urdfkit.sim.engine.world.rows import contact_rows, joint_rows, push, whiten
-from urdfkit.sim.engine.world.servo import SERVO_ATTEMPTS, limited, overloaded, smooth_motion
 
 
 @inlined
@@ -83,7 +83,7 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             first, beyond = tree_dof[tree], tree_dof[tree + 1]
             if smooth_motion(floats, integers, first, beyond, dt):
                 has_servo = True
-            rows = joint_rows(floats, integers, rows, tree, dofs, width, dt)
+            rows = joint_rows(floats, integers, rows, tree, dofs, width, dt, False)
             tree = island_next[tree]
         if not halfway and island_contact[root] < 0 and not has_servo and not limited(floats, integers, rows, dofs):
             # It touches nothing, so it is one tree.
@@ -100,14 +100,14 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             counts[OVERFULL] = 1
             return -1
         rows = contact_rows(
-            floats, integers, rows, island_contact[root], width, first_contact_slot, first_pair_slot, dt
+            floats, integers, rows, island_contact[root], 0, width, first_contact_slot, first_pair_slot, dt, False
         )
         if rows > 0:
-            whiten(floats, integers, rows, single, width)
+            whiten(floats, integers, rows, single, width, False)
             for k in range(rows):
                 before[k] = last[slot[k]]
             guesses = solve(rows, A, g, low, high, mu, before, state, slip, B, y, index, x)
-            push(floats, integers, rows, single, width)
+            push(floats, integers, rows, single, width, False)
             counts[GUESSES] = guesses
             counts[ITERATED] += guesses < 0
         again = False

@@ -17,9 +17,9 @@ from urdfkit.sim.engine.arrays import (
 from urdfkit.sim.engine.compilation import field
 from urdfkit.sim.engine.dynamics import place, terms
 from urdfkit.sim.engine.integrate import move
+from urdfkit.sim.engine.servo import account
 from urdfkit.sim.engine.world.islands import join
 from urdfkit.sim.engine.world.search import candidates, touching
-from urdfkit.sim.engine.world.servo import account
 from urdfkit.sim.engine.world.settle import settle
 
 
