@@ -222,3 +222,58 @@ def test_wrong_parameters(make: Make, ros: int, old: str, new: str, message: str
     with pytest.raises(UrdfkitError) as caught:
         make(ros, yaml=yaml.replace(old, new))
     assert message in str(caught.value)
+
+
+def heard(simulator: Any, topic: str, kind: str) -> list[Any]:
+    found: list[Any] = []
+    simulator.subscribe(topic, kind, found.append)
+    return found
+
+
+@pytest.mark.parametrize(("ros", "flag"), [(1, "publish_cmd: true"), (2, "publish_limited_velocity: true")])
+def test_granted_velocities_are_published_when_asked(make: Make, ros: int, flag: str) -> None:
+    limits = {1: "linear: {x: {has_acceleration_limits: true, max_acceleration: 1.0}}",
+              2: "linear: {x: {max_acceleration: 1.0}}"}[ros]  # fmt: skip
+    simulator = make(ros, f"{flag}\n{limits}")
+    seen = heard(simulator, "/rover/base/cmd_vel_out" if ros == 1 else "/base/cmd_vel_out", TWIST_STAMPED)
+    simulator.command((0.5, 0, 0), (0, 0, 0))
+    simulator.run(0.3)
+    assert [message.twist.linear.x for message in seen][-1] == pytest.approx(0.3, abs=0.01)
+    assert not make(ros).bus.has_subscribers("/base/cmd_vel_out")
+
+
+def test_limits_of_slowing_down_and_of_going_backwards(make: Make) -> None:
+    """Since Jazzy: up by 1, down by 2, and backwards up by 0.5 and down by 4 m/s²."""
+    limits = (
+        "linear: {x: {max_acceleration: 1.0, max_deceleration: -2.0, max_acceleration_reverse: -0.5, "
+        "max_deceleration_reverse: 4.0}}\npublish_limited_velocity: true\ncmd_vel_timeout: 0.0"
+    )
+    simulator = make(2, limits)
+    seen = heard(simulator, "/base/cmd_vel_out", TWIST_STAMPED)
+
+    def slope(wanted: float, seconds: float) -> float:
+        simulator.command((wanted, 0, 0), (0, 0, 0))
+        simulator.run(0.1)
+        first = len(seen)
+        simulator.run(seconds)
+        return float((seen[-1].twist.linear.x - seen[first].twist.linear.x) / ((len(seen) - 1 - first) / 200))
+
+    assert slope(1.0, 0.2) == pytest.approx(1.0)
+    simulator.run(2.0)
+    assert slope(0.0, 0.2) == pytest.approx(-2.0)
+    simulator.run(2.0)
+    assert slope(-1.0, 0.2) == pytest.approx(-0.5)
+    simulator.run(3.0)
+    assert slope(0.0, 0.1) == pytest.approx(4.0)
+
+
+def test_frames_of_ros_2_are_below_a_prefix_or_the_namespace(make: Make) -> None:
+    for more, prefix in (
+        ("", ""),
+        ("tf_frame_prefix: front", "front/"),
+        ("tf_frame_prefix: front\ntf_frame_prefix_enable: false", ""),
+    ):
+        simulator = make(2, more)
+        simulator.run(0.1)
+        message = simulator.bus.latest("/base/odom")
+        assert (message.header.frame_id, message.child_frame_id) == (f"{prefix}odom", f"{prefix}base")

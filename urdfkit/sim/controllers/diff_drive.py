@@ -6,21 +6,20 @@ diff_drive_controller.cpp and its parameter file.
 
 from __future__ import annotations
 
-from math import cos, inf, isfinite, sin
+from math import inf, isfinite
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from urdfkit.description.robot import Cylinder, Sphere
 from urdfkit.errors import DescriptionError
-from urdfkit.messages import ODOMETRY, TF, TWIST, TWIST_STAMPED, header, message_type, transform, twist
+from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.sim.controllers.law import Law
+from urdfkit.sim.controllers.reckoning import Reckoning
 from urdfkit.sim.drives.limits import SpeedLimiter
 from urdfkit.sim.odometry import WheelOdometry
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from urdfkit.description.control import Settings
     from urdfkit.sim.controllers.output import Output
     from urdfkit.sim.motors import Motors
@@ -107,24 +106,13 @@ class DiffDriveController(Law):
         )
 
     def _publish(self) -> None:
-        read, bus = self.settings, self.hardware.setup.bus
-        prefix = read.text("tf_frame_prefix", "")
-        self._frame = prefix + read.text("odom_frame_id", "odom")
-        self._child = prefix + read.text("base_frame_id", "base_link")
-        self._covariances = tuple(self._covariance(name, self._ros1) for name in ("pose", "twist"))
-        self.report(bus.advertise(self.topic("odom"), ODOMETRY), self._rate, self._message)
-        if read.flag("enable_odom_tf", True):
-            self.report(bus.advertise("/tf", TF), self._rate, self._transform)
-
-    def _covariance(self, which: str, required: bool) -> tuple[float, ...]:
-        name = f"{which}_covariance_diagonal"
-        if required and self.settings.find(name) is None:
-            self.settings.text(name)
-        found = self.settings.numbers(name, (0.0,) * 6)
-        if len(found) != 6:
-            place = self.settings.group(name).position
-            raise DescriptionError(f"`{name}` has {len(found)} numbers; it needs 6", position=place)
-        return found
+        read, ros1 = self.settings, self._ros1
+        Reckoning(self, self._reckon, self._rate, prefixed=not ros1, covariance=None if ros1 else (0.0,) * 6)
+        self._granted = None
+        if read.flag("publish_cmd" if ros1 else "publish_limited_velocity", False):
+            self._granted = self.hardware.setup.bus.advertise(self.topic("cmd_vel_out"), TWIST_STAMPED)
+        if not read.flag("allow_multiple_cmd_vel_publishers", True):
+            self.note("commands are taken from whoever sends them: publishers are not told apart")
 
     def _subscribe(self) -> None:
         distro = self.hardware.setup.distro.name
@@ -179,7 +167,9 @@ class DiffDriveController(Law):
             for output in outputs:
                 settled = output.write(state, motors, speed / radius) > 0.0 and settled
         self._speeds = (v_now, w_now)
-        if not settled:
+        if self._granted is not None:
+            self._granted.offer(lambda: message_type(TWIST_STAMPED)(header(t, ""), twist((v_now, 0, 0), (0, 0, w_now))))
+        if not settled or self._granted is not None:
             return 0.0
         due = self._heard + self._timeout - t
         return min(1.0 / self._rate, max(0.0, due) if not stale and isfinite(due) else inf)
@@ -212,34 +202,10 @@ class DiffDriveController(Law):
 
     # Odometry
 
-    def _pose(self) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
-        odometry = self._odometry
-        half = odometry.heading / 2
-        return (odometry.x, odometry.y, 0.0), (0.0, 0.0, sin(half), cos(half))
-
-    def _message(self, state: State) -> Callable[[], Any]:
+    def _reckon(self, state: State) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         self._integrate(state)
-        t, (position, quaternion), (v, w) = state.t, self._pose(), self._measured(state)
-
-        def build() -> Any:
-            pose = message_type("geometry_msgs/msg/Pose")(
-                message_type("geometry_msgs/msg/Point")(*position),
-                message_type("geometry_msgs/msg/Quaternion")(*quaternion),
-            )
-            of_pose, of_twist = (np.diag(diagonal).ravel() for diagonal in self._covariances)
-            return message_type(ODOMETRY)(
-                header(t, self._frame),
-                self._child,
-                message_type("geometry_msgs/msg/PoseWithCovariance")(pose, of_pose),
-                message_type("geometry_msgs/msg/TwistWithCovariance")(twist((v, 0, 0), (0, 0, w)), of_twist),
-            )
-
-        return build
-
-    def _transform(self, state: State) -> Callable[[], Any]:
-        self._integrate(state)
-        t, (position, quaternion) = state.t, self._pose()
-        return lambda: message_type(TF)([transform(t, self._frame, self._child, position, quaternion)])
+        v, w = self._measured(state)
+        return (self._odometry.x, self._odometry.y, self._odometry.heading), (v, 0.0, w)
 
 
 def _limits_1(group: Settings) -> SpeedLimiter:
@@ -255,13 +221,21 @@ def _limits_1(group: Settings) -> SpeedLimiter:
 
 
 def _limits_2(group: Settings) -> SpeedLimiter:
-    """Read the limits of ROS 2: each holds where it is written and not ``nan``; ``has_…: false`` (Humble) lifts it."""
+    """Read the limits of ROS 2: each holds where it is written and not ``nan``; ``has_…: false`` (Humble) lifts it.
 
-    def bounds(which: str, least: str) -> tuple[float, float]:
+    Since Jazzy, speeding up and slowing down have limits of their own in either direction; what is left out is that of
+    the other direction, or of speeding up. Humble's ``min_acceleration`` is for both directions.
+    """
+
+    def bounds(which: str) -> tuple[float, float]:
         if not group.flag(f"has_{which}_limits", True):
             return -inf, inf
         most = group.number(f"max_{which}", inf, unset=True)
-        return group.number(least, -most, unset=True), most
+        return group.number(f"min_{which}", -most, unset=True), most
 
-    slowest = "max_deceleration" if group.find("max_deceleration") is not None else "min_acceleration"
-    return SpeedLimiter(bounds("velocity", "min_velocity"), bounds("acceleration", slowest), bounds("jerk", "min_jerk"))
+    speeding, backward = bounds("acceleration"), None
+    if group.find("min_acceleration") is None and isfinite(speeding[1]):
+        least = group.number("max_acceleration_reverse", speeding[0], unset=True)
+        backward = (least, group.number("max_deceleration_reverse", speeding[1], unset=True))
+        speeding = (group.number("max_deceleration", least, unset=True), speeding[1])
+    return SpeedLimiter(bounds("velocity"), speeding, bounds("jerk"), backward=backward, jerk_when_slowing=False)

@@ -1,4 +1,8 @@
-"""Velocity, acceleration and jerk limits of the new Gazebo's drives (gz-math, SpeedLimiter.cc)."""
+"""Velocity, acceleration and jerk limits.
+
+Those of the new Gazebo's drives (gz-math, SpeedLimiter.cc) and of ROS 2's diff_drive_controller (control_toolbox,
+rate_limiter.hpp).
+"""
 
 from __future__ import annotations
 
@@ -20,6 +24,8 @@ class SpeedLimiter:
         jerk: lowest and highest [m/s³] or [rad/s³].
         last: the velocity granted last.
         before: the one granted before that.
+        backward: lowest and highest acceleration while going backwards, where it differs.
+        jerk_when_slowing: limit the jerk of slowing down too.
     """
 
     velocity: tuple[float, float] = (-inf, inf)
@@ -27,18 +33,27 @@ class SpeedLimiter:
     jerk: tuple[float, float] = (-inf, inf)
     last: float = 0.0
     before: float = 0.0
+    backward: tuple[float, float] | None = None
+    jerk_when_slowing: bool = True
 
     def limit(self, wanted: float, dt: float) -> float:
         """Return the velocity granted `dt` [s] after the last one."""
         granted = wanted
         change = (self.last - self.before) / dt
-        granted = self.last + (change + _clamp(((granted - self.last) / dt - change) / dt, self.jerk) * dt) * dt
-        granted = self.last + _clamp((granted - self.last) / dt, self.acceleration) * dt
+        wish = (granted - self.last) / dt
+        if self.jerk_when_slowing or (wish - change) * wish > 0.0:
+            granted = self.last + (change + _clamp((wish - change) / dt, self.jerk) * dt) * dt
+        granted = self.last + _clamp((granted - self.last) / dt, self._accelerations()) * dt
         granted = _clamp(granted, self.velocity)
         if abs(granted - wanted) < 1e-12:
             granted = wanted
         self.before, self.last = self.last, granted
         return granted
+
+    def _accelerations(self) -> tuple[float, float]:
+        if self.backward is None or self.last > 0.0:
+            return self.acceleration
+        return self.backward if self.last < 0.0 else (self.backward[0], self.acceleration[1])
 
     def settled(self, wanted: float) -> bool:
         """Whether going on wanting the same changes nothing any more."""
