@@ -24,7 +24,7 @@ COMMANDS = {
     "info": "links, joints, mass, sensors, drives",
     "view": "look at a robot in the browser",
     "tf": "compute a transform, or draw the frame tree",
-    "sim": "simulate a robot: teleop, run, warmup",
+    "sim": "simulate a robot: teleop, run, bench, warmup",
 }
 """Command → what it does. The module ``urdfkit.cli.<command>`` implements it."""
 

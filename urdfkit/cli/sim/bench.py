@@ -1,0 +1,163 @@
+"""`urdfkit sim bench`: our engine beside MuJoCo and PyBullet, on the same scenes."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from typing import TYPE_CHECKING
+
+from urdfkit.cli.sim import values
+from urdfkit.errors import SimulationError, UsageError, did_you_mean
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from urdfkit.sim.bench.peer import Peer
+    from urdfkit.sim.bench.report import Report
+
+SCALING, MEMORY = "scaling", "memory"
+ALSO = {
+    SCALING: "cost per robot among 2, 10 and 50 in one world",
+    MEMORY: "memory of a running house simulation",
+}
+"""What can be asked for beside the scenes."""
+INSTALL = "pip install 'urdfkit[bench]'"
+"""What brings the peers."""
+THREADS = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+"""Who reads from the environment how many threads to start: one, so that CPU seconds are those of one core."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments."""
+    add = parser.add_argument
+    add(
+        "--scene",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="measure this only (repeatable; --list names them all)",
+    )
+    add(
+        "--seconds",
+        type=values.positive,
+        default=0.3,
+        metavar="S",
+        help="CPU seconds of each measurement (default: 0.3)",
+    )
+    add("--rounds", type=_count, default=5, metavar="N", help="how often each is repeated, in turns (default: 5)")
+    add("--list", action="store_true", help="list the scenes and end")
+    add("--json", action="store_true", help="print one JSON value")
+    parser.epilog = "examples:\n  urdfkit sim bench --scene diff-drive --scene arm\n  urdfkit sim bench --json"
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Measure and report; 1 where our engine got a scene wrong."""
+    for name in THREADS:
+        os.environ.setdefault(name, "1")
+    names = {**_scenes(), **ALSO}
+    for name in arguments.scene:
+        if name not in names:
+            raise UsageError(f"sim bench: there is no scene `{name}`{did_you_mean(name, names)}")
+    if arguments.list:
+        print(json.dumps(names, indent=1) if arguments.json else _listing(names))
+        return 0
+    wanted = list(dict.fromkeys(arguments.scene)) or list(names)
+    report = measure(wanted, seconds=arguments.seconds, rounds=arguments.rounds, quiet=arguments.quiet)
+    if arguments.json:
+        from urdfkit.sim.bench.report import as_json
+
+        print(json.dumps(as_json(report), indent=1))
+    else:
+        from urdfkit.cli.sim.bench_table import table
+
+        print(table(report, color=arguments.color))
+    return 0 if report.right else 1
+
+
+def measure(names: Sequence[str], *, seconds: float, rounds: int, quiet: bool = False) -> Report:
+    """Measure what is asked for.
+
+    Args:
+        names: of scenes, or of `ALSO`.
+        seconds: CPU seconds of a measurement.
+        rounds: how often each is repeated.
+        quiet: keep progress to ourselves.
+    """
+    prepare(names)
+    from urdfkit import __version__
+    from urdfkit.sim.bench import memory
+    from urdfkit.sim.bench.comparison import OURS, Comparison
+    from urdfkit.sim.bench.machine import machine
+    from urdfkit.sim.bench.peer import PEERS
+    from urdfkit.sim.bench.report import Report
+    from urdfkit.sim.bench.scenes import SCENES
+
+    engines, missing = {OURS: __version__}, {}
+    peers: list[Peer] = []
+    for peer in PEERS if set(names) != {MEMORY} else ():
+        try:
+            engines[peer.name] = peer.version()
+            peers.append(peer)
+        except ImportError:
+            missing[peer.name] = INSTALL
+            print(f"urdfkit: {peer.label} is not installed, so it is left out: {INSTALL}", file=sys.stderr)
+    say = _progress(quiet=quiet)
+    held = None
+    if MEMORY in names:
+        say("memory: driving through the house")
+        try:
+            held = memory.measure()
+        except SimulationError as error:
+            say("")
+            print(f"urdfkit: memory is left out: {error}", file=sys.stderr)
+    comparison = Comparison(peers, seconds=seconds, rounds=rounds, say=say)
+    scenes = [comparison.compare(scene) for scene in SCENES if scene.name in names]
+    scaling = comparison.scale() if SCALING in names else ()
+    say("")
+    return Report(machine(), engines, missing, seconds, rounds, scenes, scaling, held)
+
+
+def prepare(names: Sequence[str]) -> None:
+    """Compile the kernels that will be needed, so that no measurement holds a compilation."""
+    from urdfkit.cli.sim.kernel import prepare_kernel
+
+    prepare_kernel(sys.stderr)
+    from urdfkit.sim.bench.scenes import SCENES
+
+    worlds = {SCALING, MEMORY, *(scene.name for scene in SCENES if scene.loose or len(scene.things) > 1)}
+    if worlds & set(names):
+        prepare_kernel(sys.stderr, world=True)
+
+
+def _scenes() -> dict[str, str]:
+    from urdfkit.sim.bench.scenes import SCENES
+
+    return {scene.name: scene.title for scene in SCENES}
+
+
+def _listing(names: dict[str, str]) -> str:
+    width = max(map(len, names))
+    return "\n".join(f"{name:{width}}  {title}" for name, title in names.items())
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"`{text}` must be a whole number, one or more")
+    return int(text)
+
+
+def _progress(*, quiet: bool) -> Callable[[str], None]:
+    """Return what tells how far we are: one line that changes on a terminal, lines elsewhere; "" ends it."""
+    terminal = sys.stderr.isatty()
+
+    def say(text: str) -> None:
+        if quiet:
+            return
+        if terminal:
+            print(f"\r\x1b[K{text}" + " …" * bool(text), end="", file=sys.stderr, flush=True)
+        elif text:
+            print(text, file=sys.stderr, flush=True)
+
+    return say

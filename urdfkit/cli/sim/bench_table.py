@@ -1,0 +1,130 @@
+"""What ``sim bench`` shows people: a table that narrow terminals and pipes can take."""
+
+from __future__ import annotations
+
+import os
+import sys
+import textwrap
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.cli.parser import columns
+from urdfkit.sim.bench.report import as_json
+
+if TYPE_CHECKING:
+    from urdfkit.sim.bench.report import Report
+
+LABELS = {"urdfkit": "urdfkit", "mujoco": "MuJoCo", "pybullet": "PyBullet"}
+GREEN, RED, BOLD = "\x1b[32m", "\x1b[31m", "\x1b[1m"
+RESET = "\x1b[0m"
+NUMBERS = 56
+"""Columns that the numbers of a line take; remarks come after them, or below where there is too little room."""
+REMARKS = 40
+"""Columns that remarks must have to come after the numbers."""
+
+
+def table(report: Report, *, color: str = "auto", width: int | None = None) -> str:
+    """Return the report as text.
+
+    Args:
+        report: what was measured.
+        color: ``auto``, ``always`` or ``never``.
+        width: columns there are; those of the terminal when None, without end where there is none.
+    """
+    return "\n".join(_Table(color, width if width is not None else columns()).lines(as_json(report)))
+
+
+class _Table:
+    def __init__(self, color: str, width: int | None) -> None:
+        allowed = sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+        self._colored = color == "always" or (color == "auto" and allowed)
+        self._width = width
+
+    def lines(self, report: dict[str, Any]) -> list[str]:
+        found = []
+        if report["scenes"]:
+            many = f"{report['steps_per_call']} a call"
+            found.append(f"{'steps per CPU second':22}{'1 a call':>10}{many:>12}{'ours/theirs':>14}")
+        for scene in report["scenes"]:
+            found += [self._styled(f"{scene['scene']}: {scene['title']}", BOLD), *self._scene(scene)]
+        if report["scaling"]:
+            found += ["", *self._scaling(report["scaling"])]
+        if report["memory"]:
+            memory = report["memory"]
+            text = f"{memory['peak'] / 1e6:.0f} MB (target: under {memory['target'] / 1e6:.0f})"
+            title = f"memory of {memory['robot']} driving in {memory['world']}: "
+            found += ["", self._styled(title, BOLD) + self._judged(text, memory["met"])]
+        machine = report["machine"]
+        versions = ", ".join(f"{LABELS[name]} {version}" for name, version in report["engines"].items())
+        about = f"{machine['processor']}, {machine['cores']} cores, Python {machine['python']}"
+        found += ["", *self._wrapped(f"{versions}, numba {machine['numba']}; {about}")]
+        medians = f"medians of {report['rounds']} rounds of {report['seconds']:g} CPU s in turns"
+        found += self._wrapped(f"{medians}; step {report['dt']:g} s; ratios are medians of the rounds' ratios")
+        return found
+
+    def _scene(self, scene: dict[str, Any]) -> list[str]:
+        found = []
+        for engine, speed in scene["engines"].items():
+            rates = speed["steps_per_cpu_second"]
+            line = f"  {LABELS[engine]:20}{_rate(rates['single']):>10}{_rate(rates['many']):>12}"
+            ratio, remarks = scene["ratios"].get(engine), [_checks(speed)]
+            if ratio is not None:
+                met = ratio["met"] or {}
+                pair = (self._judged(f"{ratio[way]:>6.2f}", met.get(way)) for way in ("single", "many"))
+                line += "  " + "".join(pair)
+                if ratio["target"] is not None:
+                    remarks.insert(0, f"target {ratio['target']:g}")
+                remarks.insert(0, speed["settings"])
+            found += self._with_remarks(line, "; ".join(remarks), right=speed["right"])
+            if faster := speed["faster_but_wrong"]:
+                text = f"faster but wrong: {faster['settings']} at {_rate(faster['steps_per_cpu_second'])}"
+                found += self._wrapped(f"{text}, {_checks({**faster, 'right': False})}", indent=4)
+        return found
+
+    def _scaling(self, scaling: dict[str, Any]) -> list[str]:
+        counts = "".join(f"{count:>10}" for count in scaling["robots"])
+        found = [self._styled("scaling: CPU µs per step and robot", BOLD), f"  {'robots in one world':20}{counts}"]
+        for engine, row in scaling["engines"].items():
+            costs = "".join(f"{cost:>10.2f}" for cost in row["microseconds_per_robot"])
+            growth = self._judged(f"{row['growth']:.2f}", row["met"] if engine == "urdfkit" else None)
+            text = f"grows {growth} times" + (f" (target: at most {scaling['target']})" if engine == "urdfkit" else "")
+            found.append(f"  {LABELS[engine]:20}{costs}  {text}{'' if row['right'] else ', WRONG'}")
+        return found
+
+    def _with_remarks(self, line: str, remarks: str, *, right: bool) -> list[str]:
+        if self._width is None or self._width - NUMBERS >= REMARKS:
+            room = 10_000 if self._width is None else self._width - NUMBERS
+            first, *others = textwrap.wrap(remarks, room)
+            plain = len(line.replace(GREEN, "").replace(RED, "").replace(RESET, ""))
+            gap = " " * max(2, NUMBERS - plain)
+            return [line + gap + self._judged(first, None if right else False)] + [" " * NUMBERS + o for o in others]
+        return [line, *(self._judged(text, None if right else False) for text in self._wrapped(remarks, indent=4))]
+
+    def _wrapped(self, text: str, *, indent: int = 0) -> list[str]:
+        before = " " * indent
+        if self._width is None:
+            return [before + text]
+        return textwrap.wrap(text, max(20, self._width), initial_indent=before, subsequent_indent=before)
+
+    def _judged(self, text: str, met: bool | None) -> str:
+        return text if met is None else self._styled(text, GREEN if met else RED)
+
+    def _styled(self, text: str, style: str) -> str:
+        return f"{style}{text}{RESET}" if self._colored else text
+
+
+def _rate(steps: float) -> str:
+    if steps >= 1e6:
+        return f"{steps / 1e6:.2f}M"
+    return f"{steps / 1e3:.0f}k" if steps >= 1e4 else f"{steps / 1e3:.1f}k"
+
+
+def _checks(speed: dict[str, Any]) -> str:
+    found = [_check(check) for check in speed["checks"]]
+    if speed.get("asleep"):
+        found.append(f"{speed['asleep']} asleep")
+    return ("right: " if speed["right"] else "WRONG: ") + ", ".join(found)
+
+
+def _check(check: dict[str, Any]) -> str:
+    must = f" of {check['ideal']:.4g}" if check["ideal"] else ""
+    return f"{check['what']} {check['value']:.3g}{must} {check['unit']}"

@@ -1,0 +1,1 @@
+"""Our engine beside MuJoCo and PyBullet: the same scenes, the same step, in turns."""
