@@ -22,41 +22,6 @@ TRAJECTORY = "trajectory_msgs/msg/JointTrajectory"
 JOINT_CONTROLLER_STATE = "control_msgs/msg/JointControllerState"
 TRAJECTORY_STATE = "control_msgs/msg/JointTrajectoryControllerState"
 
-CONTROL_MESSAGES = {
-    JOINT_CONTROLLER_STATE: """
-        std_msgs/Header header
-        float64 set_point
-        float64 process_value
-        float64 process_value_dot
-        float64 error
-        float64 time_step
-        float64 command
-        float64 p
-        float64 i
-        float64 d
-        float64 i_clamp
-        bool antiwindup
-    """,
-    TRAJECTORY_STATE: """
-        std_msgs/Header header
-        string[] joint_names
-        trajectory_msgs/JointTrajectoryPoint reference
-        trajectory_msgs/JointTrajectoryPoint feedback
-        trajectory_msgs/JointTrajectoryPoint error
-        trajectory_msgs/JointTrajectoryPoint output
-        trajectory_msgs/JointTrajectoryPoint desired
-        trajectory_msgs/JointTrajectoryPoint actual
-        string[] multi_dof_joint_names
-        trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_reference
-        trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_feedback
-        trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_error
-        trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_output
-        trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_desired
-        trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_actual
-    """,
-}
-"""What rosbags lacks: control_msgs as of Humble, which is not among the common interfaces."""
-
 
 @cache
 def message_type(name: str) -> Any:
@@ -79,14 +44,19 @@ def message_type(name: str) -> Any:
 
 @cache
 def _store() -> Any:
-    """Return rosbags' typestore with `CONTROL_MESSAGES`; None without rosbags."""
+    """Return rosbags' typestore with the messages it lacks; None without rosbags."""
+    from urdfkit.control_messages import CONTROL_MESSAGES
+    from urdfkit.world_messages import WORLD_MESSAGES
+
     try:
         from rosbags.typesys import Stores, get_types_from_msg, get_typestore
     except ImportError:
         return None
     store = get_typestore(Stores.ROS2_HUMBLE)
-    for name, text in CONTROL_MESSAGES.items():
-        store.register(get_types_from_msg(text, name))
+    known: dict[str, Any] = {}
+    for name, text in (CONTROL_MESSAGES | WORLD_MESSAGES).items():
+        known.update(get_types_from_msg(text, name))
+    store.register(known)
     return store
 
 

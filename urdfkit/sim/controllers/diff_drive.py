@@ -53,7 +53,7 @@ class DiffDriveController(Law):
         if not self._ros1 and self._timeout == 0.0:
             self._timeout = inf
         self._open = read.flag("open_loop", False)
-        limits = _limits_1 if self._ros1 else _limits_2
+        limits = limits_of_ros_1 if self._ros1 else limits_of_ros_2
         self._limiters = (limits(read.group("linear/x")), limits(read.group("angular/z")))
         self._rate = read.number("publish_rate", RATE)
         self._publish()
@@ -208,7 +208,7 @@ class DiffDriveController(Law):
         return (self._odometry.x, self._odometry.y, self._odometry.heading), (v, 0.0, w)
 
 
-def _limits_1(group: Settings) -> SpeedLimiter:
+def limits_of_ros_1(group: Settings) -> SpeedLimiter:
     """Read the limits of ROS 1: each holds where its ``has_…`` is true; the lower is minus the upper where left out."""
 
     def bounds(which: str) -> tuple[float, float]:
@@ -220,7 +220,7 @@ def _limits_1(group: Settings) -> SpeedLimiter:
     return SpeedLimiter(bounds("velocity"), bounds("acceleration"), bounds("jerk"))
 
 
-def _limits_2(group: Settings) -> SpeedLimiter:
+def limits_of_ros_2(group: Settings) -> SpeedLimiter:
     """Read the limits of ROS 2: each holds where it is written and not ``nan``; ``has_…: false`` (Humble) lifts it.
 
     Since Jazzy, speeding up and slowing down have limits of their own in either direction; what is left out is that of

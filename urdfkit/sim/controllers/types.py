@@ -8,7 +8,9 @@ from urdfkit.errors import DescriptionError, did_you_mean
 from urdfkit.sim.controllers.diff_drive import DiffDriveController
 from urdfkit.sim.controllers.forward import Forward, ForwardGroup
 from urdfkit.sim.controllers.joint_state import JointStatePublisher
+from urdfkit.sim.controllers.mecanum import MecanumController
 from urdfkit.sim.controllers.position import PidGroup, PidPosition, PidVelocity
+from urdfkit.sim.controllers.steering import SteeringController
 from urdfkit.sim.controllers.trajectory import TrajectoryFollower
 
 if TYPE_CHECKING:
@@ -24,13 +26,13 @@ LAWS: tuple[type[Law], ...] = (
     PidGroup,
     TrajectoryFollower,
     DiffDriveController,
+    SteeringController,
+    MecanumController,
 )
 """Every controller; a test fails if one is missing here."""
 
 ELSEWHERE = (
-    "ackermann_steering_controller/AckermannSteeringController",
     "admittance_controller/AdmittanceController",
-    "bicycle_steering_controller/BicycleSteeringController",
     "effort_controllers/GripperActionController",
     "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
     "force_torque_sensor_controller/ForceTorqueSensorController",
@@ -39,7 +41,6 @@ ELSEWHERE = (
     "gripper_controllers/GripperActionController",
     "imu_sensor_broadcaster/IMUSensorBroadcaster",
     "imu_sensor_controller/ImuSensorController",
-    "mecanum_drive_controller/MecanumDriveController",
     "parallel_gripper_action_controller/GripperActionController",
     "pid_controller/PidController",
     "pos_vel_controllers/JointTrajectoryController",
@@ -48,7 +49,6 @@ ELSEWHERE = (
     "range_sensor_broadcaster/RangeSensorBroadcaster",
     "steering_controllers_library/SteeringControllersLibrary",
     "tricycle_controller/TricycleController",
-    "tricycle_steering_controller/TricycleSteeringController",
 )
 """Controllers that exist and that we do not simulate."""
 

@@ -1,0 +1,61 @@
+"""Definitions of control_msgs as of Humble, which rosbags lacks; actions as the messages that actionlib makes of them."""
+
+from __future__ import annotations
+
+GOAL_STATUSES = "actionlib_msgs/msg/GoalStatusArray"
+GOAL_ID = "actionlib_msgs/msg/GoalID"
+
+_POINT = "trajectory_msgs/JointTrajectoryPoint"
+_MANY = "trajectory_msgs/MultiDOFJointTrajectoryPoint"
+_ROLES = ("reference", "feedback", "error", "output", "desired", "actual")
+
+
+def _action(name: str, goal: str, feedback: str, result: str) -> dict[str, str]:
+    """Return the messages of an action by type: its three parts, and each in its envelope."""
+    parts = {"Goal": goal, "Feedback": feedback, "Result": result}
+    found = {f"control_msgs/msg/{name}{part}": text for part, text in parts.items()}
+    for part in parts:
+        label = "actionlib_msgs/GoalID goal_id" if part == "Goal" else "actionlib_msgs/GoalStatus status"
+        found[f"control_msgs/msg/{name}Action{part}"] = (
+            f"std_msgs/Header header\n{label}\ncontrol_msgs/{name}{part} {part.lower()}"
+        )
+    return found
+
+
+_GRIPPED = "float64 position\nfloat64 effort\nbool stalled\nbool reached_goal"
+
+CONTROL_MESSAGES = {
+    "control_msgs/msg/JointControllerState": """
+        std_msgs/Header header
+        float64 set_point
+        float64 process_value
+        float64 process_value_dot
+        float64 error
+        float64 time_step
+        float64 command
+        float64 p
+        float64 i
+        float64 d
+        float64 i_clamp
+        bool antiwindup
+    """,
+    "control_msgs/msg/JointTrajectoryControllerState": "\n".join(
+        ["std_msgs/Header header", "string[] joint_names", *(f"{_POINT} {role}" for role in _ROLES)]
+        + ["string[] multi_dof_joint_names", *(f"{_MANY} multi_dof_{role}" for role in _ROLES)]
+    ),
+    "control_msgs/msg/JointTolerance": "string name\nfloat64 position\nfloat64 velocity\nfloat64 acceleration",
+    "control_msgs/msg/GripperCommand": "float64 position\nfloat64 max_effort",
+    **_action(
+        "FollowJointTrajectory",
+        goal="""
+        trajectory_msgs/JointTrajectory trajectory
+        control_msgs/JointTolerance[] path_tolerance
+        control_msgs/JointTolerance[] goal_tolerance
+        builtin_interfaces/Duration goal_time_tolerance
+        """,
+        feedback=f"std_msgs/Header header\nstring[] joint_names\n{_POINT} desired\n{_POINT} actual\n{_POINT} error",
+        result="int32 error_code\nstring error_string",
+    ),
+    **_action("GripperCommand", goal="control_msgs/GripperCommand command", feedback=_GRIPPED, result=_GRIPPED),
+}
+"""Type → definition."""
