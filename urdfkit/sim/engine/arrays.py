@@ -111,6 +111,7 @@ FLOATS: dict[str, Size] = {
     "y": ("r",),
     "A": ("q",),
     "B": ("q",),
+    "swept": ("r",),
 }
 
 INTEGERS: dict[str, Size] = {

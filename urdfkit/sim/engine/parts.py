@@ -35,5 +35,6 @@ def find_impulses(floats: Any, integers: Any, rows: int) -> int:
         field(floats, integers, At.B),
         field(floats, integers, At.y),
         field(integers, integers, At.index),
+        field(floats, integers, At.swept),
         field(floats, integers, At.x),
     )

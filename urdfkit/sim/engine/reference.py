@@ -269,7 +269,7 @@ class Reference:
         a["before"][:n] = a["last"][[row.slot for row in rows]]
         guesses = self._find(a.floats, a.integers, n)
         a["counts"][GUESSES] = guesses
-        a["counts"][ITERATED] += guesses < 0
+        a["counts"][ITERATED] += guesses <= 0
         return np.array(free + np.linalg.solve(inertia, J.T @ a["x"][:n]))
 
     def _servo(self, v: Array) -> Array:

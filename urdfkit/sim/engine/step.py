@@ -73,6 +73,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     y = field(floats, integers, At.y)
     A = field(floats, integers, At.A)
     B = field(floats, integers, At.B)
+    swept = field(floats, integers, At.swept)
     slot = field(integers, integers, At.slot)
     state = field(integers, integers, At.state)
     index = field(integers, integers, At.index)
@@ -126,10 +127,10 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                 whiten(floats, integers, rows, 0, dofs, ALONE)
                 for k in range(rows):
                     before[k] = memory[slot[k]]
-                guesses = solve(rows, A, g, low, high, mu, before, state, slip, B, y, index, x)
+                guesses = solve(rows, A, g, low, high, mu, before, state, slip, B, y, index, swept, x)
                 push(floats, integers, rows, 0, dofs, ALONE)
                 counts[GUESSES] = guesses
-                counts[ITERATED] += guesses < 0
+                counts[ITERATED] += guesses <= 0
             solve_forward(floats, integers, 0, dofs)
             for d in range(dofs):
                 v[d] = v_start[d] + u[d]

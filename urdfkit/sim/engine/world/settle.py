@@ -58,6 +58,7 @@ def settle(floats: Any, integers: Any, root: int) -> int:
     y = field(floats, integers, At.y)
     A = field(floats, integers, At.A)
     B = field(floats, integers, At.B)
+    swept = field(floats, integers, At.swept)
     tree_dof = field(integers, integers, At.tree_dof)
     island_next = field(integers, integers, At.island_next)
     island_contact = field(integers, integers, At.island_contact)
@@ -106,10 +107,10 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             whiten(floats, integers, rows, single, width, False)
             for k in range(rows):
                 before[k] = last[slot[k]]
-            guesses = solve(rows, A, g, low, high, mu, before, state, slip, B, y, index, x)
+            guesses = solve(rows, A, g, low, high, mu, before, state, slip, B, y, index, swept, x)
             push(floats, integers, rows, single, width, False)
             counts[GUESSES] = guesses
-            counts[ITERATED] += guesses < 0
+            counts[ITERATED] += guesses <= 0
         again = False
         tree = root
         attempt += 1
