@@ -111,7 +111,7 @@ FLOATS: dict[str, Size] = {
     "y": ("r",),
     "A": ("q",),
     "B": ("q",),
-    "swept": ("r",),
+    "near_x": ("r",),
 }
 
 INTEGERS: dict[str, Size] = {

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import field
 from urdfkit.sim.engine.solve import solve
 from urdfkit.sim.engine.world.search import candidates, touching
 
@@ -22,19 +20,4 @@ def find_contacts(floats: Any, integers: Any, pairs: int) -> int:
 
 def find_impulses(floats: Any, integers: Any, rows: int) -> int:
     """Solve rows written by other means; return what `solve` does."""
-    return solve(
-        rows,
-        field(floats, integers, At.A),
-        field(floats, integers, At.g),
-        field(floats, integers, At.low),
-        field(floats, integers, At.high),
-        field(floats, integers, At.mu),
-        field(floats, integers, At.before),
-        field(integers, integers, At.state),
-        field(floats, integers, At.slip),
-        field(floats, integers, At.B),
-        field(floats, integers, At.y),
-        field(integers, integers, At.index),
-        field(floats, integers, At.swept),
-        field(floats, integers, At.x),
-    )
+    return solve(floats, integers, rows)

@@ -27,7 +27,7 @@ from urdfkit.sim.engine.arrays import (
     STEPS,
     At,
 )
-from urdfkit.sim.engine.collide import collide_with_plane, near_plane
+from urdfkit.sim.engine.collide import collide_with_plane, near_plane, turn_remembered
 from urdfkit.sim.engine.compilation import field
 from urdfkit.sim.engine.dynamics import place, solve_forward, terms
 from urdfkit.sim.engine.integrate import move
@@ -63,20 +63,9 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     s_ahead = field(floats, integers, At.s_ahead)
     v_ahead = field(floats, integers, At.v_ahead)
     contact_origin = field(floats, integers, At.contact_origin)
-    g = field(floats, integers, At.g)
-    low = field(floats, integers, At.low)
-    high = field(floats, integers, At.high)
-    mu = field(floats, integers, At.mu)
     before = field(floats, integers, At.before)
-    slip = field(floats, integers, At.slip)
     x = field(floats, integers, At.x)
-    y = field(floats, integers, At.y)
-    A = field(floats, integers, At.A)
-    B = field(floats, integers, At.B)
-    swept = field(floats, integers, At.swept)
     slot = field(integers, integers, At.slot)
-    state = field(integers, integers, At.state)
-    index = field(integers, integers, At.index)
     saturated = field(integers, integers, At.saturated)
     counts = field(integers, integers, At.counts)
     floating = field(integers, integers, At.tree_floats)[0] != 0
@@ -114,6 +103,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                     for k in range(3):
                         contact_origin[k] = P[k]
                     contacts = collide_with_plane(floats, integers, 0, 0, shapes, most_contacts, floor - P[2], dt)
+                    turn_remembered(floats, integers, contacts, first_contact_slot, 0, memory, dt)
             has_servo = smooth_motion(floats, integers, 0, dofs, dt)
             rows = joint_rows(floats, integers, 0, 0, dofs, dofs, dt, ALONE)
             if not halfway and contacts == 0 and not has_servo and not limited(floats, integers, rows, dofs):
@@ -127,7 +117,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                 whiten(floats, integers, rows, 0, dofs, ALONE)
                 for k in range(rows):
                     before[k] = memory[slot[k]]
-                guesses = solve(rows, A, g, low, high, mu, before, state, slip, B, y, index, swept, x)
+                guesses = solve(floats, integers, rows)
                 push(floats, integers, rows, 0, dofs, ALONE)
                 counts[GUESSES] = guesses
                 counts[ITERATED] += guesses <= 0

@@ -6,11 +6,13 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import (
     CONTACTS,
+    DOFS,
     DT,
     FLOOR,
     HAS_FLOOR,
     HAS_PAIRS,
     LAST_PAIRS,
+    MIMICS,
     OVERFULL,
     PAIRS,
     SHAPES,
@@ -18,7 +20,7 @@ from urdfkit.sim.engine.arrays import (
     TREES,
     At,
 )
-from urdfkit.sim.engine.collide import collide_with_plane, near_plane
+from urdfkit.sim.engine.collide import collide_with_plane, near_plane, turn_remembered
 from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.world.meet import bound, collide_pairs, find_again, find_pairs
 
@@ -98,4 +100,6 @@ def touching(floats: Any, integers: Any, pairs: int) -> int:
             counts[OVERFULL] = 1
             return -1
         counts[LAST_PAIRS] = find_again(floats, integers, on_ground, contacts, counts[LAST_PAIRS], first_pair_slot)
+    last = field(floats, integers, At.last)
+    turn_remembered(floats, integers, contacts, 2 * integers[DOFS] + integers[MIMICS], first_pair_slot, last, dt)
     return contacts

@@ -48,25 +48,14 @@ def settle(floats: Any, integers: Any, root: int) -> int:
     v_start = field(floats, integers, At.v_start)
     contact_mu = field(floats, integers, At.contact_mu)
     contact_impulse = field(floats, integers, At.contact_impulse)
-    g = field(floats, integers, At.g)
-    low = field(floats, integers, At.low)
-    high = field(floats, integers, At.high)
-    mu = field(floats, integers, At.mu)
     before = field(floats, integers, At.before)
-    slip = field(floats, integers, At.slip)
     x = field(floats, integers, At.x)
-    y = field(floats, integers, At.y)
-    A = field(floats, integers, At.A)
-    B = field(floats, integers, At.B)
-    swept = field(floats, integers, At.swept)
     tree_dof = field(integers, integers, At.tree_dof)
     island_next = field(integers, integers, At.island_next)
     island_contact = field(integers, integers, At.island_contact)
     contact_next = field(integers, integers, At.contact_next)
     contact_row = field(integers, integers, At.contact_row)
     slot = field(integers, integers, At.slot)
-    state = field(integers, integers, At.state)
-    index = field(integers, integers, At.index)
     counts = field(integers, integers, At.counts)
     dt = numbers[DT]
     first_contact_slot, first_pair_slot = 2 * dofs + mimics, slots - 3 * most_contacts
@@ -107,7 +96,7 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             whiten(floats, integers, rows, single, width, False)
             for k in range(rows):
                 before[k] = last[slot[k]]
-            guesses = solve(rows, A, g, low, high, mu, before, state, slip, B, y, index, swept, x)
+            guesses = solve(floats, integers, rows)
             push(floats, integers, rows, single, width, False)
             counts[GUESSES] = guesses
             counts[ITERATED] += guesses <= 0
