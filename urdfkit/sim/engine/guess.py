@@ -190,7 +190,7 @@ def revise_guess(floats: Any, integers: Any, rows: int, x: Any, tiny: float) -> 
                 speed = first * a + second * b
                 if speed < -tiny:
                     state[k] = HOLDS
-                elif abs(second * a - first * b) > 1e-9 * speed + tiny:
+                elif abs(second * a - first * b) > 1e-9 * speed + 1e-3 * tiny:
                     right = False
                 slip[k] = turning(speed, mu[k] * x[k], A[k * rows + k])
             if state[k] != doing:
