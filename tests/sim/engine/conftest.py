@@ -64,6 +64,16 @@ def diff_drive() -> str:
     return robot(*parts)
 
 
+def four_wheels() -> str:
+    """A chassis on four driven wheels, 0.4 m by 0.5 m apart, radius 0.1 m; its root is on the ground below them."""
+    wheel = collision('<cylinder radius="0.1" length="0.04"/>', rpy="1.5707963267948966 0 0")
+    parts = [link("base", 6.0, (0.1, 0.2, 0.25), at="0 0 0.1")]
+    for name, x, y in (("lf", 0.2, 0.25), ("lr", -0.2, 0.25), ("rf", 0.2, -0.25), ("rr", -0.2, -0.25)):
+        parts.append(link(name, 0.5, (0.0015, 0.0025, 0.0015), wheel))
+        parts.append(joint(f"{name}_wheel", "continuous", "base", name, xyz=f"{x} {y} 0.1", axis="0 1 0"))
+    return robot(*parts)
+
+
 def arm(*, damping: float = 0.0, friction: float = 0.0, axes: str = "zyzyzyz") -> str:
     """A serial arm on a fixed base, links 0.2 m long."""
     parts = ['<link name="base"/>']
@@ -94,6 +104,7 @@ def body(geometry: str, *, mass: float = 2.0, inertia: tuple[float, float, float
 
 MODELS = {
     "diff_drive": diff_drive(),
+    "four_wheels": four_wheels(),
     "arm": arm(),
     "box": body('<box size="0.2 0.3 0.1"/>', inertia=(0.0166667, 0.00833333, 0.0216667)),
     "ball": body('<sphere radius="0.1"/>', inertia=(0.008, 0.008, 0.008)),

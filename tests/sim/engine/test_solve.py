@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from urdfkit.sim.engine import Surface
-from urdfkit.sim.engine.arrays import FOUND_ROWS, allocate
+from urdfkit.sim.engine.arrays import FOUND_ROWS, GUESSES, allocate
 from urdfkit.sim.engine.parts import find_impulses
 from urdfkit.sim.engine.warmup import load_compiled
 
@@ -86,3 +88,112 @@ def test_a_remembered_load_lets_nothing_creep():
     fresh = solved(A, g, np.zeros(1), np.full(1, np.inf), np.zeros(1))[1]
     again = solved(A, g, np.zeros(1), np.full(1, np.inf), np.zeros(1), before=fresh)[1]
     assert abs(A @ again + g)[0] < 0.02 * abs(A @ fresh + g)[0]
+
+
+def brute_force(A, g, low, high, mu, sweeps=200_000):
+    """Return impulses from long projected Gauss-Seidel sweeps, and by how much they break the law."""
+    x = np.zeros(len(g))
+    for k in range(sweeps):
+        i = 0
+        old = x.copy()
+        while i < len(g):
+            x[i] = min(high[i], max(low[i], x[i] - (A[i] @ x + g[i]) / A[i, i]))
+            if mu[i] > 0.0:
+                t = slice(i + 1, i + 3)
+                x[t] -= (A[t] @ x + g[t]) / max(A[i + 1, i + 1], A[i + 2, i + 2])
+                size = np.linalg.norm(x[t])
+                if size > mu[i] * x[i]:
+                    x[t] *= mu[i] * x[i] / size
+                i += 3
+            else:
+                i += 1
+        if k % 100 == 0 and np.abs(x - old).max() < 1e-15:
+            break
+    return x, violation(A, g, low, high, mu, x)
+
+
+def problem(seed, contacts, motors, dofs, *, friction=1.0):
+    """Return rows of random contacts and motors on a body of so many dofs, which moves at random."""
+    random = np.random.default_rng(seed)
+    n = motors + 3 * contacts
+    J = random.normal(size=(n, dofs))
+    g = J @ random.normal(size=dofs)
+    low, high, mu = np.full(n, -np.inf), np.full(n, np.inf), np.zeros(n)
+    high[:motors] = random.uniform(0.01, 1.0, motors)
+    low[:motors] = -high[:motors]
+    low[motors::3] = 0.0
+    mu[motors::3] = friction * random.uniform(0.05, 1.0, contacts)
+    return J @ J.T / dofs, g, low, high, mu
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(st.integers(0, 2**32), st.integers(1, 4), st.integers(0, 3))
+def test_random_contacts_obey_coulomb(seed, contacts, motors):
+    rows = problem(seed, contacts, motors, dofs=3 * contacts + motors + 2)
+    guesses, x = solved(*rows)
+    assert guesses != 0
+    assert violation(*rows, x) < 1e-8 * max(1.0, np.abs(x).max())
+
+
+@settings(max_examples=150, deadline=None, derandomize=True)
+@given(st.integers(0, 2**32), st.integers(2, 4))
+def test_redundant_contacts_obey_coulomb(seed, contacts):
+    rows = problem(seed, contacts, 0, dofs=6, friction=0.5)
+    guesses, x = solved(*rows)
+    assert guesses != 0
+    assert violation(*rows, x) < 1e-7 * max(1.0, np.abs(x).max())
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_brute_force_finds_the_same(seed):
+    rows = problem(seed, 2, 1, dofs=9, friction=0.6)
+    guesses, x = solved(*rows)
+    expected, off = brute_force(*rows)
+    assert off < 1e-10
+    assert guesses > 0
+    assert x == pytest.approx(expected, abs=1e-7)
+
+
+def test_a_wedged_peg_stays():
+    # Between two walls that face each other, pressed apart by nothing: friction may be anything, gravity pulls at it.
+    normals, up = np.array([[1.0, 0, 0], [-1.0, 0, 0]]), np.array([0.0, 0.0, 1.0])
+    J = np.array([row for normal in normals for row in (normal, np.cross(up, normal), up)])
+    A, g = J @ J.T, J @ np.array([0.0, 0.0, -0.01])
+    low, high = np.tile([0.0, -np.inf, -np.inf], 2), np.full(6, np.inf)
+    before = np.array([0.05, 0.0, 0.0, 0.05, 0.0, 0.0])
+    guesses, x = solved(A, g, low, high, np.tile([1.0, 0.0, 0.0], 2), before)
+    assert guesses != 0
+    assert np.abs(A @ x + g).max() < 1e-8
+
+
+def test_friction_of_a_contact_in_the_air_is_zero():
+    A, g = np.eye(3), np.array([0.5, 1.0, 0.0])
+    guesses, x = solved(A, g, np.array([0.0, -np.inf, -np.inf]), np.full(3, np.inf), np.array([0.7, 0.0, 0.0]))
+    assert guesses == 1
+    assert x.tolist() == [0.0, 0.0, 0.0]
+
+
+def test_slip_that_turns_is_found_by_newton():
+    # One contact: friction turns the slip, because the body yields more along y than along x.
+    A, g = np.diag([1.0, 1.0, 3.0]), np.array([-0.2, 1.0, 1.0])
+    mu = np.array([0.5, 0.0, 0.0])
+    guesses, x = solved(A, g, np.array([0.0, -np.inf, -np.inf]), np.full(3, np.inf), mu)
+    w = A @ x + g
+    assert 0 < guesses <= 8
+    assert x[0] == pytest.approx(0.2, rel=1e-8)
+    assert x[1:] == pytest.approx(-0.1 * w[1:] / np.linalg.norm(w[1:]), rel=1e-8)
+
+
+def test_turning_on_the_spot_takes_no_sweeps(engine_of):
+    engine = engine_of("four_wheels")
+    for dof, speed in ((6, -3.0), (7, -3.0), (8, 3.0), (9, 3.0)):
+        engine.motor_velocity[dof], engine.motor_effort[dof] = speed, 50.0
+    engine.step(2000)
+    assert engine.iterated == 0
+    assert abs(engine.v[5]) > 0.3
+    violations = []
+    for _ in range(50):
+        engine.step()
+        violations.append(violation(*rows_of(engine)))
+        assert 0 < engine._arrays["counts"][GUESSES] <= 2
+    assert max(violations) < 1e-9
