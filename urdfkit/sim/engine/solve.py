@@ -48,6 +48,8 @@ SOFTENINGS = 3
 """Problems not solved before sweeps help."""
 SWEEPS = 400
 """Most sweeps at a time."""
+LARGE = 60
+"""Rows beyond which sweeps cost less than softer problems, each a matrix to eliminate several times."""
 
 
 @inlined
@@ -175,28 +177,36 @@ def attempts(floats: Any, integers: Any, rows: int, rest: Any, softness: float, 
 
 
 @inlined
-def sweep(floats: Any, integers: Any, rows: int, x: Any, sweeps: int) -> None:
-    """Improve x by projected Gauss-Seidel sweeps with circular friction cones."""
+def sweep(floats: Any, integers: Any, rows: int, x: Any, sweeps: int, tiny: float) -> None:
+    """Improve x by projected Gauss-Seidel sweeps with circular friction cones, until nothing moves."""
     A = field(floats, integers, At.A)
     g = field(floats, integers, At.g)
     low = field(floats, integers, At.low)
     high = field(floats, integers, At.high)
     mu = field(floats, integers, At.mu)
     for _ in range(sweeps):
+        moved = 0.0
         k = 0
         while k < rows:
-            x[k] = min(high[k], max(low[k], x[k] - result(rows, A, g, x, k) / A[k * rows + k]))
+            stiffness = A[k * rows + k]
+            old = x[k]
+            x[k] = min(high[k], max(low[k], old - result(rows, A, g, x, k) / stiffness))
+            moved = max(moved, abs(x[k] - old) * stiffness)
             if mu[k] > 0.0:
                 stiffness = max(A[(k + 1) * rows + k + 1], A[(k + 2) * rows + k + 2])
-                a = x[k + 1] - result(rows, A, g, x, k + 1) / stiffness
-                b = x[k + 2] - result(rows, A, g, x, k + 2) / stiffness
+                first, second = x[k + 1], x[k + 2]
+                a = first - result(rows, A, g, x, k + 1) / stiffness
+                b = second - result(rows, A, g, x, k + 2) / stiffness
                 size, most = math.sqrt(a * a + b * b), mu[k] * x[k]
                 if size > most:
                     a, b = a * most / size, b * most / size
                 x[k + 1], x[k + 2] = a, b
+                moved = max(moved, (abs(a - first) + abs(b - second)) * stiffness)
                 k += 3
             else:
                 k += 1
+        if moved < tiny:
+            break
 
 
 @compiled
@@ -214,7 +224,10 @@ def approach(floats: Any, integers: Any, rows: int, tiny: float) -> int:
         near[k] = before[k]
     tried = 0
     sweeps = 0
-    while True:
+    if rows > LARGE:
+        sweeps = SWEEPS + 1
+        sweep(floats, integers, rows, near, sweeps, tiny)
+    while sweeps <= SWEEPS:
         softness, failed = SOFTEST, 0
         guess_from(floats, integers, rows, near)
         while failed < SOFTENINGS:
@@ -232,10 +245,8 @@ def approach(floats: Any, integers: Any, rows: int, tiny: float) -> int:
             if off < tiny or softness == SOFTNESS:
                 return tried if sweeps == 0 else -tried
             softness = max(SOFTNESS, HARDENING * softness)
-        if sweeps > SWEEPS:
-            break
         sweeps = max(10, 3 * sweeps)
-        sweep(floats, integers, rows, near, sweeps)
+        sweep(floats, integers, rows, near, sweeps, tiny)
     for k in range(rows):
         x[k] = near[k]
     return 0
