@@ -7,11 +7,12 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 SOURCES := pyproject.toml tests/constraints.txt
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint typecheck bench clean
+.PHONY: help run test lint typecheck bench fidelity clean
 
 help:
 	@echo "make run    install into $(VENV) and drive Simpleton in the browser"
 	@echo "make test   install the test tools too, then run every check and test"
+	@echo "make fidelity  measure us and the peers beside closed forms, into docs/fidelity.md"
 	@echo "make bench  run us and the peers side by side and print ratios"
 	@echo "make clean  remove $(VENV) and caches"
 
@@ -29,6 +30,9 @@ test: $(VENV)/.test
 bench: $(VENV)/.bench
 	$(BIN)/python tests/bench/bench_lint.py
 	$(BIN)/python tests/bench/bench_sim.py
+
+fidelity: $(VENV)/.bench
+	$(BIN)/python tests/bench/fidelity --write
 
 $(VENV)/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' || { echo "urdfkit needs Python 3.10 or newer; name one: make PYTHON=python3.11 $(MAKECMDGOALS)"; exit 2; }

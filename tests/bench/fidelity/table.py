@@ -1,0 +1,109 @@
+"""The table of docs/fidelity.md, as text."""
+
+from __future__ import annotations
+
+import datetime
+import math
+import platform
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from fidelity.row import Row
+
+PAGE = Path(__file__).parents[3] / "docs" / "fidelity.md"
+BEGIN, END = "<!-- table: made by `make fidelity` -->", "<!-- end of table -->"
+
+
+@dataclass(frozen=True)
+class Result:
+    """The errors of a row: ours at 1 and at 5 ms, and of each peer by setting."""
+
+    row: Row
+    ours: float
+    coarse: float
+    mujoco: Mapping[str, float]
+    bullet: Mapping[str, float]
+
+    @property
+    def better_peer(self) -> tuple[str, float]:
+        """Name and error of the better peer at its best."""
+        peers = {"MuJoCo": min(self.mujoco.values())}
+        if self.bullet:
+            peers["PyBullet"] = min(self.bullet.values())
+        name = min(peers, key=lambda each: peers[each])
+        return name, peers[name]
+
+    @property
+    def verdict(self) -> str:
+        """How ours stands beside the better peer."""
+        best = self.better_peer[1]
+        if max(self.ours, best) <= self.row.negligible:
+            return "equal"
+        return "better" if self.ours <= best else "**worse**"
+
+
+def number(value: float, unit: str) -> str:
+    """Return an error for people: two digits; what is round-off as zero."""
+    if math.isinf(value):
+        return "breaks down"
+    if value < 1e-12:
+        return "< 1e-12" + (f" {unit}" if unit else "")
+    if not unit and value >= 1e-4:
+        return f"{100 * value:.2g} %"
+    text = f"{value:.1e}" if value < 1e-3 or value >= 1e3 else f"{value:.2g}"
+    return f"{text} {unit}".strip()
+
+
+def _peer(errors: Mapping[str, float], unit: str) -> tuple[str, str]:
+    """Return the error at the default, and the best with the name of its setting."""
+    if not errors:
+        return "–", "–"
+    name = min(errors, key=lambda each: errors[each])
+    best = number(errors[name], unit)
+    return number(errors["default"], unit), best if name == "default" else f"{best} ({name})"
+
+
+def table(sections: Sequence[tuple[str, Sequence[Result]]]) -> str:
+    """Return all rows in Markdown, with versions and date."""
+    from importlib.metadata import version
+
+    names = ("urdfkit", "mujoco", "pybullet", "numba")
+    versions = ", ".join(f"{name} {version(name)}" for name in names)
+    date = datetime.datetime.now(tz=datetime.timezone.utc).date().isoformat()
+    lines = [f"Measured on {date} with {versions}, Python {platform.python_version()}.", ""]
+    results = [result for _, part in sections for result in part]
+    counts = {word: sum(result.verdict == word for result in results) for word in ("better", "equal", "**worse**")}
+    lines.append(
+        f"Of {len(results)} rows ours is better than the better peer in {counts['better']}, equal in "
+        f"{counts['equal']}, worse in {counts['**worse**']}."
+    )
+    for title, part in sections:
+        lines += ["", f"### {title}", ""]
+        lines.append(
+            "| what | closed form | ours, 1 ms | ours, 5 ms | MuJoCo, default | MuJoCo, best | PyBullet, default "
+            "| PyBullet, best | better peer | ours is |"
+        )
+        lines.append("|" + "---|" * 10)
+        for result in part:
+            row = result.row
+            cells = (
+                row.name.replace("|", "\\|"),
+                row.form,
+                number(result.ours, row.unit),
+                number(result.coarse, row.unit),
+                *_peer(result.mujoco, row.unit),
+                *_peer(result.bullet, row.unit),
+                result.better_peer[0],
+                result.verdict,
+            )
+            lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def put_table(text: str) -> None:
+    """Put the table between the marks of the page."""
+    page = PAGE.read_text(encoding="utf-8")
+    before, _, rest = page.partition(BEGIN)
+    _, _, after = rest.partition(END)
+    PAGE.write_text(f"{before}{BEGIN}\n{text}\n{END}{after}", encoding="utf-8")
