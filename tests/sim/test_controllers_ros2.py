@@ -7,6 +7,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import numpy as np
 import pytest
 
 from urdfkit.errors import SimulationError, UrdfkitError
@@ -161,6 +162,29 @@ def test_trajectories_by_effort(make: Make) -> None:
     simulator.bus.publish("/arm_controller/joint_trajectory", TRAJECTORY, trajectory((1.0, [1.0, -0.5])))
     simulator.run(12.0)
     assert positions(simulator) == pytest.approx((1.0, -0.5), abs=1e-3)
+
+
+def test_joints_that_stray_from_a_trajectory_are_stopped(make: Make) -> None:
+    notes: list[str] = []
+    gains = "    gains: {shoulder: {p: 300.0, d: 30.0}, elbow: {p: 300.0, d: 30.0}}\n"
+    constraints = "    constraints: {shoulder: {trajectory: 0.05}}\n"
+    yaml = TRAJECTORIES.replace("command_interfaces: [position]", "command_interfaces: [effort]") + gains + constraints
+    simulator = make(yaml, commands=command("effort"), arm={"effort": 3.0}, note=notes.append)
+    simulator.bus.publish("/arm_controller/joint_trajectory", TRAJECTORY, trajectory((1.0, [1.2, 0.0])))
+    simulator.run(1.0)
+    assert any("stopped: joint `shoulder` is off by 0.05" in note for note in notes)
+    wanted = simulator.bus.latest("/arm_controller/controller_state").reference
+    assert wanted.positions[0] < 0.2
+
+
+@pytest.mark.parametrize(("distro", "taken"), [("humble", True), ("jazzy", False), (None, False)])
+def test_since_jazzy_trajectories_end_at_rest(make: Make, distro: str | None, taken: bool) -> None:
+    simulator = make(TRAJECTORIES, ros_distro=distro)
+    message = trajectory((1.0, [0.5, 0.0]))
+    message.points[0].velocities = np.array([0.1, 0.0])
+    simulator.bus.publish("/arm_controller/joint_trajectory", TRAJECTORY, message)
+    simulator.run(2.0)
+    assert (abs(positions(simulator)[0]) > 0.1) is taken
 
 
 def test_joints_without_controller_are_held_unless_told_not_to(make: Make) -> None:

@@ -112,6 +112,9 @@ class Law(ABC):
         for output in self.outputs:
             output.start(state)
 
+    def stop(self) -> None:  # noqa: B027 - most have nobody to tell
+        """End, and tell whoever waits for something."""
+
     def update(self, state: State, motors: Motors) -> float:
         """Command the outputs; return how long that needs no attention [s]: 0 is until the next control period."""
         return inf

@@ -188,6 +188,7 @@ class ControlLoop:
                         f"controller `{law.name}` needs joint `{joint}`, which `{owner.name}` has; stop one of them"
                     )
         for law in stopping:
+            law.stop()
             law.running = False
             for output in law.outputs:
                 if output.interface != "position" and self._state is not None:

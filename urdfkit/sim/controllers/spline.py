@@ -15,6 +15,9 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+ROUNDING = 1e-9
+"""Times this near [s] are the same."""
+
 
 @dataclass(frozen=True)
 class Waypoint:
@@ -34,10 +37,16 @@ class Waypoint:
 
 
 class Trajectory:
-    """Waypoints in the order of their times, the first where it begins."""
+    """Waypoints in the order of their times, the first where it begins.
 
-    def __init__(self, waypoints: list[Waypoint]) -> None:
+    Args:
+        waypoints: one at least.
+        before: what leads to the first; None for standing there.
+    """
+
+    def __init__(self, waypoints: list[Waypoint], before: Trajectory | None = None) -> None:
         self.waypoints = waypoints
+        self.before = before
         self._times = [point.t for point in waypoints]
         self._segments = [_coefficients(start, end) for start, end in pairwise(waypoints)]
 
@@ -47,13 +56,15 @@ class Trajectory:
         return self._times[-1]
 
     def at(self, t: float) -> tuple[Array, Array, Array]:
-        """Return positions, velocities and accelerations at a time [s]; it stands still before and after."""
-        if t < self._times[0] or t >= self.end or not self._segments:
+        """Return positions, velocities and accelerations at a time [s]; it stands still after the end."""
+        if self.before is not None and t < self._times[0]:
+            return self.before.at(t)
+        if t < self._times[0] or t > self.end + ROUNDING or not self._segments:
             point = self.waypoints[0] if t < self._times[0] else self.waypoints[-1]
             rest = np.zeros_like(point.positions)
             return point.positions, rest, rest
-        k = bisect_right(self._times, t) - 1
-        coefficients, s = self._segments[k], t - self._times[k]
+        k = min(bisect_right(self._times, t), len(self._segments)) - 1
+        coefficients, s = self._segments[k], min(t, self.end) - self._times[k]
         powers = s ** np.arange(6)
         order = np.arange(1, 6)
         first = coefficients[1:] * order[:, None]

@@ -1,23 +1,24 @@
-"""joint_trajectory_controller: follows JointTrajectory messages.
+"""joint_trajectory_controller: follows trajectories that come by topic or as goals of ``follow_joint_trajectory``.
 
-Sources: ros_controllers noetic, joint_trajectory_controller; ros2_controllers, joint_trajectory_controller. There are
-no actions on the bus: trajectories come by topic.
+Sources: ros_controllers noetic, joint_trajectory_controller; ros2_controllers, joint_trajectory_controller.
 """
 
 from __future__ import annotations
 
-from math import isfinite, pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from urdfkit.errors import DescriptionError, did_you_mean
-from urdfkit.messages import TRAJECTORY, TRAJECTORY_STATE, from_fields, header, message_type
+from urdfkit.messages import TRAJECTORY, TRAJECTORY_STATE, from_fields, header
+from urdfkit.sim.controllers.action import ABORTED, SUCCEEDED, Action, RefusalError
 from urdfkit.sim.controllers.joint import Follower
 from urdfkit.sim.controllers.law import Law
 from urdfkit.sim.controllers.output import INTERFACES, Output
 from urdfkit.sim.controllers.pid import Gains, read_gains
-from urdfkit.sim.controllers.spline import Array, Trajectory, Waypoint
+from urdfkit.sim.controllers.spline import ROUNDING, Array, Trajectory, Waypoint
+from urdfkit.sim.controllers.tolerances import Tolerances
+from urdfkit.sim.controllers.trajectory_message import INVALID_JOINTS, TrajectoryReader, point_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,12 +26,18 @@ if TYPE_CHECKING:
     from urdfkit.sim.motors import Motors
     from urdfkit.sim.state import State
 
+ACTION = "control_msgs/msg/FollowJointTrajectory"
+OFF_PATH, OFF_GOAL = -4, -5
+"""Error codes of its result: PATH_TOLERANCE_VIOLATED, GOAL_TOLERANCE_VIOLATED."""
+
 
 class TrajectoryFollower(Law):
-    """Several joints along a trajectory: ``command`` (ROS 1) or ``joint_trajectory`` (ROS 2).
+    """Several joints along a trajectory: ``command`` (ROS 1) or ``joint_trajectory`` (ROS 2), or a goal.
 
     Positions are handed on to the hardware; velocities and efforts come from a PID with feedforward. A trajectory
-    begins where the last one has led to. After its end the last positions are held.
+    begins where the last one has led to: in ROS 1 at its start time, in ROS 2 at once. After its end the last positions
+    are held. One without points stops the joints (ROS 1). Who strays further than ``constraints`` allow loses the goal;
+    in ROS 2 the joints then stop, also without a goal.
     """
 
     types: ClassVar[dict[str, str]] = {
@@ -54,11 +61,30 @@ class TrajectoryFollower(Law):
         self.outputs = tuple(hardware.output(entry, self._interface) for entry in joints)
         self._names = [output.handle.name for output in self.outputs]
         self._followers = [self._follower(output) for output in self.outputs]
-        self._turning = np.array([
-            hardware.setup.kinematics.robot.joint_by_name[name].type == "continuous" for name in self._names
-        ])  # fmt: skip
-        self._partial = settings.flag("allow_partial_joints_goal", False)
-        ros1 = hardware.ros == 1
+        self._ros1 = ros1 = hardware.ros == 1
+        self._stop_time = settings.number("stop_trajectory_duration", 0.0) if ros1 else 0.0
+        newest = hardware.setup.distro.name not in ("foxy", "galactic", "humble", "iron")
+        robot = hardware.setup.kinematics.robot
+        self._reader = TrajectoryReader(
+            self._names,
+            [robot.joint_by_name[name].type == "continuous" for name in self._names],
+            partial=settings.flag("allow_partial_joints_goal", False),
+            waits=ros1,
+            ends_at_rest=not ros1 and not settings.flag("allow_nonzero_velocity_at_trajectory_end", not newest),
+        )
+        if settings.text("interpolation_method", "splines") != "splines":
+            self.note("`interpolation_method` is not simulated: trajectories are splines")
+        self._usual = self._tolerances = Tolerances.read(settings, self._names)
+        self._action = Action(
+            self,
+            "follow_joint_trajectory",
+            ACTION,
+            pursue=self._pursue,
+            stop=self._hold,
+            feedback=self._feedback,
+            rate=settings.number("action_monitor_rate", 20.0),
+            clock=lambda: self._present.t,
+        )
         self.listen(self.topic("command" if ros1 else "joint_trajectory"), TRAJECTORY, self._take)
         topic = hardware.setup.bus.advertise(self.topic("state" if ros1 else "controller_state"), TRAJECTORY_STATE)
         self.report(topic, settings.number("state_publish_rate", 50.0), self._state)
@@ -98,74 +124,76 @@ class TrajectoryFollower(Law):
         super().start(state)
         positions = np.array([state.position(name) for name in self._names])
         self._trajectory = Trajectory([Waypoint(state.t, positions)])
-        self._present = state
+        self._present, self._watched = state, False
+        self._action.give_up("the controller was started anew")
         for follower in self._followers:
             if follower is not None:
                 follower.integral.reset()
 
+    def stop(self) -> None:
+        """Give up the goal."""
+        self._action.give_up("the controller was stopped")
+
     # Messages
 
     def _take(self, message: Any) -> None:
-        try:
-            self._trajectory = self._read(message)
-        except ValueError as error:
-            self.note(f"dropped a trajectory: {error}")
+        if self._ros1 and not len(message.points):
+            self._hold()
+        else:
+            try:
+                self._trajectory = self._read(message)
+            except RefusalError as error:
+                self.note(f"dropped a trajectory: {error}")
+                return
+        self._tolerances, self._watched = self._usual, not self._ros1
+        self._action.give_up("a trajectory came by topic")
 
-    def _read(self, message: Any) -> Trajectory:
-        """Return the trajectory of a message, from where the present one leads.
+    def _pursue(self, goal: Any) -> None:
+        """Take a goal.
 
         Raises:
-            ValueError: it cannot be followed; says why.
+            RefusalError: it cannot be followed; says why.
         """
-        now = self._present.t
-        names = list(message.joint_names)
-        for name in names:
-            if name not in self._names:
-                raise ValueError(f"no joint `{name}` here{did_you_mean(name, self._names)}")
-        missing = [name for name in self._names if name not in names]
-        if len(set(names)) != len(names) or (missing and not self._partial):
-            raise ValueError(f"it must name each joint once; `{(missing or names)[0]}` is not")
-        start = message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec
-        start = start or now
-        position, velocity, acceleration = self._trajectory.at(now)
-        order = [self._names.index(name) for name in names]
-        points = [Waypoint(now, position, velocity, acceleration)]
-        turns = np.zeros(len(self._names))
-        last = -1.0
-        for number, point in enumerate(message.points):
-            after = point.time_from_start.sec + 1e-9 * point.time_from_start.nanosec
-            if after <= last and number:
-                raise ValueError(f"point {number + 1} is not later than the one before")
-            last = after
-            given = _row(point.positions, len(names))
-            if given is None:
-                raise ValueError(f"point {number + 1} has no positions")
-            target = position.copy()
-            target[order] = given
-            if number == 0:  # continuous joints go the short way round
-                turns = np.where(self._turning, 2 * pi * np.round((position - target) / (2 * pi)), 0.0)
-            rates = []
-            for row in (_row(point.velocities, len(names)), _row(point.accelerations, len(names))):
-                if row is not None:
-                    whole = np.zeros(len(self._names))
-                    whole[order] = row
-                    row = whole
-                rates.append(row)
-            if start + after > now:  # ros_controllers drops what is past
-                points.append(Waypoint(start + after, target + turns, *rates))
-        if len(points) == 1:
-            raise ValueError("it has no point that is not past")
-        return Trajectory(points)
+        try:
+            tolerances = self._usual.of(goal)
+        except ValueError as error:
+            raise RefusalError(str(error), error_code=INVALID_JOINTS, error_string=str(error)) from None
+        if self._ros1 and not len(goal.trajectory.points):
+            self._hold()
+        else:
+            self._trajectory = self._read(goal.trajectory)
+        self._tolerances, self._watched = tolerances, True
+
+    def _hold(self) -> None:
+        """Stop: at once, or in ROS 1 within ``stop_trajectory_duration``, as setHoldPosition does it."""
+        state = self._present
+        t, T = state.t, self._stop_time
+        positions, velocities, _ = self._measured(state)
+        here = Waypoint(t, positions, velocities, np.zeros(len(positions)))
+        self._watched = False
+        if T <= 0.0:
+            self._trajectory = Trajectory([Waypoint(t, positions)])
+            return
+        # There and back again; half way it stands.
+        back = Waypoint(t + 2 * T, positions, -velocities, np.zeros(len(positions)))
+        self._trajectory = Trajectory([here, Waypoint(t + T, *Trajectory([here, back]).at(t + T))])
+
+    def _read(self, message: Any) -> Trajectory:
+        return self._reader.read(message, self._present.t, self._trajectory)
 
     # At work
 
     def update(self, state: State, motors: Motors) -> float:
         """Command the outputs."""
+        if self._watched:
+            self._watch(state)
         # What is commanded now has to be reached at the end of this control period.
         goal = self._trajectory.at(state.t + self.hardware.period)
         rest = max(0.0, self._trajectory.waypoints[0].t - state.t)
+        if self._trajectory.before is not None and state.t < self._trajectory.before.end:
+            rest = 0.0
         if state.t >= self._trajectory.end:
-            rest = float("inf")
+            rest = 0.0 if self._watched else float("inf")
         for k, output in enumerate(self.outputs):
             position, velocity = float(goal[0][k]), float(goal[1][k])
             rest = min(rest, self._command(output, self._followers[k], state, motors, position, velocity))
@@ -187,47 +215,59 @@ class TrajectoryFollower(Law):
         output.write(state, motors, command)
         return 0.0
 
-    def _state(self, state: State) -> Callable[[], Any]:
-        t = state.t
-        wanted = self._trajectory.at(t)
+    # The goal
+
+    def _watch(self, state: State) -> None:
+        """See whether the joints are where they should be, and end the goal when they are at its end or too far off."""
+        t, end = state.t, self._trajectory.end
+        wanted, (positions, velocities, _) = self._trajectory.at(min(t, end)), self._measured(state)
+        off, speed = wanted[0] - positions, wanted[1] - velocities
+        if t < end - ROUNDING:
+            if (told := self._tolerances.strays(off)) is not None:
+                self._lose(told, OFF_PATH)
+            return
+        if t > end + ROUNDING:
+            speed = velocities
+        missed, most = self._tolerances.misses(off, speed), self._tolerances.time
+        if missed is None:
+            self._watched = False
+            self._action.end(SUCCEEDED)
+        elif t > end + most - ROUNDING and (self._ros1 or most > 0.0):  # in ROS 2 zero is as long as it takes
+            self._lose(missed, OFF_GOAL)
+
+    def _lose(self, text: str, code: int) -> None:
+        if self._action.goal is None:
+            self.note(f"stopped: {text}")
+        self._action.end(ABORTED, text, error_code=code, error_string=text)
+        self._watched = False
+        if not self._ros1:
+            self._hold()
+
+    # What it tells
+
+    def _measured(self, state: State) -> tuple[Array, Array, Array]:
         positions = np.array([state.position(name) for name in self._names])
         velocities = np.array([state.velocity(name) for name in self._names])
-        efforts = np.array([state.effort(name) for name in self._names])
+        return positions, velocities, np.array([state.effort(name) for name in self._names])
+
+    def _feedback(self, state: State) -> Callable[[], dict[str, Any]]:
+        t, wanted, (positions, velocities, efforts) = state.t, self._trajectory.at(state.t), self._measured(state)
+        return lambda: {
+            "header": header(t, ""),
+            "joint_names": list(self._names),
+            "desired": point_of(wanted[0], wanted[1], wanted[2]),
+            "actual": point_of(positions, velocities, effort=efforts),
+            "error": point_of(wanted[0] - positions, wanted[1] - velocities),
+        }
+
+    def _state(self, state: State) -> Callable[[], Any]:
+        fields = self._feedback(state)
 
         def build() -> Any:
-            desired = _point(wanted[0], wanted[1], wanted[2])
-            actual = _point(positions, velocities, effort=efforts)
             message = from_fields(TRAJECTORY_STATE, None)
-            message.header, message.joint_names = header(t, ""), list(self._names)
-            message.reference = message.desired = desired
-            message.feedback = message.actual = actual
-            message.error = _point(wanted[0] - positions, wanted[1] - velocities)
+            for name, value in fields().items():
+                setattr(message, name, value)
+            message.reference, message.feedback = message.desired, message.actual
             return message
 
         return build
-
-
-def _row(values: Any, count: int) -> Array | None:
-    """Return the numbers of a point, None for none.
-
-    Raises:
-        ValueError: not one for each joint, or not finite.
-    """
-    found = np.asarray(values, dtype=float)
-    if found.size == 0:
-        return None
-    if found.shape != (count,) or not all(map(isfinite, found.tolist())):
-        raise ValueError(f"a point needs {count} finite numbers")
-    return found
-
-
-def _point(positions: Array, velocities: Array, accelerations: Array | None = None, effort: Array | None = None) -> Any:
-    none = np.zeros(0)
-    point = from_fields("trajectory_msgs/msg/JointTrajectoryPoint", None)
-    return type(point)(
-        positions,
-        velocities,
-        none if accelerations is None else accelerations,
-        none if effort is None else effort,
-        message_type("builtin_interfaces/msg/Duration")(0, 0),
-    )

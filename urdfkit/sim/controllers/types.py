@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from urdfkit.errors import DescriptionError, did_you_mean
 from urdfkit.sim.controllers.diff_drive import DiffDriveController
 from urdfkit.sim.controllers.forward import Forward, ForwardGroup
+from urdfkit.sim.controllers.gripper import Gripper
 from urdfkit.sim.controllers.joint_state import JointStatePublisher
 from urdfkit.sim.controllers.mecanum import MecanumController
 from urdfkit.sim.controllers.position import PidGroup, PidPosition, PidVelocity
@@ -26,6 +27,7 @@ LAWS: tuple[type[Law], ...] = (
     PidGroup,
     TrajectoryFollower,
     DiffDriveController,
+    Gripper,
     SteeringController,
     MecanumController,
 )
@@ -33,7 +35,6 @@ LAWS: tuple[type[Law], ...] = (
 
 ELSEWHERE = (
     "admittance_controller/AdmittanceController",
-    "effort_controllers/GripperActionController",
     "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
     "force_torque_sensor_controller/ForceTorqueSensorController",
     "four_wheel_steering_controller/FourWheelSteeringController",
@@ -45,7 +46,6 @@ ELSEWHERE = (
     "pid_controller/PidController",
     "pos_vel_controllers/JointTrajectoryController",
     "pos_vel_acc_controllers/JointTrajectoryController",
-    "position_controllers/GripperActionController",
     "range_sensor_broadcaster/RangeSensorBroadcaster",
     "steering_controllers_library/SteeringControllersLibrary",
     "tricycle_controller/TricycleController",
