@@ -32,9 +32,9 @@ PLUGIN = """
 LIMIT = '<limit lower="-2.5" upper="2.5" effort="{effort}" velocity="{velocity}"/>'
 
 
-def arm(extra: str, *, elbow: str = "revolute", effort: float = 40.0, velocity: float = 4.0) -> str:
+def arm(extra: str, *, elbow: str = "revolute", effort: float = 40.0, velocity: float = 4.0, safety: str = "") -> str:
     """Return an arm: shoulder and elbow about y, each link 0.4 m long and 1 kg, and more XML."""
-    limit = LIMIT.format(effort=effort, velocity=velocity)
+    limit = LIMIT.format(effort=effort, velocity=velocity) + safety
     turning = f'<limit effort="{effort}" velocity="{velocity}"/>'
     return (
         '<robot name="arm"><link name="world"/><link name="base"/>\n'

@@ -292,6 +292,90 @@ def test_a_trajectory_that_cannot_be_followed_is_dropped_with_a_note(make: Make)
     assert any("point 2 is not later than the one before" in note for note in notes)
 
 
+# Limits (joint_limits_interface)
+
+GAINS = "  gazebo_ros_control: {pid_gains: {shoulder: {p: 400.0, d: 40.0}, elbow: {p: 400.0, d: 40.0}}}\n"
+SAFETY = '<safety_controller soft_lower_limit="-0.5" soft_upper_limit="0.5" k_position="5" k_velocity="20"/>'
+
+
+def law(kind: str, joint: str = "shoulder") -> str:
+    return f"arm:\n  a: {{type: {kind}, joint: {joint}}}\n"
+
+
+@pytest.mark.parametrize("dt", [0.001, 0.005])
+def test_a_position_command_moves_at_the_velocity_limit_with_gains_too(make: Make, dt: float) -> None:
+    yaml = law("position_controllers/JointPositionController") + GAINS
+    simulator = make(yaml, ("Position", "Position"), arm={"velocity": 0.5}, gravity=(0, 0, 0), dt=dt)
+    send(simulator, "/arm/a/command", 1.0)
+    fastest = 0.0
+    for _ in range(200):
+        simulator.run(0.01)
+        fastest = max(fastest, simulator.state.velocity("shoulder"))
+        assert simulator.state.position("shoulder") <= 0.5 * simulator.t + 1e-3
+    assert fastest == pytest.approx(0.5, rel=0.1)
+    simulator.run(1.0)
+    assert simulator.state.position("shoulder") == pytest.approx(1.0, abs=1e-4)
+
+
+def test_soft_limits_slow_a_position_down_and_end_it(make: Make) -> None:
+    """Near the soft limit the command comes nearer by k_position times what is left in every second."""
+    yaml = law("position_controllers/JointPositionController")
+    simulator = make(yaml, ("Position", "Position"), arm={"safety": SAFETY}, gravity=(0, 0, 0))
+    send(simulator, "/arm/a/command", 2.0)
+    simulator.run(0.3)
+    left = 0.5 - simulator.state.position("shoulder")
+    simulator.run(0.2)
+    assert 0.5 - simulator.state.position("shoulder") == pytest.approx(left * math.exp(-5 * 0.2), rel=0.02)
+    simulator.run(3.0)
+    assert simulator.state.position("shoulder") == pytest.approx(0.5, abs=1e-6)
+
+
+def test_soft_limits_slow_a_velocity_down(make: Make) -> None:
+    yaml = law("velocity_controllers/JointVelocityController")
+    simulator = make(yaml, ("Velocity", "Velocity"), arm={"safety": SAFETY}, gravity=(0, 0, 0))
+    send(simulator, "/arm/a/command", 1.0)
+    simulator.run(4.0)
+    assert simulator.state.position("shoulder") == pytest.approx(0.5, abs=1e-4)
+
+
+def test_soft_limits_hold_an_effort_back(make: Make) -> None:
+    yaml = law("effort_controllers/JointEffortController")
+    simulator = make(yaml, ("Effort", "Position"), arm={"safety": SAFETY}, gravity=(0, 0, 0))
+    send(simulator, "/arm/a/command", 3.0)
+    furthest = 0.0
+    for _ in range(600):
+        simulator.run(0.01)
+        furthest = max(furthest, simulator.state.position("shoulder"))
+    assert furthest < 0.5 + 1e-3
+    assert simulator.state.position("shoulder") == pytest.approx(0.5, abs=1e-3)
+    assert simulator.state.effort("shoulder") == pytest.approx(0.0, abs=0.1)
+
+
+def test_an_effort_makes_no_joint_faster_than_it_may_be(make: Make) -> None:
+    yaml = law("effort_controllers/JointEffortController", "elbow")
+    simulator = make(yaml, ("Position", "Effort"), arm={"elbow": "continuous", "velocity": 2.0}, gravity=(0, 0, 0))
+    send(simulator, "/arm/a/command", 1.0)
+    fastest = 0.0
+    for _ in range(300):
+        simulator.run(0.01)
+        fastest = max(fastest, simulator.state.velocity("elbow"))
+    assert fastest == pytest.approx(2.0, abs=0.03)
+    assert simulator.state.velocity("elbow") == pytest.approx(2.0, abs=0.03)
+
+
+def test_limits_among_the_parameters_come_first(make: Make) -> None:
+    yaml = law("position_controllers/JointPositionController") + (
+        "  joint_limits: {shoulder: {has_position_limits: true, min_position: -0.2, max_position: 0.4, "
+        "has_velocity_limits: true, max_velocity: 0.5}}\n"
+    )
+    simulator = make(yaml, ("Position", "Position"), gravity=(0, 0, 0))
+    send(simulator, "/arm/a/command", 1.0)
+    simulator.run(0.4)
+    assert simulator.state.position("shoulder") == pytest.approx(0.2, abs=5e-3)
+    simulator.run(1.0)
+    assert simulator.state.position("shoulder") == pytest.approx(0.4, abs=1e-6)
+
+
 # The controller manager
 
 

@@ -13,12 +13,19 @@ from typing import TYPE_CHECKING, ClassVar
 from urdfkit.sim.controllers.joint import NEAR, Follower, JointHandle
 
 if TYPE_CHECKING:
+    from urdfkit.sim.controllers.joint_limits import JointLimits
     from urdfkit.sim.controllers.pid import Gains
     from urdfkit.sim.motors import Motors
     from urdfkit.sim.state import State
 
 INTERFACES = ("position", "velocity", "effort")
 """What a joint may be commanded by."""
+
+LOOK = 0.01
+"""How often an effort is looked after that may make a joint too fast [s], while it is well below."""
+
+BRISK = 0.5
+"""From this part of the fastest on it is looked after in every control period."""
 
 
 class Output(ABC):
@@ -27,13 +34,15 @@ class Output(ABC):
     Args:
         handle: the joint.
         period: of the control loop [s].
+        limits: of what may be commanded, where they are enforced (ROS 1).
     """
 
     interface: ClassVar[str]
 
-    def __init__(self, handle: JointHandle, period: float) -> None:
+    def __init__(self, handle: JointHandle, period: float, limits: JointLimits | None = None) -> None:
         self.handle = handle
         self.period = period
+        self.limits = limits
         self.command = 0.0
 
     @property
@@ -62,15 +71,22 @@ class Output(ABC):
 
 
 class EffortOutput(Output):
-    """Efforts are exerted, within ``<limit effort>``."""
+    """Efforts are exerted, within ``<limit effort>``, and not beyond ``<limit velocity>`` (ROS 1)."""
 
     interface = "effort"
 
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
         """Obey a command; return how long that needs no attention [s]."""
         self.command = command
-        self.handle.exert(motors, command)
-        return inf
+        limits, name = self.limits, self.handle.name
+        if limits is None or (command == 0.0 and limits.soft is None):
+            self.handle.exert(motors, command)
+            return inf
+        speed = state.velocity(name)
+        self.handle.exert(motors, limits.exerting(command, state.position(name), speed))
+        if limits.soft is None and limits.velocity == inf:
+            return inf
+        return LOOK if limits.soft is None and abs(speed) < BRISK * limits.velocity else 0.0
 
 
 class VelocityOutput(Output):
@@ -78,8 +94,10 @@ class VelocityOutput(Output):
 
     interface = "velocity"
 
-    def __init__(self, handle: JointHandle, period: float, gains: Gains | None = None) -> None:
-        super().__init__(handle, period)
+    def __init__(
+        self, handle: JointHandle, period: float, gains: Gains | None = None, limits: JointLimits | None = None
+    ) -> None:
+        super().__init__(handle, period, limits)
         self._follower = Follower(handle, gains) if gains is not None else None
 
     def start(self, state: State) -> None:
@@ -91,20 +109,28 @@ class VelocityOutput(Output):
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
         """Obey a command; return how long that needs no attention [s]."""
         self.command = command
+        soft = self.limits is not None and self.limits.soft is not None
+        if self.limits is not None:
+            command = self.limits.turning(command, state.position(self.handle.name))
         if self._follower is None:
             self.handle.turn(motors, command)
-            return inf
+            return 0.0 if soft else inf
         self._follower.chase(state, motors, command, self.period)
-        return 0.0 if self._follower.gains.d else self._follower.rest()
+        return 0.0 if self._follower.gains.d or soft else self._follower.rest()
 
 
 class PositionOutput(Output):
-    """Positions: set whatever that takes, or by PID where there are gains."""
+    """Positions: set whatever that takes, or by PID where there are gains.
+
+    In ROS 1 the command moves no faster than the joint may, and not beyond where it may be.
+    """
 
     interface = "position"
 
-    def __init__(self, handle: JointHandle, period: float, gains: Gains | None = None) -> None:
-        super().__init__(handle, period)
+    def __init__(
+        self, handle: JointHandle, period: float, gains: Gains | None = None, limits: JointLimits | None = None
+    ) -> None:
+        super().__init__(handle, period, limits)
         self._follower = Follower(handle, gains) if gains is not None else None
 
     @property
@@ -114,18 +140,26 @@ class PositionOutput(Output):
 
     def start(self, state: State) -> None:
         """Command standing where it stands."""
-        self.command = state.position(self.handle.name)
+        self.command = self._granted = state.position(self.handle.name)
         if self._follower is not None:
             self._follower.integral.reset()
 
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
         """Obey a command; return how long that needs no attention [s]."""
         self.command = command
+        now, moving = state.position(self.handle.name), False
+        command = self.handle.target(command, now)
+        if self.limits is not None:
+            before, self._granted = self._granted, self.limits.position(command, self._granted, self.period)
+            # A command that is still on its way has the velocity of its way.
+            if moving := abs(self._granted - command) > NEAR and abs(self._granted - before) > NEAR:
+                command, velocity = self._granted, (self._granted - before) / self.period
+            elif abs(self._granted - command) > NEAR:
+                command = self._granted
         if self._follower is None:
-            return inf if self.handle.place(motors, state, command, self.period) else 0.0
-        now = state.position(self.handle.name)
-        self._follower.follow(state, motors, self.handle.target(command, now), velocity)
-        return self._follower.rest()
+            return inf if self.handle.place(motors, state, command, self.period) and not moving else 0.0
+        self._follower.follow(state, motors, command, velocity)
+        return 0.0 if moving else self._follower.rest()
 
 
 class ProportionalOutput(Output):

@@ -12,6 +12,7 @@ from urdfkit.description.control.find import controllers
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.messages import BOOL
 from urdfkit.sim.controllers.joint import JointHandle
+from urdfkit.sim.controllers.joint_limits import read_limits
 from urdfkit.sim.controllers.law import Hardware
 from urdfkit.sim.controllers.loop import ControlLoop
 from urdfkit.sim.controllers.output import EffortOutput, Output, PositionOutput, VelocityOutput
@@ -126,8 +127,11 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
             position=joint.element.origin.position,
         )
     own = setup.joint(joint.name or "", joint.element.origin.position)
-    handle = JointHandle(setup.kinematics, setup.kinematics.robot.joint_by_name[own])
+    written = setup.kinematics.robot.joint_by_name[own]
+    handle, limits = JointHandle(setup.kinematics, written), read_limits(written, settings)
+    handle.lower, handle.upper = limits.lower, limits.upper
+    handle.limit, handle.fastest = limits.effort, limits.velocity
     if INTERFACES[kind] == "effort":
-        return EffortOutput(handle, period)
+        return EffortOutput(handle, period, limits)
     gains = read_gains(settings, f"gazebo_ros_control/pid_gains/{own}", setup.note)
-    return (PositionOutput if INTERFACES[kind] == "position" else VelocityOutput)(handle, period, gains)
+    return (PositionOutput if INTERFACES[kind] == "position" else VelocityOutput)(handle, period, gains, limits)
