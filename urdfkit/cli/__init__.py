@@ -71,6 +71,9 @@ def program() -> None:
     The light commands leave without taking the interpreter apart: freeing, object by object, what is about to vanish
     takes a fifth of the time of a lint. What has threads or compiled libraries to wind down leaves as usual.
     """
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by who started us (`2>&-`): notes go nowhere then
+            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w"))
     code = main()
     if not {"numpy", "threading", "atexit"}.isdisjoint(sys.modules):
         sys.exit(code)

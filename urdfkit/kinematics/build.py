@@ -80,7 +80,10 @@ def placement_of(pose: Pose) -> Any:
 
 
 def spatial_inertia(link: Link) -> Any:
-    """Return a link's inertia in its own frame; zero for what is not written."""
+    """Return a link's inertia in its own frame; zero for what is not written, or what Pinocchio takes for no inertia.
+
+    Who only wants to see a robot needs none of it; the simulator refuses such links by name.
+    """
     inertial = link.inertial
     if inertial is None:
         return pin.Inertia.Zero()
@@ -89,7 +92,10 @@ def spatial_inertia(link: Link) -> Any:
         tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
     placement = placement_of(inertial.origin)
     R = placement.rotation
-    return pin.Inertia(inertial.mass or 0.0, placement.translation, R @ tensor @ R.T)
+    try:
+        return pin.Inertia(inertial.mass or 0.0, placement.translation, R @ tensor @ R.T)
+    except RuntimeError:  # "The 3d inertia should be positive."
+        return pin.Inertia(inertial.mass or 0.0, placement.translation, np.zeros((3, 3)))
 
 
 def joint_model(joint: Joint) -> tuple[Any, Any]:
@@ -158,11 +164,12 @@ def _bounds(joint: Joint, kind: Any) -> tuple[Any, ...]:
     lower, upper = position_limits(joint)
     effort = velocity = infinite
     if joint.limit is not None:
-        effort = infinite if joint.limit.effort is None else joint.limit.effort
-        velocity = infinite if joint.limit.velocity is None else joint.limit.velocity
+        # Pinocchio refuses what is negative; so does the simulator, with its place.
+        effort = infinite if joint.limit.effort is None else max(0.0, joint.limit.effort)
+        velocity = infinite if joint.limit.velocity is None else max(0.0, joint.limit.velocity)
     friction = damping = 0.0
     if joint.dynamics is not None:
-        friction, damping = joint.dynamics.friction, joint.dynamics.damping
+        friction, damping = max(0.0, joint.dynamics.friction), max(0.0, joint.dynamics.damping)
     v = np.ones(kind.nv)
     q = np.ones(kind.nq)
     if kind.nq != kind.nv:

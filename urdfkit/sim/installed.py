@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
 
 from urdfkit import registry
-from urdfkit.description.plugins import PluginSpec, match
+from urdfkit.description.plugins import ALL_SPECS, PluginSpec, match
 from urdfkit.description.plugins.lookup import stem
 from urdfkit.description.robot import Plugin, Robot
+from urdfkit.errors import did_you_mean
 from urdfkit.sim.controllers import CONTROLLERS
 from urdfkit.sim.controllers.joint_state import JointStatePublisher
 from urdfkit.sim.drives import DRIVES
 from urdfkit.sim.plugin import Controller, Drive, Sensor, Setup
 from urdfkit.sim.publications import JointStates, all_joint_states, joint_states
 from urdfkit.sim.sensors import SENSORS
+
+_SHARED = re.compile(r"^(gazebo_ros_|gazebo_|gz-sim-|ignition-gazebo-|gz_|hector_gazebo_)|(-system|_plugin)$")
+"""How names of plugins begin and end."""
 
 
 @dataclass
@@ -57,7 +63,7 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
             made.configure(own)
             works.append(made)
         else:
-            setup.note(f"plugin {plugin.filename or plugin.name or 'without file name'}: not simulated yet")
+            setup.note(_unknown(plugin, [table for classes, _ in rooms for made in classes for table in made.specs]))
     if robot.ros2_control and not any(controller.kind == "ros2_control" for controller in installed.controllers):
         for block in robot.ros2_control:
             setup.note(
@@ -67,6 +73,26 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
     if not installed.joint_states and not _publishes_joint_states(installed):
         installed.joint_states.append(all_joint_states(setup))
     return installed
+
+
+def _unknown(plugin: Plugin, tables: Sequence[PluginSpec]) -> str:
+    """Return what to say of a plugin that nothing here simulates: its place, and the nearest that something does."""
+    place = plugin.element.origin.position
+    if plugin.filename is None:
+        return f"{place}: plugin `{plugin.name or ''}` has no filename, so nothing runs it"
+    name = stem(plugin.filename)
+    # What most of them share says nothing about which one was meant.
+    known = [other for spec in (*ALL_SPECS, *tables) for other in spec.filenames]
+    hint = did_you_mean(_essence(name), map(_essence, known))
+    if not hint:
+        return f"plugin {plugin.filename}: not simulated yet"
+    meant = [other for other in known if _essence(other) == hint.split("`")[1]]
+    near = get_close_matches(name, meant, n=1, cutoff=0.0)[0]
+    return f"{place}: no plugin `{plugin.filename}`; did you mean `{plugin.filename.replace(name, near)}`?"
+
+
+def _essence(name: str) -> str:
+    return _SHARED.sub("", name)
 
 
 def _publishes_joint_states(installed: Installed) -> bool:

@@ -14,6 +14,7 @@ from urdfkit.description.masses import massless
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
 from urdfkit.resources import find_model
+from urdfkit.sim.soundness import require_sound
 
 SINGULAR = 1e-9
 """Least eigenvalue of a mass matrix, scaled to ones on its diagonal, of a robot that can be simulated."""
@@ -30,7 +31,7 @@ def load_robot(model: str | Path, package_path: Sequence[str | Path] = ()) -> Ro
 
 
 def require_masses(kinematics: Kinematics, q: NDArray[np.float64], note: Callable[[str], None]) -> None:
-    """Check that everything that moves has something to move.
+    """Check that everything is a body or a joint, and that everything that moves has something to move.
 
     A link without mass between two joints can do with the mass of the links it carries, if their axes differ; that is
     seen from the mass matrix. Gazebo drops such links, so they are noted.
@@ -41,8 +42,10 @@ def require_masses(kinematics: Kinematics, q: NDArray[np.float64], note: Callabl
         note: tells the user something.
 
     Raises:
-        SimulationError: a link must move but has no mass, with its place and what to write.
+        SimulationError: a mass, an inertia, a shape or a limit cannot be, or a link must move but has no mass; with its
+            place and what to write.
     """
+    require_sound(kinematics.robot)
     found = massless(kinematics.robot, floating=kinematics.floating_base)
     if not found:
         return
@@ -62,10 +65,13 @@ def require_masses(kinematics: Kinematics, q: NDArray[np.float64], note: Callabl
 
 
 def _is_regular(kinematics: Kinematics, q: NDArray[np.float64]) -> bool:
-    """Whether the mass matrix can be inverted."""
+    """Whether every joint moves a mass, and the mass matrix can be inverted."""
     import pinocchio
 
     pin: Any = pinocchio
+    pin.computeSubtreeMasses(kinematics.model, kinematics.data)
+    if not all(mass > 0.0 for mass in list(kinematics.data.mass)[1:]):
+        return False
     upper = np.triu(pin.crba(kinematics.model, kinematics.data, q))
     G = kinematics.mimic_matrix
     M = G.T @ (upper + np.triu(upper, 1).T) @ G

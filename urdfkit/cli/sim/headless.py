@@ -41,7 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="a world we ship (empty, void, house, …) or an SDF file (default: empty)",
     )
     add("--dt", type=values.positive, default=0.001, metavar="S", help="step [s] (default: 0.001)")
-    add("--seed", type=int, default=0, metavar="N", help="of everything random (default: 0)")
+    add("--seed", type=values.seed, default=0, metavar="N", help="of everything random (default: 0)")
     add(
         "--spawn",
         type=values.pose,

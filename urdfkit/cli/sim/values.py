@@ -24,6 +24,17 @@ def number(text: str) -> float:
     return value
 
 
+def seed(text: str) -> int:
+    """Return a whole number, zero or more."""
+    try:
+        value = int(text)
+    except ValueError:
+        value = -1
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"`{text}` is no seed; it must be a whole number, zero or more")
+    return value
+
+
 def duration(text: str) -> float:
     """Return a finite number of seconds, zero or more."""
     value = number(text)

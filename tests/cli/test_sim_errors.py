@@ -1,0 +1,306 @@
+"""What `urdfkit sim run` cannot do: one line that says why and where, exit 2, no traceback."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from urdfkit.cli import main
+
+Capture = pytest.CaptureFixture[str]
+
+BODY = """<inertial><mass value="{mass}"/>
+    <inertia ixx="{ixx}" ixy="0" ixz="0" iyy="{iyy}" iyz="0" izz="{izz}"/></inertial>"""
+LIMIT = '<limit lower="-1" upper="1" effort="10" velocity="5"/>'
+
+
+def body(mass: str = "1", ixx: str = "0.01", iyy: str = "0.01", izz: str = "0.01") -> str:
+    return BODY.format(mass=mass, ixx=ixx, iyy=iyy, izz=izz)
+
+
+def box(size: str = "0.2 0.2 0.2") -> str:
+    return f'<collision><geometry><box size="{size}"/></geometry></collision>'
+
+
+def link(name: str, *parts: str) -> str:
+    return f'  <link name="{name}">{"".join(parts) or body() + box()}</link>\n'
+
+
+def joint(name: str, parent: str, child: str, more: str = LIMIT, *, type: str = "revolute") -> str:
+    return (
+        f'  <joint name="{name}" type="{type}"><origin xyz="0 0 0.3"/>\n    <parent link="{parent}"/>\n'
+        f'    <child link="{child}"/>\n    <axis xyz="0 1 0"/>\n    {more}</joint>\n'
+    )
+
+
+def robot(*parts: str) -> str:
+    return f'<robot name="probe">\n{"".join(parts)}</robot>\n'
+
+
+def arm(*inside: str, limit: str = LIMIT) -> str:
+    """A body with another one on a joint."""
+    return robot(link("base"), joint("elbow", "base", "arm", limit), link("arm", *inside))
+
+
+def wheels(filename: str, parameters: str = "", *, name: str = "drive") -> str:
+    turning = [
+        joint(side, "base", f"{side}_wheel", "", type="continuous") + link(f"{side}_wheel")
+        for side in ("left", "right")
+    ]
+    block = f'  <gazebo>\n    <plugin name="{name}" filename="{filename}">\n{parameters}</plugin></gazebo>\n'
+    return robot(link("base"), *turning, block)
+
+
+REFUSED = {
+    "massless": (arm(box()), ":9:3: link `arm` has no <inertial>, but joint `elbow` moves it: write <inertial>"),
+    "no mass": (arm(body("0")), ":9:3: link `arm` has no mass or no moment of inertia, but joint `elbow` moves it"),
+    "no inertia": (arm(body(ixx="0", iyy="0", izz="0")), ":9:3: link `arm` has no mass or no moment of inertia"),
+    "negative mass": (arm(body("-1")), ":9:30: link `arm` has a mass of -1 kg; it must be positive"),
+    "mass that is no number": (arm(body("nan")), ':9:30: link `arm`: value="nan" of <mass> is not finite'),
+    "negative inertia": (
+        arm(body(ixx="-0.01")),
+        " impossible: of its principal moments -0.01, 0.01 and 0.01 kg·m² one is negative",
+    ),
+    "inertia of no body": (
+        arm(body(izz="1")),
+        ":10:5: the inertia of link `arm` is impossible: of its principal moments 0.01, 0.01 and 1 kg·m² the largest",
+    ),
+    "inertia of no body at the root": (robot(link("base", body(izz="5"))), ":3:5: the inertia of link `base` is"),
+    "inertia that is no number": (arm(body(ixx="inf")), ':10:5: link `arm`: ixx="inf" of <inertia> is not finite'),
+    "loop": (
+        robot(*map(link, "abc"), joint("ab", "a", "b"), joint("bc", "b", "c"), joint("ca", "c", "a")),
+        ": the joints form a loop: b → c → a → b",
+    ),
+    "two parents": (
+        robot(*map(link, "abc"), joint("ab", "a", "b"), joint("bc", "b", "c"), joint("ac", "a", "c")),
+        ": link `c` is the child of two joints",
+    ),
+    "two roots": (robot(*map(link, "abc"), joint("ab", "a", "b")), ": 2 root links: `c` is joined to nothing"),
+    "missing mesh": (
+        arm(body(), '<collision><geometry><mesh filename="arm.stl"/></geometry></collision>'),
+        ": no file arm.stl",
+    ),
+    "mimics in a circle": (
+        robot(
+            link("base"),
+            joint("one", "base", "a", LIMIT + '<mimic joint="two"/>'),
+            joint("two", "base", "b", LIMIT + '<mimic joint="one"/>'),
+            link("a"),
+            link("b"),
+        ),
+        ": joints mimic each other in a circle: `one` → `two` → `one`",
+    ),
+    "limits the wrong way round": (
+        arm(limit='<limit lower="1.5" upper="-1" effort="1" velocity="1"/>'),
+        ":8:5: joint `elbow`: its lower limit 1.5 rad is above its upper limit -1 rad",
+    ),
+    "negative effort": (
+        arm(limit='<limit lower="-1" upper="1" effort="-5" velocity="1"/>'),
+        ":8:5: joint `elbow`: effort limit -5 N·m; it must not be negative",
+    ),
+    "negative velocity": (
+        arm(limit='<limit lower="-1" upper="1" effort="5" velocity="-1"/>'),
+        ":8:5: joint `elbow`: velocity limit -1 rad/s; it must not be negative",
+    ),
+    "damping that drives": (
+        arm(limit=LIMIT + '<dynamics damping="-100"/>'),
+        ":8:59: joint `elbow`: damping -100 N·m·s/rad; it must not be negative",
+    ),
+    "friction that drives": (
+        arm(limit=LIMIT + '<dynamics friction="-1"/>'),
+        ":8:59: joint `elbow`: friction -1 N·m; it must not be negative",
+    ),
+    "size below zero": (
+        arm(body(), box("0.1 -0.1 0.1")),
+        ":10:104: the box of link `arm` has a size of -0.1 m; it must be positive",
+    ),
+    "unknown type": (
+        robot(link("base"), joint("elbow", "base", "arm", type="revolut"), link("arm")),
+        ": joint `elbow`: unknown type `revolut`; did you mean `revolute`?",
+    ),
+    "friction in words": (
+        robot(link("base"), '<gazebo reference="base"><mu1>slippery</mu1></gazebo>'),
+        ": <mu1> is `slippery`; it must be a number, zero or greater",
+    ),
+    "joint of a plugin": (
+        wheels("libgazebo_ros_diff_drive.so", "<leftJoint>lef</leftJoint><rightJoint>right</rightJoint>"),
+        ": no joint `lef` in robot `probe`; did you mean `left`?",
+    ),
+    "value of a plugin": (
+        wheels(
+            "libgazebo_ros_diff_drive.so",
+            "<leftJoint>left</leftJoint><rightJoint>right</rightJoint><wheelSeparation>wide</wheelSeparation>",
+        ),
+        ": <wheelSeparation> is `wide`; it must be a number greater than zero",
+    ),
+    "empty file": ("", ":1:1: the file is empty"),
+    "no XML": ("hello", ":1:1: this is not XML"),
+    "no end": ('<robot name="probe"><link name="a">', ": the file ends too early"),
+}
+
+
+@pytest.mark.parametrize("what", REFUSED)
+def test_models_that_cannot_be_simulated_are_refused_with_place_and_value(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture, what: str
+) -> None:
+    text, said = REFUSED[what]
+    monkeypatch.chdir(tmp_path)
+    Path("probe.urdf").write_text(text)
+    assert main(["sim", "run", "probe.urdf", "--for", "0.1"]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("urdfkit: probe.urdf:")
+    assert err.count("\n") == 1, err
+    assert said in err
+
+
+PLUGINS = {
+    ("libgazebo_ros_dif_drive.so", "drive"): "libgazebo_ros_diff_drive.so",
+    ("gz-sim-dif-drive-system", "gz::sim::systems::DiffDrive"): "gz-sim-diff-drive-system",
+    ("libgazebo_ros_skid_stear_drive.so", "drive"): "libgazebo_ros_skid_steer_drive.so",
+}
+
+
+@pytest.mark.parametrize(("filename", "name"), PLUGINS)
+def test_unknown_plugins_are_noted_with_the_nearest_and_the_rest_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture, filename: str, name: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("probe.urdf").write_text(wheels(filename, name=name))
+    assert main(["sim", "run", "probe.urdf", "--for", "0.1"]) == 0
+    out, err = capsys.readouterr()
+    near = PLUGINS[filename, name]
+    assert f"probe.urdf:19:5: no plugin `{filename}`; did you mean `{near}`?\n" in err
+    assert "0.1 s in 100 steps" in out
+
+
+def test_plugins_without_a_file_name_are_noted(tmp_path: Path, capsys: Capture) -> None:
+    path = tmp_path / "probe.urdf"
+    path.write_text(robot(link("base"), '<gazebo><plugin name="lost"/></gazebo>'))
+    assert main(["sim", "run", str(path), "--for", "0.1"]) == 0
+    assert "plugin `lost` has no filename, so nothing runs it" in capsys.readouterr().err
+
+
+def test_unknown_plugins_of_a_world_are_noted_and_the_rest_runs(tmp_path: Path, capsys: Capture) -> None:
+    path = tmp_path / "w.sdf"
+    path.write_text(
+        '<sdf version="1.9"><world name="w"><include><uri>model://ground_plane</uri></include>\n'
+        '<plugin filename="gz-sim-phisics-system" name="gz::sim::systems::Physics"/></world></sdf>'
+    )
+    assert main(["sim", "run", "simpleton", "--for", "0.1", "--world", str(path)]) == 0
+    out, err = capsys.readouterr()
+    assert "w.sdf:2:1: unknown plugin `gz-sim-phisics-system` in the world is left out" in err
+    assert "did you mean" in err
+    assert "in world w: 0.1 s" in out
+
+
+@pytest.mark.parametrize(
+    ("options", "body_or_joint"),
+    [
+        (["--initial-twist", "1e300,0,0,0,0,0"], "joint `"),
+        (["--gravity", "0,0,-1e308"], "joint `"),
+        (["--initial-joints", "left_wheel_joint=0:1e200"], "joint `"),
+    ],
+)
+def test_divergence_is_said_with_time_and_joint(capsys: Capture, options: list[str], body_or_joint: str) -> None:
+    assert main(["sim", "run", "simpleton", "-q", "--for", "0.1", *options]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.count("\n") == 1
+    assert "the simulation diverged at t = 0.00" in err
+    assert body_or_joint in err
+    assert "has no finite velocity any more; try a smaller step" in err
+
+
+OPTIONS = {
+    ("--for", "-1"): "argument --for: `-1` is negative; it must be seconds, zero or more",
+    ("--for", "soon"): "argument --for: `soon` is not a number",
+    ("--dt", "0"): "argument --dt: `0` must be greater than zero",
+    ("--dt", "1"): "a step of 1 s makes no sense; try 0.001",
+    ("--seed", "-1"): "argument --seed: `-1` is no seed; it must be a whole number, zero or more",
+    ("--seed", "0.5"): "argument --seed: `0.5` is no seed; it must be a whole number, zero or more",
+    ("--gravity", "0,0"): "argument --gravity: `0,0` has 2 values, it takes 3: GX,GY,GZ",
+    ("--gravity", "0,0,nan"): "argument --gravity: `nan` is not a finite number",
+    ("--spawn", "0,0"): "argument --spawn: `0,0` has 2 values, it takes X,Y,Z,YAW or X,Y,Z,ROLL,PITCH,YAW",
+    ("--spawn", "0,0,up,0"): "argument --spawn: `up` is not a number",
+    ("--initial-twist", "1,0,0"): "argument --initial-twist: `1,0,0` has 3 values, it takes 6: VX,VY,VZ,WX,WY,WZ",
+    ("--initial-joints", "left_wheel_joint"): "argument --initial-joints: `left_wheel_joint` is not NAME=VALUE",
+    ("--initial-joints", "left_wheel=1"): "no movable joint `left_wheel` in robot `simpleton`; did you mean "
+    "`left_wheel_joint`?",
+    ("--joint-target", "left_wheel=1"): "did you mean `left_wheel_joint`?",
+    ("--world", "hous"): "no world `hous`; did you mean `house`?",
+    ("--wrld", "house"): "unrecognized arguments: --wrld house; did you mean `--world`?",
+    ("--engine", "pinochio"): "did you mean `pinocchio`?",
+    ("--until", "height > 1"): "there is no `height` (known: t, x, y,",
+    (
+        "--controllers",
+        "arm.yaml",
+    ): "argument --controllers: cannot read arm.yaml: no such file; did you mean `arms.yaml`?",
+    ("--topic-pub", "/cmd_vel"): 'argument --topic-pub: `/cmd_vel` is not "TOPIC TYPE YAML@T"',
+    ("--topic-pub", "/a geometry_msgs/Twist {linea: {x: 1}}"): "no field `linea` in geometry_msgs/msg/Twist; did you "
+    "mean `linear`?",
+}
+
+
+@pytest.mark.parametrize(("option", "value"), OPTIONS)
+def test_options_that_make_no_sense(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture, option: str, value: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("arms.yaml").write_text("")
+    words = [] if option == "--for" else ["--for", "0.01"]
+    assert main(["sim", "run", "simpleton", "-q", *words, option, value]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.count("\n") == 1, err
+    assert OPTIONS[option, value] in err
+
+
+def command(*words: str) -> list[str]:
+    return [sys.executable, "-m", "urdfkit", "sim", "run", *words]
+
+
+def test_ctrl_c_ends_it_without_a_word() -> None:
+    with subprocess.Popen(
+        command("simpleton", "--for", "1e6"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stderr is not None
+        assert "libgazebo_ros_camera.so: not simulated yet" in process.stderr.readline()  # it is about to begin
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=30)
+    assert (process.returncode, out, err) == (130, "", "")
+
+
+def test_a_reader_that_goes_away_is_no_error() -> None:
+    read, write = os.pipe()
+    os.close(read)
+    try:
+        done = subprocess.run(
+            command("simpleton", "-q", "--for", "0.01", "--json"), stdout=write, stderr=subprocess.PIPE, check=False
+        )
+    finally:
+        os.close(write)
+    assert (done.returncode, done.stderr) == (141, b"")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+def test_an_output_that_takes_nothing_is_an_error() -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            command("simpleton", "-q", "--for", "0.01"), stdout=full, stderr=subprocess.PIPE, text=True, check=False
+        )
+    assert done.returncode == 2
+    assert done.stderr == "urdfkit: No space left on device\n"
+
+
+@pytest.mark.parametrize("closed", ["1>&-", "2>&-"])
+def test_closed_outputs_are_no_error(closed: str) -> None:
+    shell = f"{sys.executable} -m urdfkit sim run simpleton --for 0.01 {closed}"
+    done = subprocess.run(["/bin/sh", "-c", shell], capture_output=True, text=True, check=False)
+    assert done.returncode == 0
+    assert "Traceback" not in done.stderr
