@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +34,24 @@ def test_ours_is_as_near_the_closed_form_as_it_claims(row: Any) -> None:
 @pytest.mark.parametrize("row", [row for row in ROWS if row.coarse is not None], ids=lambda row: row.name)
 def test_it_stays_near_with_steps_of_5_ms(row: Any) -> None:
     assert row.error(module("ours").runner(0.005)) <= row.coarse
+
+
+CROWDED = [
+    "box sliding diagonally",
+    "solid cylinder rolling",
+    "pendulum, 143°",
+    "ball that slides",
+    "lever held",
+    "skid steer",
+]
+
+
+@pytest.mark.parametrize("row", [row for row in ROWS if row.name.startswith(tuple(CROWDED))], ids=lambda row: row.name)
+def test_a_crate_far_away_changes_nothing(row: Any) -> None:
+    # A world that holds bodies has a kernel of its own.
+    crate = module("scene").Thing("crate", (0.2, 0.2, 0.2), (100.0, 0.0, 0.1), 1.0)
+    run = module("ours").runner(0.001)
+    assert row.error(lambda scene: run(replace(scene, things=(*scene.things, crate)))) <= row.bound
 
 
 def test_rows_have_names_of_their_own() -> None:
