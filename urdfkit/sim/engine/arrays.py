@@ -88,12 +88,15 @@ FLOATS: dict[str, Size] = {
     "contact_mu": ("c",),
     "contact_impulse": ("c", "3"),
     "pair_before": ("c", "3"),
+    "shape_middle": ("k", "3"),
+    "shape_half": ("k", "3"),
     "shape_at": ("k", "3"),
     "shape_reach": ("k", "3"),
     "tree_low": ("t", "3"),
     "tree_high": ("t", "3"),
     "still": ("t",),
-    "asked": ("t",),
+    "asked": ("d", "8"),
+    "asked_gravity": ("3",),
     "pair_numbers": ("n",),
     "pair_work": (str(memory.WORK),),
     "found_point": ("24",),
@@ -123,7 +126,14 @@ INTEGERS: dict[str, Size] = {
     "tree_floats": ("t",),
     "tree_meets": ("t",),
     "near": ("t",),
+    "sleeps": ("t",),
     "asleep": ("t",),
+    "tree_order": ("t",),
+    "tree_meet": ("t+1",),
+    "meet_a": ("f",),
+    "meet_b": ("f",),
+    "meet_tree": ("f",),
+    "still_near": ("k",),
     "island": ("t",),
     "island_next": ("t",),
     "island_contact": ("t",),
@@ -167,7 +177,7 @@ INTEGERS: dict[str, Size] = {
     "index": ("r",),
     "extreme_vertex": ("8",),
     "saturated": ("d",),
-    "counts": ("8",),
+    "counts": ("12",),
 }
 
 # Where in the head of the block of integers the kernel finds sizes and the start of each field.
@@ -178,9 +188,10 @@ PAIRS, WIDTH = LETTERS.index("f"), len(LETTERS)
 
 DT, FLOOR, HAS_FLOOR, HAS_PAIRS = range(4)
 """Entries of ``numbers``: step [s], height of the ground plane [m], whether there is one, whether shapes can meet."""
-FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS, LAST_PAIRS, OVERFULL = range(7)
+FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS, LAST_PAIRS, OVERFULL, SLEEPING, FOUND_PAIRS = range(9)
 """Entries of ``counts``: of the last step the contacts, rows, and how they were solved; of all how many were hard; how
-many contacts of pairs are remembered; whether there were more contacts than there is room for."""
+many contacts of pairs are remembered; whether there were more contacts than there is room for; how many contacts are
+kept, from the end of their room on, for trees that sleep; pairs of shapes that were near each other in the last step."""
 
 _enumeration: Any = IntEnum
 At: Any = _enumeration(

@@ -48,6 +48,8 @@ class Engine(Part):
         self_collide: whether the robot's links touch each other; those with a joint between them never do.
         others: more robots.
         bodies: what else is there, free or not.
+        sleep: whether what is at rest may sleep, see `world.sleep`: it costs nothing then. One robot alone never does,
+            nor does anything with the provider ``pinocchio``.
 
     Raises:
         SimulationError: the robot or a body cannot be simulated, e.g. a link that must move has no mass.
@@ -74,6 +76,7 @@ class Engine(Part):
         self_collide: bool = False,
         others: Sequence[Member] = (),
         bodies: Sequence[Body] = (),
+        sleep: bool = True,
     ) -> None:
         if not (math.isfinite(dt) and dt > 0.0):
             raise SimulationError(f"a step of {dt:g} s is no step; it must be positive")
@@ -91,7 +94,15 @@ class Engine(Part):
         alone = not (others or bodies or self_collide)
         # What does not move meets only what moves: nothing does where there is but one robot.
         self._touches = [each for each in touching(self._members, bodies) if each.body >= 0 or not alone]
-        self._arrays = fill(self._members, bodies, self._touches, dt=dt, gravity=gravity, ground=ground)
+        self._arrays = fill(
+            self._members,
+            bodies,
+            self._touches,
+            dt=dt,
+            gravity=gravity,
+            ground=ground,
+            sleep=sleep and provider == "compiled",
+        )
         for member in self._members:
             require_inertia(member.kinematics)
         if provider == "compiled":
@@ -126,7 +137,8 @@ class Engine(Part):
             body.put_back()
         a = self._arrays
         a["memory"][:] = a["effort"][:] = a["tau"][:] = 0.0
-        a["counts"][:] = 0
+        a["counts"][:] = a["asleep"][:] = 0
+        a["still"][:] = 0.0
         self.t, self.steps = 0.0, 0
         self._evaluate()
 
@@ -143,8 +155,14 @@ class Engine(Part):
         if done < n:
             raise SimulationError(self._divergence())
 
+    def wake(self) -> None:
+        """Wake all that sleeps, as must be done when what they lie on is taken away."""
+        a = self._arrays
+        # What they asked for was nothing: this is something else.
+        a["asked"][np.repeat(a["asleep"], np.diff(a["tree_dof"])) != 0] = np.nan
+
     def contacts(self) -> tuple[Contact, ...]:
-        """Return what touched in the last step."""
+        """Return what touched in the last step; of what sleeps, in the last before it fell asleep."""
         return contacts(self._arrays, self._touches, self.ground.name if self.ground else "", self.dt)
 
     def energy(self) -> tuple[float, float]:

@@ -44,6 +44,11 @@ class Loose:
         R = self._rotation()
         return (*(R @ self._v[:3]).tolist(), *(R @ self._v[3:]).tolist())
 
+    @property
+    def asleep(self) -> bool:
+        """Whether it is at rest and left alone until something happens to it."""
+        return bool(self._arrays["asleep"][self._tree])
+
     def place(self, pose: Sequence[float], twist: Sequence[float] = (0.0,) * 6) -> None:
         """Put it somewhere, with a velocity along the world's axes.
 

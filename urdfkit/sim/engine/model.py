@@ -163,8 +163,9 @@ def fill(
     dt: float,
     gravity: Sequence[float],
     ground: Ground | None,
+    sleep: bool = False,
 ) -> Arrays:
-    """Return the arrays of a world of robots and bodies with these shapes."""
+    """Return the arrays of a world of robots and bodies with these shapes, which may `sleep` or never do."""
     free = [body for body in bodies if not body.static]
     models = [member.kinematics.model for member in members]
     joints = [[model.joints[i].nv for i in range(1, model.njoints)] for model in models] + [[6]] * len(free)
@@ -213,6 +214,9 @@ def fill(
     arrays["tree_s"][1:] = np.cumsum(widths)
     arrays["tree_mimic"][1:] = np.cumsum(mimics)
     arrays["servo_effort"][:] = np.inf
+    arrays["sleeps"][:] = sleep
+    arrays["asked_gravity"][:] = gravity
+    arrays["tree_order"][:] = np.arange(len(joints))
     arrays["lower"][:], arrays["upper"][:] = -np.inf, np.inf
     entry = 0
     for tree, n in enumerate(dofs):
@@ -254,6 +258,7 @@ def _fill_shapes(arrays: Arrays, touches: Sequence[Touching], features: Sequence
         arrays["shape_R"][k] = touch.R.ravel()
         arrays["shape_p"][k] = touch.p
         arrays["shape_size"][k] = touch.size
+        arrays["shape_middle"][k], arrays["shape_half"][k] = box_of(touch)
         arrays["shape_radius"][k] = touch.radius
         arrays["shape_mu"][k] = touch.mu
         arrays["floor_mu"][k] = min(touch.mu, floor_mu)
@@ -264,5 +269,30 @@ def _fill_shapes(arrays: Arrays, touches: Sequence[Touching], features: Sequence
     trees = [int(arrays["body_tree"][touch.body]) for touch in touches if touch.body >= 0]
     arrays["tree_shape"][:] = np.searchsorted(trees, np.arange(len(arrays["tree_shape"])))
     for k in range(len(trees), len(touches)):
-        arrays["shape_at"][k] = touches[k].p
-        arrays["shape_reach"][k] = touches[k].radius
+        arrays["shape_at"][k], arrays["shape_reach"][k] = _still_box(touches[k])
+
+
+def box_of(touch: Touching) -> tuple[Array, Array]:
+    """Return middle and half edges [m] of the box along a shape's own axes that holds it."""
+    none, (x, y, z) = np.zeros(3), touch.size
+    if touch.kind == collide.SPHERE:
+        return none, np.full(3, x)
+    if touch.kind in (collide.CYLINDER, collide.WHEEL):
+        return none, np.array([x, x, y])
+    if touch.kind == collide.CAPSULE:
+        return none, np.array([x, x, x + y])
+    if touch.kind == collide.BOX:
+        return none, np.array([x, y, z])
+    if touch.kind == PLANE:
+        return none, np.full(3, BOUNDLESS)
+    low, high = touch.vertices.min(axis=0), touch.vertices.max(axis=0)
+    return 0.5 * (low + high), 0.5 * (high - low)
+
+
+def _still_box(touch: Touching) -> tuple[Array, Array]:
+    """Return middle and half edges [m] of the box along the world's axes that holds a shape that does not move."""
+    if touch.kind in (HULL, MESH):
+        corners = touch.vertices @ touch.R.T + touch.p
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        return 0.5 * (low + high), 0.5 * (high - low)
+    return touch.p, np.abs(touch.R) @ box_of(touch)[1]

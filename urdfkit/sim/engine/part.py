@@ -63,6 +63,11 @@ class Part:
         return positions(self._arrays, self._tree)
 
     @property
+    def asleep(self) -> bool:
+        """Whether it is at rest and left alone until something happens to it or is asked of it."""
+        return bool(self._arrays["asleep"][self._tree])
+
+    @property
     def effort(self) -> Array:
         """Effort that motors and servos exerted in the last step [N·m or N]; read-only, shape (nv,)."""
         return self._effort

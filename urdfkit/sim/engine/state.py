@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
-from urdfkit.sim.engine.arrays import FOUND_CONTACTS, HAS_PAIRS, Arrays
+from urdfkit.sim.engine.arrays import FOUND_CONTACTS, HAS_PAIRS, SLEEPING, Arrays
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
 from urdfkit.sim.engine.model import Touching
 from urdfkit.sim.engine.surface import Contact
@@ -78,10 +78,11 @@ def turning(arrays: Arrays, v: Array) -> Array:
 
 
 def contacts(arrays: Arrays, touches: Sequence[Touching], ground: str, dt: float) -> tuple[Contact, ...]:
-    """Return the contacts of the last step, with their forces."""
+    """Return the contacts of the last step and those of what sleeps, with their forces."""
     found = []
     alone = len(arrays["tree_floats"]) == 1 and not arrays["numbers"][HAS_PAIRS]
-    for k in range(int(arrays["counts"][FOUND_CONTACTS])):
+    kept = len(arrays["contact_row"]) - 1 - np.arange(int(arrays["counts"][SLEEPING]))
+    for k in (*range(int(arrays["counts"][FOUND_CONTACTS])), *kept.tolist()):
         frame = arrays["contact_frame"][k].reshape(3, 3)
         if int(arrays["contact_row"][k]) < 0:  # nothing can move that point along the normal, so there is no force
             continue

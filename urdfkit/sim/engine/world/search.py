@@ -16,13 +16,15 @@ from urdfkit.sim.engine.arrays import (
     OVERFULL,
     PAIRS,
     SHAPES,
+    SLEEPING,
     SLOTS,
     TREES,
     At,
 )
 from urdfkit.sim.engine.collide import collide_with_plane, near_plane, turn_remembered
 from urdfkit.sim.engine.compilation import field, inlined
-from urdfkit.sim.engine.world.meet import bound, collide_pairs, find_again, find_pairs
+from urdfkit.sim.engine.world.meet import collide_pairs, find_again
+from urdfkit.sim.engine.world.near import bound, find_pairs
 
 
 @inlined
@@ -37,12 +39,15 @@ def candidates(floats: Any, integers: Any) -> int:
     P = field(floats, integers, At.P)
     tree_shape = field(integers, integers, At.tree_shape)
     near = field(integers, integers, At.near)
+    asleep = field(integers, integers, At.asleep)
     counts = field(integers, integers, At.counts)
     floor, has_floor, has_pairs = numbers[FLOOR], numbers[HAS_FLOOR] != 0.0, numbers[HAS_PAIRS] != 0.0
     dt = numbers[DT]
     pairs = 0
     for tree in range(trees):
         near[tree] = 0
+        if asleep[tree] != 0:
+            continue
         if has_floor and near_plane(
             floats, integers, tree_shape[tree], tree_shape[tree + 1], floor - P[3 * tree + 2], dt
         ):
@@ -72,13 +77,16 @@ def touching(floats: Any, integers: Any, pairs: int) -> int:
     contact_origin = field(floats, integers, At.contact_origin)
     tree_shape = field(integers, integers, At.tree_shape)
     near = field(integers, integers, At.near)
+    asleep = field(integers, integers, At.asleep)
     counts = field(integers, integers, At.counts)
     floor, has_floor, has_pairs = numbers[FLOOR], numbers[HAS_FLOOR] != 0.0, numbers[HAS_PAIRS] != 0.0
     dt = numbers[DT]
     first_pair_slot = slots - 3 * most_contacts
+    # The end of the room is for the contacts of those who sleep.
+    room = most_contacts - counts[SLEEPING]
     contacts = 0
     for tree in range(trees):
-        if near[tree] == 0:
+        if near[tree] == 0 or asleep[tree] != 0:
             continue
         for k in range(3):
             contact_origin[3 * tree + k] = P[3 * tree + k]
@@ -89,13 +97,13 @@ def touching(floats: Any, integers: Any, pairs: int) -> int:
                 contacts,
                 tree_shape[tree],
                 tree_shape[tree + 1],
-                most_contacts,
+                room,
                 floor - P[3 * tree + 2],
                 dt,
             )
     if has_pairs:
         on_ground = contacts
-        contacts = collide_pairs(floats, integers, contacts, most_contacts, pairs, dt)
+        contacts = collide_pairs(floats, integers, contacts, room, pairs, dt)
         if contacts < 0:
             counts[OVERFULL] = 1
             return -1

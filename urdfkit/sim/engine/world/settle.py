@@ -18,11 +18,12 @@ from urdfkit.sim.engine.arrays import (
     At,
 )
 from urdfkit.sim.engine.compilation import field, inlined
-from urdfkit.sim.engine.dynamics import place, solve_forward, terms
+from urdfkit.sim.engine.dynamics import solve_forward
 from urdfkit.sim.engine.rows import contact_rows, joint_rows, push, whiten
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, limited, overloaded, smooth_motion
 from urdfkit.sim.engine.solve import solve
 from urdfkit.sim.engine.world.islands import contacts_of
+from urdfkit.sim.engine.world.trees import evaluate
 
 
 @inlined
@@ -40,7 +41,6 @@ def settle(floats: Any, integers: Any, root: int) -> int:
     dofs, mimics, most_contacts, most_rows = integers[DOFS], integers[MIMICS], integers[CONTACTS], integers[ROWS]
     slots, width = integers[SLOTS], integers[WIDTH]
     numbers = field(floats, integers, At.numbers)
-    s = field(floats, integers, At.s)
     v = field(floats, integers, At.v)
     memory = field(floats, integers, At.memory)
     last = field(floats, integers, At.last)
@@ -82,8 +82,7 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             solve_forward(floats, integers, first, beyond)
             for d in range(first, beyond):
                 v[d] = v_start[d] + 0.5 * u[d]
-            place(floats, integers, tree, s, False)
-            terms(floats, integers, tree)
+            evaluate(floats, integers, tree)
             halfway = True
             continue
         if rows + 3 * contacts_of(floats, integers, island_contact[root]) > most_rows:

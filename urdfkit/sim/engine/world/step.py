@@ -8,19 +8,19 @@ from typing import Any
 from urdfkit.sim.engine.arrays import (
     DT,
     FOUND_CONTACTS,
+    FOUND_PAIRS,
     FOUND_ROWS,
-    SLOTS,
     STEPS,
     TREES,
     At,
 )
 from urdfkit.sim.engine.compilation import field
-from urdfkit.sim.engine.dynamics import place, terms
-from urdfkit.sim.engine.integrate import move
 from urdfkit.sim.engine.servo import account
 from urdfkit.sim.engine.world.islands import join
 from urdfkit.sim.engine.world.search import candidates, touching
 from urdfkit.sim.engine.world.settle import settle
+from urdfkit.sim.engine.world.sleep import let_sleep, remember, remember_pairs, rouse_disturbed, rouse_touched
+from urdfkit.sim.engine.world.trees import begin, drift, look_ahead
 
 
 def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
@@ -33,67 +33,56 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
 
     With `only_terms`, compute poses, M and bias of the state as it is, and advance nothing.
     """
-    trees, slots = integers[TREES], integers[SLOTS]
-    base = field(floats, integers, At.base)
-    numbers = field(floats, integers, At.numbers)
-    s = field(floats, integers, At.s)
+    trees = integers[TREES]
+    dt = field(floats, integers, At.numbers)[DT]
     v = field(floats, integers, At.v)
-    memory = field(floats, integers, At.memory)
-    last = field(floats, integers, At.last)
-    P = field(floats, integers, At.P)
-    v_start = field(floats, integers, At.v_start)
-    s_ahead = field(floats, integers, At.s_ahead)
-    v_ahead = field(floats, integers, At.v_ahead)
-    tree_body = field(integers, integers, At.tree_body)
     tree_dof = field(integers, integers, At.tree_dof)
-    tree_s = field(integers, integers, At.tree_s)
-    tree_floats = field(integers, integers, At.tree_floats)
     near = field(integers, integers, At.near)
+    asleep = field(integers, integers, At.asleep)
     island = field(integers, integers, At.island)
-    saturated = field(integers, integers, At.saturated)
     counts = field(integers, integers, At.counts)
-    dt = numbers[DT]
+    if only_terms:
+        for tree in range(trees):
+            begin(floats, integers, tree)
+        return 0
     for done in range(steps):
         for tree in range(trees):
-            first, beyond = tree_dof[tree], tree_dof[tree + 1]
-            if not only_terms:
-                move(floats, integers, tree_body[tree], tree_body[tree + 1], s, v, 0.5 * dt)
-            for d in range(first, beyond):
-                v_start[d] = v[d]
-                saturated[d] = 0
-            # All of a tree is reckoned from one point, its floating base: far from the origin nothing is lost.
-            for k in range(3):
-                P[3 * tree + k] = s[tree_s[tree] + k] if tree_floats[tree] != 0 else base[3 * tree + k]
-            place(floats, integers, tree, s, False)
-            terms(floats, integers, tree)
-        if only_terms:
-            return 0
-        pairs = candidates(floats, integers)
-        if pairs < 0:
-            return done
-        meeting = False
+            if asleep[tree] == 0:
+                remember(floats, integers, tree)
+        remember_pairs(floats, integers)
+        if done == 0:
+            rouse_disturbed(floats, integers)
+        awake = 0
         for tree in range(trees):
-            if near[tree] == 0:
-                continue
-            meeting = True
-            for k in range(tree_s[tree], tree_s[tree + 1]):
-                s_ahead[k] = s[k]
-            for d in range(tree_dof[tree], tree_dof[tree + 1]):
-                v_ahead[d] = v[d]
-            move(floats, integers, tree_body[tree], tree_body[tree + 1], s_ahead, v_ahead, 0.5 * dt)
-            place(floats, integers, tree, s_ahead, True)
-        for k in range(slots):
-            last[k] = memory[k]
-            memory[k] = 0.0
-        contacts = 0
-        if meeting:
-            contacts = touching(floats, integers, pairs)
-            if contacts < 0:
+            if asleep[tree] == 0:
+                awake += 1
+                drift(floats, integers, tree, 0.5 * dt)
+                begin(floats, integers, tree)
+        if awake == 0:
+            # Nothing will happen before the next call.
+            counts[FOUND_CONTACTS] = counts[FOUND_ROWS] = counts[FOUND_PAIRS] = 0
+            counts[STEPS] += steps - done
+            return steps
+        while True:
+            pairs = candidates(floats, integers)
+            if pairs < 0:
                 return done
+            meeting = False
+            for tree in range(trees):
+                if near[tree] != 0 and asleep[tree] == 0:
+                    meeting = True
+                    look_ahead(floats, integers, tree, 0.5 * dt)
+            contacts = 0
+            if meeting:
+                contacts = touching(floats, integers, pairs)
+                if contacts < 0:
+                    return done
+            if not rouse_touched(floats, integers, contacts):
+                break
         join(floats, integers, trees, contacts)
         all_rows = 0
         for root in range(trees):
-            if island[root] != root:
+            if island[root] != root or asleep[root] != 0:
                 continue
             rows = settle(floats, integers, root)
             if rows < 0:
@@ -101,13 +90,16 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
             all_rows += rows
         total = 0.0
         for tree in range(trees):
+            if asleep[tree] != 0:
+                continue
             first, beyond = tree_dof[tree], tree_dof[tree + 1]
             account(floats, integers, first, beyond, dt)
             for d in range(first, beyond):
                 total += v[d]
-            move(floats, integers, tree_body[tree], tree_body[tree + 1], s, v, 0.5 * dt)
-        counts[FOUND_CONTACTS], counts[FOUND_ROWS] = contacts, all_rows
+            drift(floats, integers, tree, 0.5 * dt)
+        counts[FOUND_CONTACTS], counts[FOUND_ROWS], counts[FOUND_PAIRS] = contacts, all_rows, pairs
         if not math.isfinite(total):
             return done
+        let_sleep(floats, integers, contacts)
         counts[STEPS] += 1
     return steps
