@@ -1,1 +1,1 @@
-"""Collisions between pairs of shapes, compiled: `collide_pair`, the broad phase, hulls and meshes as arrays."""
+"""Collisions between pairs of shapes, compiled: `collide_pair`, hulls and meshes as arrays."""
