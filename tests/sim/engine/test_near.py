@@ -32,7 +32,7 @@ def scatter(seed, count=40, static=12):
     for k in range(count):
         size = rng.uniform(0.05, 0.4, 3)
         kinds = (Box(tuple(size)), Sphere(size[0]), Cylinder(size[0], size[1]), Capsule(size[0], size[1]))
-        at = rng.uniform(-1.0, 1.0, 3) + (0.0, 0.0, 3.0)
+        at = rng.uniform((-1.0, -1.0, 2.0), (1.0, 1.0, 4.0))
         bodies.append(Body(f"b{k}", (*at, *turned(rng)), [piece(kinds[k % 4])], static=k >= count - static))
     return bodies
 

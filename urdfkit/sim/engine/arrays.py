@@ -191,7 +191,7 @@ DT, FLOOR, HAS_FLOOR, HAS_PAIRS = range(4)
 FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS, LAST_PAIRS, OVERFULL, SLEEPING, FOUND_PAIRS = range(9)
 """Entries of ``counts``: of the last step the contacts, rows, and how they were solved; of all how many were hard; how
 many contacts of pairs are remembered; whether there were more contacts than there is room for; how many contacts are
-kept, from the end of their room on, for trees that sleep; pairs of shapes that were near each other in the last step."""
+kept, from the end of their room on, for trees that sleep; pairs of shapes that were near each other in the last."""
 
 _enumeration: Any = IntEnum
 At: Any = _enumeration(

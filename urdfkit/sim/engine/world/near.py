@@ -38,7 +38,7 @@ def reach_of(floats: Any, integers: Any, k: int, axes: Any) -> Any:
     if kind == CAPSULE:
         z -= x
         return (x + z * abs(axes[2]), x + z * abs(axes[5]), x + z * abs(axes[8]))
-    if kind == CYLINDER or kind == WHEEL:  # noqa: PLR1714
+    if kind in (CYLINDER, WHEEL):
         return (
             x * max(0.0, 1.0 - axes[2] * axes[2]) ** 0.5 + z * abs(axes[2]),
             x * max(0.0, 1.0 - axes[5] * axes[5]) ** 0.5 + z * abs(axes[5]),
