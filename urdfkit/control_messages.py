@@ -1,9 +1,16 @@
-"""Definitions of control_msgs as of Humble, which rosbags lacks; actions as the messages that actionlib makes of them."""
+"""Definitions of control_msgs and controller_manager_msgs as of Humble, which rosbags lacks.
+
+Actions are the messages that actionlib makes of them, services their requests by the names of ROS 2.
+"""
 
 from __future__ import annotations
 
 GOAL_STATUSES = "actionlib_msgs/msg/GoalStatusArray"
 GOAL_ID = "actionlib_msgs/msg/GoalID"
+LOAD = "controller_manager_msgs/srv/LoadController_Request"
+CONFIGURE = "controller_manager_msgs/srv/ConfigureController_Request"
+UNLOAD = "controller_manager_msgs/srv/UnloadController_Request"
+SWITCH = "controller_manager_msgs/srv/SwitchController_Request"
 
 _POINT = "trajectory_msgs/JointTrajectoryPoint"
 _MANY = "trajectory_msgs/MultiDOFJointTrajectoryPoint"
@@ -40,8 +47,13 @@ CONTROL_MESSAGES = {
         bool antiwindup
     """,
     "control_msgs/msg/JointTrajectoryControllerState": "\n".join(
-        ["std_msgs/Header header", "string[] joint_names", *(f"{_POINT} {role}" for role in _ROLES)]
-        + ["string[] multi_dof_joint_names", *(f"{_MANY} multi_dof_{role}" for role in _ROLES)]
+        [
+            "std_msgs/Header header",
+            "string[] joint_names",
+            *(f"{_POINT} {role}" for role in _ROLES),
+            "string[] multi_dof_joint_names",
+            *(f"{_MANY} multi_dof_{role}" for role in _ROLES),
+        ]
     ),
     "control_msgs/msg/JointTolerance": "string name\nfloat64 position\nfloat64 velocity\nfloat64 acceleration",
     "control_msgs/msg/GripperCommand": "float64 position\nfloat64 max_effort",
@@ -56,6 +68,19 @@ CONTROL_MESSAGES = {
         feedback=f"std_msgs/Header header\nstring[] joint_names\n{_POINT} desired\n{_POINT} actual\n{_POINT} error",
         result="int32 error_code\nstring error_string",
     ),
+    LOAD: "string name",
+    CONFIGURE: "string name",
+    UNLOAD: "string name",
+    SWITCH: """
+        string[] activate_controllers
+        string[] deactivate_controllers
+        string[] start_controllers
+        string[] stop_controllers
+        int32 strictness
+        bool start_asap
+        bool activate_asap
+        builtin_interfaces/Duration timeout
+    """,
     **_action("GripperCommand", goal="control_msgs/GripperCommand command", feedback=_GRIPPED, result=_GRIPPED),
 }
 """Type → definition."""

@@ -55,7 +55,7 @@ def _store() -> Any:
     store = get_typestore(Stores.ROS2_HUMBLE)
     known: dict[str, Any] = {}
     for name, text in (CONTROL_MESSAGES | WORLD_MESSAGES).items():
-        known.update(get_types_from_msg(text, name))
+        (known[name],) = get_types_from_msg(text, name).values()  # whose own key has /msg/ in it for services too
     store.register(known)
     return store
 

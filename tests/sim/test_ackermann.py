@@ -191,7 +191,7 @@ def test_the_hand_wheel_turns_along(make: Make) -> None:
 def test_topics_frames_and_distance(make: Make) -> None:
     extra = """<ros><namespace>/r</namespace><remapping>cmd_vel:=cmd</remapping></ros><update_rate>50</update_rate>
     <publish_odom>true</publish_odom><publish_odom_tf>true</publish_odom_tf><publish_wheel_tf>true</publish_wheel_tf>
-    <publish_distance>true</publish_distance><covariance_y>0.2</covariance_y>"""
+    <publish_distance>true</publish_distance><publish_steerangle>true</publish_steerangle><covariance_y>0.2</covariance_y>"""
     simulator = make(GAINS + extra)
     assert simulator.command_topics == ("/r/cmd",)
     seen: list[Any] = []
@@ -199,13 +199,18 @@ def test_topics_frames_and_distance(make: Make) -> None:
     simulator.command((0.5, 0, 0), (0, 0, 0))
     simulator.run(1.0)
     counts = {topic.name: topic.count for topic in simulator.bus.topics}
-    assert (counts["/r/odom"], counts["/r/distance"]) == (50, 50)
+    assert (counts["/r/odom"], counts["/r/distance"], counts["/r/steerangle"]) == (50, 50, 50)
     message = simulator.bus.latest("/r/odom")
     assert message.pose.pose.position.x == simulator.state.base_pose[0]
     assert message.pose.covariance[7] == message.twist.covariance[7] == 0.2
     assert simulator.bus.latest("/r/distance").data == pytest.approx(simulator.state.base_pose[0], rel=0.02)
     links = {(link.header.frame_id, link.child_frame_id) for tf in seen for link in tf.transforms}
     assert {("odom", "base_footprint"), ("base", "left_knuckle"), ("left_knuckle", "front_left_wheel")} <= links
+    assert {("base_footprint", "left_knuckle"), ("base_footprint", "front_left_wheel")} <= links  # the plugin's
+    simulator.command((0.5, 0, 0), (0, 0, 0.3))
+    simulator.run(1.0)
+    turned = [simulator.state.position(f"{side}_steering_joint") for side in ("left", "right")]
+    assert simulator.bus.latest("/r/steerangle").data == pytest.approx(sum(turned) / 2)
 
 
 def test_by_default_it_publishes_nothing(make: Make) -> None:

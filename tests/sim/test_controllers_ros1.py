@@ -430,6 +430,35 @@ def test_same_calls_same_bits_however_they_are_portioned_out(make: Make) -> None
     assert at_once.state.q.tobytes() == singly.state.q.tobytes()
 
 
+def ask(simulator: Any, service: str, **fields: Any) -> None:
+    kind = f"controller_manager_msgs/srv/{service.title().replace('_', '')}_Request"
+    message = from_fields(kind, fields)
+    simulator.bus.publish(f"/arm/controller_manager/{service}", kind, message)
+
+
+def test_the_controller_manager_takes_requests(make: Make) -> None:
+    notes: list[str] = []
+    yaml = POSITIONS + "  c: {type: effort_controllers/JointEffortController, joint: shoulder}\n"
+    simulator = make(yaml, spawned=("states", "a", "b"), note=notes.append)
+
+    def states() -> dict[str, str]:
+        return {status.name: status.state for status in simulator.controllers.list()}
+
+    ask(simulator, "load_controller", name="c")
+    assert states()["c"] == "stopped"
+    ask(simulator, "switch_controller", start_controllers=["c"], strictness=2)
+    assert (states()["a"], states()["c"]) == ("running", "stopped")
+    assert any("/arm/controller_manager/switch_controller: controller `c` needs joint `shoulder`" in n for n in notes)
+    ask(simulator, "switch_controller", start_controllers=["c"], stop_controllers=["a"], strictness=2)
+    assert (states()["a"], states()["c"]) == ("stopped", "running")
+    ask(simulator, "unload_controller", name="a")
+    assert states()["a"] == "unloaded"
+    ask(simulator, "switch_controller", start_controllers=["a"], stop_controllers=["nobody", "b"], strictness=1)
+    assert (states()["a"], states()["b"], states()["c"]) == ("stopped", "stopped", "running")
+    ask(simulator, "unload_controller", name="nobody")
+    assert any("/arm/controller_manager/unload_controller: no controller `nobody`" in note for note in notes)
+
+
 # Files
 
 

@@ -275,3 +275,12 @@ def test_a_block_that_no_plugin_runs_is_noted(tmp_path: Path, arm_package: Modul
     block = BLOCK.format(filename="", name="", hardware=GZ[2], commands="", more="", initial="", path="")
     Simulator(arm_package.write_arm(tmp_path, block[: block.index("<gazebo>")]), note=notes.append)
     assert any("no plugin runs ros2_control `arm`" in note for note in notes)
+
+
+def test_the_controller_manager_takes_requests(make: Make) -> None:
+    simulator = make(TRAJECTORIES, more="<ros><namespace>left</namespace></ros>")
+    kind = "controller_manager_msgs/srv/SwitchController_Request"
+    for field, state in (("deactivate_controllers", "inactive"), ("activate_controllers", "active")):
+        message = from_fields(kind, {field: ["arm_controller"], "strictness": 2})
+        simulator.bus.publish("/left/controller_manager/switch_controller", kind, message)
+        assert [s.state for s in simulator.controllers.list() if s.name == "arm_controller"] == [state]

@@ -44,8 +44,8 @@ ACKERMANN_ROS_2 = PluginSpec(
 )
 """Gains are proportional, integral and derivative; ranges the least and the most the integral may exert.
 
-The steering wheel's joint is called ``steering_wheel_joint`` where nothing is written, and may be missing. The example
-in the plugin's header has ``publish_steerangle``, which its code does not read.
+The steering wheel's joint is called ``steering_wheel_joint`` where nothing is written, and may be missing.
+``publish_steerangle`` publishes the mean of both steered wheels' angles on ``steerangle``.
 """
 
 ACKERMANN_GZ = PluginSpec(

@@ -25,6 +25,7 @@ from urdfkit.sim.controllers.output import (
     ProportionalOutput,
     VelocityOutput,
 )
+from urdfkit.sim.controllers.services import serve
 from urdfkit.sim.parameters import Parameters
 from urdfkit.sim.plugin import Controller, Setup
 from urdfkit.sim.topics import Topics
@@ -78,6 +79,7 @@ class Ros2Control(Controller):
         if not known:
             setup.note(f"{self.plugin.element.origin.position}: no controllers: `controller_manager` configures none")
         loop.start_all()
+        serve(loop, read.text("controller_manager") or "controller_manager")
 
     def _parameters(self, setup: Setup, read: Parameters) -> Settings:
         position = read.place("configuration")

@@ -17,6 +17,7 @@ from urdfkit.sim.controllers.law import Hardware
 from urdfkit.sim.controllers.loop import ControlLoop
 from urdfkit.sim.controllers.output import EffortOutput, Output, PositionOutput, VelocityOutput
 from urdfkit.sim.controllers.pid import read_gains
+from urdfkit.sim.controllers.services import serve
 from urdfkit.sim.parameters import Parameters
 from urdfkit.sim.plugin import Controller, Setup
 from urdfkit.sim.topics import Topics
@@ -73,6 +74,7 @@ class GazeboRosControl(Controller):
                 loop.switch(start=[name])
         else:
             loop.start_all()
+        serve(loop)
         if stop := read.text("emergency_stop_topic"):
             setup.bus.subscribe(topics.resolve(stop), BOOL, lambda message: loop.halt(bool(message.data)))
 

@@ -72,10 +72,17 @@ class Ackermann(Drive):
             twist_covariance=True,
         )
         hand_wheel = (self._hand_wheel,) if self._hand_wheel else ()
-        self._wheels = Wheels(setup, (*self._joints.values(), *hand_wheel), with_tf=read.flag("publish_wheel_tf"))
-        self._distance_topic = None
+        self._wheels = Wheels(
+            setup,
+            (*self._joints.values(), *hand_wheel),
+            with_tf=read.flag("publish_wheel_tf"),
+            base=read.text("base_frame"),
+        )
+        self._distance_topic = self._angle_topic = None
         if read.flag("publish_distance"):
             self._distance_topic = setup.bus.advertise(topics.resolve("distance"), "std_msgs/msg/Float32")
+        if read.flag("publish_steer_angle"):
+            self._angle_topic = setup.bus.advertise(topics.resolve("steerangle"), "std_msgs/msg/Float32")
         self._distance = 0.0
         self._last: tuple[float, ...] | None = None
 
@@ -132,8 +139,14 @@ class Ackermann(Drive):
             most = motors.limit(joints[meaning])
             motors.exert(joints[meaning], max(-most, min(most, effort)) / self._ticks.steps)
         if self._hand_wheel:
-            mean = (state.position(joints["left_steering_joint"]) + state.position(joints["right_steering_joint"])) / 2
-            put(self._hand_wheel, mean / self._ratio, period, setup=self._setup, state=state, motors=motors)
+            put(
+                self._hand_wheel,
+                self._mean_angle(state) / self._ratio,
+                period,
+                setup=self._setup,
+                state=state,
+                motors=motors,
+            )
 
     def angles(self, wanted: float) -> tuple[float, float]:
         """Return the angles [rad] of the right and the left wheel at which both circle the same point."""
@@ -142,7 +155,7 @@ class Ackermann(Drive):
         return atan2(slope, 1 + skew), atan2(slope, 1 - skew)
 
     def read(self, state: State) -> None:
-        """Publish odometry, the true pose in the world, wheel transforms and the distance so far."""
+        """Publish odometry, the true pose in the world, wheel transforms, the distance so far, the steering angle."""
         pose, velocity = state.base_pose, state.base_velocity
         here = pose[:2]
         if self._last is not None:
@@ -153,6 +166,12 @@ class Ackermann(Drive):
         if self._distance_topic is not None:
             distance = self._distance
             self._distance_topic.offer(lambda: self._number(distance))
+        if self._angle_topic is not None:
+            angle = self._mean_angle(state)
+            self._angle_topic.offer(lambda: self._number(angle))
+
+    def _mean_angle(self, state: State) -> float:
+        return sum(state.position(self._joints[f"{side}_steering_joint"]) for side in ("left", "right")) / 2
 
     def _number(self, value: float) -> Any:
         return message_type("std_msgs/msg/Float32")(value)

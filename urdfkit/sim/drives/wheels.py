@@ -22,6 +22,8 @@ class Wheels:
         states: topic of their joint states; None to publish none.
         measured: joint states have velocities and efforts, not only positions.
         named_by_joint: the transform's child frame is the joint's name (gazebo_ros_tricycle_drive), not the link's.
+        base: the frame that all transforms are in and that is the root link's (gazebo_ros_ackermann_drive); that of the
+            link that carries the wheel when empty.
     """
 
     def __init__(
@@ -33,7 +35,9 @@ class Wheels:
         states: str | None = None,
         measured: bool = False,
         named_by_joint: bool = False,
+        base: str = "",
     ) -> None:
+        self._base, self._root = base, setup.kinematics.root
         self._robot = setup.kinematics.robot
         self._joints = tuple(joints)
         self._measured = measured
@@ -58,9 +62,9 @@ class Wheels:
         links = []
         for name in self._joints:
             joint = self._robot.joint_by_name[name]
-            position, quaternion = moved.placement(joint.child, joint.parent)
+            position, quaternion = moved.placement(joint.child, self._root if self._base else joint.parent)
             child = name if self._named_by_joint else joint.child or ""
-            links.append(transform(t, joint.parent or "", child, position, quaternion))
+            links.append(transform(t, self._base or joint.parent or "", child, position, quaternion))
         return message_type(TF)(links)
 
     def _message(self, t: float, columns: list[list[float]]) -> Any:
