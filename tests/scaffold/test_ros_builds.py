@@ -1,4 +1,4 @@
-"""What `urdfkit new robot` writes is built, installed and launched by the real tools (Debian's)."""
+"""What `urdfkit new robot` writes, and the robots we ship, are built, installed and launched by Debian's real tools."""
 
 import os
 import shutil
@@ -67,26 +67,40 @@ def stub_gazebo_ros(src):
     (package / "launch/empty_world.launch").write_text(f"<launch>{arguments}</launch>")
 
 
-@pytest.mark.parametrize("name", ["scout", "simpleton"])
-def test_catkin(workspace, with_xacro, name):
+def shipped(build_tool):
+    """Return robot → its packages, of those robots we ship that a build tool builds."""
+    return {
+        folder.name: packages
+        for folder in sorted(robots_dir().iterdir())
+        if (packages := [path.parent for path in sorted(folder.glob("*/package.xml"))])
+        and f"<buildtool_depend>{build_tool}<" in (packages[0] / "package.xml").read_text()
+    }
+
+
+def test_catkin(workspace, with_xacro):
+    """A new robot and all robots of ROS 1 that we ship, in one workspace."""
     require("catkin catkin-lint python3-roslaunch rospack-tools", "catkin_make", "catkin_lint", "roslaunch", "rospack")
     src = workspace / "src"
-    if name == "simpleton":
-        for package in robots_dir().glob("simpleton/*_*"):
-            shutil.copytree(package, src / package.name)
-    else:
-        assert main(["new", "robot", name, "--ros", "noetic", "--into", "src", "--yes"]) == 0
+    assert main(["new", "robot", "scout", "--ros", "noetic", "--into", "src", "--yes"]) == 0
+    robots = shipped("catkin")
+    assert len(robots) >= 6
+    for package in (package for packages in robots.values() for package in packages):
+        shutil.copytree(package, src / package.name)
     assert "found 0 problems" in run(workspace, "catkin_lint -W2 --strict --offline src")
     run(workspace, "catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3 install")
     share = workspace / "install/share"
-    for path in (f"{name}_description/urdf/{name}.urdf.xacro", f"{name}_gazebo/worlds/empty.world"):
-        assert (share / path).is_file()
     stub_gazebo_ros(share)
-    sourced = ". install/setup.bash"
-    assert run(workspace, f"{sourced}; rospack find {name}_description").strip() == str(share / f"{name}_description")
-    for launch in (f"{name}_description display.launch", f"{name}_gazebo {name}.launch"):
-        dumped = run(workspace, f"{sourced}; export PATH={with_xacro}; roslaunch --dump-params {launch}")
-        assert f'<robot name=\\"{name}\\"' in dumped or f'<robot name="{name}"' in dumped
+    commands, names = [], ["scout", *robots]
+    for name in names:
+        assert (share / f"{name}_description/urdf/{name}.urdf.xacro").is_file()
+        assert list((share / f"{name}_gazebo/worlds").glob("*.world"))
+        commands.append(f"echo FOUND $(rospack find {name}_description)")
+        for launch in sorted(share.glob(f"{name}_*/launch/*.launch")):
+            commands.append(f"echo LAUNCH; roslaunch --dump-params {launch.parents[1].name} {launch.name}")
+    said = run(workspace, f"set -e; . install/setup.bash; export PATH={with_xacro}; {'; '.join(commands)}")
+    for name in names:
+        assert f"FOUND {share / f'{name}_description'}\n" in said
+        assert said.count(f'<robot name=\\"{name}\\"') + said.count(f'<robot name="{name}"') >= 2, name
 
 
 def test_colcon(workspace):
@@ -97,7 +111,18 @@ def test_colcon(workspace):
         modules=("colcon_ros", "colcon_cmake", "colcon_recursive_crawl", "ament_package"),
     )
     assert main(["new", "robot", "scout", "--ros", "jazzy", "--into", "src", "--yes"]) == 0
-    assert "2 packages finished" in run(workspace, "colcon build")
+    robots = shipped("ament_cmake")
+    assert len(robots) >= 3
+    for package in (package for packages in robots.values() for package in packages):
+        shutil.copytree(package, workspace / "src" / package.name)
+    count = 2 + sum(len(packages) for packages in robots.values())
+    assert f"{count} packages finished" in run(workspace, "colcon build")
+    for name, packages in robots.items():
+        for package in packages:
+            there = workspace / "install" / package.name / "share" / package.name
+            assert {path.name for path in package.glob("launch/*")} <= {path.name for path in there.glob("launch/*")}
+        model = workspace / f"install/{name}_description/share/{name}_description/urdf/{name}.urdf.xacro"
+        assert load(model).name == name
     share = workspace / "install/scout_description/share"
     found = run(workspace, ". install/setup.sh && echo $GZ_SIM_RESOURCE_PATH")
     assert str(share) in found.split()[-1].split(":")
