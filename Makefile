@@ -29,7 +29,7 @@ test: $(VENV)/.test
 
 bench: $(VENV)/.bench
 	$(BIN)/python tests/bench/bench_lint.py
-	$(BIN)/python tests/bench/bench_sim.py
+	$(BIN)/urdfkit sim bench $(ARGS)
 
 fidelity: $(VENV)/.bench
 	$(BIN)/python tests/bench/fidelity --write

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 LABELS = {"urdfkit": "urdfkit", "mujoco": "MuJoCo", "pybullet": "PyBullet"}
 GREEN, RED, BOLD = "\x1b[32m", "\x1b[31m", "\x1b[1m"
 RESET = "\x1b[0m"
-NUMBERS = 56
+NUMBERS = 54
 """Columns that the numbers of a line take; remarks come after them, or below where there is too little room."""
 REMARKS = 40
 """Columns that remarks must have to come after the numbers."""
@@ -43,7 +43,7 @@ class _Table:
         found = []
         if report["scenes"]:
             many = f"{report['steps_per_call']} a call"
-            found.append(f"{'steps per CPU second':22}{'1 a call':>10}{many:>12}{'ours/theirs':>14}")
+            found.append(f"{'steps per CPU s':18}{'1 a call':>9}{many:>11}{'ours/theirs':>14}")
         for scene in report["scenes"]:
             found += [self._styled(f"{scene['scene']}: {scene['title']}", BOLD), *self._scene(scene)]
         if report["scaling"]:
@@ -51,8 +51,8 @@ class _Table:
         if report["memory"]:
             memory = report["memory"]
             text = f"{memory['peak'] / 1e6:.0f} MB (target: under {memory['target'] / 1e6:.0f})"
-            title = f"memory of {memory['robot']} driving in {memory['world']}: "
-            found += ["", self._styled(title, BOLD) + self._judged(text, memory["met"])]
+            title = self._styled(f"memory: {memory['robot']} driving in {memory['world']}", BOLD)
+            found += ["", title, "  " + self._judged(text, memory["met"])]
         machine = report["machine"]
         versions = ", ".join(f"{LABELS[name]} {version}" for name, version in report["engines"].items())
         about = f"{machine['processor']}, {machine['cores']} cores, Python {machine['python']}"
@@ -65,7 +65,7 @@ class _Table:
         found = []
         for engine, speed in scene["engines"].items():
             rates = speed["steps_per_cpu_second"]
-            line = f"  {LABELS[engine]:20}{_rate(rates['single']):>10}{_rate(rates['many']):>12}"
+            line = f"  {LABELS[engine]:16}{_rate(rates['single']):>9}{_rate(rates['many']):>11}"
             ratio, remarks = scene["ratios"].get(engine), [_checks(speed)]
             if ratio is not None:
                 met = ratio["met"] or {}
@@ -74,7 +74,7 @@ class _Table:
                 if ratio["target"] is not None:
                     remarks.insert(0, f"target {ratio['target']:g}")
                 remarks.insert(0, speed["settings"])
-            found += self._with_remarks(line, "; ".join(remarks), right=speed["right"])
+            found += self._with_remarks(line, "; ".join(remarks), met=None if speed["right"] else False)
             if faster := speed["faster_but_wrong"]:
                 text = f"faster but wrong: {faster['settings']} at {_rate(faster['steps_per_cpu_second'])}"
                 found += self._wrapped(f"{text}, {_checks({**faster, 'right': False})}", indent=4)
@@ -82,22 +82,24 @@ class _Table:
 
     def _scaling(self, scaling: dict[str, Any]) -> list[str]:
         counts = "".join(f"{count:>10}" for count in scaling["robots"])
-        found = [self._styled("scaling: CPU µs per step and robot", BOLD), f"  {'robots in one world':20}{counts}"]
+        found = [self._styled("scaling: CPU µs per step and robot", BOLD), f"  {'robots':16}{counts}"]
         for engine, row in scaling["engines"].items():
+            ours = engine == "urdfkit"
             costs = "".join(f"{cost:>10.2f}" for cost in row["microseconds_per_robot"])
-            growth = self._judged(f"{row['growth']:.2f}", row["met"] if engine == "urdfkit" else None)
-            text = f"grows {growth} times" + (f" (target: at most {scaling['target']})" if engine == "urdfkit" else "")
-            found.append(f"  {LABELS[engine]:20}{costs}  {text}{'' if row['right'] else ', WRONG'}")
+            text = f"grows {row['growth']:.2f} times" + f", target: at most {scaling['target']}" * ours
+            text += "" if row["right"] else "; WRONG: not all drive as they must"
+            met = row["right"] and (row["met"] if ours else None)
+            found += self._with_remarks(f"  {LABELS[engine]:16}{costs}", text, met=met)
         return found
 
-    def _with_remarks(self, line: str, remarks: str, *, right: bool) -> list[str]:
+    def _with_remarks(self, line: str, remarks: str, *, met: bool | None) -> list[str]:
         if self._width is None or self._width - NUMBERS >= REMARKS:
             room = 10_000 if self._width is None else self._width - NUMBERS
             first, *others = textwrap.wrap(remarks, room)
             plain = len(line.replace(GREEN, "").replace(RED, "").replace(RESET, ""))
             gap = " " * max(2, NUMBERS - plain)
-            return [line + gap + self._judged(first, None if right else False)] + [" " * NUMBERS + o for o in others]
-        return [line, *(self._judged(text, None if right else False) for text in self._wrapped(remarks, indent=4))]
+            return [line + gap + self._judged(first, met), *(" " * NUMBERS + self._judged(o, met) for o in others)]
+        return [line, *(self._judged(text, met) for text in self._wrapped(remarks, indent=4))]
 
     def _wrapped(self, text: str, *, indent: int = 0) -> list[str]:
         before = " " * indent

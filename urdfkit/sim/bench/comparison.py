@@ -9,7 +9,7 @@ from statistics import median
 
 from urdfkit.sim.bench.check import Check
 from urdfkit.sim.bench.in_urdfkit import InUrdfkit
-from urdfkit.sim.bench.peer import Choice, Peer, Trial, attempt, choose, rate
+from urdfkit.sim.bench.peer import GLANCE, Choice, Peer, Trial, choose, rate
 from urdfkit.sim.bench.running import Running
 from urdfkit.sim.bench.scene import Scene
 from urdfkit.sim.bench.scenes import robots
@@ -30,7 +30,7 @@ class Speed:
     Attributes:
         engine: its name.
         settings: how it computed.
-        checks: whether the scene went as it must.
+        checks: whether the scene went as it must, after all was measured.
         asleep: how many things slept, where the engine tells.
         single: steps per CPU second of each round, one in a call.
         many: the same, `CALL` in a call.
@@ -106,8 +106,6 @@ class Comparison:
 
     def compare(self, scene: Scene) -> Compared:
         """Measure our engine and the peers, each at its best settings, on a scene."""
-        self._say(f"{scene.name}: urdfkit")
-        ours = attempt(lambda _: InUrdfkit(scene), None, scene, 0.0)
         runnings: dict[str, Running] = {OURS: InUrdfkit(scene)}
         for peer in self._peers:
             choice = self._choice(peer, scene)
@@ -117,15 +115,16 @@ class Comparison:
         self._say(f"{scene.name}: measuring")
         single = self._in_turns(runnings, at_once=False)
         many = self._in_turns(runnings, at_once=True)
+        # Looked at again, because what goes well at first may go wrong later.
+        checks = {name: scene.check(running) for name, running in runnings.items()}
+        asleep = {name: running.asleep() for name, running in runnings.items()}
         for running in runnings.values():
             running.close()
-        speeds = [Speed(OURS, "", ours.checks, ours.asleep, single[OURS], many[OURS])]
-        for peer in self._peers:
-            choice = self._choice(peer, scene)
-            best, name = choice.best, peer.name
-            speeds.append(
-                Speed(name, str(best.settings), best.checks, best.asleep, single[name], many[name], choice.faster)
-            )
+        speeds = []
+        for name in runnings:
+            chosen = self._choices.get((name, scene.name))
+            settings, faster = ("", None) if chosen is None else (str(chosen.best.settings), chosen.faster)
+            speeds.append(Speed(name, settings, checks[name], asleep[name], single[name], many[name], faster))
         return Compared(scene, tuple(speeds))
 
     def scale(self) -> tuple[Scaled, ...]:
@@ -153,7 +152,7 @@ class Comparison:
         key = (peer.name, scene.name)
         if key not in self._choices:
             self._say(f"{scene.name}: best settings of {peer.label}")
-            self._choices[key] = choose(peer, scene)
+            self._choices[key] = choose(peer, scene, seconds=min(GLANCE, self._seconds))
         return self._choices[key]
 
     def _in_turns(self, runnings: Mapping[str, Running], *, at_once: bool) -> dict[str, tuple[float, ...]]:

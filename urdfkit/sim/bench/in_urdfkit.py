@@ -84,10 +84,10 @@ class InUrdfkit(Running):
         box.place(box.pose, (speed, 0.0, 0.0, 0.0, 0.0, 0.0))
 
     def asleep(self) -> int | None:
-        """Return how many boxes sleep; robots never do."""
+        """Return how many boxes sleep; robots whose motors run never do."""
         if not self.scene.loose:
             return None
-        return int(np.count_nonzero(self.engine._arrays["asleep"]))
+        return sum(box.asleep for box in self._loose)
 
 
 def _member(name: str, thing: Thing) -> Member:

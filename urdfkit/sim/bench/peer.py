@@ -16,8 +16,8 @@ from urdfkit.sim.bench.scene import CALL, Scene
 
 GLANCE = 0.05
 """CPU seconds for which settings are tried."""
-FINALISTS, HEATS = 3, 5
-"""How many of the fastest settings are compared again, and how often."""
+FINALISTS, HEATS, RUN_IN = 4, 5, 10
+"""How many of the fastest settings are compared again, how often, and after how many glances: gaits may change late."""
 
 
 class Peer(Protocol):
@@ -93,7 +93,7 @@ def attempt(run: Callable[[Any], Running], settings: Any, scene: Scene, seconds:
     running = run(settings)
     try:
         checks = scene.check(running)
-        return Trial(settings, checks, running.asleep(), rate(running, seconds) if seconds else 0.0)
+        return Trial(settings, checks, running.asleep(), rate(running, seconds))
     finally:
         running.close()
 
@@ -123,12 +123,15 @@ def _fastest(trials: list[Trial]) -> Trial:
 
 
 def _winner(run: Callable[[Any], Running], finalists: list[Trial], scene: Scene, seconds: float) -> Trial:
-    """Let finalists run in turns; return the one with the best median."""
+    """Let finalists run in turns; return the one with the best median of those that stay right, or of all."""
     runnings = [run(trial.settings) for trial in finalists]
     for running in runnings:
         scene.check(running)
+        rate(running, RUN_IN * seconds)
     heats = [[rate(running, seconds) for running in runnings] for _ in range(HEATS)]
+    medians = [median(column) for column in zip(*heats, strict=True)]
+    right = [all(check.ok for check in scene.check(running)) for running in runnings]
     for running in runnings:
         running.close()
-    medians = [median(column) for column in zip(*heats, strict=True)]
-    return finalists[medians.index(max(medians))]
+    order = sorted(range(len(finalists)), key=lambda k: (right[k], medians[k]))
+    return finalists[order[-1]]
