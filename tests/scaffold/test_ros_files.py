@@ -12,6 +12,7 @@ import yaml
 
 from urdfkit.description import load
 from urdfkit.description.world import load_world
+from urdfkit.resources import robots_dir
 from urdfkit.scaffold import create
 
 
@@ -70,7 +71,20 @@ def launch_modules(monkeypatch):
 
 @pytest.mark.parametrize("path", ["scout_description/launch/display.launch.py", "scout_gazebo/launch/scout.launch.py"])
 def test_ros2_launch_files(robots, launch_modules, path):
-    folder = robots["jazzy"]
+    launched(robots["jazzy"], path, launch_modules)
+
+
+@pytest.mark.parametrize(
+    "path",
+    sorted(path.relative_to(robots_dir()) for path in robots_dir().glob("*/*/launch/*.launch.py")),
+    ids=lambda path: path.name,
+)
+def test_ros2_launch_files_of_the_robots_we_ship(launch_modules, path):
+    launched(robots_dir() / path.parts[0], "/".join(path.parts[1:]), launch_modules)
+
+
+def launched(folder, path, launch_modules):
+    """Run a launch file of a robot's folder; see that what it names is there and declared."""
     source = (folder / path).read_text()
     scope = {}
     exec(compile(source, path, "exec"), scope)
@@ -87,7 +101,7 @@ def test_ros2_launch_files(robots, launch_modules, path):
             assert made.args[0] in known
         elif type(made).__name__ == "PathJoinSubstitution":
             share, *parts = made.args[0]
-            if share.args[0].startswith("scout_"):
+            if Path(folder, share.args[0]).is_dir():
                 assert Path(folder, share.args[0], *parts).is_file()
         elif type(made).__name__ == "LaunchConfiguration":
             declared = [m.args[0] for m in Recorder.made if type(m).__name__ == "DeclareLaunchArgument"]
