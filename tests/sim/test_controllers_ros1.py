@@ -366,9 +366,11 @@ def test_an_effort_makes_no_joint_faster_than_it_may_be(make: Make) -> None:
 def test_limits_among_the_parameters_come_first(make: Make) -> None:
     yaml = law("position_controllers/JointPositionController") + (
         "  joint_limits: {shoulder: {has_position_limits: true, min_position: -0.2, max_position: 0.4, "
-        "has_velocity_limits: true, max_velocity: 0.5}}\n"
+        "has_velocity_limits: true, max_velocity: 0.5, has_acceleration_limits: true, max_acceleration: 1}}\n"
     )
-    simulator = make(yaml, ("Position", "Position"), gravity=(0, 0, 0))
+    notes: list[str] = []
+    simulator = make(yaml, ("Position", "Position"), gravity=(0, 0, 0), note=notes.append)
+    assert any("acceleration limits of joint `shoulder` are not simulated" in note for note in notes)
     send(simulator, "/arm/a/command", 1.0)
     simulator.run(0.4)
     assert simulator.state.position("shoulder") == pytest.approx(0.2, abs=5e-3)

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 from urdfkit.errors import DescriptionError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from urdfkit.description.control import Settings
     from urdfkit.description.robot import Joint
 
@@ -86,7 +88,7 @@ class JointLimits:
         )
 
 
-def read_limits(joint: Joint, settings: Settings) -> JointLimits:
+def read_limits(joint: Joint, settings: Settings, note: Callable[[str], None]) -> JointLimits:
     """Return the limits that a joint's ``<limit>`` and ``<safety_controller>`` and ``joint_limits/JOINT`` set.
 
     Raises:
@@ -105,6 +107,9 @@ def read_limits(joint: Joint, settings: Settings) -> JointLimits:
         found = replace(found, lower=group.number("min_position"), upper=group.number("max_position"))
     if group.flag("has_velocity_limits", False):
         found = replace(found, velocity=group.number("max_velocity"))
+    for kind in ("acceleration", "jerk"):
+        if group.flag(f"has_{kind}_limits", False):
+            note(f"{group.place}: {kind} limits of joint `{joint.name}` are not simulated")
     if group.flag("has_effort_limits", False):
         found = replace(found, effort=group.number("max_effort"))
     if group.flag("has_soft_limits", False):

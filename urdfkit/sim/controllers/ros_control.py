@@ -130,7 +130,7 @@ def _output(transmission: Transmission, settings: Settings, setup: Setup, period
         )
     own = setup.joint(joint.name or "", joint.element.origin.position)
     written = setup.kinematics.robot.joint_by_name[own]
-    handle, limits = JointHandle(setup.kinematics, written), read_limits(written, settings)
+    handle, limits = JointHandle(setup.kinematics, written), read_limits(written, settings, setup.note)
     handle.lower, handle.upper = limits.lower, limits.upper
     handle.limit, handle.fastest = limits.effort, limits.velocity
     if INTERFACES[kind] == "effort":
