@@ -676,3 +676,39 @@ def test_two_buildings_and_ten_objects() -> None:
     buildings = [name for name in names if name.startswith("building")]
     assert len(buildings) == 2
     assert len(names) - len(buildings) - 1 == 10
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "said"),
+    [
+        ("house.world", None, "No such file or directory; did you mean `house`, which we ship?"),
+        ("cart.urdf", "<robot/>", "is a robot, not a world; give it as MODEL"),
+        ("cart.sdf", "<robot/>", "cart.sdf:1:1: this is a robot; an SDF world starts with <sdf>"),
+        ("", None, "is a folder; a world is a .world or .sdf file"),
+        ("large.sdf", "<sphere><radius>1e300</radius></sphere>", "<sphere> is 1e+300 m large; at most 1e+06 m"),
+        (
+            "flat.sdf",
+            "<cone><radius>1</radius><length>0</length></cone>",
+            "<length> is 0; it must be greater than zero",
+        ),
+    ],
+)
+def test_what_newcomers_take_for_a_world(tmp_path: Path, name: str, text: str | None, said: str) -> None:
+    path = tmp_path / name
+    if text is not None:
+        shape = f'<collision name="c"><geometry>{text}</geometry></collision>'
+        model = f'<sdf version="1.9"><model name="m"><link name="l">{shape}</link></model></sdf>'
+        path.write_text(text if text == "<robot/>" else model)
+    with pytest.raises(UrdfkitError) as caught:
+        load_world(path)
+    assert said in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_wind_and_pace_are_kept_with_a_remark(tmp_path: Path) -> None:
+    path = tmp_path / "windy.sdf"
+    inside = "<wind><linear_velocity>1 0 0</linear_velocity></wind><physics><real_time_factor>0.5</real_time_factor>"
+    path.write_text(f'<sdf version="1.9"><world name="w">{inside}</physics></world></sdf>')
+    world = load_world(path)
+    assert [note.partition(": ")[2][:21] for note in world.notes] == ["the wind does not blo", "<real_time_factor> 0."]
+    assert world.physics.real_time_factor == 0.5

@@ -5,12 +5,13 @@ from urdfkit.description.world.library import model_names, world_names
 from urdfkit.description.world.model import WorldAxis, WorldInertial, WorldJoint, WorldLink, WorldModel
 from urdfkit.description.world.reader import load_model, load_world
 from urdfkit.description.world.save import model_to_sdf, save_world, to_sdf
-from urdfkit.description.world.shape import Ellipsoid, Kept, Light, Plane, Surface, WorldGeometry, WorldShape
+from urdfkit.description.world.shape import Cone, Ellipsoid, Kept, Light, Plane, Surface, WorldGeometry, WorldShape
 from urdfkit.description.world.world import GRAVITY, GROUND_MU, Ground, Physics, World, WorldRobot, ground_of
 
 __all__ = [
     "GRAVITY",
     "GROUND_MU",
+    "Cone",
     "Ellipsoid",
     "Ground",
     "Kept",

@@ -8,7 +8,7 @@ from math import sqrt
 from urdfkit.description.element import Element
 from urdfkit.description.robot import Box, Capsule, Cylinder, Mesh, Pose, Sphere
 from urdfkit.description.world.context import Context
-from urdfkit.description.world.shape import Ellipsoid, Kept, Plane, Rgba, Surface, WorldGeometry, WorldShape, keep
+from urdfkit.description.world.shape import Cone, Ellipsoid, Kept, Plane, Rgba, Surface, WorldGeometry, WorldShape, keep
 from urdfkit.description.world.values import boolean, color, floats, name_of, positive, scalar, text, vector, wrong
 from urdfkit.description.world.vocabulary import remark_unknown
 from urdfkit.errors import ResourceError, did_you_mean
@@ -17,8 +17,9 @@ _REFUSED = {
     "heightmap": "model the ground as boxes or as a mesh",
     "polyline": "extrude it to a mesh, or build it of boxes",
     "image": "build it of boxes",
-    "cone": "use a cylinder or a mesh",
 }
+LARGEST = 1e6
+"""What is larger is a slip: numbers of 16 digits hold 0.1 nm at that size [m]."""
 _READ = {
     "auto_inertia_params",
     "density",
@@ -84,11 +85,22 @@ def _geometry(context: Context, shape: Element) -> tuple[WorldGeometry, str] | N
         if child.tag == "mesh":
             return _mesh(context, shape, child)
         if child.tag in _SOLIDS:
-            return _SOLIDS[child.tag](child), ""
+            solid = _SOLIDS[child.tag](child)
+            if child.tag != "plane" and (largest := max(_lengths(solid))) > LARGEST:
+                raise wrong(child, f"<{child.tag}> is {largest:g} m large; at most {LARGEST:g} m can be simulated")
+            return solid, ""
     if element.find("empty") is None and element.children:
         child = element.children[0]
         raise wrong(child, f"unknown geometry <{child.tag}>{did_you_mean(child.tag, [*_SOLIDS, 'mesh'])}")
     return None
+
+
+def _lengths(solid: WorldGeometry) -> tuple[float, ...]:
+    if isinstance(solid, Box):
+        return solid.size
+    if isinstance(solid, Ellipsoid):
+        return solid.radii
+    return tuple([each for name in ("radius", "length") if (each := getattr(solid, name, None)) is not None])
 
 
 def _box(element: Element) -> Box:
@@ -128,6 +140,7 @@ _SOLIDS: dict[str, Callable[[Element], WorldGeometry]] = {
     "sphere": lambda element: Sphere(positive(element, "radius")),
     "cylinder": lambda element: Cylinder(positive(element, "radius"), positive(element, "length")),
     "capsule": lambda element: Capsule(positive(element, "radius"), positive(element, "length")),
+    "cone": lambda element: Cone(positive(element, "radius"), positive(element, "length")),
     "ellipsoid": _ellipsoid,
     "plane": _plane,
 }

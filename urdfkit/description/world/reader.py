@@ -11,7 +11,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from urdfkit.description.element import Element
-from urdfkit.description.packages import Packages
+from urdfkit.description.packages import Packages, near_path
+from urdfkit.description.reading import shown_path
 from urdfkit.description.robot import Pose
 from urdfkit.description.world.context import Context, root_error
 from urdfkit.description.world.frames import Scope
@@ -29,6 +30,7 @@ from urdfkit.description.world.world import GRAVITY, Physics, World, WorldRobot
 from urdfkit.errors import DescriptionError, ResourceError, did_you_mean
 
 _SUFFIXES = (".world", ".sdf")
+_ROBOT_SUFFIXES = (".urdf", ".xacro")
 _READ = {"frame", "gravity", "include", "joint", "light", "magnetic_field", "model", "physics", "state"}
 _PHYSICS_READ = {"max_step_size", "real_time_factor", "real_time_update_rate", "gravity", "magnetic_field"}
 _NOT_SIMULATED = {
@@ -52,8 +54,15 @@ def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) ->
         DescriptionError: it cannot be read, or holds what cannot be simulated; with its place.
     """
     path = world_file(str(world)) or Path(world)
+    names = world_names()
+    if path.suffix in _ROBOT_SUFFIXES:
+        raise ResourceError(f"`{world}` is a robot, not a world; give it as MODEL, or include it in a world")
+    if path.is_dir():
+        raise ResourceError(f"`{world}` is a folder; a world is a .world or .sdf file (worlds: {', '.join(names)})")
+    if path.suffix in _SUFFIXES and not path.exists():
+        hint = f"; did you mean `{path.stem}`, which we ship?" if path.stem in names else near_path(path)
+        raise ResourceError(f"cannot read {shown_path(path)}: No such file or directory{hint}")
     if path.suffix not in _SUFFIXES:
-        names = world_names()
         raise ResourceError(
             f"no world `{world}`{did_you_mean(str(world), names)}"
             f" (worlds: {', '.join(names)}, or a path to a .world or .sdf file)"
@@ -98,6 +107,8 @@ def load_model(
     context = Context(Packages(package_path, path), path)
     root = context.open()
     written = root.find("model") if root.tag == "sdf" else None
+    if written is None and root.tag == "sdf" and root.find("world") is not None:
+        raise wrong(root, "this is a world, not a model; give it as --world, or save its models one by one")
     if written is None:
         raise wrong(root, "an SDF model starts with <sdf> and has a <model> in it")
     found = read_model(context, written)
@@ -146,6 +157,8 @@ def _world(context: Context, element: Element) -> World:
             add_frame(scope, child, strict=strict)
         elif child.tag in _NOT_SIMULATED:
             context.note(child, _NOT_SIMULATED[child.tag])
+        elif child.tag == "wind" and any(vector(child, "linear_velocity", (0.0, 0.0, 0.0))):
+            context.note(child, "the wind does not blow here: <wind> is kept, but moves nothing")
     placed = [thing.placed(scope) for thing in found]
     models = [each for each in placed if isinstance(each, WorldModel)]
     lights = [each for each in placed if isinstance(each, Light)]
@@ -160,7 +173,7 @@ def _world(context: Context, element: Element) -> World:
         vector(element, "gravity", gravity),
         tuple(models),
         tuple(lights),
-        Physics() if physics is None else _physics(physics),
+        Physics() if physics is None else _physics(context, physics),
         tuple([each for each in placed if isinstance(each, WorldRobot)]),
         tuple([read_joint(context, joint, scope) for joint in element.find_all("joint")]),
         vector(element, "magnetic_field", default.magnetic_field),
@@ -185,16 +198,22 @@ def _physics_element(world: Element) -> Element | None:
     return next(iter(chosen or profiles), None)
 
 
-def _physics(element: Element) -> Physics:
+def _physics(context: Context, element: Element) -> Physics:
     default = Physics()
     step = scalar(element, "max_step_size", default.max_step_size)
     if step <= 0:
         raise wrong(
             element.find("max_step_size") or element, f"<max_step_size> is {step:g} s; it must be more than zero"
         )
+    pace = scalar(element, "real_time_factor", default.real_time_factor)
+    if pace not in (0, default.real_time_factor):
+        context.note(
+            element.find("real_time_factor") or element,
+            f"<real_time_factor> {pace:g} is kept, but not followed: teleop keeps pace with the clock",
+        )
     return Physics(
         step,
-        scalar(element, "real_time_factor", default.real_time_factor),
+        pace,
         scalar(element, "real_time_update_rate", default.real_time_update_rate),
         element.get("type") or default.engine,
         element.get("name") or "",

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path
 
 from urdfkit.description.robot import Box, Capsule, Cylinder, Mesh, Sphere
 from urdfkit.description.world.markup import Markup, figure
 from urdfkit.description.world.model import WorldAxis, WorldInertial, WorldJoint, WorldLink, WorldModel
-from urdfkit.description.world.shape import Ellipsoid, Light, Surface, WorldGeometry, WorldShape
+from urdfkit.description.world.shape import Cone, Ellipsoid, Light, Surface, WorldGeometry, WorldShape
 from urdfkit.description.world.world import Physics, World
 from urdfkit.errors import DescriptionError
 
 VERSION = "1.9"
-"""The version of SDF that is written; 1.10 for a world with joints of its own, which 1.9 does not know."""
+"""The version of SDF that is written, where nothing in the world is newer."""
 
 
 def to_sdf(world: World) -> str:
@@ -23,7 +24,7 @@ def to_sdf(world: World) -> str:
         DescriptionError: a name, or a character in it, cannot be written in SDF.
     """
     out = Markup()
-    with out.inside("sdf", version="1.10" if world.joints else VERSION), out.inside("world", name=world.name):
+    with out.inside("sdf", version=_version(world.models, world.joints)), out.inside("world", name=world.name):
         default = World("")
         out.numbers("gravity", world.gravity)
         out.numbers("magnetic_field", world.magnetic_field, default.magnetic_field)
@@ -52,7 +53,7 @@ def model_to_sdf(model: WorldModel) -> str:
         DescriptionError: a name, or a character in it, cannot be written in SDF.
     """
     out = Markup()
-    with out.inside("sdf", version=VERSION):
+    with out.inside("sdf", version=_version((model,), ())):
         _model(out, model)
     return out.text()
 
@@ -67,6 +68,14 @@ def save_world(world: World, path: str | Path) -> None:
     from urdfkit.atomic import write_text
 
     write_text(Path(path), to_sdf(world))
+
+
+def _version(models: Sequence[WorldModel], joints: Sequence[WorldJoint]) -> str:
+    """Return the oldest version from 1.9 on that knows what is written: joints of a world since 1.10, cones 1.11."""
+    shapes = (s for model in models for _, _, link in model.all_links() for s in (*link.collisions, *link.visuals))
+    if any(isinstance(shape.geometry, Cone) for shape in shapes):
+        return "1.11"
+    return "1.10" if joints else VERSION
 
 
 def _name(name: str) -> str:
@@ -175,7 +184,7 @@ def _geometry(out: Markup, geometry: WorldGeometry) -> None:
             out.numbers("size", geometry.size)
         elif isinstance(geometry, Sphere):
             out.number("radius", geometry.radius)
-        elif isinstance(geometry, Cylinder | Capsule):
+        elif isinstance(geometry, Cylinder | Capsule | Cone):
             out.number("radius", geometry.radius)
             out.number("length", geometry.length)
         elif isinstance(geometry, Ellipsoid):

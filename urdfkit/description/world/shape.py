@@ -48,7 +48,15 @@ class Ellipsoid:
     radii: Vector
 
 
-WorldGeometry = Box | Cylinder | Sphere | Capsule | Ellipsoid | Plane | Mesh
+@record
+class Cone:
+    """Apex up along z, the origin half way up; `radius` of the base and full `length` [m] (SDF 1.11)."""
+
+    radius: float
+    length: float
+
+
+WorldGeometry = Box | Cylinder | Sphere | Capsule | Cone | Ellipsoid | Plane | Mesh
 
 
 @record(eq=False)

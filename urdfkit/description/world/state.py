@@ -9,7 +9,7 @@ from urdfkit.description.robot import Box, Capsule, Cylinder, Mesh, Pose, Sphere
 from urdfkit.description.world.context import Context
 from urdfkit.description.world.model import WorldLink, WorldModel
 from urdfkit.description.world.poses import between, compose, difference
-from urdfkit.description.world.shape import Ellipsoid, Light, Plane, WorldGeometry
+from urdfkit.description.world.shape import Cone, Ellipsoid, Light, Plane, WorldGeometry
 from urdfkit.description.world.values import name_of, raw_pose, vector, wrong
 from urdfkit.errors import did_you_mean
 
@@ -105,7 +105,7 @@ def scaled(geometry: WorldGeometry, scale: Vector) -> WorldGeometry:
         return Mesh(geometry.uri, (geometry.scale[0] * x, geometry.scale[1] * y, geometry.scale[2] * z))
     if isinstance(geometry, Sphere):
         return Sphere(geometry.radius * max(scale))
-    if isinstance(geometry, Cylinder | Capsule):
+    if isinstance(geometry, Cylinder | Capsule | Cone):
         return type(geometry)(geometry.radius * max(x, y), geometry.length * z)
     return Plane(geometry.normal, (geometry.size[0] * x, geometry.size[1] * y))
 
