@@ -52,8 +52,8 @@ REVOLUTE, PRISMATIC, PLANAR, FREE = range(4)
 def place(floats: Any, integers: Any, tree: int, s: Any, ahead: bool) -> None:
     """Place the bodies of a tree and their motion subspaces at the coordinates `s`.
 
-    With `ahead`, `s` is where things will be but the velocities are of now: the axes in which a free body's linear
-    velocity is written stay where they are.
+    With `ahead`, `s` is where things will be but the velocities are of now: the axes in which a free body's velocity is
+    written stay where they are, so that an impulse there gives it just the momentum that it takes from others.
     """
     tree_body = field(integers, integers, At.tree_body)
     kind = field(integers, integers, At.kind)
@@ -77,6 +77,7 @@ def place(floats: Any, integers: Any, tree: int, s: Any, ahead: bool) -> None:
         r0 = add(r0, rotate(R0, load_vector(place_p, i)))
         R0 = compose(R0, load_rotation(place_R, i))
         at, dof, beyond = first_s[i], first_v[i], first_v[i + 1]
+        axes = load_rotation(R, i)
         lin, ang = load_spatial(subspace, dof)
         if kind[i] == REVOLUTE:
             R0 = compose(R0, turn_about(ang, s[at]))
@@ -92,10 +93,12 @@ def place(floats: Any, integers: Any, tree: int, s: Any, ahead: bool) -> None:
             dof += 3 if ahead else 0
         store_rotation(R, i, R0)
         store_vector(r, i, r0)
+        if kind[i] != FREE or not ahead:
+            axes = R0
         for d in range(dof, beyond):
             lin, ang = load_spatial(subspace, d)
-            ang = rotate(R0, ang)
-            store_spatial(S, d, (add(rotate(R0, lin), cross(r0, ang)), ang))
+            ang = rotate(axes, ang)
+            store_spatial(S, d, (add(rotate(axes, lin), cross(r0, ang)), ang))
 
 
 @inlined

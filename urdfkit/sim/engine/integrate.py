@@ -12,6 +12,25 @@ from urdfkit.sim.engine.spatial import rotate, scale, turn_of
 
 
 @inlined
+def turned_by(x: float, y: float, z: float, w: float, turn: Any) -> Any:
+    """Return a unit quaternion turned on by a rotation vector in its own axes [rad]."""
+    turn = scale(0.5, turn)
+    half = math.sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2])
+    # sin(half)/half by series where that is exact to rounding; it avoids 0/0.
+    share = 1.0 - half * half / 6.0 if half < 1e-4 else math.sin(half) / half
+    a, b, c, e = share * turn[0], share * turn[1], share * turn[2], math.cos(half)
+    x, y, z, w = (
+        w * a + x * e + y * c - z * b,
+        w * b - x * c + y * e + z * a,
+        w * c + x * b - y * a + z * e,
+        w * e - x * a - y * b - z * c,
+    )
+    # One Newton step towards unit length is exact to rounding for a quaternion that was unit before.
+    norm = 1.5 - 0.5 * (x * x + y * y + z * z + w * w)
+    return norm * x, norm * y, norm * z, norm * w
+
+
+@inlined
 def move(floats: Any, integers: Any, first: int, beyond: int, s: Any, v: Any, dt: float) -> None:
     """Let the coordinates `s` of some bodies go on for `dt` at the velocities `v`.
 
@@ -29,21 +48,9 @@ def move(floats: Any, integers: Any, first: int, beyond: int, s: Any, v: Any, dt
             s[at] += dt * linear[0]
             s[at + 1] += dt * linear[1]
             s[at + 2] += dt * linear[2]
-            turn = scale(0.5 * dt, (v[d + 3], v[d + 4], v[d + 5]))
-            half = math.sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2])
-            # sin(half)/half by series where that is exact to rounding; it avoids 0/0.
-            share = 1.0 - half * half / 6.0 if half < 1e-4 else math.sin(half) / half
-            a, b, c, e = share * turn[0], share * turn[1], share * turn[2], math.cos(half)
-            x, y, z, w = (
-                w * a + x * e + y * c - z * b,
-                w * b - x * c + y * e + z * a,
-                w * c + x * b - y * a + z * e,
-                w * e - x * a - y * b - z * c,
-            )
-            # One Newton step towards unit length is exact to rounding for a quaternion that was unit before.
-            norm = 1.5 - 0.5 * (x * x + y * y + z * z + w * w)
-            s[at + 3], s[at + 4], s[at + 5], s[at + 6] = norm * x, norm * y, norm * z, norm * w
-            v[d], v[d + 1], v[d + 2] = rotate(turn_of(-norm * x, -norm * y, -norm * z, norm * w), linear)
+            x, y, z, w = turned_by(x, y, z, w, scale(dt, (v[d + 3], v[d + 4], v[d + 5])))
+            s[at + 3], s[at + 4], s[at + 5], s[at + 6] = x, y, z, w
+            v[d], v[d + 1], v[d + 2] = rotate(turn_of(-x, -y, -z, w), linear)
         elif kind[i] == PLANAR:
             # The same in the plane.
             cosine, sine = math.cos(s[at + 2]), math.sin(s[at + 2])

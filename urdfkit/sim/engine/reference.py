@@ -17,6 +17,7 @@ from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_ROWS, GUESSES, I
 from urdfkit.sim.engine.body import Body, Member
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
 from urdfkit.sim.engine.parts import find_candidates, find_contacts, find_impulses
+from urdfkit.sim.engine.reference_motion import go, inward, move, outward
 from urdfkit.sim.engine.rows import MOBILITY, RECOVERY
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS
 from urdfkit.sim.engine.state import configuration, turning
@@ -101,12 +102,15 @@ class Reference:
         own = np.ix_(dofs, dofs)
         has_servo = bool((a["kp"][dofs] != 0.0).any() or (a["kd"][dofs] != 0.0).any())
         limited = any(n <= row.slot < 2 * n for row in joint_rows)
+        rows = joint_rows + contact_rows
         if not contact_rows and not has_servo and not limited:
+            if not joint_rows and not a["damping"][dofs].any():
+                a["v"][dofs] = self._fly(start, dofs)
+                return
             inertia, impulse = self._smooth(M, bias, start)
             half = start.copy()
-            half[dofs] += 0.5 * np.linalg.solve(inertia[own], impulse[dofs])
+            half[dofs] += 0.5 * (self._solve(inertia[own], impulse[dofs], start[dofs], rows, dofs) - start[dofs])
             M, bias = self._terms(half)
-        rows = joint_rows + contact_rows
         attempt = 0
         v = start.copy()
         while True:
@@ -123,6 +127,35 @@ class Reference:
                 normal = a["x"][at]
                 first, second = a["x"][at + 1 : at + 3] if row.mu > 0.0 else (0.0, 0.0)
                 self.impulses[row.contact] = first, second, normal
+
+    def _fly(self, v: Array, dofs: Array) -> Array:
+        """Advance a tree that nothing holds as `flight.fly` does; return its velocities."""
+        a, dt = self.a, self.dt
+        kept, v_first = a["s"].copy(), v.copy()
+        move(a, a["s"], v_first, -0.5 * dt)
+        s_first, w_first = a["s"].copy(), outward(a, v_first)
+        dq, dw = np.zeros_like(v), np.zeros_like(v)
+        sum_q, sum_w = np.zeros_like(v), np.zeros_like(v)
+        for ahead, weight in ((0.0, 1 / 6), (0.5 * dt, 1 / 3), (0.5 * dt, 1 / 3), (dt, 1 / 6)):
+            go(a, s_first, ahead * dq)
+            now = inward(a, w_first + ahead * dw)
+            M, bias = self._terms(now)
+            gain = np.zeros_like(v)
+            gain[dofs] = np.linalg.solve(M[np.ix_(dofs, dofs)], (a["applied"] - bias)[dofs])
+            rate = outward(a, now)
+            for b in np.flatnonzero(a["kind"] == FREE):
+                d = a["first_v"][b] + 3
+                rate[d : d + 3] = pin.Jlog3(pin.exp3(ahead * dq[d : d + 3])) @ now[d : d + 3]
+            dq, dw = rate, outward(a, gain)
+            sum_q, sum_w = sum_q + weight * dq, sum_w + weight * dw
+        go(a, s_first, dt * sum_q)
+        v = inward(a, w_first + dt * sum_w)
+        move(a, a["s"], v, -0.5 * dt)
+        outside = np.ones(len(kept), dtype=bool)
+        tree = int(np.searchsorted(a["tree_dof"], dofs[0], side="right")) - 1
+        outside[a["tree_s"][tree] : a["tree_s"][tree + 1]] = False
+        a["s"][outside] = kept[outside]
+        return np.array(v[dofs])
 
     def _terms(self, v: Array) -> tuple[Array, Array]:
         """Return M and the bias that keeps linear velocities constant in space."""
@@ -240,12 +273,14 @@ class Reference:
                 d = self.a["first_v"][b]
                 turn = tree.data.oMi[k + 1].rotation.T @ axes[b]
                 J[:, d : d + n] = J[:, d : d + n] @ turn[:n, :n]
+                if kind == FREE:
+                    J[:, d + 3 : d + 6] = J[:, d + 3 : d + 6] @ turn
         return J
 
     def _smooth(self, M: Array, bias: Array, v: Array) -> tuple[Array, Array]:
         """Return the inertia that implicit damping and servos make, and the impulse of a step."""
         a, dt = self.a, self.dt
-        softness = a["damping"].copy()
+        softness = a["damping"] * np.array([late_share(z) for z in dt * a["damping"] / np.diag(M)])
         effort = a["applied"] - bias - a["damping"] * v + self._beside(v)
         for d in np.flatnonzero((a["kp"] != 0.0) | (a["kd"] != 0.0)):
             if a["saturated"][d] == 0:
@@ -307,6 +342,11 @@ class Reference:
         a["tau"][:] = row + beside + servo + a["applied"] - a["damping"] * v
 
 
+def late_share(z: float) -> float:
+    """Return how much of a damper acts on the velocity at the end of a step, see `servo.late_share`."""
+    return 1.0 / -np.expm1(-z) - 1.0 / z if z > 1e-2 else 0.5 + z / 12.0 - z**3 / 720.0
+
+
 class Tree:
     """A robot or free body: Pinocchio's model of it, and where it is in the arrays."""
 
@@ -357,28 +397,3 @@ class Row(NamedTuple):
 def recovery(gap: float, dt: float) -> float:
     """Return the bias of a gap [m/s]."""
     return gap / dt if gap > 0.0 else RECOVERY * gap / dt
-
-
-def move(a: Arrays, s: Array, v: Array, dt: float) -> None:
-    """Let the coordinates go on for `dt`, linear velocities constant in space; changes `s` and `v`."""
-    for b, kind in enumerate(a["kind"]):
-        at, d = a["first_s"][b], a["first_v"][b]
-        if kind == FREE:
-            before = pin.Quaternion(s[at + 3 : at + 7].copy())
-            after = before * pin.Quaternion(pin.exp3(v[d + 3 : d + 6] * dt))
-            after.normalize()
-            linear = before.matrix() @ v[d : d + 3]
-            s[at : at + 3] += dt * linear
-            s[at + 3 : at + 7] = after.coeffs()
-            v[d : d + 3] = after.matrix().T @ linear
-        elif kind == PLANAR:
-            linear = _turn(s[at + 2]) @ v[d : d + 2]
-            s[at : at + 2] += dt * linear
-            s[at + 2] += dt * v[d + 2]
-            v[d : d + 2] = _turn(s[at + 2]).T @ linear
-        else:
-            s[at] += dt * v[d]
-
-
-def _turn(angle: float) -> Array:
-    return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])

@@ -30,6 +30,7 @@ from urdfkit.sim.engine.arrays import (
 from urdfkit.sim.engine.collide import collide_with_plane, near_plane, turn_remembered
 from urdfkit.sim.engine.compilation import field
 from urdfkit.sim.engine.dynamics import place, solve_forward, terms
+from urdfkit.sim.engine.flight import flies, fly
 from urdfkit.sim.engine.integrate import move
 from urdfkit.sim.engine.rows import contact_rows, joint_rows, push, whiten
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, account, limited, overloaded, smooth_motion
@@ -77,8 +78,8 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
             v_start[d] = v[d]
             saturated[d] = 0
         contacts = rows = 0
-        # In free motion all is done twice, the second time with the velocity half a step on; where servos turn out too
-        # weak, the second part is done again.
+        # What touches nothing and has no servo is done twice, the second time with the velocity half a step on, and
+        # what nothing holds at all flies; where servos turn out too weak, the second part is done again.
         halfway = False
         attempt = 0
         while True:
@@ -106,12 +107,10 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                     turn_remembered(floats, integers, contacts, first_contact_slot, 0, memory, dt)
             has_servo = smooth_motion(floats, integers, 0, dofs, dt)
             rows = joint_rows(floats, integers, 0, 0, dofs, dofs, dt, ALONE)
-            if not halfway and contacts == 0 and not has_servo and not limited(floats, integers, rows, dofs):
-                solve_forward(floats, integers, 0, dofs)
-                for d in range(dofs):
-                    v[d] = v_start[d] + 0.5 * u[d]
-                halfway = True
-                continue
+            free = not halfway and contacts == 0 and not has_servo and not limited(floats, integers, rows, dofs)
+            if free and flies(floats, integers, 0, dofs, rows):
+                fly(floats, integers, 0, dt)
+                break
             rows = contact_rows(floats, integers, rows, 0, contacts, dofs, first_contact_slot, 0, dt, ALONE)
             if rows > 0:
                 whiten(floats, integers, rows, 0, dofs, ALONE)
@@ -123,7 +122,10 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                 counts[ITERATED] += guesses <= 0
             solve_forward(floats, integers, 0, dofs)
             for d in range(dofs):
-                v[d] = v_start[d] + u[d]
+                v[d] = v_start[d] + (0.5 * u[d] if free else u[d])
+            if free:
+                halfway = True
+                continue
             attempt += 1
             if not has_servo or not overloaded(floats, integers, 0, dofs, dt, attempt < SERVO_ATTEMPTS):
                 break

@@ -14,6 +14,7 @@ KERNEL_MODULES = (
     "collide",
     "compilation",
     "dynamics",
+    "flight",
     "guess",
     "integrate",
     "linear",

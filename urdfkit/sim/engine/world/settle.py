@@ -19,6 +19,7 @@ from urdfkit.sim.engine.arrays import (
 )
 from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.dynamics import solve_forward
+from urdfkit.sim.engine.flight import flies, fly
 from urdfkit.sim.engine.rows import contact_rows, joint_rows, push, whiten
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, limited, overloaded, smooth_motion
 from urdfkit.sim.engine.solve import solve
@@ -61,8 +62,8 @@ def settle(floats: Any, integers: Any, root: int) -> int:
     first_contact_slot, first_pair_slot = 2 * dofs + mimics, slots - 3 * most_contacts
     single = root if island_next[root] < 0 else -1
     rows = 0
-    # In free motion all is done twice, the second time with the velocity half a step on; where servos turn out
-    # too weak, the second part is done again.
+    # What touches nothing and has no servo is done twice, the second time with the velocity half a step on, and what
+    # nothing holds at all flies; where servos turn out too weak, the second part is done again.
     halfway = False
     attempt = 0
     while True:
@@ -75,16 +76,11 @@ def settle(floats: Any, integers: Any, root: int) -> int:
                 has_servo = True
             rows = joint_rows(floats, integers, rows, tree, dofs, width, dt, False)
             tree = island_next[tree]
-        if not halfway and island_contact[root] < 0 and not has_servo and not limited(floats, integers, rows, dofs):
-            # It touches nothing, so it is one tree.
-            tree = root
-            first, beyond = tree_dof[tree], tree_dof[tree + 1]
-            solve_forward(floats, integers, first, beyond)
-            for d in range(first, beyond):
-                v[d] = v_start[d] + 0.5 * u[d]
-            evaluate(floats, integers, tree)
-            halfway = True
-            continue
+        # What touches nothing is one tree.
+        free = not halfway and island_contact[root] < 0 and not has_servo and not limited(floats, integers, rows, dofs)
+        if free and flies(floats, integers, tree_dof[root], tree_dof[root + 1], rows):
+            fly(floats, integers, root, dt)
+            break
         if rows + 3 * contacts_of(floats, integers, island_contact[root]) > most_rows:
             counts[OVERFULL] = 1
             return -1
@@ -101,16 +97,20 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             counts[ITERATED] += guesses <= 0
         again = False
         tree = root
-        attempt += 1
+        if not free:
+            attempt += 1
         while tree >= 0:
             first, beyond = tree_dof[tree], tree_dof[tree + 1]
             solve_forward(floats, integers, first, beyond)
             for d in range(first, beyond):
-                v[d] = v_start[d] + u[d]
+                v[d] = v_start[d] + (0.5 * u[d] if free else u[d])
             if has_servo and overloaded(floats, integers, first, beyond, dt, attempt < SERVO_ATTEMPTS):
                 again = True
             tree = island_next[tree]
-        if not again:
+        if free:
+            evaluate(floats, integers, root)
+            halfway = True
+        elif not again:
             break
     for k in range(rows):
         memory[slot[k]] = x[k]
