@@ -127,6 +127,20 @@ MODELS = {
         joint("shoulder", "continuous", "base", "upper", axis="0 1 0"),
         joint("elbow", "continuous", "upper", "lower", xyz="0 0 -1", axis="0 1 0"),
     ),
+    "plate": robot(link("plate", 2.0, (0.01, 0.03, 0.05))),
+    "light_ball": body('<sphere radius="0.1"/>', mass=1.0, inertia=(0.004, 0.004, 0.004)),
+    "flywheel": robot(
+        '<link name="base"/>',
+        link("wheel", 1.0, (0.01, 0.01, 0.02)),
+        joint("axle", "continuous", "base", "wheel", more='<dynamics damping="0.03"/>'),
+    ),
+    "mimic_chain": robot(
+        '<link name="base"/>',
+        link("upper", 1.0, (0.02, 0.02, 0.001), at="0 0 -0.25"),
+        link("lower", 1.0, (0.02, 0.02, 0.001), at="0 0 -0.25"),
+        joint("leader", "continuous", "base", "upper", axis="0 1 0"),
+        joint("follower", "continuous", "upper", "lower", xyz="0 0 -0.5", axis="0 1 0", more='<mimic joint="leader"/>'),
+    ),
 }
 
 
