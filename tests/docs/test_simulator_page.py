@@ -58,7 +58,7 @@ def test_the_kernel_lets_go_of_the_lock(monkeypatch: pytest.MonkeyPatch) -> None
 
     def advance() -> None:
         begun.set()
-        simulator._engine.step(100_000)
+        simulator.step(100_000)
         done.append(True)
 
     before = sys.getswitchinterval()

@@ -378,6 +378,20 @@ def test_limits_among_the_parameters_come_first(make: Make) -> None:
     assert simulator.state.position("shoulder") == pytest.approx(0.4, abs=1e-6)
 
 
+def test_kinetic_reads_gains_at_the_root_unless_told_otherwise(make: Make) -> None:
+    """DefaultRobotHWSim of Kinetic has no namespace where ``legacyModeNS`` is missing or true."""
+    notes: list[str] = []
+    below = law("position_controllers/JointPositionController") + GAINS
+    above = law("position_controllers/JointPositionController") + GAINS.replace("  gazebo_ros", "gazebo_ros")
+    for yaml, distro, sags in ((below, "noetic", True), (below, "kinetic", False), (above, "kinetic", True)):
+        notes.clear()
+        simulator = make(yaml, ("Position", "Position"), ros_distro=distro, note=notes.append)
+        send(simulator, "/arm/a/command", 1.0)
+        simulator.run(3.0)
+        assert (simulator.state.position("shoulder") > 1.005) is sags
+        assert any("Kinetic reads gains at /gazebo_ros_control" in note for note in notes) is (not sags)
+
+
 # The controller manager
 
 

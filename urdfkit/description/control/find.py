@@ -35,12 +35,14 @@ class Configuration:
         files: the files they were read from.
         started: the controllers that are started, by their names in the namespace; None for all.
         launch: the launch file that says so; None for none.
+        root: all parameters of those files, in their namespaces.
     """
 
     settings: Settings = field(repr=False)
     files: tuple[Path, ...]
     started: tuple[str, ...] | None = None
     launch: Path | None = None
+    root: Settings | None = field(default=None, repr=False)
 
     @property
     def source(self) -> str:
@@ -67,7 +69,8 @@ def find_configuration(robot: Robot, namespace: str, named: tuple[Path, ...] = (
             inside = read.find(namespace)
             read = read if inside is not None and inside.children else read.below(namespace)
             found = read if found is None else found.merged(read)
-        return Configuration((found or Settings("", read.position)).group(namespace), named)
+        root = found or Settings("", read.position)
+        return Configuration(root.group(namespace), named, root=root)
     near, others = _packages_around(robot)
     folders = [*near, *others]
     packages = robot.packages or Packages(near=folders[0] if folders else None)
@@ -79,7 +82,8 @@ def find_configuration(robot: Robot, namespace: str, named: tuple[Path, ...] = (
     for launch in starting or launched:
         if launch.settings is not None:
             started = _spawned(launch, namespace) or None
-            return Configuration(launch.settings.group(namespace), launch.files, started, launch.path)
+            inside = launch.settings.group(namespace)
+            return Configuration(inside, launch.files, started, launch.path, launch.settings)
     return _loose(folders, namespace)
 
 
@@ -112,7 +116,7 @@ def _loose(folders: list[Path], namespace: str) -> Configuration | None:
                 files.append(path)
                 found = read if found is None else found.merged(read)
         if found is not None and controllers(found.group(namespace)):
-            return Configuration(found.group(namespace), tuple(files))
+            return Configuration(found.group(namespace), tuple(files), root=found)
     return None
 
 

@@ -23,6 +23,7 @@ from urdfkit.sim.plugin import Controller, Setup
 from urdfkit.sim.topics import Topics
 
 if TYPE_CHECKING:
+    from urdfkit.description.control import Configuration
     from urdfkit.description.robot import Transmission
     from urdfkit.sim.motors import Motors
     from urdfkit.sim.state import State
@@ -55,9 +56,10 @@ class GazeboRosControl(Controller):
         settings = found.settings if found is not None else Settings("", self.plugin.element.origin.position)
         known = controllers(settings)
         period = max(setup.dt, read.number("control_period", setup.dt))
+        of_hardware = self._hardware_settings(setup, read, found, settings)
         hardware = Hardware(setup, topics.resolve, 1, period, {}, (), lambda: loop.wake())
         for transmission in robot.transmissions:
-            output = _output(transmission, settings, setup, period)
+            output = _output(transmission, of_hardware, setup, period)
             hardware.outputs.setdefault(output.claim, output)
         hardware.joints = tuple(dict.fromkeys(name for name, _ in hardware.outputs))
         if not hardware.outputs:
@@ -77,6 +79,23 @@ class GazeboRosControl(Controller):
         serve(loop)
         if stop := read.text("emergency_stop_topic"):
             setup.bus.subscribe(topics.resolve(stop), BOOL, lambda message: loop.halt(bool(message.data)))
+
+    def _hardware_settings(
+        self, setup: Setup, read: Parameters, found: Configuration | None, settings: Settings
+    ) -> Settings:
+        """Return where hardware looks for gains and limits: in Kinetic at the root unless ``legacyModeNS`` is false.
+
+        Source: gazebo_ros_pkgs kinetic-devel, gazebo_ros_control_plugin.cpp.
+        """
+        legacy = setup.distro.name == "kinetic" and read.text("legacy_namespace").lower() not in ("false", "0")
+        if not legacy or found is None or found.root is None or not found.settings.children:
+            return settings
+        if settings.find("gazebo_ros_control/pid_gains") is not None and settings is not found.root:
+            setup.note(
+                f"{settings.group('gazebo_ros_control').place}: Kinetic reads gains at /gazebo_ros_control/pid_gains, "
+                "not here, unless <legacyModeNS>false</legacyModeNS>"
+            )
+        return found.root
 
     def begin(self, state: State) -> None:
         """Begin where the robot is."""
