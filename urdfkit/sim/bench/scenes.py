@@ -119,7 +119,7 @@ SCENES = (
         MUJOCO_AND_PYBULLET_ARM,
         turn=UPDATE,
     ),
-    Scene("stack-awake", "stack of five boxes, kept awake", BOXES, stands, {"mujoco": 1.2}, loose=True, knock=0.005),
+    Scene("stack-awake", "stack of five boxes, kept awake", BOXES, stands, {"mujoco": 1.2}, loose=True, knock=0.02),
     Scene("stack-asleep", "stack of five boxes at rest", BOXES, stands, {"mujoco": 1.0}, loose=True, sleeps=True),
     robots(10),
 )
