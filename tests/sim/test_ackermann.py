@@ -325,7 +325,7 @@ def test_once_settled_it_rests_and_wakes_when_pushed(make: Make) -> None:
     simulator = make(GZ, SYSTEM)
     simulator.command((0.5, 0, 0), (0, 0, 0.2))
     simulator.run(3.0)
-    drive = simulator._plugins.drives[0]
+    drive = simulator._drives[0]
     assert drive.resting
     simulator.command((0.5, 0, 0), (0, 0, -0.2))
     assert not drive.resting
