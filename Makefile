@@ -7,13 +7,14 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 SOURCES := pyproject.toml tests/constraints.txt
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint typecheck bench fidelity clean
+.PHONY: help run test lint typecheck bench fidelity soak clean
 
 help:
 	@echo "make run    install into $(VENV) and drive Simpleton in the browser"
 	@echo "make test   install the test tools too, then run every check and test"
 	@echo "make fidelity  measure us and the peers beside closed forms, into docs/fidelity.md"
 	@echo "make bench  run us and the peers side by side and print ratios"
+	@echo "make soak   compare both engines on 1,000 states of each robot, then drive each for 30 minutes in the house"
 	@echo "make clean  remove $(VENV) and caches"
 
 run: $(VENV)/.run
@@ -33,6 +34,9 @@ bench: $(VENV)/.bench
 
 fidelity: $(VENV)/.bench
 	$(BIN)/python tests/bench/fidelity --write
+
+soak: $(VENV)/.test
+	$(BIN)/python tests/bench/agreement.py; agreed=$$?; $(BIN)/python tests/bench/soak $(ARGS) && exit $$agreed
 
 $(VENV)/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' || { echo "urdfkit needs Python 3.10 or newer; name one: make PYTHON=python3.11 $(MAKECMDGOALS)"; exit 2; }

@@ -1,0 +1,70 @@
+"""A short soak of two robots, and that what is watched would be seen."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from urdfkit.sim import Simulator
+
+BENCH = Path(__file__).parents[2] / "tests" / "bench"
+
+
+def module(name: str) -> Any:
+    """Return a module of tests/bench/soak."""
+    if str(BENCH) not in sys.path:
+        sys.path.append(str(BENCH))
+    return importlib.import_module(f"soak.{name}")
+
+
+def test_ten_seconds_of_two_robots_in_the_house() -> None:
+    command = [sys.executable, str(BENCH / "soak"), "simpleton", "bot", "--minutes", "0.17", "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    results = json.loads(done.stdout)
+    assert [result["robot"] for result in results] == ["simpleton", "bot"]
+    for result in results:
+        assert result["simulated"] == 10.0
+        assert result["travelled"] > 0.5
+        assert result["wrong"] == {}
+
+
+@pytest.fixture(scope="module")
+def watched() -> Any:
+    simulator = Simulator("simpleton", world="house", note=lambda _: None)
+    return module("watch").Watch(simulator, module("found").Found("simpleton"))
+
+
+def test_a_way_through_a_wall_is_seen_and_one_through_a_door_is_not(watched: Any) -> None:
+    walls = watched.walls
+    inside, outside = np.array([[4.5, 0.0, 0.3]]), np.array([[5.5, 0.0, 0.3]])
+    assert [walls.names[wall] for _, wall in walls.crossed(inside, outside)] == ["wall_3_1_collision"]
+    assert walls.crossed(outside, outside + 1.0) == []
+    corridor, room = np.array([[-2.0, -0.5, 0.3]]), np.array([[-2.0, -1.5, 0.3]])
+    assert walls.crossed(corridor, room) == []
+    up = np.array([0.0, 0.0, 1.9])
+    assert walls.crossed(corridor + up, room + up) != []  # the lintel
+
+
+def test_what_does_not_hold_is_seen(watched: Any) -> None:
+    simulator = watched.simulator
+    simulator.bodies["crate"].place((60.0, 0.0, 0.3, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 90.0, 0.0, 0.0, 0.0))
+    watched.look(quiet=False)
+    watched.check()
+    assert {"through a wall", "too fast", "escaped"} <= set(watched.found.wrong)
+    watched.found.wrong.clear()
+    simulator.reset()
+    watched.begin()
+    watched.look(quiet=True)
+    watched.check()
+    assert watched.found.wrong == {}
+    simulator.bodies["ball"].place((-4.0, -1.8, 0.0, 0.0, 0.0, 0.0, 1.0), (0.5, 0.0, 0.0, 0.0, 0.0, 0.0))
+    watched.look(quiet=True)
+    assert set(watched.found.wrong) == {"energy from nothing"}
