@@ -60,14 +60,23 @@ class Motors:
         set_base_velocity: Callable[[Sequence[float]], None],
     ) -> None:
         self._kinematics = kinematics
-        self._velocity = velocity
-        self._effort = effort
-        self._applied = applied
-        self._servos = servos
-        self._set_base_velocity = set_base_velocity
+        self.attach(velocity, effort, applied, servos, set_base_velocity)
         names = (*kinematics.joint_names, *kinematics.mimic_names)
         self._index = {name: kinematics.velocity_index(name) for name in names}
         self._goals: dict[str, float] = {}
+
+    def attach(
+        self,
+        velocity: Array,
+        effort: Array,
+        applied: Array,
+        servos: Servos,
+        set_base_velocity: Callable[[Sequence[float]], None],
+    ) -> None:
+        """Write to another engine from now on: one for the same robot in a world that has changed."""
+        self._velocity, self._effort, self._applied = velocity, effort, applied
+        self._servos = servos
+        self._set_base_velocity = set_base_velocity
 
     def drive(self, joint: str, velocity: float, effort: float | None = None) -> None:
         """Turn a joint at `velocity` [rad/s] or [m/s] with at most `effort` [N·m] or [N].

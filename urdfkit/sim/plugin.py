@@ -45,6 +45,7 @@ class Setup:
         note: tells the user something, once per text.
         distro: the ROS distribution whose behaviour is wanted.
         parameter_files: of controllers, in place of those the robot's packages load.
+        namespace: of what is published unasked: empty for the first robot, ``/NAME`` for others.
     """
 
     bus: Bus
@@ -56,6 +57,7 @@ class Setup:
     note: Callable[[str], None]
     distro: Distro = field(default_factory=Distro)
     parameter_files: tuple[Path, ...] = ()
+    namespace: str = ""
 
     @property
     def names(self) -> dict[str, str]:

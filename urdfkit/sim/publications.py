@@ -64,6 +64,10 @@ class Publication(ABC):
         """Start again at step 0."""
         self._done = 0
 
+    def start_at(self, step: int) -> None:
+        """Take what fell due until a step as done: it begins there."""
+        self._done = self._ticks.until(step)
+
     @abstractmethod
     def message(self, state: State) -> Callable[[], Any]:
         """Return what builds the message of this moment, also later."""
@@ -101,10 +105,10 @@ class JointStates(Publication):
 
 
 class Transforms(Publication):
-    """``/tf``: each moving link in its parent, as robot_state_publisher publishes them."""
+    """``/tf``, below a namespace: each moving link in its parent, as robot_state_publisher publishes them."""
 
-    def __init__(self, bus: Bus, dt: float, kinematics: Kinematics) -> None:
-        super().__init__(bus.advertise("/tf", TF), TRANSFORM_RATE, dt)
+    def __init__(self, bus: Bus, dt: float, kinematics: Kinematics, namespace: str = "") -> None:
+        super().__init__(bus.advertise(f"{namespace}/tf", TF), TRANSFORM_RATE, dt)
         self._pairs = _parents(kinematics, movable=True)
 
     def message(self, state: State) -> Callable[[], Any]:
@@ -115,11 +119,11 @@ class Transforms(Publication):
         )
 
 
-def publish_fixed(bus: Bus, state: State, kinematics: Kinematics) -> None:
-    """Publish ``/tf_static``, once: each link that is fixed to its parent."""
+def publish_fixed(bus: Bus, state: State, kinematics: Kinematics, namespace: str = "") -> None:
+    """Publish ``/tf_static``, below a namespace, once: each link that is fixed to its parent."""
     if pairs := _parents(kinematics, movable=False):
         moment = state.snapshot()
-        bus.advertise("/tf_static", TF).offer(
+        bus.advertise(f"{namespace}/tf_static", TF).offer(
             lambda: message_type(TF)(
                 [transform(moment.t, parent, child, *moment.placement(child, parent)) for parent, child in pairs]
             )
@@ -134,7 +138,7 @@ def _parents(kinematics: Kinematics, *, movable: bool) -> tuple[tuple[str, str],
 def all_joint_states(setup: Setup) -> JointStates:
     """Return the joint states of a robot whose description asks for none."""
     joints = (*setup.kinematics.joint_names, *setup.kinematics.mimic_names)
-    topic = setup.bus.advertise("/joint_states", JOINT_STATE)
+    topic = setup.bus.advertise(f"{setup.namespace}/joint_states", JOINT_STATE)
     return JointStates(topic, JOINT_STATE_RATE, setup.dt, joints, efforts=True)
 
 

@@ -164,9 +164,7 @@ class State:
         return self.snapshot().link_poses()
 
 
-def energy_of(
-    kinematics: Kinematics, q: Array, v: Array, base: Array | None, gravity: Array
-) -> tuple[float, float]:
+def energy_of(kinematics: Kinematics, q: Array, v: Array, base: Array | None, gravity: Array) -> tuple[float, float]:
     """Return kinetic and potential energy of a robot [J], the latter zero at the world's origin.
 
     Args:

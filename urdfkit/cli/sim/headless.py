@@ -40,7 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="WORLD",
         help="a world we ship (empty, void, house, …) or an SDF file (default: empty)",
     )
-    add("--dt", type=values.positive, default=0.001, metavar="S", help="step [s] (default: 0.001)")
+    add("--dt", type=values.positive, metavar="S", help="step [s] (default: what the world asks for, else 0.001)")
     add("--seed", type=values.seed, default=0, metavar="N", help="of everything random (default: 0)")
     add(
         "--spawn",
@@ -72,6 +72,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add("--fixed-base", action="store_true", help="bolt the root link to the world")
     add("--until", metavar='"EXPR"', help='stop as soon as it is true, e.g. "x > 1 or t > 3"')
+    add("--save-world", metavar="FILE", help="write the world as it is in the end, without the robot, as SDF")
     add(
         "--engine",
         choices=("compiled", "pinocchio"),
@@ -100,6 +101,8 @@ def run(arguments: argparse.Namespace) -> int:
     simulator = load(arguments)
     command(simulator, arguments)
     spent = advance(simulator, arguments.duration, arguments.until)
+    if arguments.save_world is not None:
+        simulator.save_world(arguments.save_world)
     print(json.dumps(as_json(simulator, spent), indent=1) if arguments.json else as_text(simulator, spent))
     return 0
 

@@ -142,20 +142,21 @@ class Ride:
         self._marks: deque[tuple[float, float]] = deque(maxlen=round(1 / STATUS))
         kinematics = simulator.kinematics
         self._root = kinematics.link_names.index(kinematics.root)
-        self._drawn = tuple(simulator.body_poses())
+        self._drawn: tuple[str, ...] = ()
+        self._revision = -1
 
     def show(self) -> None:
-        """Put the robot and what else the world holds on the page where they start."""
+        """Put the robot and what else the world holds on the page, where they are."""
         from dataclasses import replace
 
         from urdfkit.scene import Scene
-        from urdfkit.sim.things import looks_of
         from urdfkit.view.nodes import draw, link_path
 
         simulator = self.simulator
+        self._drawn, self._revision = tuple(simulator.body_poses()), simulator.revision
         # No link has a slash where a body of the world has its first.
         bodies = (*simulator.kinematics.link_names, *(f"world/{name}" for name in self._drawn))
-        looks = (replace(shape, body=f"world/{shape.body}") for shape in looks_of(simulator.world))
+        looks = (replace(shape, body=f"world/{shape.body}") for shape in simulator.looks())
         scene = Scene(bodies, (*simulator.scene.shapes, *looks))
         self.server.show(
             name=simulator.name,
@@ -249,6 +250,8 @@ class Ride:
 
     def _report(self) -> None:
         simulator, now = self.simulator, self._clock()
+        if simulator.revision != self._revision:  # something came or went
+            self.show()
         poses = self._poses()
         self.server.publish(simulator.t, poses)
         if now - self._reported < STATUS:

@@ -1,0 +1,149 @@
+"""State from one engine to another, when what is in the world changes: nothing that stays feels it.
+
+Trees are robots and free bodies. Carried over are where they are and how they move, their targets, and the impulses
+that the contact solver starts from: those of joints and of shapes on the ground by their place, those of pairs of
+shapes where both are still there. What sleeps wakes, with the impulses it rested on, and may sleep again soon.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.sim.engine import Engine
+from urdfkit.sim.engine.arrays import ITERATED, LAST_PAIRS, SLEEPING, STEPS, Arrays
+
+Array = NDArray[np.float64]
+_PER_DOF = (
+    "motor_velocity",
+    "motor_effort",
+    "applied",
+    "position_target",
+    "velocity_target",
+    "kp",
+    "kd",
+    "servo_effort",
+    "v",
+    "effort",
+    "tau",
+)
+
+
+@dataclass(frozen=True)
+class Made:
+    """What an engine is made of, by name, in the engine's order.
+
+    Attributes:
+        trees: robots, then free bodies.
+        owners: of shapes: robots, then all bodies.
+    """
+
+    trees: Sequence[str]
+    owners: Sequence[str]
+
+
+def carry_over(before: Engine, old: Made, after: Engine, new: Made) -> None:
+    """Bring an engine to where another one is, for what both have. What is new stays where it was put.
+
+    Args:
+        before: the engine so far.
+        old: what it is made of.
+        after: the engine to go on with.
+        new: what that is made of; what both have comes in the same order in both.
+    """
+    a, b = before._arrays, after._arrays
+    trees = [(old.trees.index(name), k) for k, name in enumerate(new.trees) if name in old.trees]
+    for i, j in trees:
+        for name in _PER_DOF:
+            b[name][_span(b, "tree_dof", j)] = a[name][_span(a, "tree_dof", i)]
+        b["s"][_span(b, "tree_s", j)] = a["s"][_span(a, "tree_s", i)]
+        b["still"][j] = 0.0 if a["asleep"][i] else a["still"][i]
+    shapes = _shapes(before, old, after, new)
+    _remember(a, b, trees, shapes)
+    _remember_pairs(a, b, shapes)
+    for count in (STEPS, ITERATED):
+        b["counts"][count] = a["counts"][count]
+    after.t, after.steps = before.t, before.steps
+    after._evaluate()
+
+
+def _span(arrays: Arrays, starts: str, k: int) -> slice:
+    return slice(int(arrays[starts][k]), int(arrays[starts][k + 1]))
+
+
+def _shapes(before: Engine, old: Made, after: Engine, new: Made) -> dict[int, int]:
+    """Return number before → number after of the shapes that stay."""
+    known, wanted = _by_owner(before, old), _by_owner(after, new)
+    return {k: j for key, was in known.items() for k, j in zip(was, wanted.get(key, ()), strict=False)}
+
+
+def _by_owner(engine: Engine, part: Made) -> dict[tuple[str, bool], list[int]]:
+    """Return owner, and whether the shape stays where it is → numbers of shapes in their order."""
+    found: dict[tuple[str, bool], list[int]] = {}
+    for k, touch in enumerate(engine._touches):
+        found.setdefault((part.owners[touch.owner], touch.body < 0), []).append(k)
+    return found
+
+
+def _remember(a: Arrays, b: Arrays, trees: Sequence[tuple[int, int]], shapes: dict[int, int]) -> None:
+    """Carry over the impulses of motors, limits, mimic joints and contacts with the ground."""
+    n, m = int(a["tree_dof"][-1]), int(b["tree_dof"][-1])
+    for i, j in trees:
+        was, now = _span(a, "tree_dof", i), _span(b, "tree_dof", j)
+        b["memory"][now] = a["memory"][was]
+        b["memory"][m + now.start : m + now.stop] = a["memory"][n + was.start : n + was.stop]
+        was, now = _span(a, "tree_mimic", i), _span(b, "tree_mimic", j)
+        b["memory"][2 * m + now.start : 2 * m + now.stop] = a["memory"][2 * n + was.start : 2 * n + was.stop]
+    first, then = 2 * n + int(a["tree_mimic"][-1]), 2 * m + int(b["tree_mimic"][-1])
+    ends = _feature_ends(a), _feature_ends(b)
+    for k, j in shapes.items():
+        slots = min(ends[0][k] - int(a["shape_feature"][k]), ends[1][j] - int(b["shape_feature"][j]))
+        source, goal = first + 3 * int(a["shape_feature"][k]), then + 3 * int(b["shape_feature"][j])
+        b["memory"][goal : goal + 3 * slots] = a["memory"][source : source + 3 * slots]
+
+
+def _feature_ends(arrays: Arrays) -> list[int]:
+    """Return where the features of each shape end."""
+    slots = len(arrays["memory"]) - 2 * int(arrays["tree_dof"][-1]) - int(arrays["tree_mimic"][-1])
+    last = slots // 3 - len(arrays["contact_gap"])
+    return [*arrays["shape_feature"][1:].tolist(), last]
+
+
+def _remember_pairs(a: Arrays, b: Arrays, shapes: dict[int, int]) -> None:
+    """Carry over the impulses of contacts of pairs, those of sleepers too, in the order of their pairs."""
+    room = len(b["contact_gap"])
+    known = [
+        (shapes[one], shapes[other], feature, impulse)
+        for one, other, feature, impulse in (*_last_pairs(a), *_sleeping_pairs(a))
+        if one in shapes and other in shapes and feature >= 0
+    ]
+    known = sorted(known, key=lambda each: each[:2])[:room]  # stable: features keep their order
+    first = len(b["memory"]) - 3 * room
+    for k, (one, other, feature, impulse) in enumerate(known):
+        b["last_a"][k], b["last_b"][k], b["last_feature"][k], b["last_at"][k] = one, other, feature, k
+        b["memory"][first + 3 * k : first + 3 * k + 3] = impulse
+    b["counts"][LAST_PAIRS] = len(known)
+
+
+Pair = tuple[int, int, int, Array]
+"""Two shapes, the feature at which they touch, and the impulse, normal first."""
+
+
+def _last_pairs(arrays: Arrays) -> Iterator[Pair]:
+    first = len(arrays["memory"]) - 3 * len(arrays["contact_gap"])
+    for k in range(int(arrays["counts"][LAST_PAIRS])):
+        at = first + 3 * int(arrays["last_at"][k])
+        one, other, feature = (int(arrays[name][k]) for name in ("last_a", "last_b", "last_feature"))
+        yield one, other, feature, arrays["memory"][at : at + 3]
+
+
+def _sleeping_pairs(arrays: Arrays) -> Iterator[Pair]:
+    """Yield what is kept of the contacts of sleepers, from the end of their room on."""
+    room = len(arrays["contact_gap"])
+    for k in range(room - 1, room - 1 - int(arrays["counts"][SLEEPING]), -1):
+        one, other, feature = (int(arrays[name][k]) for name in ("contact_shape", "contact_against", "contact_feature"))
+        if other >= 0:
+            yield one, other, feature, arrays["contact_impulse"][k][[2, 0, 1]]
