@@ -187,6 +187,20 @@ def test_gazebos_services_are_topics() -> None:
     assert any("/gazebo/delete_model: no model or robot `eg`" in remark for remark in remarks)
 
 
+def test_a_wrench_is_given_in_the_frame_that_is_named() -> None:
+    simulator = Simulator("simpleton", world="void", gravity=(0.0, 0.0, 0.0), spawn=Spawn(yaw=1.5707963267948966))
+    request = {
+        "body_name": simulator.kinematics.root,
+        "reference_frame": "simpleton::chassis",
+        "wrench": {"force": {"x": 3.0}},
+        "duration": {"nanosec": 100_000_000},
+    }
+    publish(simulator, "/gazebo/apply_body_wrench", "gazebo_msgs/srv/ApplyBodyWrench_Request", request)
+    simulator.run(0.01)
+    x, y, _ = simulator.state.base_velocity[:3]
+    assert y > 100 * abs(x)
+
+
 def test_gzs_services_are_topics() -> None:
     simulator = Simulator("simpleton", spawn=Spawn(x=-3.0))
     model = BALL[BALL.index("<model") : BALL.index("</sdf>")]

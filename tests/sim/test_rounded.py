@@ -30,7 +30,7 @@ def test_an_ellipsoid_is_within_its_tolerance(radii: tuple[float, float, float])
 def test_a_cone_stands_on_its_base_with_its_origin_half_way_up() -> None:
     mesh = hull_of(Cone(0.5, 2.0))
     assert mesh.bounds[:, 2] == pytest.approx((-1.0, 1.0))
-    normals, distances = planes(mesh)
+    _, distances = planes(mesh)
     assert (distances > 0).all()  # all faces look outward
     around = np.linalg.norm(mesh.vertices[:48, :2], axis=1)
     assert around == pytest.approx(0.5, rel=0.0022)

@@ -108,7 +108,7 @@ class _Heard:
             around = self._pose(frame)
             force, torque = rotate(around[3:], force), rotate(around[3:], torque)
             there = _composed(around, (*point, 0.0, 0.0, 0.0, 1.0))
-            point = _inverted(body, there)
+            point = _inverted(body, there[:3])
         elif any(point):
             # gazebo_ros takes the point from the body's origin, along the world's axes, where no frame is named.
             point = rotate((-body[3], -body[4], -body[5], body[6]), point)
@@ -171,7 +171,15 @@ class _Heard:
         self._simulator.spawn(found, pose_from(pose), name=name or None)
 
     def _pose(self, name: str) -> Sequence[float]:
-        return self._simulator.pose(name)
+        """Return where a model, robot, body or link is."""
+        simulator = self._simulator
+        if name in simulator._stage.names:
+            return simulator.pose(name)
+        robot, link = simulator._target(name)
+        if robot is None:
+            return simulator.bodies[link].pose
+        row = robot.kinematics.link_names.index(link)
+        return tuple(robot.state.link_poses()[row].tolist())
 
 
 class ModelStates(Publication):
