@@ -1,0 +1,54 @@
+"""The compiled engine and the reference from random states of every robot we ship: the quick part of `make soak`."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from urdfkit.resources import robot_names
+
+BENCH = Path(__file__).parents[2] / "tests" / "bench"
+
+
+def agreement() -> Any:
+    """Return the module tests/bench/agreement.py."""
+    if str(BENCH) not in sys.path:
+        sys.path.append(str(BENCH))
+    return importlib.import_module("agreement")
+
+
+UNDETERMINED = pytest.mark.xfail(
+    strict=False,
+    reason="how four wheels share the load is determined to 1e-7 only, and friction turns a free wheel by it",
+)
+"""artoo: 3 of these 50 states are 7e-6 apart at most, gem_e2: 2 are 8e-8."""
+
+
+@pytest.mark.parametrize(
+    "robot",
+    [pytest.param(name, marks=[UNDETERMINED] if name in ("artoo", "gem_e2") else []) for name in robot_names()],
+)
+def test_a_step_is_the_same_in_both_engines(robot: str) -> None:
+    found = agreement().compare(robot, states=50)
+    assert found.states == 50
+    assert found.apart == (), f"v {found.velocity:.1e}, q {found.position:.1e}"
+
+
+def test_a_difference_would_be_seen() -> None:
+    pair = agreement().Pair("rrbot")
+    drawn = pair.draw(np.random.default_rng(0))
+    assert max(pair.step(drawn)[:2]) < 1e-9
+    engine = pair.engines[0]
+    step = engine.step
+
+    def pushed(n: int = 1) -> None:
+        engine.applied[0] += 0.01
+        step(n)
+
+    engine.step = pushed
+    assert max(pair.step(drawn)[:2]) > 1e-9
