@@ -128,3 +128,44 @@ def test_a_hinged_link_that_meets_the_ground_lies_on_it(engine_of):
     assert math.sin(engine.positions[0]) == pytest.approx(0.25, abs=1e-4)
     assert abs(engine.v[0]) < 1e-9
     assert engine.iterated == blows
+
+
+@pytest.mark.parametrize(("dt", "most"), [(0.001, 50.0), (0.005, 1.0)])
+@pytest.mark.parametrize("mode", ["servo", "motor", "effort"])
+def test_no_joint_passes_its_limit_however_hard_it_is_driven(engine_of, mode, dt, most):
+    engine = engine_of("arm", dt=dt)
+    lower, upper = engine.kinematics.model.lowerPositionLimit, engine.kinematics.model.upperPositionLimit
+    random = np.random.default_rng(2)
+    furthest, reached = -math.inf, 0
+    for _ in range(round(4.0 / dt)):
+        if engine.steps % round(0.1 / dt) == 0:
+            if mode == "servo":
+                engine.kp[:], engine.kd[:], engine.servo_effort[:] = 10.0 * most, 0.1 * most, most
+                engine.position_target[:] = random.uniform(-4.0, 4.0, 7)
+            elif mode == "motor":
+                engine.motor_effort[:], engine.motor_velocity[:] = most, random.uniform(-20.0, 20.0, 7)
+            else:
+                engine.applied[:] = random.uniform(-most, most, 7)
+        engine.step()
+        beyond = float(max((engine.q - upper).max(), (lower - engine.q).max()))
+        furthest, reached = max(furthest, beyond), reached + (beyond > -1e-6)
+    assert reached > 20
+    assert furthest < 1e-8
+
+
+def test_what_starts_in_the_ground_rises_from_it_and_does_not_jump(engine_of):
+    engine = engine_of("box")
+    engine.reset(engine.kinematics.neutral())  # 5 cm deep
+    heights = []
+    for _ in range(100):
+        engine.step(20)
+        heights.append(float(engine.q[2]))
+    assert max(heights) < 0.051
+    assert heights[-1] == pytest.approx(0.05, abs=1e-6)
+
+
+def test_divergence_of_a_free_robot_names_its_root_link(engine_of):
+    engine = engine_of("box")
+    engine.reset(engine.kinematics.neutral(), np.array([1e300, 0.0, 0.0, 0.0, 0.0, 0.0]))
+    with pytest.raises(SimulationError, match="root link `body`"):
+        engine.step(10)

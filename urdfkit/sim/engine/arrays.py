@@ -181,6 +181,7 @@ INTEGERS: dict[str, Size] = {
     "index": ("r",),
     "extreme_vertex": ("8",),
     "saturated": ("d",),
+    "pressed": ("d",),
     "counts": ("12",),
 }
 

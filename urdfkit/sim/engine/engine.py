@@ -210,7 +210,11 @@ class Engine(Part):
         model = self._members[tree].kinematics.model
         wrong -= int(a["tree_dof"][tree])
         joint = next(i for i in range(1, model.njoints) if model.idx_vs[i] <= wrong < model.idx_vs[i] + model.nvs[i])
+        kinematics = self._members[tree].kinematics
+        what = f"joint `{model.names[joint]}`"
+        if kinematics.floating_base and joint == 1:
+            what = f"root link `{kinematics.robot.roots()[0].name}`"
         return (
-            f"the simulation diverged {when}: joint `{model.names[joint]}` "
+            f"the simulation diverged {when}: {what} "
             "has no finite velocity any more; try a smaller step, or look at its inertia and gains"
         )

@@ -23,10 +23,15 @@ from urdfkit.sim.engine.spatial import add, cross, rotate, scale, turn_of
 def flies(floats: Any, integers: Any, first: int, beyond: int, rows: int) -> bool:
     """Return whether nothing holds the dofs of a tree that has so many rows, no contact and no servo."""
     damping = field(floats, integers, At.damping)
+    applied = field(floats, integers, At.applied)
+    lower = field(floats, integers, At.lower)
+    upper = field(floats, integers, At.upper)
     if rows > 0:
         return False
-    for d in range(first, beyond):  # noqa: SIM110
-        if damping[d] != 0.0:
+    for d in range(first, beyond):
+        # What is pushed may reach a limit within the step.
+        bounded = lower[d] > -math.inf or upper[d] < math.inf
+        if damping[d] != 0.0 or (bounded and applied[d] != 0.0):
             return False
     return True
 

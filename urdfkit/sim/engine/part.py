@@ -6,11 +6,12 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+import pinocchio as pin
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
-from urdfkit.sim.engine.arrays import Arrays
+from urdfkit.sim.engine.arrays import DT, Arrays
 from urdfkit.sim.engine.state import configuration, positions, set_configuration
 
 Array = NDArray[np.float64]
@@ -80,6 +81,9 @@ class Part:
     def set_base_velocity(self, twist: Sequence[float]) -> None:
         """Set the floating base's twist, in its own axes and linear first; what it meets in the step may change it.
 
+        It is set for the middle of the step, where forces act too: the base is taken back by what the first half would
+        go too far, into a wall, say.
+
         Raises:
             SimulationError: the robot has no floating base, or a value is not finite.
         """
@@ -87,7 +91,15 @@ class Part:
             raise SimulationError(f"robot `{self.kinematics.robot.name}` has no floating base to move")
         if len(twist) != 6 or not all(math.isfinite(part) for part in twist):
             raise SimulationError(f"a twist is six finite numbers, not {tuple(twist)}")
-        self._own_v[:6] = twist
+        v = np.array(twist, dtype=float)
+        half = 0.5 * float(self._arrays["numbers"][DT])
+        at = int(self._arrays["tree_s"][self._tree])
+        s = self._arrays["s"][at : at + 7]
+        rotation = pin.Quaternion(s[3:].copy())
+        too_far = half * (v - self._own_v[:6])
+        s[:3] -= rotation.matrix() @ too_far[:3]
+        s[3:] = (rotation * pin.Quaternion(pin.exp3(-too_far[3:]))).normalized().coeffs()
+        self._own_v[:6] = v
 
     def put(self, q: Array | None = None, v: Array | None = None) -> None:
         """Put the robot at `q`, `v` (neutral, zero); targets stay.

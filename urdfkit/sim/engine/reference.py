@@ -7,7 +7,7 @@ hundred times slower.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pinocchio as pin
@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS, Arrays
 from urdfkit.sim.engine.body import Body, Member
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
+from urdfkit.sim.engine.limits import PASSING
 from urdfkit.sim.engine.parts import find_candidates, find_contacts, find_impulses
 from urdfkit.sim.engine.reference_motion import go, inward, move, outward
-from urdfkit.sim.engine.rows import MOBILITY, RECOVERY
+from urdfkit.sim.engine.reference_trees import Tree, free_model, model_of
+from urdfkit.sim.engine.rows import FASTEST_RECOVERY, MOBILITY, RECOVERY
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS
 from urdfkit.sim.engine.state import configuration, turning
-from urdfkit.sim.engine.tree import pose_matrix
 from urdfkit.sim.engine.warmup import load_compiled, world_digest
 
 Array = NDArray[np.float64]
@@ -66,18 +67,15 @@ class Reference:
         move(a, a["s"], a["v"], 0.5 * dt)
         start = a["v"].copy()
         M, bias = self._terms(start)
-        joint_rows = self._joint_rows(start)
         a["last"][:] = a["memory"]
         contact_rows = self._contact_rows(start)
         a["memory"][:] = 0.0
-        a["saturated"][:] = 0
+        a["saturated"][:] = a["pressed"][:] = 0
         a["counts"][FOUND_ROWS] = 0
         for island in self._islands():
             dofs = np.concatenate([np.arange(self.trees[t].dofs.start, self.trees[t].dofs.stop) for t in island])
-            inside = set(dofs.tolist())
-            own = [row for row in joint_rows if set(np.flatnonzero(row.J).tolist()) <= inside]
             touching = [row for row in contact_rows if row.tree in island]
-            self._settle(M, bias, start, dofs, own, touching)
+            self._settle(M, bias, start, dofs, touching)
         for k in range(int(a["counts"][FOUND_CONTACTS])):
             a["contact_impulse"][k] = self.impulses[k]
         self._account(a["v"].copy())
@@ -94,17 +92,17 @@ class Reference:
                 label = [min(one, other) if each in (one, other) else each for each in label]
         return [[t for t, each in enumerate(label) if each == name] for name in sorted(set(label))]
 
-    def _settle(
-        self, M: Array, bias: Array, start: Array, dofs: Array, joint_rows: list[Row], contact_rows: list[Row]
-    ) -> None:
+    def _settle(self, M: Array, bias: Array, start: Array, dofs: Array, contact_rows: list[Row]) -> None:
         """Find the velocities of an island's dofs."""
         a, n = self.a, len(start)
         own = np.ix_(dofs, dofs)
         has_servo = bool((a["kp"][dofs] != 0.0).any() or (a["kd"][dofs] != 0.0).any())
+        joint_rows = self._joint_rows(start, dofs)
         limited = any(n <= row.slot < 2 * n for row in joint_rows)
         rows = joint_rows + contact_rows
         if not contact_rows and not has_servo and not limited:
-            if not joint_rows and not a["damping"][dofs].any():
+            bounded = np.isfinite(a["lower"]) | np.isfinite(a["upper"])
+            if not joint_rows and not (a["damping"] + bounded * np.abs(a["applied"]))[dofs].any():
                 a["v"][dofs] = self._fly(start, dofs)
                 return
             inertia, impulse = self._smooth(M, bias, start)
@@ -117,8 +115,10 @@ class Reference:
             inertia, impulse = self._smooth(M, bias, start)
             v[dofs] = self._solve(inertia[own], impulse[dofs], start[dofs], rows, dofs)
             attempt += 1
-            if not has_servo or not self._overloaded(v, dofs, attempt < SERVO_ATTEMPTS):
+            again = has_servo and self._overloaded(v, dofs, attempt < SERVO_ATTEMPTS)
+            if not self._passes_limits(v, dofs) and not again:
                 break
+            rows = self._joint_rows(start, dofs) + contact_rows
         a["v"][dofs] = v[dofs]
         a["memory"][[row.slot for row in rows]] = a["x"][: len(rows)]
         a["counts"][FOUND_ROWS] += len(rows)
@@ -186,7 +186,16 @@ class Reference:
                 a["twist"][b, :3] = spatial.linear + np.cross(spatial.angular, P)
                 a["twist"][b, 3:] = spatial.angular
 
-    def _joint_rows(self, v: Array) -> list[Row]:
+    def _passes_limits(self, v: Array, dofs: Array) -> bool:
+        a = self.a
+        position = a["s"][a["dof_s"]]
+        end = position + self.dt * v
+        inside = (a["pressed"] == 0) & (position >= a["lower"]) & (position <= a["upper"])
+        below, above = inside & (end < a["lower"] - PASSING), inside & (end > a["upper"] + PASSING)
+        a["pressed"][dofs] += (above.astype(int) - below.astype(int))[dofs]
+        return bool((below | above)[dofs].any())
+
+    def _joint_rows(self, v: Array, dofs: Array) -> list[Row]:
         a, dt, n = self.a, self.dt, len(v)
         position = a["s"][a["dof_s"]]
         unit = np.eye(n)
@@ -206,10 +215,13 @@ class Reference:
                 rows.append(Row(unit[d], 0.0, -hold * dt, hold * dt, 0.0, d))
         for d in np.flatnonzero(np.isfinite(a["lower"]) | np.isfinite(a["upper"])):
             below, above = position[d] - a["lower"][d], a["upper"][d] - position[d]
-            gap = min(below, above)
-            if gap < 2.0 * dt * abs(v[d]) + 1e-3:
-                rows.append(Row(unit[d] if below <= above else -unit[d], recovery(gap, dt), 0.0, np.inf, 0.0, n + d))
-        return rows
+            pressed = a["pressed"][d]
+            low = pressed < 0 or (pressed == 0 and below <= above)
+            gap = below if low else above
+            if gap < 2.0 * dt * abs(v[d]) + 1e-3 or pressed:
+                rows.append(Row(unit[d] if low else -unit[d], recovery(gap, dt), 0.0, np.inf, 0.0, n + d))
+        inside = set(dofs.tolist())
+        return [row for row in rows if set(np.flatnonzero(row.J).tolist()) <= inside]
 
     def _contact_rows(self, v: Array) -> list[Row]:
         a, dt, n = self.a, self.dt, len(v)
@@ -252,7 +264,8 @@ class Reference:
                 slot = first_slot + 3 * int(a["contact_feature"][k]) if ground else first_pair_slot + 3 * k
                 a["contact_row"][k] = len(rows)
                 mu = a["contact_mu"][k] if rubs else 0.0
-                rows.append(Row(normal, recovery(gap, dt), 0.0, np.inf, mu, slot, number, k))
+                bias = max(recovery(gap, dt), -FASTEST_RECOVERY)
+                rows.append(Row(normal, bias, 0.0, np.inf, mu, slot, number, k))
                 if rubs:
                     rows.append(Row(along, 0.0, -np.inf, np.inf, 0.0, slot + 1, number))
                     rows.append(Row(across, 0.0, -np.inf, np.inf, 0.0, slot + 2, number))
@@ -345,40 +358,6 @@ class Reference:
 def late_share(z: float) -> float:
     """Return how much of a damper acts on the velocity at the end of a step, see `servo.late_share`."""
     return 1.0 / -np.expm1(-z) - 1.0 / z if z > 1e-2 else 0.5 + z / 12.0 - z**3 / 720.0
-
-
-class Tree:
-    """A robot or free body: Pinocchio's model of it, and where it is in the arrays."""
-
-    def __init__(self, model: Any, arrays: Arrays, number: int) -> None:
-        self.model = model
-        self.data = model.createData()
-        self.model.gravity.linear = arrays["gravity"]
-        self.number = number
-        self.first_body = int(arrays["tree_body"][number])
-        first, beyond = arrays["tree_dof"][number : number + 2].tolist()
-        self.dofs = slice(first, beyond)
-        entry = sum(int(n) ** 2 for n in np.diff(arrays["tree_dof"])[:number])
-        self.entries = slice(entry, entry + (beyond - first) ** 2)
-
-
-def model_of(member: Member) -> Any:
-    """Return Pinocchio's model of a robot, its base bolted where it is."""
-    model = pin.Model(member.kinematics.model)
-    if not member.kinematics.floating_base:
-        for joint in range(1, model.njoints):
-            if model.parents[joint] == 0:
-                model.jointPlacements[joint] = pin.SE3(pose_matrix(member.base)) * model.jointPlacements[joint]
-    return model
-
-
-def free_model(body: Body) -> Any:
-    """Return Pinocchio's model of a free body."""
-    model = pin.Model()
-    joint = model.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), body.name)
-    inertia = pin.Inertia(body.mass, np.array(body.centre, dtype=float), np.array(body.inertia, dtype=float))
-    model.appendBodyToJoint(joint, inertia, pin.SE3.Identity())
-    return model
 
 
 class Row(NamedTuple):

@@ -16,6 +16,11 @@ from urdfkit.sim.engine.spatial import add, cross, dot, load_spatial, load_vecto
 
 RECOVERY = 0.2
 """Part of a penetration, or of another violation, that is taken back in a step."""
+FASTEST_RECOVERY = 0.1
+"""Fastest that bodies found in each other are pushed apart [m/s]: what starts in the ground rises, it does not jump.
+
+Gazebo's counterpart is ``<max_vel>``, 0.01 m/s where nothing is said.
+"""
 MOBILITY = 1e-18
 """Square of the share of a point's velocities along the normal below which nothing can move it that way.
 
@@ -71,6 +76,7 @@ def joint_rows(floats: Any, integers: Any, rows: int, tree: int, dofs: int, widt
     upper = field(floats, integers, At.upper)
     motor_velocity = field(floats, integers, At.motor_velocity)
     motor_effort = field(floats, integers, At.motor_effort)
+    pressed = field(integers, integers, At.pressed)
     Y = field(floats, integers, At.Y)
     first, beyond, row_tree = tree_dof[tree], tree_dof[tree + 1], tree
     if alone:
@@ -105,9 +111,9 @@ def joint_rows(floats: Any, integers: Any, rows: int, tree: int, dofs: int, widt
         position = s[dof_s[d]]
         near = 2.0 * dt * abs(v[d]) + 1e-3
         gap, sign = position - lower[d], 1.0
-        if not (gap < near and gap <= upper[d] - position):
+        if pressed[d] > 0 or (pressed[d] == 0 and not (gap < near and gap <= upper[d] - position)):
             gap, sign = upper[d] - position, -1.0
-        if gap < near:
+        if gap < near or pressed[d] != 0:
             b = recovery_speed(gap, dt)
             open_row(floats, integers, rows, width, row_tree, b, 0.0, math.inf, dofs + d)
             Y[rows * width + d - first] = sign
@@ -234,7 +240,7 @@ def contact_rows(
                 contact_row[here] = -1
                 continue
             # The gap was taken at the end of the step, if the velocity stays; its half is where the velocity changes.
-            bias[rows] = recovery_speed(contact_gap[here] - 0.5 * dt * speed, dt)
+            bias[rows] = max(recovery_speed(contact_gap[here] - 0.5 * dt * speed, dt), -FASTEST_RECOVERY)
             rows += 3 if rubbing == 1 else 1
     return rows
 

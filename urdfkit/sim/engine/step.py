@@ -32,6 +32,7 @@ from urdfkit.sim.engine.compilation import field
 from urdfkit.sim.engine.dynamics import place, solve_forward, terms
 from urdfkit.sim.engine.flight import flies, fly
 from urdfkit.sim.engine.integrate import move
+from urdfkit.sim.engine.limits import passes_limits
 from urdfkit.sim.engine.rows import contact_rows, joint_rows, push, whiten
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, account, limited, overloaded, smooth_motion
 from urdfkit.sim.engine.solve import solve
@@ -68,6 +69,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     x = field(floats, integers, At.x)
     slot = field(integers, integers, At.slot)
     saturated = field(integers, integers, At.saturated)
+    pressed = field(integers, integers, At.pressed)
     counts = field(integers, integers, At.counts)
     floating = field(integers, integers, At.tree_floats)[0] != 0
     dt, floor = numbers[DT], numbers[FLOOR]
@@ -76,10 +78,11 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
         move(floats, integers, 0, bodies, s, v, 0.0 if only_terms else 0.5 * dt)
         for d in range(dofs):
             v_start[d] = v[d]
-            saturated[d] = 0
+            saturated[d] = pressed[d] = 0
         contacts = rows = 0
         # What touches nothing and has no servo is done twice, the second time with the velocity half a step on, and
-        # what nothing holds at all flies; where servos turn out too weak, the second part is done again.
+        # what nothing holds at all flies; where servos turn out too weak, or limits near, the second part is done
+        # again.
         halfway = False
         attempt = 0
         while True:
@@ -127,7 +130,8 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                 halfway = True
                 continue
             attempt += 1
-            if not has_servo or not overloaded(floats, integers, 0, dofs, dt, attempt < SERVO_ATTEMPTS):
+            again = has_servo and overloaded(floats, integers, 0, dofs, dt, attempt < SERVO_ATTEMPTS)
+            if not passes_limits(floats, integers, 0, dofs, dt) and not again:
                 break
         for k in range(slots):
             memory[k] = 0.0

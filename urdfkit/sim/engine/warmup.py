@@ -17,6 +17,7 @@ KERNEL_MODULES = (
     "flight",
     "guess",
     "integrate",
+    "limits",
     "linear",
     "rows",
     "servo",

@@ -20,6 +20,7 @@ from urdfkit.sim.engine.arrays import (
 from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.dynamics import solve_forward
 from urdfkit.sim.engine.flight import flies, fly
+from urdfkit.sim.engine.limits import passes_limits
 from urdfkit.sim.engine.rows import contact_rows, joint_rows, push, whiten
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, limited, overloaded, smooth_motion
 from urdfkit.sim.engine.solve import solve
@@ -63,7 +64,7 @@ def settle(floats: Any, integers: Any, root: int) -> int:
     single = root if island_next[root] < 0 else -1
     rows = 0
     # What touches nothing and has no servo is done twice, the second time with the velocity half a step on, and what
-    # nothing holds at all flies; where servos turn out too weak, the second part is done again.
+    # nothing holds at all flies; where servos turn out too weak, or limits near, the second part is done again.
     halfway = False
     attempt = 0
     while True:
@@ -105,6 +106,8 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             for d in range(first, beyond):
                 v[d] = v_start[d] + (0.5 * u[d] if free else u[d])
             if has_servo and overloaded(floats, integers, first, beyond, dt, attempt < SERVO_ATTEMPTS):
+                again = True
+            if not free and passes_limits(floats, integers, first, beyond, dt):
                 again = True
             tree = island_next[tree]
         if free:

@@ -29,9 +29,10 @@ def begin(floats: Any, integers: Any, tree: int) -> None:
     tree_s = field(integers, integers, At.tree_s)
     tree_floats = field(integers, integers, At.tree_floats)
     saturated = field(integers, integers, At.saturated)
+    pressed = field(integers, integers, At.pressed)
     for d in range(tree_dof[tree], tree_dof[tree + 1]):
         v_start[d] = v[d]
-        saturated[d] = 0
+        saturated[d] = pressed[d] = 0
     # All of a tree is reckoned from one point, its floating base: far from the origin nothing is lost.
     for k in range(3):
         P[3 * tree + k] = s[tree_s[tree] + k] if tree_floats[tree] != 0 else base[3 * tree + k]
