@@ -4,6 +4,7 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import Future
 from pathlib import Path
 
 import pytest
@@ -327,3 +328,26 @@ def test_a_simulation_that_diverges_pauses_and_says_so(ride: Ride, capfd, monkey
     spend(ride, 2 * FRAME)
     assert ride.simulator.paused
     assert capfd.readouterr().err == "urdfkit: the simulation diverged at t = 1 s\n"
+
+
+def test_what_is_spawned_appears_on_the_page_and_what_is_removed_vanishes() -> None:
+    from urdfkit.cli.sim.teleop import Ride
+    from urdfkit.sim import Simulator
+    from urdfkit.view.server import Server
+
+    simulator = Simulator("simpleton", note=lambda text: None)
+    with Server("sim", port=0) as server:
+        ride = Ride(simulator, server)
+
+        def shown() -> set[str]:
+            ride.tick()
+            done: Future[list[str]] = Future()
+            server._post(lambda: done.set_result(list(server.hub._scene)))
+            return {path.split("/")[3] for path in done.result(10) if "world%2F" in path}
+
+        ride.show()
+        assert shown() == set()
+        name = simulator.spawn("crate", (2.0, 0.0, 0.0))
+        assert shown() == {f"world%2F{name}"}
+        simulator.remove(name)
+        assert shown() == set()
