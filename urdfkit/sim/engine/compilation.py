@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
 import numba
 from numba.core import types
 from numba.core.cgutils import pack_array
-from numba.extending import intrinsic
+from numba.core.datamodel.models import ArrayModel
+from numba.extending import intrinsic, lower_builtin, register_model
 from numba.np.arrayobj import make_array, populate_array
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -29,6 +31,40 @@ def compiled(function: Function) -> Function:
     return cast(Function, numba.njit(function, **OPTIONS))
 
 
+class Field(types.Array):
+    """The type of a part of a block: an array whose indices are never negative, so none is counted from the end.
+
+    Looking at the sign of every index takes time, and hides from the compiler what lies side by side.
+    """
+
+    def __init__(self, dtype: Any) -> None:
+        """Make the type of one-dimensional fields of numbers of a type."""
+        super().__init__(dtype, 1, "C", name=f"field({dtype})")
+
+
+register_model(Field)(ArrayModel)
+
+
+def _place(context: Any, builder: Any, kind: Any, field: Any, index_type: Any, index: Any) -> Any:
+    """Return a pointer to an element."""
+    at = context.cast(builder, index, index_type, types.intp)
+    return builder.gep(make_array(kind)(context, builder, field).data, [at], inbounds=True)
+
+
+@lower_builtin(operator.getitem, Field, types.Integer)  # type: ignore[untyped-decorator]
+def _load(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    kind, index_type = signature.args
+    place = _place(context, builder, kind, arguments[0], index_type, arguments[1])
+    return context.unpack_value(builder, kind.dtype, place)
+
+
+@lower_builtin(operator.setitem, Field, types.Integer, types.Any)  # type: ignore[untyped-decorator]
+def _store(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    kind, index_type, value_type = signature.args
+    place = _place(context, builder, kind, arguments[0], index_type, arguments[1])
+    context.pack_value(builder, kind.dtype, context.cast(builder, arguments[2], value_type, kind.dtype), place)
+
+
 def _field(typing: Any, block: Any, integers: Any, at: Any) -> Any:
     """Return the part of a block that holds one field: block[integers[at]:integers[at + 1]], unchecked."""
 
@@ -42,7 +78,7 @@ def _field(typing: Any, block: Any, integers: Any, at: Any) -> Any:
         for load in (start, beyond):
             # Nobody moves a field: the compiler need not read its place again after every store.
             load.set_metadata("invariant.load", builder.module.add_metadata([]))
-        part = make_array(kind)(context, builder)
+        part = make_array(signature.return_type)(context, builder)
         populate_array(
             part,
             data=builder.gep(whole.data, [start]),
@@ -53,7 +89,7 @@ def _field(typing: Any, block: Any, integers: Any, at: Any) -> Any:
         )
         return part._getvalue()
 
-    return types.Array(block.dtype, 1, "C")(block, integers, types.int64), codegen
+    return Field(block.dtype)(block, integers, types.int64), codegen
 
 
 field: Any = intrinsic(_field)

@@ -6,11 +6,12 @@ import math
 from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
+from urdfkit.sim.engine.pairs.boxes import FOUND, UNSURE, box_and_box
 from urdfkit.sim.engine.pairs.epa import across, depth
 from urdfkit.sim.engine.pairs.faces import column
 from urdfkit.sim.engine.pairs.gjk import APART, FAR, distance, support_of_difference
 from urdfkit.sim.engine.pairs.manifold import spread
-from urdfkit.sim.engine.pairs.shapes import CAPSULE, CYLINDER, SPHERE, WHEEL, radius_of, unrotate
+from urdfkit.sim.engine.pairs.shapes import BOX, CAPSULE, CYLINDER, SPHERE, WHEEL, radius_of, unrotate
 from urdfkit.sim.engine.spatial import Vector, add, cross, dot, rotate, scale, sub
 
 
@@ -81,6 +82,11 @@ def nearest(
     if (a[0] == SPHERE and b[0] in (CYLINDER, WHEEL)) or (b[0] == SPHERE and a[0] in (CYLINDER, WHEEL)):
         normal, gap, between = point_and_cylinder(a, b)
         return gap < limit, normal, gap, between
+    if a[0] == BOX and b[0] == BOX:
+        # Boxes mostly lie on each other with a face.
+        known, normal, gap, between = box_and_box(a, b, limit)
+        if known != UNSURE:
+            return known == FOUND and gap < limit, normal, gap, between
     state, count, apart, on_a = distance(a, b, numbers, indices, limit, work)
     if state == FAR:
         return False, apart, limit, on_a

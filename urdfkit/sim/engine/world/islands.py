@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from urdfkit.sim.engine.arrays import At
-from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.compilation import compiled, field, inlined
 
 
 @inlined
@@ -17,7 +17,7 @@ def root_of(floats: Any, integers: Any, tree: int) -> int:
     return tree
 
 
-@inlined
+@compiled
 def join(floats: Any, integers: Any, trees: int, contacts: int) -> None:
     """Sort trees and contacts into islands.
 

@@ -22,12 +22,12 @@ from urdfkit.sim.engine.arrays import (
     At,
 )
 from urdfkit.sim.engine.collide import collide_with_plane, near_plane, turn_remembered
-from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.compilation import compiled, field
 from urdfkit.sim.engine.world.meet import collide_pairs, find_again
 from urdfkit.sim.engine.world.near import bound, find_pairs
 
 
-@inlined
+@compiled
 def candidates(floats: Any, integers: Any) -> int:
     """List the pairs of shapes that may meet within a step, and mark the trees that may touch something.
 
@@ -62,7 +62,7 @@ def candidates(floats: Any, integers: Any) -> int:
     return pairs
 
 
-@inlined
+@compiled
 def touching(floats: Any, integers: Any, pairs: int) -> int:
     """Find the contacts of the trees that have been marked and placed where the step will take them.
 

@@ -17,18 +17,22 @@ from urdfkit.sim.engine.arrays import (
     WIDTH,
     At,
 )
-from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.compilation import compiled, field
 from urdfkit.sim.engine.dynamics import solve_forward
 from urdfkit.sim.engine.flight import flies, fly
 from urdfkit.sim.engine.limits import passes_limits
 from urdfkit.sim.engine.rows import contact_rows, joint_rows, push, whiten
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, limited, overloaded, smooth_motion
 from urdfkit.sim.engine.solve import solve
+from urdfkit.sim.engine.world.hold import hold
 from urdfkit.sim.engine.world.islands import contacts_of
 from urdfkit.sim.engine.world.trees import evaluate
 
+FEW = 8
+"""Rows more than dofs up to which the matrix of the rows is the faster one."""
 
-@inlined
+
+@compiled
 def settle(floats: Any, integers: Any, root: int) -> int:
     """Find the velocities at the end of the step of the trees of an island, and their impulses.
 
@@ -69,12 +73,13 @@ def settle(floats: Any, integers: Any, root: int) -> int:
     attempt = 0
     while True:
         has_servo = False
-        rows = 0
+        rows = island_dofs = 0
         tree = root
         while tree >= 0:
             first, beyond = tree_dof[tree], tree_dof[tree + 1]
             if smooth_motion(floats, integers, first, beyond, dt):
                 has_servo = True
+            island_dofs += beyond - first
             rows = joint_rows(floats, integers, rows, tree, dofs, width, dt, False)
             tree = island_next[tree]
         # What touches nothing is one tree.
@@ -88,10 +93,16 @@ def settle(floats: Any, integers: Any, root: int) -> int:
         rows = contact_rows(
             floats, integers, rows, island_contact[root], 0, width, first_contact_slot, first_pair_slot, dt, False
         )
-        if rows > 0:
+        for k in range(rows):
+            before[k] = last[slot[k]]
+        held = False
+        if rows > island_dofs + FEW:
+            guesses = hold(floats, integers, root, rows)
+            held = guesses > 0
+            if held:
+                counts[GUESSES] = guesses
+        if rows > 0 and not held:
             whiten(floats, integers, rows, single, width, False)
-            for k in range(rows):
-                before[k] = last[slot[k]]
             guesses = solve(floats, integers, rows)
             push(floats, integers, rows, single, width, False)
             counts[GUESSES] = guesses
@@ -102,7 +113,8 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             attempt += 1
         while tree >= 0:
             first, beyond = tree_dof[tree], tree_dof[tree + 1]
-            solve_forward(floats, integers, first, beyond)
+            if not held:
+                solve_forward(floats, integers, first, beyond)
             for d in range(first, beyond):
                 v[d] = v_start[d] + (0.5 * u[d] if free else u[d])
             if has_servo and overloaded(floats, integers, first, beyond, dt, attempt < SERVO_ATTEMPTS):

@@ -20,7 +20,7 @@ from urdfkit.sim.engine.world.islands import join
 from urdfkit.sim.engine.world.search import candidates, touching
 from urdfkit.sim.engine.world.settle import settle
 from urdfkit.sim.engine.world.sleep import let_sleep, remember, remember_pairs, rouse_disturbed, rouse_touched
-from urdfkit.sim.engine.world.trees import begin, drift, look_ahead
+from urdfkit.sim.engine.world.trees import begin, drift, evaluate, look_ahead
 
 
 def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
@@ -79,6 +79,9 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                     return done
             if not rouse_touched(floats, integers, contacts):
                 break
+            for tree in range(trees):
+                if near[tree] != 0 and asleep[tree] == 0:
+                    evaluate(floats, integers, tree)
         join(floats, integers, trees, contacts)
         all_rows = 0
         for root in range(trees):

@@ -1,0 +1,104 @@
+"""Heaps of many bodies: they stay in their box, lie on each other, and come to rest."""
+
+from __future__ import annotations
+
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from urdfkit.sim.engine.arrays import GUESSES
+
+SPEC = spec_from_file_location("worlds", Path(__file__).with_name("worlds.py"))
+worlds = module_from_spec(SPEC)
+SPEC.loader.exec_module(worlds)
+cube, ball, can, pill, slab, rover = worlds.cube, worlds.ball, worlds.can, worlds.pill, worlds.slab, worlds.rover
+
+G = 9.81
+X = 3.0
+"""Where the heaps are, away from the robot [m]."""
+
+
+def box_walls():
+    sides = ((0.35, 0.0, 0.1, 0.9), (-0.35, 0.0, 0.1, 0.9), (0.0, 0.35, 0.9, 0.1), (0.0, -0.35, 0.9, 0.1))
+    return [slab(f"wall{k}", (X + x, y, 1.0), (a, b, 2.0), static=True) for k, (x, y, a, b) in enumerate(sides)]
+
+
+def heap():
+    makers = (
+        lambda name, at: cube(name, at, side=0.12),
+        lambda name, at: ball(name, at, radius=0.06),
+        can,
+        pill,
+        lambda name, at: cube(name, at, side=0.08, mass=0.3),
+    )
+    return [
+        makers[k % 5](f"b{k}", (X - 0.14 + 0.14 * (k % 3), -0.14 + 0.14 * (k // 3 % 3), 0.1 + 0.16 * (k // 9)))
+        for k in range(30)
+    ]
+
+
+def test_a_heap_of_thirty_stays_in_its_box(engine_of):
+    engine = rover(engine_of, bodies=[*box_walls(), *heap()], dt=0.002)
+    engine.motor_effort[6:] = 1.0
+    for _ in range(20):
+        engine.step(500)
+        places = np.array([body.pose[:3] for body in engine.bodies.values()])
+        assert (np.abs(places[:, 0] - X) < 0.3).all()
+        assert (np.abs(places[:, 1]) < 0.3).all()
+        assert (places[:, 2] > 0.03).all()
+        assert (places[:, 2] < 1.2).all()
+    assert engine.t == pytest.approx(20.0)
+    assert max(contact.depth for contact in engine.contacts()) < 2e-3
+    # What is under and around them carries their weight.
+    carried = 0.0
+    for contact in engine.contacts():
+        carried += contact.force[2] * ((contact.a in engine.bodies) - (contact.b in engine.bodies))
+    weight = G * sum(body.body.mass for body in engine.bodies.values())
+    assert carried == pytest.approx(weight, rel=0.02)
+
+
+def test_a_wall_of_bricks_is_solved_by_blocks_and_stands(engine_of):
+    bricks = [
+        cube(f"r{row}c{column}", (X + 0.2 * column + 0.1 * (row % 2), 0.0, 0.1 + 0.2 * row))
+        for row in range(4)
+        for column in range(4 - row % 2)
+    ]
+    engine = rover(engine_of, bodies=bricks, sleep=False)
+    engine.step(3000)
+    assert 0 < engine._arrays["counts"][GUESSES] < 3
+    assert engine.iterated == 0
+    for brick in bricks:
+        assert engine.bodies[brick.name].pose == pytest.approx(brick.pose, abs=1e-6)
+    on_ground = sum(c.force[2] for c in engine.contacts() if c.b == "ground_plane" and c.a.startswith("r"))
+    assert on_ground == pytest.approx(len(bricks) * G, rel=1e-6)
+
+
+def test_a_table_on_many_feet_carries_what_stands_on_it(engine_of):
+    from urdfkit.description.robot import Box
+    from urdfkit.scene import Shape
+    from urdfkit.sim.engine.body import Body, Piece
+
+    def part(size, at):
+        place = np.eye(4)
+        place[:3, 3] = at
+        return Piece(Shape("collision", "table", "collision", Box(size), place))
+
+    feet = [part((0.05, 0.05, 0.7), (x, y, 0.35)) for x in (-0.5, 0.5) for y in (-0.3, 0.3)]
+    inertia = np.diag([1.0, 1.5, 2.0])
+    table = Body(
+        "table",
+        (X, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0),
+        [part((1.1, 0.7, 0.04), (0.0, 0.0, 0.72)), *feet],
+        mass=20.0,
+        centre=(0.0, 0.0, 0.6),
+        inertia=inertia,
+    )
+    things = [cube(f"cup{k}", (X - 0.4 + 0.2 * k, 0.1, 0.79), side=0.1) for k in range(5)]
+    engine = rover(engine_of, bodies=[table, *things], sleep=False)
+    engine.step(1500)
+    feet_carry = sum(c.force[2] for c in engine.contacts() if (c.a, c.b) == ("table", "ground_plane"))
+    assert feet_carry == pytest.approx(25.0 * G, rel=1e-6)
+    assert engine.bodies["table"].pose == pytest.approx(table.pose, abs=1e-5)
+    assert engine.iterated == 0
