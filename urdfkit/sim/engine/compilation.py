@@ -32,7 +32,7 @@ def compiled(function: Function) -> Function:
 
 
 class Field(types.Array):
-    """The type of a part of a block: an array whose indices are never negative, so none is counted from the end.
+    """The type of a part of a block whose indices are never negative, so that none is counted from the end.
 
     Looking at the sign of every index takes time, and hides from the compiler what lies side by side.
     """
@@ -65,32 +65,39 @@ def _store(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     context.pack_value(builder, kind.dtype, context.cast(builder, arguments[2], value_type, kind.dtype), place)
 
 
-def _field(typing: Any, block: Any, integers: Any, at: Any) -> Any:
-    """Return the part of a block that holds one field: block[integers[at]:integers[at + 1]], unchecked."""
+def _part_of(kind_of: Callable[[Any], Any]) -> Callable[..., Any]:
+    """Return the intrinsic that takes one field out of a block: block[integers[at]:integers[at + 1]], unchecked."""
 
-    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        kind = signature.args[0]
-        whole = make_array(kind)(context, builder, arguments[0])
-        starts = make_array(signature.args[1])(context, builder, arguments[1])
-        place = builder.gep(starts.data, [arguments[2]])
-        start = builder.load(place)
-        beyond = builder.load(builder.gep(place, [context.get_constant(types.int64, 1)]))
-        for load in (start, beyond):
-            # Nobody moves a field: the compiler need not read its place again after every store.
-            load.set_metadata("invariant.load", builder.module.add_metadata([]))
-        part = make_array(signature.return_type)(context, builder)
-        populate_array(
-            part,
-            data=builder.gep(whole.data, [start]),
-            shape=pack_array(builder, [builder.sub(beyond, start)]),
-            strides=whole.strides,
-            itemsize=whole.itemsize,
-            meminfo=None,
-        )
-        return part._getvalue()
+    def _field(typing: Any, block: Any, integers: Any, at: Any) -> Any:
+        """Return the part of a block that holds one field."""
 
-    return Field(block.dtype)(block, integers, types.int64), codegen
+        def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            kind = signature.args[0]
+            whole = make_array(kind)(context, builder, arguments[0])
+            starts = make_array(signature.args[1])(context, builder, arguments[1])
+            place = builder.gep(starts.data, [arguments[2]])
+            start = builder.load(place)
+            beyond = builder.load(builder.gep(place, [context.get_constant(types.int64, 1)]))
+            for load in (start, beyond):
+                # Nobody moves a field: the compiler need not read its place again after every store.
+                load.set_metadata("invariant.load", builder.module.add_metadata([]))
+            part = make_array(signature.return_type)(context, builder)
+            populate_array(
+                part,
+                data=builder.gep(whole.data, [start]),
+                shape=pack_array(builder, [builder.sub(beyond, start)]),
+                strides=whole.strides,
+                itemsize=whole.itemsize,
+                meminfo=None,
+            )
+            return part._getvalue()
+
+        return kind_of(block.dtype)(block, integers, types.int64), codegen
+
+    return _field
 
 
-field: Any = intrinsic(_field)
+field: Any = intrinsic(_part_of(lambda dtype: types.Array(dtype, 1, "C")))
 """Return the part of a block that holds one field: ``field(block, integers, at)``."""
+bare_field: Any = intrinsic(_part_of(Field))
+"""Return the same as a `Field`, for what is done over long rows of numbers."""
