@@ -66,7 +66,7 @@ def test_a_wall_of_bricks_is_solved_by_blocks_and_stands(engine_of):
         for column in range(4 - row % 2)
     ]
     engine = rover(engine_of, bodies=bricks, sleep=False)
-    engine.step(3000)
+    engine.step(1000)
     assert 0 < engine._arrays["counts"][GUESSES] < 3
     assert engine.iterated == 0
     for brick in bricks:

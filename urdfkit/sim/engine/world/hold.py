@@ -26,8 +26,10 @@ STIFFNESS = 1e6
 """Stiffness of a row that holds, over the inverse of what it feels of the masses."""
 ROUNDS = 8
 """Most corrections of the impulses."""
-REVISIONS = 4
+REVISIONS = 12
 """How often what holds is changed before the island is left to `solve`."""
+LIGHT = 1e-3
+"""Impulse over the largest below which a contact is let go rather than left to slide."""
 
 
 @inlined
@@ -141,6 +143,10 @@ def revise(floats: Any, integers: Any, rows: int, speed: Any, tiny: float) -> in
     x = bare_field(floats, integers, At.x)
     state = bare_field(integers, integers, At.state)
     changed = 0
+    heaviest = 0.0
+    for k in range(rows):
+        if mu[k] > 0.0:
+            heaviest = max(heaviest, x[k])
     k = 0
     while k < rows:
         doing = state[k]
@@ -150,7 +156,10 @@ def revise(floats: Any, integers: Any, rows: int, speed: Any, tiny: float) -> in
             elif x[k] > high[k]:
                 state[k] = AT_HIGH
             elif mu[k] > 0.0 and math.sqrt(x[k + 1] ** 2 + x[k + 2] ** 2) > mu[k] * x[k] * (1.0 + 1e-9):
-                return -1
+                if x[k] > LIGHT * heaviest:
+                    return -1
+                # It may as well carry nothing.
+                state[k] = AT_LOW
         else:
             w = row_speed(floats, integers, k, speed) + g[k]
             if (doing == AT_LOW and w < -tiny) or (doing == AT_HIGH and w > tiny):
@@ -184,15 +193,17 @@ def correct(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: floa
             if c != 0.0:
                 push_row(floats, integers, k, c, rest)
         substitute(floats, integers, n, rest)
+        moved = worst = 0.0
         for d in range(n):
             speed[d] += rest[d]
-        worst = 0.0
+            moved = max(moved, abs(rest[d]))
         for k in range(rows):
             if state[k] == HOLDS:
                 error = row_speed(floats, integers, k, speed) + g[k]
                 x[k] -= stiffness[k] * error
                 worst = max(worst, abs(error))
-        if worst <= tiny:
+        # Rows that contradict each other a little, as of a table on four feet, are met as nearly as can be.
+        if worst <= tiny or moved <= tiny:
             return True
     return False
 
