@@ -52,6 +52,7 @@ class Simulator(Population):
         gravity: [m/s²]; the world's when None.
         fixed_base: bolt the root link to the world. A root link called ``world`` always is.
         engine: who computes the dynamics: the compiled kernel or Pinocchio (the reference, slow).
+        sleep: let what is at rest sleep until something happens to it.
         ros_distro: the ROS distribution whose behaviour plugins are to have, such as ``kinetic``; the newest when None.
         controllers: parameter files of controllers, in place of those the robot's packages load.
         package_path: folders to look for packages in, when `robot` is a file or a name.
@@ -84,6 +85,7 @@ class Simulator(Population):
         gravity: Sequence[float] | None = None,
         fixed_base: bool = False,
         engine: Provider = "compiled",
+        sleep: bool = True,
         ros_distro: str | None = None,
         controllers: Sequence[str | Path] = (),
         package_path: Sequence[str | Path] = (),
@@ -116,7 +118,9 @@ class Simulator(Population):
             bolted=fixed_base,
         )
         self.kinematics, self.scene = first.kinematics, first.scene
-        self._stage = Stage(first, found, dt=dt, provider=engine, note=self.note, package_path=package_path)
+        self._stage = Stage(
+            first, found, dt=dt, provider=engine, note=self.note, package_path=package_path, sleep=sleep
+        )
         self.state, self.motors = first.state, first.motors
         message_type(TWIST)  # loads the types now, or says that they are missing
         self._setup = Setup(

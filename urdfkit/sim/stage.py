@@ -34,6 +34,7 @@ class Stage:
         world: where it is.
         dt: length of a step [s].
         provider: who computes the dynamics.
+        sleep: whether what is at rest may sleep.
         note: tells the user something.
         package_path: folders to look for packages in.
 
@@ -62,12 +63,13 @@ class Stage:
         provider: Provider,
         note: Callable[[str], None],
         package_path: Sequence[str | Path] = (),
+        sleep: bool = True,
     ) -> None:
         require_no_joints(world)
         self.world = world
         self.pushes = Pushes()
         self.revision = 0
-        self._dt, self._provider, self._note = dt, provider, note
+        self._dt, self._provider, self._sleep, self._note = dt, provider, sleep, note
         self._make = Entries(note, package_path)
         self._entries: dict[str, Entry] = {first.name: Entry(None, (first,), {first.name: IDENTITY})}
         things: list[WorldModel | WorldRobot] = [*world.models, *world.robots]
@@ -332,6 +334,7 @@ class Stage:
             self_collide=first.self_collide,
             others=[robot.member for robot in robots[1:]],
             bodies=bodies,
+            sleep=self._sleep,
         )
         free = [body.name for body in bodies if not body.static]
         names = [f"robot {robot.name}" for robot in robots]
