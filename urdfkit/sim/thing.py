@@ -51,6 +51,12 @@ class Thing:
         self.body  # noqa: B018 - raises where it is gone
         return (0.0,) * 6
 
+    @property
+    def asleep(self) -> bool:
+        """Whether it is free to move, but at rest and left alone until something happens to it."""
+        loose = self._population._stage.loose
+        return self.name in loose and loose[self.name].asleep
+
     def place(self, pose: Pose | Sequence[float], twist: Sequence[float] = (0.0,) * 6) -> None:
         """Put it somewhere, see `Population.place`."""
         self._population._stage.move_body(self.name, pose_of(pose), twist)
