@@ -39,7 +39,7 @@ def heap():
     ]
 
 
-def test_a_heap_of_thirty_stays_in_its_box(engine_of):
+def test_thirty_bodies_dropped_in_columns_stay_in_their_box(engine_of):
     engine = rover(engine_of, bodies=[*box_walls(), *heap()], dt=0.002)
     engine.motor_effort[6:] = 1.0
     for _ in range(20):
