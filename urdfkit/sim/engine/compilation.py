@@ -7,11 +7,12 @@ from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
 import numba
+from llvmlite import ir
 from numba.core import types
-from numba.core.cgutils import pack_array
-from numba.core.datamodel.models import ArrayModel
+from numba.core.datamodel import models
+from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import intrinsic, lower_builtin, register_model
-from numba.np.arrayobj import make_array, populate_array
+from numba.np.arrayobj import make_array
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -31,73 +32,90 @@ def compiled(function: Function) -> Function:
     return cast(Function, numba.njit(function, **OPTIONS))
 
 
-class Field(types.Array):
-    """The type of a part of a block whose indices are never negative, so that none is counted from the end.
+class Field(types.Type):  # type: ignore[misc]
+    """The type of a field in compiled code: where its first entry is.
 
-    Looking at the sign of every index takes time, and hides from the compiler what lies side by side.
+    Entries are read and written without asking whether the index is negative, as for an array, which costs more than
+    the arithmetic does; and a store to a float is known not to change an integer.
     """
 
     def __init__(self, dtype: Any) -> None:
-        """Make the type of one-dimensional fields of numbers of a type."""
-        super().__init__(dtype, 1, "C", name=f"field({dtype})")
+        self.dtype = dtype
+        super().__init__(name=f"Field({dtype})")
 
 
-register_model(Field)(ArrayModel)
+@register_model(Field)
+class FieldModel(models.PrimitiveModel):  # type: ignore[misc]
+    """A field in compiled code is a pointer."""
+
+    def __init__(self, manager: Any, kind: Any) -> None:
+        super().__init__(manager, kind, manager.lookup(kind.dtype).get_data_type().as_pointer())
 
 
-def _place(context: Any, builder: Any, kind: Any, field: Any, index_type: Any, index: Any) -> Any:
-    """Return a pointer to an element."""
-    at = context.cast(builder, index, index_type, types.intp)
-    return builder.gep(make_array(kind)(context, builder, field).data, [at], inbounds=True)
+@infer_global(operator.getitem)
+class ReadField(AbstractTemplate):  # type: ignore[misc]
+    """``field[k]``."""
+
+    def generic(self, args: Any, kws: Any) -> Any:
+        """Return the types of reading an entry."""
+        block, index = args
+        if isinstance(block, Field) and isinstance(index, types.Integer):
+            return signature(block.dtype, block, types.int64)
+        return None
 
 
-@lower_builtin(operator.getitem, Field, types.Integer)  # type: ignore[untyped-decorator]
-def _load(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-    kind, index_type = signature.args
-    place = _place(context, builder, kind, arguments[0], index_type, arguments[1])
-    return context.unpack_value(builder, kind.dtype, place)
+@infer_global(operator.setitem)
+class WriteField(AbstractTemplate):  # type: ignore[misc]
+    """``field[k] = value``."""
+
+    def generic(self, args: Any, kws: Any) -> Any:
+        """Return the types of writing an entry."""
+        block, index, value = args
+        if isinstance(block, Field) and isinstance(index, types.Integer) and isinstance(value, types.Number):
+            return signature(types.none, block, types.int64, block.dtype)
+        return None
 
 
-@lower_builtin(operator.setitem, Field, types.Integer, types.Any)  # type: ignore[untyped-decorator]
-def _store(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-    kind, index_type, value_type = signature.args
-    place = _place(context, builder, kind, arguments[0], index_type, arguments[1])
-    context.pack_value(builder, kind.dtype, context.cast(builder, arguments[2], value_type, kind.dtype), place)
+def _of_kind(builder: Any, access: Any, dtype: Any) -> Any:
+    """Tell the compiler that floats and integers are different places."""
+    module = builder.module
+    root = module.add_metadata(["urdfkit"])
+    kind = module.add_metadata([str(dtype), root, _zero()])
+    access.set_metadata("tbaa", module.add_metadata([kind, kind, _zero()]))
+    return access
 
 
-def _part_of(kind_of: Callable[[Any], Any]) -> Callable[..., Any]:
-    """Return the intrinsic that takes one field out of a block: block[integers[at]:integers[at + 1]], unchecked."""
-
-    def _field(typing: Any, block: Any, integers: Any, at: Any) -> Any:
-        """Return the part of a block that holds one field."""
-
-        def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-            kind = signature.args[0]
-            whole = make_array(kind)(context, builder, arguments[0])
-            starts = make_array(signature.args[1])(context, builder, arguments[1])
-            place = builder.gep(starts.data, [arguments[2]])
-            start = builder.load(place)
-            beyond = builder.load(builder.gep(place, [context.get_constant(types.int64, 1)]))
-            for load in (start, beyond):
-                # Nobody moves a field: the compiler need not read its place again after every store.
-                load.set_metadata("invariant.load", builder.module.add_metadata([]))
-            part = make_array(signature.return_type)(context, builder)
-            populate_array(
-                part,
-                data=builder.gep(whole.data, [start]),
-                shape=pack_array(builder, [builder.sub(beyond, start)]),
-                strides=whole.strides,
-                itemsize=whole.itemsize,
-                meminfo=None,
-            )
-            return part._getvalue()
-
-        return kind_of(block.dtype)(block, integers, types.int64), codegen
-
-    return _field
+def _zero() -> Any:
+    """Return the constant 0, an offset in metadata."""
+    return ir.Constant(ir.IntType(64), 0)
 
 
-field: Any = intrinsic(_part_of(lambda dtype: types.Array(dtype, 1, "C")))
+@lower_builtin(operator.getitem, Field, types.Integer)  # type: ignore[misc]
+def _read(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    return _of_kind(builder, builder.load(builder.gep(args[0], [args[1]])), sig.args[0].dtype)
+
+
+@lower_builtin(operator.setitem, Field, types.Integer, types.Any)  # type: ignore[misc]
+def _write(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    _of_kind(builder, builder.store(args[2], builder.gep(args[0], [args[1]])), sig.args[0].dtype)
+    return context.get_dummy_value()
+
+
+def _field(typing: Any, block: Any, integers: Any, at: Any) -> Any:
+    """Return the part of a block that holds one field."""
+
+    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        whole = make_array(signature.args[0])(context, builder, arguments[0])
+        starts = make_array(signature.args[1])(context, builder, arguments[1])
+        start = builder.load(builder.gep(starts.data, [arguments[2]]))
+        # Nobody moves a field: the compiler need not read its place again after every store.
+        start.set_metadata("invariant.load", builder.module.add_metadata([]))
+        return builder.gep(whole.data, [start])
+
+    return Field(block.dtype)(block, integers, types.int64), codegen
+
+
+field: Any = intrinsic(_field)
 """Return the part of a block that holds one field: ``field(block, integers, at)``."""
-bare_field: Any = intrinsic(_part_of(Field))
-"""Return the same as a `Field`, for what is done over long rows of numbers."""
+bare_field = field
+"""The same, where rows of numbers are long and it matters most."""

@@ -278,6 +278,36 @@ def row_product(floats: Any, integers: Any, i: int, j: int, width: int) -> float
 
 
 @inlined
+def gram_row(rows: int, k: int, n: int, width: int, Y: Any, A: Any) -> None:
+    """Write the products of the first n entries of row k with those of the rows up to it into A and its mirror."""
+    at = k * width
+    j = 0
+    while j <= k:
+        to = j * width
+        if j + 3 <= k:
+            # Four at a time, so that no sum has to wait for the one before.
+            p = q = r = s = 0.0
+            for d in range(n):
+                y = Y[at + d]
+                p += y * Y[to + d]
+                q += y * Y[to + width + d]
+                r += y * Y[to + 2 * width + d]
+                s += y * Y[to + 3 * width + d]
+            to = k * rows + j
+            A[to], A[to + 1], A[to + 2], A[to + 3] = p, q, r, s
+            to = j * rows + k
+            A[to], A[to + rows], A[to + 2 * rows], A[to + 3 * rows] = p, q, r, s
+            j += 4
+        else:
+            p = 0.0
+            for d in range(n):
+                p += Y[at + d] * Y[to + d]
+            A[k * rows + j] = p
+            A[j * rows + k] = p
+            j += 1
+
+
+@inlined
 def whiten(floats: Any, integers: Any, rows: int, single: int, width: int, alone: bool) -> None:
     """Turn rows J into Y = J·L⁻¹, their biases into velocities g with no impulse, and get A = J·M⁻¹·Jᵀ.
 
@@ -307,13 +337,7 @@ def whiten(floats: Any, integers: Any, rows: int, single: int, width: int, alone
             for d in range(first, beyond):
                 free += Y[start + d] * u[d]
             g[k] = free
-            for j in range(k + 1):
-                total = 0.0
-                to = j * width
-                for d in range(beyond - first):
-                    total += Y[at + d] * Y[to + d]
-                A[k * rows + j] = total
-                A[j * rows + k] = total
+            gram_row(rows, k, beyond - first, width, Y, A)
         return
     for k in range(rows):
         free = bias[k]
