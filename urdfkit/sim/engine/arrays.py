@@ -121,6 +121,9 @@ FLOATS: dict[str, Size] = {
     "A": ("q",),
     "B": ("q",),
     "near_x": ("r",),
+    "shape_mu2": ("k",),
+    "floor_mu2": ("k",),
+    "shape_along": ("k", "3"),
 }
 
 INTEGERS: dict[str, Size] = {
@@ -189,6 +192,7 @@ INTEGERS: dict[str, Size] = {
     "saturated": ("d",),
     "pressed": ("d",),
     "counts": ("12",),
+    "along_body": ("k",),
 }
 
 # Where in the head of the block of integers the kernel finds sizes and the start of each field.

@@ -15,7 +15,6 @@ from urdfkit.sim.engine.spatial import (
     add,
     compose,
     cross,
-    dot,
     load_rotation,
     load_spatial,
     load_vector,
@@ -231,32 +230,6 @@ def collide_with_plane(
                 contact_shape[count] = k
             count = found_now
     return count
-
-
-@inlined
-def turn_remembered(
-    floats: Any, integers: Any, contacts: int, first_slot: int, first_pair_slot: int, memory: Any, dt: float
-) -> None:
-    """Turn the friction remembered at each contact by how far its body turns there within a step.
-
-    Where robots drive curves, slip turns with them, and the solver starts where it will be.
-    """
-    contact_body = field(integers, integers, At.contact_body)
-    contact_against = field(integers, integers, At.contact_against)
-    contact_feature = field(integers, integers, At.contact_feature)
-    contact_frame = field(floats, integers, At.contact_frame)
-    twist = field(floats, integers, At.twist)
-    for k in range(contacts):
-        at = first_slot + 3 * contact_feature[k] if contact_against[k] < 0 else first_pair_slot + 3 * k
-        first, second = memory[at + 1], memory[at + 2]
-        if first == 0.0 and second == 0.0:
-            continue
-        spin = load_spatial(twist, contact_body[k])[1]
-        half = 0.5 * dt * dot(spin, load_vector(contact_frame, 3 * k + 2))
-        # Cayley's rotation: it keeps the length, and its angle is right to third order.
-        share = 2.0 / (1.0 + half * half)
-        cosine, sine = share - 1.0, half * share
-        memory[at + 1], memory[at + 2] = cosine * first - sine * second, sine * first + cosine * second
 
 
 @inlined

@@ -32,7 +32,7 @@ def compiled(function: Function) -> Function:
     return cast(Function, numba.njit(function, **OPTIONS))
 
 
-class Field(types.Type):  # type: ignore[misc]
+class Field(types.Type):
     """The type of a field in compiled code: where its first entry is.
 
     Entries are read and written without asking whether the index is negative, as for an array, which costs more than
@@ -90,12 +90,12 @@ def _zero() -> Any:
     return ir.Constant(ir.IntType(64), 0)
 
 
-@lower_builtin(operator.getitem, Field, types.Integer)  # type: ignore[misc]
+@lower_builtin(operator.getitem, Field, types.Integer)  # type: ignore[untyped-decorator]
 def _read(context: Any, builder: Any, sig: Any, args: Any) -> Any:
     return _of_kind(builder, builder.load(builder.gep(args[0], [args[1]])), sig.args[0].dtype)
 
 
-@lower_builtin(operator.setitem, Field, types.Integer, types.Any)  # type: ignore[misc]
+@lower_builtin(operator.setitem, Field, types.Integer, types.Any)  # type: ignore[untyped-decorator]
 def _write(context: Any, builder: Any, sig: Any, args: Any) -> Any:
     _of_kind(builder, builder.store(args[2], builder.gep(args[0], [args[1]])), sig.args[0].dtype)
     return context.get_dummy_value()

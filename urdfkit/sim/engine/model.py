@@ -46,7 +46,10 @@ class Touching:
         R: axes in the body.
         p: centre in the body [m].
         radius: of a ball round the centre that holds the shape [m].
-        mu: friction coefficient.
+        mu: friction coefficient along `along`.
+        mu2: across it.
+        along: direction of `mu`, in `along_body` or, if that is -1, in the world; zero for none.
+        along_body: number of the body it turns with.
         vertices: of a hull or mesh [m], shape (n, 3).
         triangles: of a mesh [m], shape (m, 3, 3); of a hull those it was made from do not matter.
     """
@@ -60,6 +63,9 @@ class Touching:
     p: Array
     radius: float
     mu: float
+    mu2: float
+    along: Array
+    along_body: int
     vertices: Array
     triangles: Array
 
@@ -78,10 +84,17 @@ def touching(members: Sequence[Member], bodies: Sequence[Body]) -> list[Touching
             frame = model.frames[member.kinematics.frame(shape.body)]
             placement = frame.placement.homogeneous @ shape.placement
             surface, link = member.surfaces.get(shape.body, Surface()), prefix + shape.body
-            if frame.parentJoint == 0:
-                still.append(_touch(shape, surface, link, -1, owner, base @ placement))
+            bolted = frame.parentJoint == 0
+            at = -1 if bolted else first + frame.parentJoint - 1
+            touch = _touch(shape, surface, link, at, owner, base @ placement if bolted else placement)
+            if surface.frame:
+                other = model.frames[member.kinematics.frame(surface.frame)]
+                axes = (base if other.parentJoint == 0 else np.eye(4))[:3, :3] @ other.placement.rotation
+                on = -1 if other.parentJoint == 0 else first + other.parentJoint - 1
+                touch = replace(touch, along=axes @ np.array(surface.fdir1 or (0.0, 0.0, 0.0)), along_body=on)
+            if bolted:
+                still.append(touch)
                 continue
-            touch = _touch(shape, surface, link, first + frame.parentJoint - 1, owner, placement)
             if touch.kind == collide.CYLINDER and _turns_about(member.kinematics, frame.parentJoint, placement):
                 touch = replace(touch, kind=collide.WHEEL)
             moving.append(touch)
@@ -110,7 +123,10 @@ def _touch(shape: Shape, surface: Surface, link: str, body: int, owner: int, pla
     elif kind == PLANE:
         radius = BOUNDLESS
     R, p = placement[:3, :3], placement[:3, 3]
-    return Touching(link, body, owner, kind, size, R, p, radius, surface.mu, vertices, triangles)
+    along = R @ np.array(surface.fdir1 or (0.0, 0.0, 0.0))
+    return Touching(
+        link, body, owner, kind, size, R, p, radius, surface.mu1, surface.mu2, along, body, vertices, triangles
+    )
 
 
 def _solid(shape: Shape) -> tuple[int, tuple[float, float, float], Array]:
@@ -261,7 +277,9 @@ def _fill_shapes(arrays: Arrays, touches: Sequence[Touching], features: Sequence
         arrays["shape_middle"][k], arrays["shape_half"][k] = box_of(touch)
         arrays["shape_radius"][k] = touch.radius
         arrays["shape_mu"][k] = touch.mu
-        arrays["floor_mu"][k] = min(touch.mu, floor_mu)
+        arrays["floor_mu"][k], arrays["floor_mu2"][k] = min(touch.mu, floor_mu), min(touch.mu2, floor_mu)
+        arrays["shape_mu2"][k], arrays["shape_along"][k] = touch.mu2, touch.along
+        arrays["along_body"][k] = touch.along_body
         arrays["vertices"][vertex : vertex + len(touch.vertices)] = touch.vertices
         feature += features[k]
         vertex += len(touch.vertices)

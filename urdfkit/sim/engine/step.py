@@ -27,10 +27,11 @@ from urdfkit.sim.engine.arrays import (
     STEPS,
     At,
 )
-from urdfkit.sim.engine.collide import collide_with_plane, near_plane, turn_remembered
+from urdfkit.sim.engine.collide import collide_with_plane, near_plane
 from urdfkit.sim.engine.compilation import field
 from urdfkit.sim.engine.dynamics import place, solve_forward, terms
 from urdfkit.sim.engine.flight import flies, fly
+from urdfkit.sim.engine.friction import rub
 from urdfkit.sim.engine.integrate import move
 from urdfkit.sim.engine.limits import passes_limits
 from urdfkit.sim.engine.rows import contact_rows, joint_rows, push, whiten
@@ -107,7 +108,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                     for k in range(3):
                         contact_origin[k] = P[k]
                     contacts = collide_with_plane(floats, integers, 0, 0, shapes, most_contacts, floor - P[2], dt)
-                    turn_remembered(floats, integers, contacts, first_contact_slot, 0, memory, dt)
+                    rub(floats, integers, contacts, first_contact_slot, 0, memory, dt)
             has_servo = smooth_motion(floats, integers, 0, dofs, dt)
             rows = joint_rows(floats, integers, 0, 0, dofs, dofs, dt, ALONE)
             free = not halfway and contacts == 0 and not has_servo and not limited(floats, integers, rows, dofs)

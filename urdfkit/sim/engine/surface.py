@@ -29,19 +29,18 @@ class Surface:
     Attributes:
         mu1: friction coefficient along `fdir1`.
         mu2: friction coefficient across `fdir1`.
-        fdir1: first friction direction in the link's frame; None when the writer gave none.
+        fdir1: first friction direction in the collision's frame; None when the writer gave none: then it is one of the
+            world's axes.
+        frame: the link in whose frame `fdir1` is instead, as the chassis of a wheel with rollers; empty for none.
 
-    The cone of a contact is circular: its coefficient is the smaller of `mu1` and `mu2`.
+    Two surfaces meet with the smaller coefficient along and the smaller one across, in the direction of the one with
+    the smaller `mu1` (Gazebo Classic, ODEPhysics::Collide). Friction lies in the ellipse of the two.
     """
 
     mu1: float = 1.0
     mu2: float = 1.0
     fdir1: Vector | None = None
-
-    @property
-    def mu(self) -> float:
-        """Coefficient of the circular friction cone."""
-        return min(self.mu1, self.mu2)
+    frame: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,7 @@ KERNEL_MODULES = (
     "compilation",
     "dynamics",
     "flight",
+    "friction",
     "guess",
     "integrate",
     "limits",

@@ -21,8 +21,9 @@ from urdfkit.sim.engine.arrays import (
     TREES,
     At,
 )
-from urdfkit.sim.engine.collide import collide_with_plane, near_plane, turn_remembered
+from urdfkit.sim.engine.collide import collide_with_plane, near_plane
 from urdfkit.sim.engine.compilation import compiled, field
+from urdfkit.sim.engine.friction import rub
 from urdfkit.sim.engine.world.meet import collide_pairs, find_again
 from urdfkit.sim.engine.world.near import bound, find_pairs
 
@@ -109,5 +110,5 @@ def touching(floats: Any, integers: Any, pairs: int) -> int:
             return -1
         counts[LAST_PAIRS] = find_again(floats, integers, on_ground, contacts, counts[LAST_PAIRS], first_pair_slot)
     last = field(floats, integers, At.last)
-    turn_remembered(floats, integers, contacts, 2 * integers[DOFS] + integers[MIMICS], first_pair_slot, last, dt)
+    rub(floats, integers, contacts, 2 * integers[DOFS] + integers[MIMICS], first_pair_slot, last, dt)
     return contacts
