@@ -106,9 +106,9 @@ def test_efforts_stay_within_the_limit_and_windup_within_the_clamp(make: Make) -
     # 3 s of a large error would have wound the integral up; its clamp lets it turn round at once.
     error = 1.2 - simulator.state.position("shoulder")
     assert abs(error) > 0.2
-    law = simulator.controllers._loops[0].laws["a"]
-    assert abs(law.follower.integral.part) <= 3.0
-    assert abs(law.follower.integral._sum) <= 3.0 / 50.0 + 1e-12
+    engine = simulator._engine
+    assert engine.ki[0] == 50.0
+    assert 0.0 < engine.integral[0] <= 3.0 / 50.0 + 1e-12
 
 
 def test_commands_beyond_a_limit_end_there(make: Make) -> None:

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
+
+if TYPE_CHECKING:
+    from urdfkit.sim.controllers.pid import Gains
 
 Array = NDArray[np.float64]
 
@@ -29,6 +32,12 @@ class Servos:
         stiffness: [N·m/rad] or [N/m].
         damping: [N·m·s/rad] or [N·s/m].
         effort: what they can do [N·m] or [N].
+        integral_gain: of the integral of the error.
+        least_integral: least effort that the integral may have.
+        most_integral: most effort.
+        antiwindup: 1 where the integral stops growing there.
+        feedforward: effort beside all that.
+        integral: of the error, up to now.
     """
 
     position: Array
@@ -36,6 +45,12 @@ class Servos:
     stiffness: Array
     damping: Array
     effort: Array
+    integral_gain: Array
+    least_integral: Array
+    most_integral: Array
+    antiwindup: Array
+    feedforward: Array
+    integral: Array
 
 
 class Motors:
@@ -126,10 +141,24 @@ class Motors:
         position: float = 0.0,
         velocity: float = 0.0,
         effort: float = inf,
+        integral: Gains | None = None,
+        feedforward: float = 0.0,
+        anew: bool = False,
     ) -> None:
         """Exert stiffness·(position − q) + damping·(velocity − q̇), at most `effort` [N·m] or [N], until the next call.
 
         The joint's motor is switched off: a joint has one or the other. Zero stiffness and damping is no servo.
+
+        Args:
+            joint: its name.
+            stiffness: [N·m/rad] or [N/m].
+            damping: [N·m·s/rad] or [N·s/m].
+            position: [rad] or [m].
+            velocity: [rad/s] or [m/s].
+            effort: limit of the whole [N·m] or [N].
+            integral: gain and bounds of the integral part; of the error of velocity where there is no stiffness.
+            feedforward: a further part [N·m] or [N].
+            anew: forget the integral up to now.
 
         Raises:
             SimulationError: no such joint, or a value that is no finite number or negative where that makes no sense.
@@ -143,6 +172,13 @@ class Motors:
         servos = self._servos
         servos.position[index], servos.velocity[index] = position, velocity
         servos.stiffness[index], servos.damping[index], servos.effort[index] = stiffness, damping, effort
+        servos.feedforward[index] = feedforward
+        servos.integral_gain[index] = 0.0 if integral is None else integral.i
+        if integral is not None:
+            servos.least_integral[index], servos.most_integral[index] = integral.i_min, integral.i_max
+            servos.antiwindup[index] = integral.antiwindup
+        if anew or integral is None:
+            servos.integral[index] = 0.0
 
     def move_base(self, linear: Sequence[float], angular: Sequence[float]) -> None:
         """Give the floating base a velocity, once, in its own axes [m/s, rad/s]; the step that follows may change it.
@@ -170,7 +206,7 @@ class Motors:
         self._velocity[:] = 0.0
         self._effort[:] = 0.0
         self._applied[:] = 0.0
-        self._servos.stiffness[:] = self._servos.damping[:] = 0.0
+        self._servos.stiffness[:] = self._servos.damping[:] = self._servos.integral_gain[:] = 0.0
 
     @property
     def has_goals(self) -> bool:
@@ -194,7 +230,7 @@ class Motors:
             raise SimulationError(f"joint `{joint}`: {velocity} with effort {effort} is no motor target")
         self._velocity[index] = velocity
         self._effort[index] = effort
-        self._servos.stiffness[index] = self._servos.damping[index] = 0.0
+        self._servos.stiffness[index] = self._servos.damping[index] = self._servos.integral_gain[index] = 0.0
 
     def _checked(self, joint: str) -> int:
         if joint not in self._index:

@@ -28,7 +28,10 @@ from urdfkit.sim.surfaces import surfaces_of
 
 Array = NDArray[np.float64]
 
-SERVO_ARRAYS = ("position_target", "velocity_target", "kp", "kd", "servo_effort")
+SERVO_ARRAYS = (
+    "position_target", "velocity_target", "kp", "kd", "servo_effort",
+    "ki", "i_min", "i_max", "antiwindup", "feedforward", "integral",
+)  # fmt: skip
 """The engine's arrays of `Servos`, in its order."""
 
 APPROACH_RATE = 100.0

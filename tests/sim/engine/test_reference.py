@@ -61,3 +61,16 @@ def test_trajectories_agree(engine_of, model):
     for one, other in zip(*forces, strict=True):
         assert one[:2] == other[:2]
         assert one[2:] == pytest.approx(other[2:], abs=1e-9)
+
+
+@pytest.mark.parametrize("antiwindup", [0.0, 1.0])
+def test_integral_gains_agree(engine_of, antiwindup):
+    states = []
+    for engine in pair(engine_of, "arm"):
+        engine.kp[:], engine.kd[:], engine.position_target[:] = 80.0, 8.0, 0.3
+        engine.kp[6], engine.velocity_target[6] = 0.0, 0.2
+        engine.ki[:], engine.i_min[:], engine.i_max[:] = 60.0, -2.0, 3.0
+        engine.antiwindup[:], engine.feedforward[2] = antiwindup, 0.4
+        engine.step(400)
+        states.append(np.concatenate([state(engine), engine.effort, engine.integral]))
+    assert states[0] == pytest.approx(states[1], abs=1e-8)

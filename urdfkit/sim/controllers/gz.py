@@ -127,14 +127,13 @@ class JointPositionController(Controller):
                 handle.turn(motors, min(joint.most, max(-joint.most, error / self._dt)))
             self._wake = state.step + 1
             return
-        rest = joint.gains.period
         for follower in joint.followers:
             # The command is clamped between bounds that need not lie evenly about zero.
             middle, half = joint.bounds(follower.handle)
             follower.follow(state, motors, self._wanted, feedforward=joint.offset - middle, limit=half)
             if middle:
                 motors.exert(follower.handle.name, middle)
-        self._wake = NEVER if rest == inf else state.step + max(1, round(rest / self._dt))
+        self._wake = NEVER
 
     def read(self, state: State) -> None:
         """Do nothing: it publishes nothing."""

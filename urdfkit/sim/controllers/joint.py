@@ -102,37 +102,34 @@ class JointHandle:
         motors: Motors,
         gains: Gains,
         *,
-        now: float,
         position: float,
         velocity: float = 0.0,
-        integral: float = 0.0,
         feedforward: float = 0.0,
         limit: float = inf,
+        anew: bool = False,
     ) -> None:
-        """Exert p·(position − q) + d·(velocity − q̇) + `integral` + `feedforward`, within the limit.
+        """Exert p·(position − q) + d·(velocity − q̇) + i·∫(position − q) + `feedforward`, within the limit.
 
         Args:
             motors: what to write to.
-            gains: p and d.
-            now: where the joint is [rad] or [m].
-            position: where it should be.
+            gains: p, i and d.
+            position: where it should be [rad] or [m].
             velocity: how fast it should be [rad/s] or [m/s].
-            integral: the integral part [N·m] or [N].
-            feedforward: a further part.
+            feedforward: a further part [N·m] or [N].
             limit: besides the joint's own [N·m] or [N].
+            anew: forget the integral up to now.
         """
-        extra = integral + feedforward
         most = min(self.limit, limit)
-        if gains.p > 0.0:
-            position += extra / gains.p
-        elif gains.d > 0.0:
-            velocity += extra / gains.d
-        else:
-            self.exert(motors, min(most, max(-most, extra)))
+        integral = gains if gains.integrates else None
+        if gains.p == gains.d == 0.0 and integral is None:
+            self.exert(motors, min(most, max(-most, feedforward)))
             return
         self._driven = True
         motors.exert(self.name, 0.0)
-        motors.servo(self.name, stiffness=gains.p, damping=gains.d, position=position, velocity=velocity, effort=most)
+        motors.servo(
+            self.name, stiffness=gains.p, damping=gains.d, position=position, velocity=velocity, effort=most,
+            integral=integral, feedforward=feedforward, anew=anew,
+        )  # fmt: skip
 
     def chase(
         self,
@@ -144,6 +141,7 @@ class JointHandle:
         integral: float,
         period: float,
         limit: float = inf,
+        anew: bool = False,
     ) -> None:
         """Exert p·(velocity − q̇) + d·(its rate of change) + `integral`, within the limit.
 
@@ -155,19 +153,24 @@ class JointHandle:
             gains: of the velocity error.
             now: the joint's velocity [rad/s] or [m/s].
             velocity: the one it should have.
-            integral: the integral part [N·m] or [N].
+            integral: the integral part [N·m] or [N], where there is a derivative; the engine finds it otherwise.
             period: until the next call [s].
             limit: besides the joint's own [N·m] or [N].
+            anew: forget the integral up to now.
         """
         inertia = gains.d / period
         damping = gains.p + inertia
         if damping <= 0.0:
             self.exert(motors, integral)
             return
-        goal = (gains.p * min(self.fastest, max(-self.fastest, velocity)) + inertia * now + integral) / damping
+        wanted = min(self.fastest, max(-self.fastest, velocity))
+        goal = wanted if inertia == 0.0 else (gains.p * wanted + inertia * now) / damping
         self._driven = True
         motors.exert(self.name, 0.0)
-        motors.servo(self.name, stiffness=0.0, damping=damping, velocity=goal, effort=min(self.limit, limit))
+        motors.servo(
+            self.name, stiffness=0.0, damping=damping, velocity=goal, effort=min(self.limit, limit),
+            integral=gains if inertia == 0.0 and gains.integrates else None, feedforward=integral, anew=anew,
+        )  # fmt: skip
 
     def release(self, motors: Motors) -> None:
         """Let the joint go."""
@@ -181,6 +184,7 @@ class Follower:
         self.handle = handle
         self.gains = gains
         self.integral = Integral(gains)
+        self._of_velocity = False
 
     def follow(
         self,
@@ -192,19 +196,28 @@ class Follower:
         limit: float = inf,
     ) -> None:
         """Servo towards a position [rad] or [m] and velocity [rad/s] or [m/s]."""
-        now = state.position(self.handle.name)
-        integral = self.integral.update(state.t, position - now) if self.gains.integrates else 0.0
+        self._of_velocity = False
         self.handle.servo(
-            motors, self.gains, now=now, position=position, velocity=velocity,
-            integral=integral, feedforward=feedforward, limit=limit,
+            motors, self.gains, position=position, velocity=velocity, feedforward=feedforward, limit=limit,
+            anew=self.integral.begins(),
         )  # fmt: skip
 
     def chase(self, state: State, motors: Motors, velocity: float, period: float, limit: float = inf) -> None:
         """Servo towards a velocity [rad/s] or [m/s]."""
         now = state.velocity(self.handle.name)
-        integral = self.integral.update(state.t, velocity - now) if self.gains.integrates else 0.0
-        self.handle.chase(motors, self.gains, now=now, velocity=velocity, integral=integral, period=period, limit=limit)
+        anew, self._of_velocity = self.integral.begins(), True
+        integral = (
+            self.integral.update(state.t, velocity - now) if self.gains.integrates and not self._by_engine else 0.0
+        )
+        self.handle.chase(
+            motors, self.gains, now=now, velocity=velocity, integral=integral, period=period, limit=limit, anew=anew
+        )
 
     def rest(self) -> float:
         """Return how long the joint needs no attention [s]."""
-        return self.gains.period
+        return inf if self._by_engine or not self.gains.integrates else 0.0
+
+    @property
+    def _by_engine(self) -> bool:
+        """Whether the engine integrates: not where a velocity servo is none, or its target moves by a derivative."""
+        return self.gains.p > 0.0 and self.gains.d == 0.0 if self._of_velocity else True

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
 from typing import TYPE_CHECKING
 
 from urdfkit.errors import SimulationError
@@ -12,12 +11,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from urdfkit.description.control import Settings
-
-UPDATES_PER_TIME_CONSTANT = 100
-"""How often an integral is brought up to date within p/i, the time it takes to outgrow the proportional part."""
-
-SLOWEST = 0.01
-"""But it is brought up to date at least this often [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,13 +37,6 @@ class Gains:
     def integrates(self) -> bool:
         """Whether there is an integral part."""
         return self.i != 0.0 and self.i_max > self.i_min
-
-    @property
-    def period(self) -> float:
-        """How often the integral has to be brought up to date [s]; infinite where there is none."""
-        if not self.integrates:
-            return inf
-        return min(SLOWEST, self.p / self.i / UPDATES_PER_TIME_CONSTANT) if self.p > 0.0 else 0.0
 
 
 def read_gains(settings: Settings, path: str, note: Callable[[str], None]) -> Gains | None:
@@ -98,7 +84,13 @@ class Integral:
         """Forget the past."""
         self._sum = 0.0
         self._last: tuple[float, float] | None = None
+        self._fresh = True
         self.part = 0.0
+
+    def begins(self) -> bool:
+        """Return whether the past has been forgotten since the last call."""
+        fresh, self._fresh = self._fresh, False
+        return fresh
 
     def update(self, t: float, error: float) -> float:
         """Integrate up to time `t` [s], straight from the last error to this one; return the integral part."""

@@ -124,6 +124,13 @@ FLOATS: dict[str, Size] = {
     "shape_mu2": ("k",),
     "floor_mu2": ("k",),
     "shape_along": ("k", "3"),
+    "ki": ("d",),
+    "i_min": ("d",),
+    "i_max": ("d",),
+    "antiwindup": ("d",),
+    "feedforward": ("d",),
+    "integral": ("d",),
+    "i_part": ("d",),
 }
 
 INTEGERS: dict[str, Size] = {

@@ -34,6 +34,12 @@ class Part:
         kd: its damping towards `velocity_target`, [N·m·s/rad] or [N·s/m]; 0 is none; shape (nv,).
         velocity_target: [rad/s or m/s]; shape (nv,).
         servo_effort: what the servo can do [N·m or N]; infinite at the start; shape (nv,).
+        ki: gain of the integral of the servo's error, of velocity where `kp` is 0 and `kd` is not; shape (nv,).
+        i_min: least effort of the integral [N·m or N]; shape (nv,).
+        i_max: most effort of the integral; both are 0 at the start, so that it has none; shape (nv,).
+        antiwindup: 1 where the integral stops growing there, 0 where only its effort does; shape (nv,).
+        feedforward: effort added to the servo's, within its limit [N·m or N]; shape (nv,).
+        integral: of the error [rad·s, m·s, rad or m]; shape (nv,).
     """
 
     def __init__(self, kinematics: Kinematics, arrays: Arrays, tree: int) -> None:
@@ -45,6 +51,8 @@ class Part:
         self.motor_velocity, self.motor_effort, self.applied = a["motor_velocity"], a["motor_effort"], a["applied"]
         self.position_target, self.velocity_target = a["position_target"], a["velocity_target"]
         self.kp, self.kd, self.servo_effort = a["kp"], a["kd"], a["servo_effort"]
+        self.ki, self.i_min, self.i_max, self.antiwindup = a["ki"], a["i_min"], a["i_max"], a["antiwindup"]
+        self.feedforward, self.integral = a["feedforward"], a["integral"]
         self._own_v, self._own_effort, self._own_tau = a["v"], a["effort"], a["tau"]
         self._v, self._effort, self._tau = _read_only(a["v"]), _read_only(a["effort"]), _read_only(a["tau"])
 
@@ -112,7 +120,7 @@ class Part:
         v = np.zeros(model.nv) if v is None else _checked("v", v, model.nv)
         set_configuration(model, self._arrays, q, self._tree)
         self._own_v[:] = v
-        self._own_effort[:] = self._own_tau[:] = 0.0
+        self._own_effort[:] = self._own_tau[:] = self.integral[:] = 0.0
 
 
 _PER_DOF = (
@@ -124,6 +132,12 @@ _PER_DOF = (
     "kp",
     "kd",
     "servo_effort",
+    "ki",
+    "i_min",
+    "i_max",
+    "antiwindup",
+    "feedforward",
+    "integral",
     "v",
     "effort",
     "tau",

@@ -67,6 +67,7 @@ class Reference:
         move(a, a["s"], a["v"], 0.5 * dt)
         start = a["v"].copy()
         M, bias = self._terms(start)
+        self._set_integral_parts(start)
         a["last"][:] = a["memory"]
         contact_rows = self._contact_rows(start)
         a["memory"][:] = 0.0
@@ -79,6 +80,7 @@ class Reference:
         for k in range(int(a["counts"][FOUND_CONTACTS])):
             a["contact_impulse"][k] = self.impulses[k]
         self._account(a["v"].copy())
+        self._grow_integrals(0.5 * (start + a["v"]))
         move(a, a["s"], a["v"], 0.5 * dt)
         a["counts"][STEPS] += 1
 
@@ -96,7 +98,7 @@ class Reference:
         """Find the velocities of an island's dofs."""
         a, n = self.a, len(start)
         own = np.ix_(dofs, dofs)
-        has_servo = bool((a["kp"][dofs] != 0.0).any() or (a["kd"][dofs] != 0.0).any())
+        has_servo = bool(self._servos()[dofs].any())
         joint_rows = self._joint_rows(start, dofs)
         limited = any(n <= row.slot < 2 * n for row in joint_rows)
         rows = joint_rows + contact_rows
@@ -295,7 +297,7 @@ class Reference:
         a, dt = self.a, self.dt
         softness = a["damping"] * np.array([late_share(z) for z in dt * a["damping"] / np.diag(M)])
         effort = a["applied"] - bias - a["damping"] * v + self._beside(v)
-        for d in np.flatnonzero((a["kp"] != 0.0) | (a["kd"] != 0.0)):
+        for d in np.flatnonzero(self._servos()):
             if a["saturated"][d] == 0:
                 effort[d] += self._servo(v)[d]
                 softness[d] += a["kd"][d] + dt * a["kp"][d]
@@ -320,12 +322,34 @@ class Reference:
         a["counts"][ITERATED] += guesses <= 0
         return np.array(free + np.linalg.solve(inertia, J.T @ a["x"][:n]))
 
+    def _servos(self) -> NDArray[np.bool_]:
+        a = self.a
+        return np.array((a["kp"] != 0.0) | (a["kd"] != 0.0) | (a["ki"] != 0.0))
+
     def _servo(self, v: Array) -> Array:
         a = self.a
         position = a["s"][a["dof_s"]]
-        return np.array(
-            a["kp"] * (a["position_target"] - position - self.dt * v) + a["kd"] * (a["velocity_target"] - v)
-        )
+        effort = a["kp"] * (a["position_target"] - position - self.dt * v) + a["kd"] * (a["velocity_target"] - v)
+        return np.where(self._servos(), effort + a["i_part"], 0.0)
+
+    def _servo_error(self, v: Array) -> Array:
+        a = self.a
+        of_position = (a["kp"] != 0.0) | (a["kd"] == 0.0)
+        return np.where(of_position, a["position_target"] - a["s"][a["dof_s"]], a["velocity_target"] - v)
+
+    def _set_integral_parts(self, v: Array) -> None:
+        a = self.a
+        part = a["ki"] * (a["integral"] + 0.5 * self.dt * self._servo_error(v))
+        a["i_part"][:] = a["feedforward"] + np.clip(part, a["i_min"], a["i_max"])
+
+    def _grow_integrals(self, mean: Array) -> None:
+        a = self.a
+        error = self._servo_error(mean)
+        for d in np.flatnonzero(a["ki"]):
+            a["integral"][d] += self.dt * error[d]
+            if a["antiwindup"][d]:
+                ends = sorted((a["i_min"][d] / a["ki"][d], a["i_max"][d] / a["ki"][d]))
+                a["integral"][d] = min(ends[1], max(ends[0], a["integral"][d]))
 
     def _overloaded(self, v: Array, dofs: Array, release: bool) -> bool:
         a = self.a

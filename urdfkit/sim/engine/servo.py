@@ -21,8 +21,68 @@ def servo_effort_at(floats: Any, integers: Any, d: int, position: float, velocit
     velocity_target = field(floats, integers, At.velocity_target)
     kp = field(floats, integers, At.kp)
     kd = field(floats, integers, At.kd)
+    i_part = field(floats, integers, At.i_part)
     effort: float = kp[d] * (position_target[d] - position - dt * velocity) + kd[d] * (velocity_target[d] - velocity)
-    return effort
+    return effort + i_part[d]
+
+
+@inlined
+def is_servo(floats: Any, integers: Any, d: int) -> bool:
+    """Return whether a dof has a servo."""
+    kp = field(floats, integers, At.kp)
+    kd = field(floats, integers, At.kd)
+    ki = field(floats, integers, At.ki)
+    return bool(kp[d] != 0.0 or kd[d] != 0.0 or ki[d] != 0.0)
+
+
+@inlined
+def servo_error(floats: Any, integers: Any, d: int, velocity: float) -> float:
+    """Return what a servo integrates: the error of position [rad or m], or of velocity where it has no stiffness."""
+    dof_s = field(integers, integers, At.dof_s)
+    s = field(floats, integers, At.s)
+    kp = field(floats, integers, At.kp)
+    kd = field(floats, integers, At.kd)
+    position_target = field(floats, integers, At.position_target)
+    velocity_target = field(floats, integers, At.velocity_target)
+    if kp[d] != 0.0 or kd[d] == 0.0:
+        # Halfway through the step, where coordinates are now, is the mean over it, to second order.
+        return float(position_target[d] - s[dof_s[d]])
+    return float(velocity_target[d] - velocity)
+
+
+@inlined
+def set_integral_part(floats: Any, integers: Any, d: int, dt: float) -> None:
+    """Find the effort of a servo's integral halfway through the step, and what is fed forward [N·m or N]."""
+    v = field(floats, integers, At.v_start)
+    ki = field(floats, integers, At.ki)
+    i_min = field(floats, integers, At.i_min)
+    i_max = field(floats, integers, At.i_max)
+    feedforward = field(floats, integers, At.feedforward)
+    integral = field(floats, integers, At.integral)
+    i_part = field(floats, integers, At.i_part)
+    i_part[d] = feedforward[d]
+    if ki[d] != 0.0:
+        part = ki[d] * (integral[d] + 0.5 * dt * servo_error(floats, integers, d, v[d]))
+        i_part[d] += min(i_max[d], max(i_min[d], part))
+
+
+@inlined
+def grow_integral(floats: Any, integers: Any, d: int, dt: float) -> None:
+    """Integrate a servo's error over the step; with anti-windup only as far as it has an effect.
+
+    Source: control_toolbox (ROS noetic), src/pid.cpp, computeCommand.
+    """
+    v = field(floats, integers, At.v)
+    v_start = field(floats, integers, At.v_start)
+    ki = field(floats, integers, At.ki)
+    i_min = field(floats, integers, At.i_min)
+    i_max = field(floats, integers, At.i_max)
+    antiwindup = field(floats, integers, At.antiwindup)
+    integral = field(floats, integers, At.integral)
+    integral[d] += dt * servo_error(floats, integers, d, 0.5 * (v_start[d] + v[d]))
+    if antiwindup[d] != 0.0:
+        one, other = i_min[d] / ki[d], i_max[d] / ki[d]
+        integral[d] = min(max(one, other), max(min(one, other), integral[d]))
 
 
 @inlined
@@ -66,8 +126,9 @@ def smooth_motion(floats: Any, integers: Any, first: int, beyond: int, dt: float
         effort = applied[d] - bias[d] - damping[d] * v[d]
         effort += friction_beside_motor(floats, integers, d, v)
         softness = damping[d] * late_share(dt * damping[d] / M[row + d])
-        if kp[d] != 0.0 or kd[d] != 0.0:
+        if is_servo(floats, integers, d):
             has_servo = True
+            set_integral_part(floats, integers, d, dt)
             if saturated[d] == 0:
                 effort += servo_effort_at(floats, integers, d, s[dof_s[d]], v[d], dt)
                 softness += kd[d] + dt * kp[d]
@@ -100,13 +161,11 @@ def overloaded(floats: Any, integers: Any, first: int, beyond: int, dt: float, r
     dof_s = field(integers, integers, At.dof_s)
     s = field(floats, integers, At.s)
     v = field(floats, integers, At.v)
-    kp = field(floats, integers, At.kp)
-    kd = field(floats, integers, At.kd)
     servo_effort = field(floats, integers, At.servo_effort)
     saturated = field(integers, integers, At.saturated)
     changed = False
     for d in range(first, beyond):
-        if kp[d] != 0.0 or kd[d] != 0.0:
+        if is_servo(floats, integers, d):
             needed = servo_effort_at(floats, integers, d, s[dof_s[d]], v[d], dt)
             most = servo_effort[d] * (1.0 + 1e-12)
             now = 1 if needed > most else (-1 if needed < -most else 0)
@@ -134,6 +193,7 @@ def account(floats: Any, integers: Any, first: int, beyond: int, dt: float) -> N
     memory = field(floats, integers, At.memory)
     effort = field(floats, integers, At.effort)
     tau = field(floats, integers, At.tau)
+    ki = field(floats, integers, At.ki)
     for d in range(first, beyond):
         row = memory[d] / dt
         most = motor_effort[d]
@@ -144,9 +204,13 @@ def account(floats: Any, integers: Any, first: int, beyond: int, dt: float) -> N
             motor = beside
         else:
             motor = min(most, max(-most, row))
-        if saturated[d] != 0:
-            servo = saturated[d] * servo_effort[d]
-        else:
-            servo = servo_effort_at(floats, integers, d, s[dof_s[d]], v[d], dt)
+        servo = 0.0
+        if is_servo(floats, integers, d):
+            if saturated[d] != 0:
+                servo = saturated[d] * servo_effort[d]
+            else:
+                servo = servo_effort_at(floats, integers, d, s[dof_s[d]], v[d], dt)
+            if ki[d] != 0.0:
+                grow_integral(floats, integers, d, dt)
         effort[d] = motor + servo
         tau[d] = row + beside + servo + applied[d] - damping[d] * v[d]

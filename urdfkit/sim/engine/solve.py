@@ -34,7 +34,11 @@ from urdfkit.sim.engine.linear import eliminate_and_solve, factor_and_solve
 
 SOFTNESS = 1e-9
 """Diagonal added to A, relative to it: it shares a load among redundant contacts."""
-MEMORY = 0.99
+SLIDING_SOFTNESS = 1e-6
+"""The same where contacts slide: there the way a load is shared moves the bodies, so rounding must not decide on it."""
+ROUNDS = 6
+"""Most solutions for a softness that each starts from the one before, so that none of it is left in the law."""
+MEMORY = 0.999
 """How much of the last step's impulse the softness is measured from: a load that stays lets nothing creep."""
 ATTEMPTS = 12
 """Most guesses for one softness."""
@@ -91,7 +95,8 @@ def try_guess(floats: Any, integers: Any, rows: int, rest: Any, softness: float)
             x[k] = high[k]
         k += 1
     if sliding:
-        return -1 if try_sliding(floats, integers, rows, n, rest, softness) else 0
+        soft = max(softness, SLIDING_SOFTNESS)
+        return -1 if try_sliding(floats, integers, rows, n, rest, soft) else 0
     for a in range(n):
         i = index[a]
         total = -g[i] + softness * A[i * rows + i] * rest[i]
@@ -242,14 +247,30 @@ def approach(floats: Any, integers: Any, rows: int, tiny: float) -> int:
             for k in range(rows):
                 off = max(off, softness * A[k * rows + k] * abs(x[k] - near[k]))
                 near[k] = x[k]
-            if off < tiny or softness == SOFTNESS:
+            if off < tiny or softness == SLIDING_SOFTNESS:
                 return tried if sweeps == 0 else -tried
-            softness = max(SOFTNESS, HARDENING * softness)
+            softness = max(SLIDING_SOFTNESS, HARDENING * softness)
         sweeps = max(10, 3 * sweeps)
         sweep(floats, integers, rows, near, sweeps, tiny)
     for k in range(rows):
         x[k] = near[k]
     return 0
+
+
+@inlined
+def softened(floats: Any, integers: Any, rows: int, rest: Any) -> float:
+    """Return how much velocity the softness of sliding guesses lets through [m/s or rad/s], 0 where nothing slides."""
+    A = field(floats, integers, At.A)
+    x = field(floats, integers, At.x)
+    mu = field(floats, integers, At.mu)
+    state = field(integers, integers, At.state)
+    sliding = False
+    off = 0.0
+    for k in range(rows):
+        if state[k] == HOLDS or (state[k] == SLIDES and mu[k] > 0.0):
+            sliding = sliding or state[k] == SLIDES
+            off = max(off, A[k * rows + k] * abs(x[k] - rest[k]))
+    return SLIDING_SOFTNESS * off if sliding else 0.0
 
 
 @inlined
@@ -275,6 +296,8 @@ def solve(floats: Any, integers: Any, rows: int) -> int:
         How many guesses it took, negative if it took sweeps too; 0 if x only comes near the law.
     """
     g = field(floats, integers, At.g)
+    x = field(floats, integers, At.x)
+    near = field(floats, integers, At.near_x)
     before = field(floats, integers, At.before)
     largest = 0.0
     for k in range(rows):
@@ -284,7 +307,16 @@ def solve(floats: Any, integers: Any, rows: int) -> int:
     first_guess(floats, integers, rows, tiny)
     for k in range(rows):
         before[k] *= MEMORY
-    wrong = attempts(floats, integers, rows, before, SOFTNESS, tiny)
-    if wrong < ATTEMPTS:
-        return wrong + 1
-    return approach(floats, integers, rows, tiny)
+    rest = before
+    tried = 0
+    for _ in range(ROUNDS):
+        wrong = attempts(floats, integers, rows, rest, SOFTNESS, tiny)
+        tried += wrong + 1
+        if wrong == ATTEMPTS:
+            return approach(floats, integers, rows, tiny)
+        if softened(floats, integers, rows, rest) <= tiny:
+            break
+        rest = near
+        for k in range(rows):
+            near[k] = x[k]
+    return tried
