@@ -169,3 +169,16 @@ def test_divergence_of_a_free_robot_names_its_root_link(engine_of):
     engine.reset(engine.kinematics.neutral(), np.array([1e300, 0.0, 0.0, 0.0, 0.0, 0.0]))
     with pytest.raises(SimulationError, match="root link `body`"):
         engine.step(10)
+
+
+def test_a_joint_that_starts_far_beyond_its_limit_comes_back_slowly(engine_of):
+    engine = engine_of("arm")
+    q = engine.kinematics.neutral()
+    q[1] = 3.5  # the limit is 2.5
+    engine.reset(q)
+    speeds = []
+    for _ in range(1500):
+        engine.step()
+        speeds.append(abs(engine.v).max())
+    assert engine.positions[1] < 2.6
+    assert max(speeds) < 60.0

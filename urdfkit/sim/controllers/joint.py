@@ -1,7 +1,7 @@
 """JointHandle: one joint as controllers see it; it turns their commands into motor and servo targets.
 
 A PID law runs as a servo of the engine, which acts on where the step ends: no gain makes it unstable at any step. The
-integral part is added by moving the servo's target, so that the effort limit holds for the sum of all parts.
+effort limit holds for the sum of all parts.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from urdfkit.sim.engine.limits import PASSING
 from urdfkit.sim.engine.parts import find_candidates, find_contacts, find_impulses
 from urdfkit.sim.engine.reference_motion import go, inward, move, outward
 from urdfkit.sim.engine.reference_trees import Tree, free_model, model_of
-from urdfkit.sim.engine.rows import FASTEST_RECOVERY, MOBILITY, RECOVERY
+from urdfkit.sim.engine.rows import FASTEST_JOINT, FASTEST_RECOVERY, MOBILITY, RECOVERY
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS
 from urdfkit.sim.engine.state import configuration, turning
 from urdfkit.sim.engine.warmup import load_compiled, world_digest
@@ -207,7 +207,8 @@ class Reference:
             if m >= 0:
                 J[m] -= a["mimic_factor"][k]
                 target = target + a["mimic_factor"][k] * position[m]
-            rows.append(Row(J, RECOVERY * (position[d] - target) / dt, -np.inf, np.inf, 0.0, 2 * n + k))
+            b = float(np.clip(RECOVERY * (position[d] - target) / dt, -FASTEST_JOINT, FASTEST_JOINT))
+            rows.append(Row(J, b, -np.inf, np.inf, 0.0, 2 * n + k))
         for d in range(n):
             effort, rub, target = a["motor_effort"][d], a["friction"][d], a["motor_velocity"][d]
             if effort > 0.0 and (rub == 0.0 or (effort > rub and target != 0.0)):
@@ -399,4 +400,4 @@ class Row(NamedTuple):
 
 def recovery(gap: float, dt: float) -> float:
     """Return the bias of a gap [m/s]."""
-    return gap / dt if gap > 0.0 else RECOVERY * gap / dt
+    return gap / dt if gap > 0.0 else max(RECOVERY * gap / dt, -FASTEST_JOINT)

@@ -21,6 +21,8 @@ FASTEST_RECOVERY = 0.1
 
 Gazebo's counterpart is ``<max_vel>``, 0.01 m/s where nothing is said.
 """
+FASTEST_JOINT = 1.0
+"""The same for joints far beyond a limit, or off the position that they mimic [rad/s or m/s]."""
 MOBILITY = 1e-18
 """Square of the share of a point's velocities along the normal below which nothing can move it that way.
 
@@ -32,7 +34,7 @@ contact is left out, and with it its friction.
 @inlined
 def recovery_speed(gap: float, dt: float) -> float:
     """Return the bias of a gap: it may close within the step when open, is taken back slowly when violated [m/s]."""
-    return gap / dt if gap > 0.0 else RECOVERY * gap / dt
+    return gap / dt if gap > 0.0 else max(RECOVERY * gap / dt, -FASTEST_JOINT)
 
 
 @inlined
@@ -84,7 +86,7 @@ def joint_rows(floats: Any, integers: Any, rows: int, tree: int, dofs: int, widt
     for k in range(tree_mimic[tree], tree_mimic[tree + 1]):
         d, m, factor = mimic_dof[k], mimic_master[k], mimic_factor[k]
         target = mimic_offset[k] + (factor * s[dof_s[m]] if m >= 0 else 0.0)
-        b = RECOVERY * (s[dof_s[d]] - target) / dt
+        b = min(FASTEST_JOINT, max(-FASTEST_JOINT, RECOVERY * (s[dof_s[d]] - target) / dt))
         at = 2 * dofs + k
         open_row(floats, integers, rows, width, row_tree, b, -math.inf, math.inf, at)
         Y[rows * width + d - first] = 1.0
