@@ -19,6 +19,7 @@ from urdfkit.sim.engine.dynamics import FREE, PLANAR
 from urdfkit.sim.engine.limits import PASSING
 from urdfkit.sim.engine.parts import find_candidates, find_contacts, find_impulses
 from urdfkit.sim.engine.reference_motion import go, inward, move, outward
+from urdfkit.sim.engine.reference_servo import grow_integrals, servo_effort, servos, set_integral_parts
 from urdfkit.sim.engine.reference_trees import Tree, free_model, model_of
 from urdfkit.sim.engine.rows import FASTEST_JOINT, FASTEST_RECOVERY, MOBILITY, RECOVERY
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS
@@ -67,7 +68,7 @@ class Reference:
         move(a, a["s"], a["v"], 0.5 * dt)
         start = a["v"].copy()
         M, bias = self._terms(start)
-        self._set_integral_parts(start)
+        set_integral_parts(a, start, dt)
         a["last"][:] = a["memory"]
         contact_rows = self._contact_rows(start)
         a["memory"][:] = 0.0
@@ -80,7 +81,7 @@ class Reference:
         for k in range(int(a["counts"][FOUND_CONTACTS])):
             a["contact_impulse"][k] = self.impulses[k]
         self._account(a["v"].copy())
-        self._grow_integrals(0.5 * (start + a["v"]))
+        grow_integrals(a, 0.5 * (start + a["v"]), dt)
         move(a, a["s"], a["v"], 0.5 * dt)
         a["counts"][STEPS] += 1
 
@@ -98,7 +99,7 @@ class Reference:
         """Find the velocities of an island's dofs."""
         a, n = self.a, len(start)
         own = np.ix_(dofs, dofs)
-        has_servo = bool(self._servos()[dofs].any())
+        has_servo = bool(servos(a)[dofs].any())
         joint_rows = self._joint_rows(start, dofs)
         limited = any(n <= row.slot < 2 * n for row in joint_rows)
         rows = joint_rows + contact_rows
@@ -298,9 +299,9 @@ class Reference:
         a, dt = self.a, self.dt
         softness = a["damping"] * np.array([late_share(z) for z in dt * a["damping"] / np.diag(M)])
         effort = a["applied"] - bias - a["damping"] * v + self._beside(v)
-        for d in np.flatnonzero(self._servos()):
+        for d in np.flatnonzero(servos(a)):
             if a["saturated"][d] == 0:
-                effort[d] += self._servo(v)[d]
+                effort[d] += servo_effort(a, v, self.dt)[d]
                 softness[d] += a["kd"][d] + dt * a["kp"][d]
             else:
                 effort[d] += a["saturated"][d] * a["servo_effort"][d]
@@ -323,38 +324,9 @@ class Reference:
         a["counts"][ITERATED] += guesses <= 0
         return np.array(free + np.linalg.solve(inertia, J.T @ a["x"][:n]))
 
-    def _servos(self) -> NDArray[np.bool_]:
-        a = self.a
-        return np.array((a["kp"] != 0.0) | (a["kd"] != 0.0) | (a["ki"] != 0.0))
-
-    def _servo(self, v: Array) -> Array:
-        a = self.a
-        position = a["s"][a["dof_s"]]
-        effort = a["kp"] * (a["position_target"] - position - self.dt * v) + a["kd"] * (a["velocity_target"] - v)
-        return np.where(self._servos(), effort + a["i_part"], 0.0)
-
-    def _servo_error(self, v: Array) -> Array:
-        a = self.a
-        of_position = (a["kp"] != 0.0) | (a["kd"] == 0.0)
-        return np.where(of_position, a["position_target"] - a["s"][a["dof_s"]], a["velocity_target"] - v)
-
-    def _set_integral_parts(self, v: Array) -> None:
-        a = self.a
-        part = a["ki"] * (a["integral"] + 0.5 * self.dt * self._servo_error(v))
-        a["i_part"][:] = a["feedforward"] + np.clip(part, a["i_min"], a["i_max"])
-
-    def _grow_integrals(self, mean: Array) -> None:
-        a = self.a
-        error = self._servo_error(mean)
-        for d in np.flatnonzero(a["ki"]):
-            a["integral"][d] += self.dt * error[d]
-            if a["antiwindup"][d]:
-                ends = sorted((a["i_min"][d] / a["ki"][d], a["i_max"][d] / a["ki"][d]))
-                a["integral"][d] = min(ends[1], max(ends[0], a["integral"][d]))
-
     def _overloaded(self, v: Array, dofs: Array, release: bool) -> bool:
         a = self.a
-        needed, most = self._servo(v), a["servo_effort"] * (1.0 + 1e-12)
+        needed, most = servo_effort(a, v, self.dt), a["servo_effort"] * (1.0 + 1e-12)
         now = (needed > most).astype(int) - (needed < -most).astype(int)
         if not release:
             now = np.where(a["saturated"] != 0, a["saturated"], now)
@@ -375,7 +347,9 @@ class Reference:
         row, most, beside = a["memory"][:n] / self.dt, a["motor_effort"], self._beside(v)
         weak = (a["friction"] > 0.0) & (most <= a["friction"]) & (a["motor_velocity"] != 0.0)
         motor = np.where(most == 0.0, 0.0, np.where(weak, beside, np.clip(row, -most, most)))
-        servo = np.where(a["saturated"] != 0, a["saturated"] * np.nan_to_num(a["servo_effort"]), self._servo(v))
+        servo = np.where(
+            a["saturated"] != 0, a["saturated"] * np.nan_to_num(a["servo_effort"]), servo_effort(a, v, self.dt)
+        )
         a["effort"][:] = motor + servo
         a["tau"][:] = row + beside + servo + a["applied"] - a["damping"] * v
 
