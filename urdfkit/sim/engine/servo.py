@@ -22,8 +22,9 @@ def servo_effort_at(floats: Any, integers: Any, d: int, position: float, velocit
     kp = field(floats, integers, At.kp)
     kd = field(floats, integers, At.kd)
     i_part = field(floats, integers, At.i_part)
-    effort: float = kp[d] * (position_target[d] - position - dt * velocity) + kd[d] * (velocity_target[d] - velocity)
-    return effort + i_part[d]
+    effort: float = kp[d] * (position_target[d] - position - dt * velocity) + i_part[d]
+    effort += kd[d] * (velocity_target[d] - velocity)
+    return effort
 
 
 @inlined

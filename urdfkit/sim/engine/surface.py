@@ -42,6 +42,11 @@ class Surface:
     fdir1: Vector | None = None
     frame: str = ""
 
+    @property
+    def mu(self) -> float:
+        """The smaller coefficient."""
+        return min(self.mu1, self.mu2)
+
 
 @dataclass(frozen=True, slots=True)
 class Contact:
