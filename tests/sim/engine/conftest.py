@@ -145,6 +145,12 @@ MODELS = {
 
 
 @pytest.fixture
+def texts() -> dict[str, str]:
+    """Return the URDF of each model by its name."""
+    return MODELS
+
+
+@pytest.fixture
 def engine_of(tmp_path: Path) -> EngineOf:
     """Return a maker of engines: the name of a model here or the text of a URDF, and the engine's own options."""
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import pinocchio as pin
 import pytest
 
 from urdfkit.errors import SimulationError
-from urdfkit.sim.engine import collide
+from urdfkit.sim.engine import Surface, collide
 
 BODY = (
     '<link name="{name}"><inertial><origin xyz="0 0 0.1"/><mass value="1"/>'
@@ -128,6 +129,48 @@ def test_a_hinged_link_that_meets_the_ground_lies_on_it(engine_of):
     assert math.sin(engine.positions[0]) == pytest.approx(0.25, abs=1e-4)
     assert abs(engine.v[0]) < 1e-9
     assert engine.iterated == blows
+
+
+@pytest.mark.parametrize("dt", [0.001, 0.005])
+@pytest.mark.parametrize("sides", [16, 96])
+def test_a_wheel_given_as_a_mesh_rolls(engine_of, texts, tmp_path, sides, dt):
+    import trimesh
+
+    wheel = trimesh.creation.cylinder(radius=0.06, height=0.03, sections=sides)
+    # Anywhere in its own file: what counts is where it is on the joint's axis.
+    wheel.apply_translation((0.2, 0.1, 0.3))
+    wheel.export(tmp_path / "wheel.stl")
+    placed = f'<origin xyz="-0.2 -0.1 -0.3"/><geometry><mesh filename="{tmp_path / "wheel.stl"}"/></geometry>'
+    text = texts["diff_drive"].replace(
+        '<origin xyz="0 0 0" rpy="0 0 0"/><geometry><cylinder radius="0.06" length="0.03"/></geometry>', placed
+    )
+    assert text.count("wheel.stl") == 2
+    engine = engine_of(text, dt=dt, surfaces={"base": Surface(0.0, 0.0)})
+    q = engine.kinematics.neutral()
+    q[2] = 0.06
+    engine.reset(q)
+    engine.motor_effort[6:], engine.motor_velocity[6:] = 1.0, 5.0
+    engine.step(round(1.0 / dt))
+    start = float(engine.q[0])
+    engine.step(round(2.0 / dt))
+    assert engine.q[0] - start == pytest.approx(2.0 * 5.0 * 0.06, rel=1e-3)
+    assert engine.iterated == 0
+
+
+def test_a_round_body_stands_on_its_lowest_corner(engine_of, tmp_path):
+    import trimesh
+
+    ball = trimesh.creation.icosphere(subdivisions=3)
+    ball.apply_scale((0.3, 0.2, 0.1))
+    ball.export(tmp_path / "part.stl")
+    engine = engine_of(MESH.format(file=str(tmp_path / "part.stl")), floating=True)
+    q = engine.kinematics.neutral()
+    q[2] = 0.11
+    engine.reset(q)
+    for _ in range(20):
+        engine.step(100)
+        lowest = (ball.vertices @ pin.Quaternion(engine.q[3:7].copy()).matrix().T)[:, 2].min() + engine.q[2]
+        assert lowest > -1e-4
 
 
 @pytest.mark.parametrize(("dt", "most"), [(0.001, 50.0), (0.005, 1.0)])

@@ -32,11 +32,11 @@ either edge, would scrub whenever the robot turns. Any other cylinder lies on bo
 """
 FEATURES = (1, 8, 6, 6, 2, 0)
 """Features of each kind; a hull has one for each vertex."""
-MOST = (1, 4, 6, 5, 2, 8)
+MOST = (1, 4, 6, 5, 2, 9)
 """Most contacts each kind can have at once."""
 
 DIRECTIONS = 8
-"""A hull touches with the vertices that reach out furthest in so many directions, of those that can touch at all."""
+"""A hull touches with its lowest vertex and those that reach furthest in so many directions, of all that can touch."""
 LEANING = 0.02
 """Tilt [rad] over which the contact of a leaning wheel moves from the middle of its rim to the edge."""
 STANDING = 0.5
@@ -83,11 +83,11 @@ def can_close(gap: float, point: Any, velocity: Any, dt: float) -> bool:
 def find_extremes(
     floats: Any, integers: Any, first: int, beyond: int, axes: Any, centre: Any, floor: float, dt: float, velocity: Any
 ) -> None:
-    """Find, of the vertices of a hull that can touch, those furthest out in each direction."""
+    """Find, of the vertices of a hull that can touch, the lowest and those furthest out in each direction."""
     vertices = field(floats, integers, At.vertices)
     extreme = field(floats, integers, At.extreme)
     extreme_vertex = field(integers, integers, At.extreme_vertex)
-    for j in range(DIRECTIONS):
+    for j in range(DIRECTIONS + 1):
         extreme[j], extreme_vertex[j] = -math.inf, -1
     for k in range(first, beyond):
         offset = rotate(axes, load_vector(vertices, k))
@@ -99,6 +99,8 @@ def find_extremes(
                 reach = math.cos(angle) * offset[0] + math.sin(angle) * offset[1]
                 if reach > extreme[j]:
                     extreme[j], extreme_vertex[j] = reach, k - first
+            if -offset[2] > extreme[DIRECTIONS]:
+                extreme[DIRECTIONS], extreme_vertex[DIRECTIONS] = -offset[2], k - first
 
 
 @inlined
@@ -201,7 +203,7 @@ def collide_with_plane(
                     dt,
                     load_spatial(twist, body),
                 )
-                found = DIRECTIONS
+                found = DIRECTIONS + 1
             else:
                 found = 5 if kind == WHEEL else 6
         for j in range(found):

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from urdfkit.description.robot import Box, Capsule, Cylinder, Mesh, Sphere
 from urdfkit.description.world import Plane
 from urdfkit.errors import SimulationError
-from urdfkit.kinematics.model import Kinematics
 from urdfkit.scene import Shape
 from urdfkit.sim.engine import collide
 from urdfkit.sim.engine.arrays import Arrays, allocate
@@ -21,7 +20,8 @@ from urdfkit.sim.engine.pairs.geometry import Geometry
 from urdfkit.sim.engine.pairs.hull import convex_hull
 from urdfkit.sim.engine.pairs.shapes import HULL, MESH, PLANE
 from urdfkit.sim.engine.surface import Ground, Surface
-from urdfkit.sim.engine.tree import fill_free, fill_member, joint_subspace, pose_matrix
+from urdfkit.sim.engine.tree import fill_free, fill_member, pose_matrix
+from urdfkit.sim.engine.wheels import as_wheel
 
 Array = NDArray[np.float64]
 
@@ -95,9 +95,7 @@ def touching(members: Sequence[Member], bodies: Sequence[Body]) -> list[Touching
             if bolted:
                 still.append(touch)
                 continue
-            if touch.kind == collide.CYLINDER and _turns_about(member.kinematics, frame.parentJoint, placement):
-                touch = replace(touch, kind=collide.WHEEL)
-            moving.append(touch)
+            moving.append(as_wheel(touch, member.kinematics, frame.parentJoint))
         first += model.njoints - 1
     for owner, body in enumerate(bodies, len(members)):
         pose = pose_matrix(body.pose) if body.static else np.eye(4)
@@ -158,17 +156,6 @@ def hull_vertices(points: Array) -> Array:
         return np.array(trimesh.convex.convex_hull(points).vertices, dtype=float)
     except Exception:  # qhull's own error class is not public
         return np.unique(points, axis=0)
-
-
-def _turns_about(kinematics: Kinematics, joint: int, placement: Array) -> bool:
-    """Return whether a cylinder is a wheel: its axis is that of the revolute joint that carries it."""
-    subspace = joint_subspace(kinematics.model, joint)
-    if subspace.shape[1] != 1 or not subspace[3:, 0].any():
-        return False
-    axis = subspace[3:, 0]
-    along = np.cross(axis, placement[:3, 2])
-    off = placement[:3, 3] - axis * (axis @ placement[:3, 3])
-    return bool(np.linalg.norm(along) < 1e-3 and np.linalg.norm(off) < 1e-3)
 
 
 def fill(
