@@ -104,8 +104,7 @@ class Reference:
         limited = any(n <= row.slot < 2 * n for row in joint_rows)
         rows = joint_rows + contact_rows
         if not contact_rows and not has_servo and not limited:
-            bounded = np.isfinite(a["lower"]) | np.isfinite(a["upper"])
-            if not joint_rows and not (a["damping"] + bounded * np.abs(a["applied"]))[dofs].any():
+            if not joint_rows and not (np.abs(a["damping"]) + np.abs(a["applied"]))[dofs].any():
                 a["v"][dofs] = self._fly(start, dofs)
                 return
             inertia, impulse = self._smooth(M, bias, start)
