@@ -117,5 +117,3 @@ def _field(typing: Any, block: Any, integers: Any, at: Any) -> Any:
 
 field: Any = intrinsic(_field)
 """Return the part of a block that holds one field: ``field(block, integers, at)``."""
-bare_field = field
-"""The same, where rows of numbers are long and it matters most."""

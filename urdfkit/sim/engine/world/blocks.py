@@ -10,7 +10,7 @@ import math
 from typing import Any
 
 from urdfkit.sim.engine.arrays import WIDTH, At
-from urdfkit.sim.engine.compilation import bare_field, compiled, inlined
+from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.guess import HOLDS
 
 MOST_TREES = 62
@@ -34,14 +34,14 @@ def arrange(floats: Any, integers: Any, root: int, rows: int) -> int:
     Afterwards ``block_tree`` lists the trees in order, ``tree_block`` their places in it, ``block_first`` where their
     dofs start, and ``block_after`` those after each that it shares a block with, as bits.
     """
-    tree_dof = bare_field(integers, integers, At.tree_dof)
-    island_next = bare_field(integers, integers, At.island_next)
-    row_a = bare_field(integers, integers, At.row_a)
-    row_b = bare_field(integers, integers, At.row_b)
-    block_tree = bare_field(integers, integers, At.block_tree)
-    tree_block = bare_field(integers, integers, At.tree_block)
-    block_first = bare_field(integers, integers, At.block_first)
-    block_after = bare_field(integers, integers, At.block_after)
+    tree_dof = field(integers, integers, At.tree_dof)
+    island_next = field(integers, integers, At.island_next)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    block_tree = field(integers, integers, At.block_tree)
+    tree_block = field(integers, integers, At.tree_block)
+    block_first = field(integers, integers, At.block_first)
+    block_after = field(integers, integers, At.block_after)
     count = 0
     tree = root
     while tree >= 0:
@@ -112,19 +112,19 @@ def add_block(K: Any, n: int, i: int, j: int, ni: int, nj: int, Y: Any, at: int,
 def assemble(floats: Any, integers: Any, root: int, rows: int, n: int) -> None:
     """Write M, of each tree from its factor, and add what the rows that hold do to it: the upper triangle of K in B."""
     width = integers[WIDTH]
-    tree_dof = bare_field(integers, integers, At.tree_dof)
-    island_next = bare_field(integers, integers, At.island_next)
-    dof_row = bare_field(integers, integers, At.dof_row)
-    tree_block = bare_field(integers, integers, At.tree_block)
-    block_first = bare_field(integers, integers, At.block_first)
-    row_a = bare_field(integers, integers, At.row_a)
-    row_b = bare_field(integers, integers, At.row_b)
-    state = bare_field(integers, integers, At.state)
-    Y = bare_field(floats, integers, At.Y)
-    K = bare_field(floats, integers, At.B)
-    L = bare_field(floats, integers, At.L)
-    inverse_diagonal = bare_field(floats, integers, At.inverse_diagonal)
-    stiffness = bare_field(floats, integers, At.g)
+    tree_dof = field(integers, integers, At.tree_dof)
+    island_next = field(integers, integers, At.island_next)
+    dof_row = field(integers, integers, At.dof_row)
+    tree_block = field(integers, integers, At.tree_block)
+    block_first = field(integers, integers, At.block_first)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    state = field(integers, integers, At.state)
+    Y = field(floats, integers, At.Y)
+    K = field(floats, integers, At.B)
+    L = field(floats, integers, At.L)
+    inverse_diagonal = field(floats, integers, At.inverse_diagonal)
+    stiffness = field(floats, integers, At.g)
     for k in range(n * n):
         K[k] = 0.0
     tree = root
@@ -173,9 +173,9 @@ def take_six(K: Any, n: int, i: int, first: int, beyond: int, start: int) -> Non
 @compiled
 def eliminate(floats: Any, integers: Any, n: int) -> bool:
     """Factor K = UᵀU in B block by block, its diagonal inverted; return whether it was positive."""
-    block_first = bare_field(integers, integers, At.block_first)
-    block_after = bare_field(integers, integers, At.block_after)
-    K = bare_field(floats, integers, At.B)
+    block_first = field(integers, integers, At.block_first)
+    block_after = field(integers, integers, At.block_after)
+    K = field(floats, integers, At.B)
     one = 1
     k = 0
     while block_first[k] < n:
@@ -248,9 +248,9 @@ def eliminate(floats: Any, integers: Any, n: int) -> bool:
 @compiled
 def substitute(floats: Any, integers: Any, n: int, x: Any) -> None:
     """Turn x into K⁻¹·x."""
-    block_first = bare_field(integers, integers, At.block_first)
-    block_after = bare_field(integers, integers, At.block_after)
-    K = bare_field(floats, integers, At.B)
+    block_first = field(integers, integers, At.block_first)
+    block_after = field(integers, integers, At.block_after)
+    K = field(floats, integers, At.B)
     one = 1
     k = 0
     while block_first[k] < n:

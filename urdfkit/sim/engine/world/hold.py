@@ -17,7 +17,7 @@ import math
 from typing import Any
 
 from urdfkit.sim.engine.arrays import WIDTH, At
-from urdfkit.sim.engine.compilation import bare_field, compiled, inlined
+from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.dynamics import solve_forward
 from urdfkit.sim.engine.guess import AT_HIGH, AT_LOW, HOLDS
 from urdfkit.sim.engine.world.blocks import arrange, assemble, eliminate, substitute
@@ -35,12 +35,12 @@ LIGHT = 1e-3
 @inlined
 def row_speed(floats: Any, integers: Any, k: int, x: Any) -> float:
     """Return J·x of a row, x in the order of the blocks."""
-    tree_dof = bare_field(integers, integers, At.tree_dof)
-    tree_block = bare_field(integers, integers, At.tree_block)
-    block_first = bare_field(integers, integers, At.block_first)
-    row_a = bare_field(integers, integers, At.row_a)
-    row_b = bare_field(integers, integers, At.row_b)
-    Y = bare_field(floats, integers, At.Y)
+    tree_dof = field(integers, integers, At.tree_dof)
+    tree_block = field(integers, integers, At.tree_block)
+    block_first = field(integers, integers, At.block_first)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    Y = field(floats, integers, At.Y)
     at = k * integers[WIDTH]
     tree = row_a[k]
     first, size = block_first[tree_block[tree]], tree_dof[tree + 1] - tree_dof[tree]
@@ -59,12 +59,12 @@ def row_speed(floats: Any, integers: Any, k: int, x: Any) -> float:
 @inlined
 def push_row(floats: Any, integers: Any, k: int, c: float, x: Any) -> None:
     """Add c·Jᵀ of a row to x, in the order of the blocks."""
-    tree_dof = bare_field(integers, integers, At.tree_dof)
-    tree_block = bare_field(integers, integers, At.tree_block)
-    block_first = bare_field(integers, integers, At.block_first)
-    row_a = bare_field(integers, integers, At.row_a)
-    row_b = bare_field(integers, integers, At.row_b)
-    Y = bare_field(floats, integers, At.Y)
+    tree_dof = field(integers, integers, At.tree_dof)
+    tree_block = field(integers, integers, At.tree_block)
+    block_first = field(integers, integers, At.block_first)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    Y = field(floats, integers, At.Y)
     at = k * integers[WIDTH]
     tree = row_a[k]
     first, size = block_first[tree_block[tree]], tree_dof[tree + 1] - tree_dof[tree]
@@ -81,13 +81,13 @@ def push_row(floats: Any, integers: Any, k: int, c: float, x: Any) -> None:
 @inlined
 def take_momentum(floats: Any, integers: Any, root: int, x: Any, into: Any) -> None:
     """Take M·x off `into`, both in the order of the blocks."""
-    tree_dof = bare_field(integers, integers, At.tree_dof)
-    tree_block = bare_field(integers, integers, At.tree_block)
-    island_next = bare_field(integers, integers, At.island_next)
-    block_first = bare_field(integers, integers, At.block_first)
-    dof_row = bare_field(integers, integers, At.dof_row)
-    L = bare_field(floats, integers, At.L)
-    inverse_diagonal = bare_field(floats, integers, At.inverse_diagonal)
+    tree_dof = field(integers, integers, At.tree_dof)
+    tree_block = field(integers, integers, At.tree_block)
+    island_next = field(integers, integers, At.island_next)
+    block_first = field(integers, integers, At.block_first)
+    dof_row = field(integers, integers, At.dof_row)
+    L = field(floats, integers, At.L)
+    inverse_diagonal = field(floats, integers, At.inverse_diagonal)
     tree = root
     while tree >= 0:
         first, size = tree_dof[tree], tree_dof[tree + 1] - tree_dof[tree]
@@ -107,11 +107,11 @@ def take_momentum(floats: Any, integers: Any, root: int, x: Any, into: Any) -> N
 @inlined
 def first_hold(floats: Any, integers: Any, rows: int) -> bool:
     """Guess from the last step's impulses what every row does; return False if a contact slid."""
-    before = bare_field(floats, integers, At.before)
-    low = bare_field(floats, integers, At.low)
-    high = bare_field(floats, integers, At.high)
-    mu = bare_field(floats, integers, At.mu)
-    state = bare_field(integers, integers, At.state)
+    before = field(floats, integers, At.before)
+    low = field(floats, integers, At.low)
+    high = field(floats, integers, At.high)
+    mu = field(floats, integers, At.mu)
+    state = field(integers, integers, At.state)
     k = 0
     while k < rows:
         state[k] = HOLDS
@@ -136,12 +136,12 @@ def first_hold(floats: Any, integers: Any, rows: int) -> bool:
 @inlined
 def revise(floats: Any, integers: Any, rows: int, speed: Any, tiny: float) -> int:
     """Change what the law forbids; return 0 if nothing had to change, 1 if something had, -1 if a contact slides."""
-    g = bare_field(floats, integers, At.slip)
-    low = bare_field(floats, integers, At.low)
-    high = bare_field(floats, integers, At.high)
-    mu = bare_field(floats, integers, At.mu)
-    x = bare_field(floats, integers, At.x)
-    state = bare_field(integers, integers, At.state)
+    g = field(floats, integers, At.slip)
+    low = field(floats, integers, At.low)
+    high = field(floats, integers, At.high)
+    mu = field(floats, integers, At.mu)
+    x = field(floats, integers, At.x)
+    state = field(integers, integers, At.state)
     changed = 0
     heaviest = 0.0
     for k in range(rows):
@@ -176,12 +176,12 @@ def revise(floats: Any, integers: Any, rows: int, speed: Any, tiny: float) -> in
 @inlined
 def correct(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: float) -> bool:
     """Find velocities and impulses of the rows that hold; return whether all are where they should be."""
-    stiffness = bare_field(floats, integers, At.g)
-    g = bare_field(floats, integers, At.slip)
-    x = bare_field(floats, integers, At.x)
-    speed = bare_field(floats, integers, At.block_v)
-    rest = bare_field(floats, integers, At.block_f)
-    state = bare_field(integers, integers, At.state)
+    stiffness = field(floats, integers, At.g)
+    g = field(floats, integers, At.slip)
+    x = field(floats, integers, At.x)
+    speed = field(floats, integers, At.block_v)
+    rest = field(floats, integers, At.block_f)
+    state = field(integers, integers, At.state)
     for _ in range(ROUNDS):
         for d in range(n):
             rest[d] = 0.0
@@ -219,27 +219,27 @@ def hold(floats: Any, integers: Any, root: int, rows: int) -> int:
         How many sets of rows were tried; 0 where it did not succeed.
     """
     width = integers[WIDTH]
-    tree_dof = bare_field(integers, integers, At.tree_dof)
-    tree_block = bare_field(integers, integers, At.tree_block)
-    island_next = bare_field(integers, integers, At.island_next)
-    block_first = bare_field(integers, integers, At.block_first)
-    dof_row = bare_field(integers, integers, At.dof_row)
-    row_a = bare_field(integers, integers, At.row_a)
-    row_b = bare_field(integers, integers, At.row_b)
-    state = bare_field(integers, integers, At.state)
-    Y = bare_field(floats, integers, At.Y)
-    M = bare_field(floats, integers, At.M)
-    u = bare_field(floats, integers, At.u)
-    v = bare_field(floats, integers, At.v_start)
-    bias = bare_field(floats, integers, At.row_bias)
-    before = bare_field(floats, integers, At.before)
-    low = bare_field(floats, integers, At.low)
-    high = bare_field(floats, integers, At.high)
-    x = bare_field(floats, integers, At.x)
-    stiffness = bare_field(floats, integers, At.g)
-    g = bare_field(floats, integers, At.slip)
-    speed = bare_field(floats, integers, At.block_v)
-    kept = bare_field(floats, integers, At.v_ahead)
+    tree_dof = field(integers, integers, At.tree_dof)
+    tree_block = field(integers, integers, At.tree_block)
+    island_next = field(integers, integers, At.island_next)
+    block_first = field(integers, integers, At.block_first)
+    dof_row = field(integers, integers, At.dof_row)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    state = field(integers, integers, At.state)
+    Y = field(floats, integers, At.Y)
+    M = field(floats, integers, At.M)
+    u = field(floats, integers, At.u)
+    v = field(floats, integers, At.v_start)
+    bias = field(floats, integers, At.row_bias)
+    before = field(floats, integers, At.before)
+    low = field(floats, integers, At.low)
+    high = field(floats, integers, At.high)
+    x = field(floats, integers, At.x)
+    stiffness = field(floats, integers, At.g)
+    g = field(floats, integers, At.slip)
+    speed = field(floats, integers, At.block_v)
+    kept = field(floats, integers, At.v_ahead)
     if not first_hold(floats, integers, rows):
         return 0
     n = arrange(floats, integers, root, rows)
