@@ -37,6 +37,8 @@ MOST = (1, 4, 6, 5, 2, 9)
 
 DIRECTIONS = 8
 """A hull touches with its lowest vertex and those that reach furthest in so many directions, of all that can touch."""
+LOWEST = 1e-7
+"""How much lower a vertex must be to count as the lowest [m]."""
 LEANING = 0.02
 """Tilt [rad] over which the contact of a leaning wheel moves from the middle of its rim to the edge."""
 STANDING = 0.5
@@ -101,6 +103,12 @@ def find_extremes(
                     extreme[j], extreme_vertex[j] = reach, k - first
             if -offset[2] > extreme[DIRECTIONS]:
                 extreme[DIRECTIONS], extreme_vertex[DIRECTIONS] = -offset[2], k - first
+    for j in range(DIRECTIONS):
+        # Most often one of the others is as low.
+        if extreme_vertex[j] >= 0:
+            offset = rotate(axes, load_vector(vertices, first + extreme_vertex[j]))
+            if -offset[2] > extreme[DIRECTIONS] - LOWEST:
+                extreme_vertex[DIRECTIONS] = -1
 
 
 @inlined
