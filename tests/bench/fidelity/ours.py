@@ -84,7 +84,7 @@ def _watch(scene: Scene, world: str, dt: float) -> list[Look]:
     for joint, effort in scene.efforts.items():
         simulator.motors.exert(joint, effort)
     if scene.push is not None:
-        simulator.bodies[scene.push[0]].push((scene.push[1], 0.0, 0.0, 0.0, 0.0, 0.0))
+        simulator.bodies[scene.push[0]].push((scene.push[1], 0.0, 0.0))
     if scene.command is not None:
         raise ValueError("a scene with a command is run from the command line")
     looks = [_look(simulator)]

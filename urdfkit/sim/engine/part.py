@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
-from urdfkit.sim.engine.arrays import DT, Arrays
+from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, STEPS, Arrays
 from urdfkit.sim.engine.state import configuration, positions, set_configuration
 
 Array = NDArray[np.float64]
@@ -55,6 +55,7 @@ class Part:
         self.feedforward, self.integral = a["feedforward"], a["integral"]
         self._own_v, self._own_effort, self._own_tau = a["v"], a["effort"], a["tau"]
         self._v, self._effort, self._tau = _read_only(a["v"]), _read_only(a["effort"]), _read_only(a["tau"])
+        self._given: tuple[int, Array] | None = None
 
     @property
     def q(self) -> Array:
@@ -89,8 +90,8 @@ class Part:
     def set_base_velocity(self, twist: Sequence[float]) -> None:
         """Set the floating base's twist, in its own axes and linear first; what it meets in the step may change it.
 
-        It is set for the middle of the step, where forces act too: the base is taken back by what the first half would
-        go too far, into a wall, say.
+        Where a wall, say, took from the velocity that the step before was given, the base is taken back by what the
+        first half of this step would go into it.
 
         Raises:
             SimulationError: the robot has no floating base, or a value is not finite.
@@ -100,14 +101,30 @@ class Part:
         if len(twist) != 6 or not all(math.isfinite(part) for part in twist):
             raise SimulationError(f"a twist is six finite numbers, not {tuple(twist)}")
         v = np.array(twist, dtype=float)
-        half = 0.5 * float(self._arrays["numbers"][DT])
+        step, given = int(self._arrays["counts"][STEPS]), self._given
+        if given is not None and given[0] == step - 1 and self._met_something():
+            dt = float(self._arrays["numbers"][DT])
+            # Linear velocities stay constant in space while the base turns.
+            linear = pin.exp3(-dt * given[1][3:]) @ given[1][:3]
+            taken = np.concatenate([linear, given[1][3:]]) - self._own_v[:6]
+            self._shift_base(-0.5 * dt * taken)
+        self._own_v[:6] = v
+        self._given = step, v
+
+    def _met_something(self) -> bool:
+        """Return whether the robot touched anything but the ground in the last step."""
+        a, n = self._arrays, int(self._arrays["counts"][FOUND_CONTACTS])
+        tree_of = np.append(a["body_tree"], -1)
+        mine = (tree_of[a["contact_body"][:n]] == self._tree) | (tree_of[a["contact_other"][:n]] == self._tree)
+        return bool((mine & (a["contact_against"][:n] >= 0)).any())
+
+    def _shift_base(self, by: Array) -> None:
+        """Move the floating base in its own axes [m, rad]."""
         at = int(self._arrays["tree_s"][self._tree])
         s = self._arrays["s"][at : at + 7]
         rotation = pin.Quaternion(s[3:].copy())
-        too_far = half * (v - self._own_v[:6])
-        s[:3] -= rotation.matrix() @ too_far[:3]
-        s[3:] = (rotation * pin.Quaternion(pin.exp3(-too_far[3:]))).normalized().coeffs()
-        self._own_v[:6] = v
+        s[:3] += rotation.matrix() @ by[:3]
+        s[3:] = (rotation * pin.Quaternion(pin.exp3(by[3:]))).normalized().coeffs()
 
     def put(self, q: Array | None = None, v: Array | None = None) -> None:
         """Put the robot at `q`, `v` (neutral, zero); targets stay.
