@@ -43,3 +43,12 @@ def pose_matrices(poses: ArrayLike) -> Array:
     matrices[:, :3, 3] = poses[:, :3]
     matrices[:, 3, 3] = 1.0
     return matrices
+
+
+def upright(normal: ArrayLike) -> Array:
+    """Return a rotation that takes z to a unit vector; shape (3, 3)."""
+    z = np.asarray(normal, dtype=float)
+    across = np.eye(3)[int(np.argmin(np.abs(z)))]
+    x = np.cross(across, z)
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, np.cross(z, x), z])

@@ -11,7 +11,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.element import Element
 from urdfkit.description.robot import Collision, Geometry, Link, Mesh, Robot, Visual
+from urdfkit.description.world import Ellipsoid, Plane
 from urdfkit.errors import ResourceError
 from urdfkit.scene.colors import DEFAULT, Palette, Rgba
 from urdfkit.scene.mesh import MeshLoader, TriMesh
@@ -28,21 +30,23 @@ class Shape:
         name: unique in the scene, ``body/role/…`` with the name written in the description or a number.
         body: name of the body (link) it is fixed to.
         role: ``visual`` or ``collision``.
-        geometry: box, cylinder, sphere, capsule or mesh as written.
+        geometry: box, cylinder, sphere, capsule or mesh as written; in a world, plane and ellipsoid, too.
         placement: of the shape in its body, shape (4, 4), read-only.
         rgba: colour, components in 0..1; `DEFAULT` where the description names none.
         has_color: whether the description names a colour; if not, the mesh's own colours are to be shown.
         mesh: the triangles of a mesh, its scale applied; None for the other geometries.
+        laser_retro: what a lidar reads as intensity.
     """
 
     name: str
     body: str
     role: Role
-    geometry: Geometry
+    geometry: Geometry | Plane | Ellipsoid
     placement: NDArray[np.float64] = field(repr=False)
     rgba: Rgba = DEFAULT
     has_color: bool = False
     mesh: TriMesh | None = None
+    laser_retro: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +87,7 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
     meshes = meshes or MeshLoader()
     palette = Palette(robot)
     links = robot.link_by_name_in_order()
+    retros = _laser_retros(robot)
     shapes: list[Shape] = []
     problems: list[ResourceError] = []
     for link in links:
@@ -104,12 +109,25 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
                 name += "_"
             names.add(name)
             color = palette.of(link.name, item) if isinstance(item, Visual) else None
+            placed = pose_matrix(item.origin)
+            retro = retros.get(link.name, 0.0)
             shapes.append(
-                Shape(
-                    name, link.name, role, item.geometry, pose_matrix(item.origin), color or DEFAULT, bool(color), mesh
-                )
+                Shape(name, link.name, role, item.geometry, placed, color or DEFAULT, bool(color), mesh, retro)
             )
     return Scene(tuple(link.name for link in links), tuple(shapes), tuple(problems))
+
+
+def _laser_retros(robot: Robot) -> dict[str, float]:
+    """Return link → the ``<laserRetro>`` of its ``<gazebo reference=…>`` block, where it is a number."""
+    found: dict[str, float] = {}
+    for block in robot.gazebo:
+        written: Element | None = block.element.find("laserRetro") or block.element.find("laser_retro")
+        if block.reference and written is not None:
+            try:
+                found[block.reference] = float(written.text)
+            except ValueError:
+                continue
+    return found
 
 
 def _items(link: Link) -> list[tuple[Role, int, Visual | Collision]]:

@@ -1,0 +1,195 @@
+"""Casting rays: a walk through the tree of shapes and, in a mesh, through the tree of its triangles."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import Any
+
+from urdfkit.scene.rays.compilation import compiled, inlined
+from urdfkit.scene.rays.normals import normal
+from urdfkit.scene.rays.packet import (
+    BEAM,
+    DX,
+    FAR,
+    HIT,
+    LOCAL_BEAM,
+    LX,
+    MX,
+    OX,
+    PACKET,
+    PART,
+    REACH,
+    WIDTH,
+    bound,
+    enters,
+    farthest,
+)
+from urdfkit.scene.rays.solids import (
+    BOX,
+    CAPSULE,
+    CYLINDER,
+    ELLIPSOID,
+    MESH,
+    PLANE,
+    SPHERE,
+    STRIDE,
+    box,
+    capsule,
+    cylinder,
+    ellipsoid,
+    plane,
+    sphere,
+)
+from urdfkit.scene.rays.tree import DEPTH
+from urdfkit.scene.rays.triangles import CORNERS, into_mesh, triangle
+
+TOP_STACK = PACKET
+MESH_STACK = TOP_STACK + 2 * DEPTH
+SCRATCH = MESH_STACK + 2 * DEPTH
+"""Numbers that casting works on: a packet and two stacks of (node, where the packet enters it)."""
+
+
+@compiled
+def meet(work: Any, scene: Any, shape: int, near: float) -> None:
+    """Cast the packet at one shape."""
+    shapes, kinds, roots, _, _, _, _, _, _ = scene
+    at, kind, number = shape * STRIDE, kinds[shape], float(shape)
+    if kind == BOX:
+        box(work, shapes, at, number, near)
+    elif kind == CYLINDER:
+        cylinder(work, shapes, at, number, near)
+    elif kind == SPHERE:
+        sphere(work, shapes, at, number, near)
+    elif kind == CAPSULE:
+        capsule(work, shapes, at, number, near)
+    elif kind == ELLIPSOID:
+        ellipsoid(work, shapes, at, number, near)
+    elif kind == PLANE:
+        plane(work, shapes, at, number, near)
+    elif kind == MESH:
+        into_mesh(work, shapes, at)
+        bound(work, LX, MX, LOCAL_BEAM)
+        walk_mesh(work, scene, roots[shape], number, near)
+
+
+@compiled
+def walk_mesh(work: Any, scene: Any, root: int, shape: float, near: float) -> None:
+    """Walk the packet through the tree of a mesh, the nearer of two children first."""
+    _, _, _, _, _, _, bounds, links, corners = scene
+    reach = farthest(work)
+    enter = enters(work, LOCAL_BEAM, bounds, 6 * root, near, reach)
+    work[MESH_STACK], work[MESH_STACK + 1] = root, enter
+    waiting = 1 if enter < FAR else 0
+    while waiting > 0:
+        waiting -= 1
+        top = MESH_STACK + 2 * waiting
+        if work[top + 1] > reach:
+            continue
+        node = int(work[top])
+        first, size = links[2 * node], links[2 * node + 1]
+        if size > 0:
+            for k in range(first, first + size):
+                triangle(work, corners, CORNERS * k, shape, float(k), near)
+            reach = farthest(work)
+        else:
+            waiting += push(work, LOCAL_BEAM, bounds, first, top, near, reach)
+
+
+@inlined
+def push(work: Any, beam: int, bounds: Any, first: int, top: int, near: float, reach: float) -> int:
+    """Put the children that the packet enters onto a stack, the nearer one on top; return how many."""
+    one = enters(work, beam, bounds, 6 * first, near, reach)
+    two = enters(work, beam, bounds, 6 * first + 6, near, reach)
+    if one < FAR and two < FAR:
+        swap = 1 if one < two else 0
+        work[top], work[top + 1] = first + swap, two if swap else one
+        work[top + 2], work[top + 3] = first + 1 - swap, one if swap else two
+        return 2
+    if one < FAR:
+        work[top], work[top + 1] = first, one
+        return 1
+    if two < FAR:
+        work[top], work[top + 1] = first + 1, two
+        return 1
+    return 0
+
+
+@compiled
+def walk(work: Any, scene: Any, near: float) -> None:
+    """Find what each ray of the packet meets first: its `REACH`, `HIT` and `PART`."""
+    _, kinds, _, order, bounds, links, _, _, _ = scene
+    bound(work, OX, DX, BEAM)
+    for shape in range(len(order), len(kinds)):
+        meet(work, scene, shape, near)
+    reach = farthest(work)
+    enter = enters(work, BEAM, bounds, 0, near, reach) if len(order) > 0 else FAR
+    work[TOP_STACK], work[TOP_STACK + 1] = 0.0, enter
+    waiting = 1 if enter < FAR else 0
+    while waiting > 0:
+        waiting -= 1
+        top = TOP_STACK + 2 * waiting
+        if work[top + 1] > reach:
+            continue
+        node = int(work[top])
+        first, size = links[2 * node], links[2 * node + 1]
+        if size > 0:
+            for k in range(first, first + size):
+                meet(work, scene, order[k], near)
+            reach = farthest(work)
+        else:
+            waiting += push(work, BEAM, bounds, first, top, near, reach)
+
+
+@inlined
+def load(work: Any, frame: Any, origins: Any, directions: Any, first: int, far: float) -> None:
+    """Fill the packet with rays, from the frame they are given in; what is missing at the end repeats the last."""
+    for k in range(WIDTH):
+        ray = min(first + k, len(directions) - 1)
+        source = ray if len(origins) > 1 else 0
+        x, y, z = origins[source, 0], origins[source, 1], origins[source, 2]
+        a, b, c = directions[ray, 0], directions[ray, 1], directions[ray, 2]
+        for axis in range(3):
+            u, v, w = frame[3 * axis], frame[3 * axis + 1], frame[3 * axis + 2]
+            work[OX + axis * WIDTH + k] = u * x + v * y + w * z + frame[9 + axis]
+            work[DX + axis * WIDTH + k] = u * a + v * b + w * c
+        work[REACH + k], work[HIT + k], work[PART + k] = far, -1.0, -1.0
+
+
+def cast(
+    scene: Any,
+    frame: Any,
+    origins: Any,
+    directions: Any,
+    near: float,
+    far: float,
+    work: Any,
+    distances: Any,
+    hits: Any,
+    parts: Any,
+    normals: Any,
+) -> None:
+    """Cast rays, in packets as they come.
+
+    Args:
+        scene: frames, kinds and roots of shapes; order, boxes and links of the tree over them; boxes, links and
+            triangles of all meshes. Shapes that are not in the tree come last.
+        frame: rotation by rows and position of the frame that the rays are given in.
+        origins: [m], one for all or one each; shape (1 or n, 3).
+        directions: of length 1; shape (n, 3).
+        near: where rays begin to see [m].
+        far: where they end [m].
+        work: shape (≥ `SCRATCH`,).
+        distances: becomes the nearest hits [m], infinite without one; shape (n,).
+        hits: becomes the numbers of the shapes hit, -1 without one; shape (n,).
+        parts: becomes the numbers of the triangles hit, -1 where it is no mesh; shape (n,).
+        normals: becomes the unit normals at the hits, towards the ray; shape (n, 3), or (0, 3) where none are wanted.
+    """
+    for first in range(0, len(directions), WIDTH):
+        load(work, frame, origins, directions, first, far)
+        walk(work, scene, near)
+        for k in range(min(WIDTH, len(directions) - first)):
+            ray, hit = first + k, int(work[HIT + k])
+            hits[ray], parts[ray] = hit, int(work[PART + k])
+            distances[ray] = work[REACH + k] if hit >= 0 else inf
+            if len(normals) > 0:
+                normals[ray, 0], normals[ray, 1], normals[ray, 2] = normal(work, scene, k)

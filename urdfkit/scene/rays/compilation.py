@@ -1,0 +1,64 @@
+"""How the kernels of this room are compiled, once per machine and version, and then found in numba's cache."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from functools import lru_cache
+from pathlib import Path
+from types import FunctionType
+from typing import Any, TypeVar, cast
+
+import numba
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+KERNEL_MODULES = ("cast", "compilation", "normals", "packet", "place", "solids", "tree", "triangles")
+"""Modules of this package with compiled functions."""
+
+# Every operation is rounded as IEEE 754 has it (fastmath off), so distances do not depend on what the compiler makes of
+# the order of terms. No references are counted: whoever calls a kernel holds the arrays, all else are views of them.
+OPTIONS: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "nogil": True, "_nrt": False}
+
+
+def inlined(function: Function) -> Function:
+    """Compile a function as part of whichever kernel calls it."""
+    return cast(Function, numba.njit(function, forceinline=True, **OPTIONS))
+
+
+def compiled(function: Function) -> Function:
+    """Compile a function that kernels call."""
+    return cast(Function, numba.njit(function, **OPTIONS))
+
+
+@lru_cache
+def load_compiled(function: Callable[..., Any], arguments: tuple[Any, ...]) -> Callable[..., Any]:
+    """Compile a function for these types of arguments, or load what was compiled before.
+
+    numba finds a function's cache by its name and checks the file it is in, not those of the functions it calls. So the
+    name carries a digest of them all: no change of a source can meet a stale kernel.
+
+    Args:
+        function: plain Python, written for numba.
+        arguments: their numba types.
+    """
+    named = FunctionType(function.__code__, function.__globals__, function.__name__)
+    named.__qualname__ = f"{function.__name__}_{sources_digest()[:16]}"
+    try:
+        dispatcher = numba.njit(named, cache=True, **OPTIONS)
+        dispatcher.compile(arguments)
+    except (RuntimeError, OSError, EOFError, ValueError, TypeError, AttributeError):
+        # No writable place for the cache, or a broken one: compile for this process alone.
+        dispatcher = numba.njit(named, **OPTIONS)
+        dispatcher.compile(arguments)
+    dispatcher.disable_compile()
+    return cast(Callable[..., Any], dispatcher)
+
+
+@lru_cache(maxsize=1)
+def sources_digest() -> str:
+    """Return a digest of the kernels' sources."""
+    digest = hashlib.sha256()
+    for name in KERNEL_MODULES:
+        digest.update((Path(__file__).parent / f"{name}.py").read_bytes())
+    return digest.hexdigest()

@@ -1,0 +1,84 @@
+"""The compiled kernels of this room, with the types of their arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Any
+
+from urdfkit.scene.rays.compilation import load_compiled
+
+Progress = Callable[[int], None]
+"""Told how many functions have been compiled so far; first with 0, only when there is something to compile."""
+
+
+@lru_cache(maxsize=1)
+def caster() -> Callable[..., Any]:
+    """Return the compiled `cast.cast`."""
+    from numba import float64 as f
+    from numba import int64 as i
+
+    from urdfkit.scene.rays.cast import cast
+
+    return load_compiled(
+        cast, (scene_type(), f[::1], f[:, ::1], f[:, ::1], f, f, f[::1], f[::1], i[::1], i[::1], f[:, ::1])
+    )
+
+
+def scene_type() -> Any:
+    """Return the numba type of a scene, as the kernels take it."""
+    from numba import float64 as f
+    from numba import int64 as i
+    from numba import types
+
+    return types.Tuple((f[::1], i[::1], i[::1], i[::1], f[::1], i[::1], f[::1], i[::1], f[::1]))
+
+
+@lru_cache(maxsize=1)
+def placer() -> Callable[..., Any]:
+    """Return the compiled `place.place`."""
+    from numba import float64 as f
+    from numba import int64 as i
+
+    from urdfkit.scene.rays.place import place
+
+    return load_compiled(
+        place,
+        (f[:, ::1], f[::1], i[::1], i[::1], f[:, ::1], f[::1], f[:, ::1], i[::1], f[:, ::1], i[:, ::1], f[::1], f[::1]),
+    )
+
+
+@lru_cache(maxsize=1)
+def builder() -> Callable[..., Any]:
+    """Return the compiled `tree.build`, for boxes of any kind."""
+    from numba import float64 as f
+    from numba import int64 as i
+
+    from urdfkit.scene.rays.tree import build
+
+    return load_compiled(build, (f[:, ::1], i[::1], f[:, ::1], i[:, ::1], i, f[::1]))
+
+
+def warmup(progress: Progress | None = None) -> bool:
+    """Make the kernels ready to run; return whether they had to be compiled rather than loaded.
+
+    Args:
+        progress: called with 0 before a compilation starts and with a growing count while it runs.
+    """
+    from numba.core import event
+
+    compiled: list[str] = []
+
+    class Listener(event.Listener):  # type: ignore[misc]
+        def on_start(self, event: Any) -> None:
+            if progress is not None:
+                progress(len(compiled))
+            compiled.append(str(event.data["dispatcher"]))
+
+        def on_end(self, event: Any) -> None:
+            pass
+
+    with event.install_listener("numba:compile", Listener()):
+        for kernel in (builder, placer, caster):
+            kernel()
+    return bool(compiled)

@@ -1,0 +1,188 @@
+"""The scene as rays meet it: built once, then only the poses of bodies change."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import inf
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from urdfkit.description.robot import Box, Capsule, Cylinder, Sphere
+from urdfkit.description.world import Ellipsoid, Plane
+from urdfkit.scene.placement import upright
+from urdfkit.scene.rays import solids
+from urdfkit.scene.rays.cast import SCRATCH
+from urdfkit.scene.rays.kernels import caster, placer
+from urdfkit.scene.rays.packet import FAR
+from urdfkit.scene.rays.store import MeshTree, mesh_tree
+from urdfkit.scene.rays.tree import SCRATCH as TREE_SCRATCH
+from urdfkit.scene.scene import Scene, Shape
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Hits:
+    """What rays met first.
+
+    Attributes:
+        distances: [m], infinite where nothing was met; shape (n,).
+        shapes: indices into `RayTable.shapes`, -1 where nothing was met; shape (n,).
+        normals: unit normals of the surface, towards the ray, zero where nothing was met; shape (n, 3); None where they
+            were not asked for.
+        triangles: numbers of the triangles in their mesh, -1 for other shapes; shape (n,).
+    """
+
+    distances: Array
+    shapes: NDArray[np.int64]
+    normals: Array | None
+    triangles: NDArray[np.int64]
+
+
+class RayTable:
+    """Shapes of a scene, ready to be met by rays. Cast from several threads, if nobody places meanwhile.
+
+    Args:
+        scene: the bodies; poses come in their order.
+        shapes: what can be met, such as ``scene.with_role("collision")``; endless planes come last in `shapes`.
+
+    Attributes:
+        shapes: what `Hits.shapes` counts.
+        bodies: number of the body of each shape; shape (len(shapes),).
+    """
+
+    def __init__(self, scene: Scene, shapes: Iterable[Shape]) -> None:
+        listed = sorted(shapes, key=_is_endless)
+        self.shapes: tuple[Shape, ...] = tuple(listed)
+        count, inside = len(listed), sum(not _is_endless(shape) for shape in listed)
+        self.bodies = np.array([scene.body_index[shape.body] for shape in listed], dtype=np.int64)
+        self._kinds = np.zeros(count, dtype=np.int64)
+        local = np.zeros((count, solids.STRIDE))
+        self._mesh_boxes = np.zeros((count, 6))
+        self._roots = np.zeros(count, dtype=np.int64)
+        self._place_meshes(listed)
+        for k, shape in enumerate(listed):
+            kind, size, turn = _numbers(shape)
+            self._kinds[k] = kind
+            local[k, :9] = (shape.placement[:3, :3] @ turn).ravel()
+            local[k, 9:12] = shape.placement[:3, 3]
+            local[k, 12:15] = size
+        self._local = local.ravel()
+        self._world = np.zeros_like(self._local)
+        self._boxes = np.zeros((inside, 6))
+        self._order = np.zeros(inside, dtype=np.int64)
+        self._bounds = np.zeros((max(2 * inside - 1, 1), 6))
+        self._links = np.zeros((max(2 * inside - 1, 1), 2), dtype=np.int64)
+        self._health = np.zeros(2)
+        self._scratch = np.empty(TREE_SCRATCH)
+        self._row = len(scene.bodies)
+        self._scene: tuple[Any, ...] = (
+            self._world, self._kinds, self._roots, self._order, self._bounds.reshape(-1), self._links.reshape(-1),
+            self._mesh_bounds, self._mesh_links, self._corners,
+        )  # fmt: skip
+
+    def _place_meshes(self, shapes: list[Shape]) -> None:
+        """Lay the trees of all meshes end to end, each mesh once."""
+        starts: dict[str, tuple[int, MeshTree]] = {}
+        trees: list[tuple[int, int, MeshTree]] = []
+        nodes = triangles = 0
+        for k, shape in enumerate(shapes):
+            if shape.mesh is None:
+                continue
+            if shape.mesh.hash not in starts:
+                tree = mesh_tree(shape.mesh)
+                starts[shape.mesh.hash] = nodes, tree
+                trees.append((nodes, triangles, tree))
+                nodes, triangles = nodes + len(tree.links), triangles + len(tree.order)
+            self._roots[k], tree = starts[shape.mesh.hash]
+            self._mesh_boxes[k] = tree.bounds[0]
+        bounds, joined = np.empty((nodes, 6)), np.empty((nodes, 2), dtype=np.int64)
+        corners = np.empty((triangles, 9))
+        self._faces = np.empty(triangles, dtype=np.int64)
+        for node, first, tree in trees:
+            bounds[node : node + len(tree.links)] = tree.bounds
+            leaf = tree.links[:, 1] > 0
+            links = tree.links.copy()
+            links[:, 0] += np.where(leaf, first, node)
+            joined[node : node + len(tree.links)] = links
+            corners[first : first + len(tree.order)] = tree.corners
+            self._faces[first : first + len(tree.order)] = tree.order
+        self._mesh_bounds, self._mesh_links, self._corners = bounds.ravel(), joined.ravel(), corners.ravel()
+
+    def place(self, poses: ArrayLike) -> None:
+        """Move the bodies.
+
+        Args:
+            poses: x y z [m] and quaternion x y z w of every body of the scene, in its order; shape (bodies, 7).
+        """
+        rows = np.ascontiguousarray(poses, dtype=float).reshape(self._row, 7)
+        placer()(
+            rows, self._local, self.bodies, self._kinds, self._mesh_boxes, self._world, self._boxes, self._order,
+            self._bounds, self._links, self._health, self._scratch,
+        )  # fmt: skip
+
+    def cast(
+        self,
+        origins: ArrayLike,
+        directions: ArrayLike,
+        *,
+        near: float = 0.0,
+        far: float = inf,
+        frame: ArrayLike | None = None,
+        normals: bool = False,
+    ) -> Hits:
+        """Cast rays at where the bodies have been placed.
+
+        Rays side by side in the array are quickest when they are side by side in space, too.
+
+        Args:
+            origins: [m], one for all rays or one each; shape (3,) or (n, 3).
+            directions: of length 1; shape (n, 3).
+            near: where rays begin to see [m].
+            far: where they end [m].
+            frame: placement of the frame in which the rays are given, shape (4, 4); the world when None.
+            normals: whether they are wanted.
+        """
+        directions = np.ascontiguousarray(directions, dtype=float).reshape(-1, 3)
+        count = len(directions)
+        origins = np.ascontiguousarray(origins, dtype=float).reshape(-1, 3)
+        if len(origins) not in (1, count):
+            raise ValueError(f"{len(origins)} origins for {count} rays")
+        placed = np.eye(4) if frame is None else np.asarray(frame, dtype=float)
+        distances, facing = np.empty(count), np.empty((count if normals else 0, 3))
+        hits, parts = np.empty(count, dtype=np.int64), np.empty(count, dtype=np.int64)
+        caster()(
+            self._scene, np.concatenate([placed[:3, :3].ravel(), placed[:3, 3]]), origins, directions,
+            float(near), float(min(far, FAR)), np.empty(SCRATCH), distances, hits, parts, facing,
+        )  # fmt: skip
+        if len(self._faces):
+            parts = np.where(parts >= 0, self._faces[parts], -1)
+        return Hits(distances, hits, facing if normals else None, parts)
+
+
+def _is_endless(shape: Shape) -> bool:
+    return isinstance(shape.geometry, Plane) and shape.role == "collision"
+
+
+def _numbers(shape: Shape) -> tuple[int, tuple[float, float, float], Array]:
+    """Return the kind of a shape, its size as the kernels take it, and how its frame is turned against its own."""
+    straight = np.eye(3)
+    match shape.geometry:
+        case Box(size=(x, y, z)):
+            return solids.BOX, (x / 2, y / 2, z / 2), straight
+        case Sphere(radius=radius):
+            return solids.SPHERE, (radius, 0.0, 0.0), straight
+        case Cylinder(radius=radius, length=length):
+            return solids.CYLINDER, (radius, length / 2, 0.0), straight
+        case Capsule(radius=radius, length=length):
+            return solids.CAPSULE, (radius, length / 2, 0.0), straight
+        case Ellipsoid(radii=radii):
+            return solids.ELLIPSOID, radii, straight
+        case Plane(normal=normal, size=(x, y)):
+            wide = (FAR, FAR, 0.0) if shape.role == "collision" else (x / 2, y / 2, 0.0)
+            return solids.PLANE, wide, upright(normal)
+        case _:
+            return solids.MESH, (0.0, 0.0, 0.0), straight

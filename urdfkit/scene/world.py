@@ -1,0 +1,61 @@
+"""The shapes of a world's links, as the scene table has them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.description.robot import Mesh
+from urdfkit.description.world import WorldLink, WorldShape
+from urdfkit.scene.colors import DEFAULT, GAZEBO, Rgba
+from urdfkit.scene.mesh import MeshLoader
+from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.scene import Role, Shape
+
+
+def shapes_of_link(
+    link: WorldLink, body: str, placement: NDArray[np.float64], *, meshes: MeshLoader, prefix: str = ""
+) -> Iterator[Shape]:
+    """Yield the visuals and collisions of a link.
+
+    Visuals whose mesh is not there are left out; whoever read the world has noted them.
+
+    Args:
+        link: as written.
+        body: the body that it is part of.
+        placement: of the link in that body; shape (4, 4).
+        meshes: reads the mesh files.
+        prefix: goes before the names of the shapes where a body has several links.
+
+    Raises:
+        ResourceError: a mesh is broken.
+    """
+    for role, shape in _items(link):
+        mesh = None
+        if isinstance(shape.geometry, Mesh):
+            if not shape.file:
+                continue
+            mesh = meshes.load(Path(shape.file), shape.geometry.scale)
+        rgba = color_of(shape) if role == "visual" else None
+        placed = placement @ pose_matrix(shape.pose)
+        placed.flags.writeable = False
+        name = f"{body}/{role}/{prefix}{shape.name}"
+        yield Shape(
+            name, body, role, shape.geometry, placed, rgba or DEFAULT, rgba is not None, mesh, shape.laser_retro
+        )
+
+
+def color_of(shape: WorldShape) -> Rgba | None:
+    """Return the colour of a visual, components in 0..1; None where nothing says one."""
+    rgba = shape.rgba or GAZEBO.get(shape.material.removeprefix("Gazebo/"))
+    return None if rgba is None else (*rgba[:3], rgba[3] * (1.0 - shape.transparency))
+
+
+def _items(link: WorldLink) -> Iterator[tuple[Role, WorldShape]]:
+    for shape in link.visuals:
+        yield "visual", shape
+    for shape in link.collisions:
+        yield "collision", shape
