@@ -14,6 +14,7 @@ REBUILD = 1.3
 
 def place(
     poses: Any,
+    before: Any,
     local: Any,
     body: Any,
     kinds: Any,
@@ -26,10 +27,11 @@ def place(
     health: Any,
     scratch: Any,
 ) -> None:
-    """Move every shape to where its body is, and the tree with them.
+    """Move every shape to where its body is, and the tree with them; what stays costs nothing.
 
     Args:
         poses: of the bodies, x y z [m] and quaternion x y z w; shape (bodies, 7).
+        before: the poses of the last time, NaN at first; becomes `poses`.
         local: frames of the shapes in their bodies and sizes, `STRIDE` numbers each.
         body: number of each shape's body.
         kinds: of the shapes.
@@ -42,9 +44,12 @@ def place(
         health: nodes in the tree (zero: not built yet) and the sum of their areas when it was built.
         scratch: to work on.
     """
-    inside = len(boxes)
+    inside, moved = len(boxes), False
     for k in range(len(kinds)):
         at, b = k * STRIDE, body[k]
+        if stays(poses, before, b):
+            continue
+        moved = True
         x, y, z, w = poses[b, 3], poses[b, 4], poses[b, 5], poses[b, 6]
         s = 2.0 / (x * x + y * y + z * z + w * w)
         r00, r01, r02 = 1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)
@@ -63,13 +68,25 @@ def place(
             shapes[at + c] = local[at + c]
         if k < inside:
             surround(shapes, at, kinds[k], mesh_boxes, boxes, k)
-    if inside > 0:
+    for b in range(len(poses)):
+        for c in range(7):
+            before[b, c] = poses[b, c]
+    if moved and inside > 0:
         nodes, area = int(health[0]), health[1]
         now = refit(boxes, order, bounds, links, nodes) if nodes > 0 else 0.0
         if nodes == 0 or now > REBUILD * area:
             nodes = build_compiled(boxes, order, bounds, links, 1, scratch)
             health[0] = nodes
             health[1] = refit(boxes, order, bounds, links, nodes)
+
+
+@inlined
+def stays(poses: Any, before: Any, b: int) -> bool:
+    """Return whether a body is where it was."""
+    same = True
+    for c in range(7):
+        same &= poses[b, c] == before[b, c]
+    return same
 
 
 @inlined

@@ -78,7 +78,7 @@ class RayTable:
         self._links = np.zeros((max(2 * inside - 1, 1), 2), dtype=np.int64)
         self._health = np.zeros(2)
         self._scratch = np.empty(TREE_SCRATCH)
-        self._row = len(scene.bodies)
+        self._poses = np.full((len(scene.bodies), 7), np.nan)
         self._scene: tuple[Any, ...] = (
             self._world, self._kinds, self._roots, self._order, self._bounds.reshape(-1), self._links.reshape(-1),
             self._mesh_bounds, self._mesh_links, self._corners,
@@ -118,10 +118,10 @@ class RayTable:
         Args:
             poses: x y z [m] and quaternion x y z w of every body of the scene, in its order; shape (bodies, 7).
         """
-        rows = np.ascontiguousarray(poses, dtype=float).reshape(self._row, 7)
+        rows = np.ascontiguousarray(poses, dtype=float).reshape(self._poses.shape)
         placer()(
-            rows, self._local, self.bodies, self._kinds, self._mesh_boxes, self._world, self._boxes, self._order,
-            self._bounds, self._links, self._health, self._scratch,
+            rows, self._poses, self._local, self.bodies, self._kinds, self._mesh_boxes, self._world, self._boxes,
+            self._order, self._bounds, self._links, self._health, self._scratch,
         )  # fmt: skip
 
     def cast(
