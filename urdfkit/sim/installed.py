@@ -13,8 +13,9 @@ import numpy as np
 from urdfkit import registry
 from urdfkit.description.plugins import ALL_SPECS, PluginSpec, match
 from urdfkit.description.plugins.lookup import stem
-from urdfkit.description.robot import Plugin, Robot
-from urdfkit.errors import did_you_mean
+from urdfkit.description.plugins.sensors import BARE
+from urdfkit.description.robot import Plugin, Robot, SensorTag
+from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.sim.controllers import CONTROLLERS
 from urdfkit.sim.controllers.joint_state import JointStatePublisher
 from urdfkit.sim.drives import DRIVES
@@ -53,14 +54,24 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
         ((*SENSORS, *registry.load("urdfkit.sensors")), installed.sensors),
         ((*CONTROLLERS, *registry.load("urdfkit.controllers")), installed.controllers),
     )
-    for number, plugin in enumerate(_plugins(robot)):
-        own = replace(setup, random=np.random.default_rng([seed, number]))
-        spec = match(plugin)
+    for number, (plugin, sensor, link) in enumerate(_plugins(robot)):
+        own = replace(setup, random=np.random.default_rng([seed, number]), sensor=sensor, link=link)
+        bare = sensor is not None and plugin.element is sensor.element
+        spec = BARE.get((sensor.type or "").strip()) if bare and sensor is not None else match(plugin)
+        if bare and spec is None:
+            setup.note(f"{plugin.element.origin.position}: sensor `{plugin.name}` is not simulated yet")
+            continue
         if spec is not None and spec.kind == "joint_state_publisher":
             installed.joint_states.append(joint_states(plugin, spec, own))
         elif (found := _choose(plugin, spec, rooms)) is not None:
             made, works = found
-            made.configure(own)
+            try:
+                made.configure(own)
+            except SimulationError as error:
+                if not isinstance(made, Sensor):
+                    raise
+                setup.note(f"{error}; sensor `{sensor.name if sensor is not None else plugin.name}` is left out")
+                continue
             works.append(made)
         else:
             setup.note(_unknown(plugin, [table for classes, _ in rooms for made in classes for table in made.specs]))
@@ -100,11 +111,15 @@ def _publishes_joint_states(installed: Installed) -> bool:
     return any(isinstance(law, JointStatePublisher) for loop in loops for law in loop.laws.values())
 
 
-def _plugins(robot: Robot) -> Iterator[Plugin]:
+def _plugins(robot: Robot) -> Iterator[tuple[Plugin, SensorTag | None, str]]:
+    """Yield the plugins, each with the sensor and the link it is of; a sensor without any stands for itself."""
     for block in robot.gazebo:
-        yield from block.plugins
+        link = block.reference or ""
+        for plugin in block.plugins:
+            yield plugin, None, link
         for sensor in block.sensors:
-            yield from sensor.plugins
+            for plugin in sensor.plugins or (Plugin(sensor.name, None, sensor.element),):
+                yield plugin, sensor, link
 
 
 def _choose(

@@ -14,21 +14,22 @@ from typing import TYPE_CHECKING, ClassVar
 
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.sim.distro import Distro
-from urdfkit.sim.schedule import Ticks
+from urdfkit.sim.schedule import NEVER, Ticks
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     import numpy as np
 
-    from urdfkit.bus import Bus
+    from urdfkit.bus import Bus, Topic
     from urdfkit.description.plugins import PluginSpec
-    from urdfkit.description.robot import Plugin
+    from urdfkit.description.robot import Plugin, SensorTag
     from urdfkit.description.source import Position
     from urdfkit.kinematics import Kinematics
     from urdfkit.sim.controllers.loop import ControlLoop
     from urdfkit.sim.motors import Motors
     from urdfkit.sim.state import State
+    from urdfkit.sim.surroundings import Surroundings
 
 
 @dataclass(frozen=True)
@@ -43,6 +44,9 @@ class Setup:
         dt: the simulation's step [s].
         random: the generator of this plugin alone, from the simulation's seed.
         note: tells the user something, once per text.
+        surroundings: everything there is to see; None where nobody looks.
+        sensor: the ``<sensor>`` that the plugin stands in; None for others.
+        link: the link that the ``<gazebo>`` block is about; empty for those of the whole model.
         distro: the ROS distribution whose behaviour is wanted.
         parameter_files: of controllers, in place of those the robot's packages load.
         namespace: of what is published unasked: empty for the first robot, ``/NAME`` for others.
@@ -58,6 +62,9 @@ class Setup:
     distro: Distro = field(default_factory=Distro)
     parameter_files: tuple[Path, ...] = ()
     namespace: str = ""
+    surroundings: Surroundings | None = None
+    sensor: SensorTag | None = None
+    link: str = ""
 
     @property
     def names(self) -> dict[str, str]:
@@ -134,15 +141,24 @@ class Drive(ABC):
 class Sensor(ABC):
     """Measures and publishes.
 
+    Publications that fell due while nobody listened are counted together at the next stop, as in `publications`; so
+    what a sensor tells may depend on the number of a publication (`done`), never on how often it was asked.
+
     Attributes:
         kind: the ``kind`` of the tables it answers to.
         specs: tables it brings itself, for plugins that `urdfkit.description.plugins` does not know.
         rate: how often `measure` is due [Hz]; zero means every step.
+        name: what the description calls it; empty where it does not.
+        topics: where it publishes. The simulation stops for it while somebody listens there, always if there is none.
+        done: publications so far.
     """
 
     kind: ClassVar[str]
     specs: ClassVar[tuple[PluginSpec, ...]] = ()
     rate: float = 0.0
+    name: str = ""
+    topics: tuple[Topic, ...] = ()
+    done: int = 0
 
     def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
         self.plugin = plugin
@@ -156,9 +172,29 @@ class Sensor(ABC):
             SimulationError: a parameter makes no sense, with its place.
         """
 
+    def schedule(self, dt: float) -> None:
+        """Take note of the simulation's step [s], after `configure`."""
+        self._ticks = Ticks(self.rate, dt)
+
+    def next_stop(self, step: int) -> int:
+        """Return the step at which the simulation has to stop for it; `NEVER` while nobody listens."""
+        heard = not self.topics or any(topic.subscribers for topic in self.topics)
+        return self._ticks.after(step) if heard else NEVER
+
+    def catch_up(self, state: State) -> None:
+        """Measure what has fallen due."""
+        due = self._ticks.until(state.step) - self.done
+        if due > 0:
+            self.done += due
+            self.measure(state, due)
+
+    def reset(self) -> None:
+        """Start again at step 0."""
+        self.done = 0
+
     @abstractmethod
-    def measure(self, state: State) -> None:
-        """Publish a measurement of this state."""
+    def measure(self, state: State, count: int) -> None:
+        """Publish a measurement of this state, which stands for so many publications."""
 
 
 class Controller(ABC):

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from urdfkit.description.world import World
 from urdfkit.scene import MeshLoader, Role, Scene, Shape
-from urdfkit.scene.rays import RayTable
+from urdfkit.scene.rays import RayTable, warmup
 from urdfkit.scene.world import shapes_of_link
 from urdfkit.sim.things import groups_of
 
@@ -53,12 +53,20 @@ class Surroundings:
         robot: its scene.
         world: what is around it.
         body_poses: says where the world's bodies are, by name; those it does not know stay where they started.
+        note: tells the user something.
     """
 
-    def __init__(self, robot: Scene, world: World, body_poses: Callable[[], Mapping[str, tuple[float, ...]]]) -> None:
+    def __init__(
+        self,
+        robot: Scene,
+        world: World,
+        body_poses: Callable[[], Mapping[str, tuple[float, ...]]],
+        note: Callable[[str], None],
+    ) -> None:
         self._robot = robot
         self._world = world
         self._body_poses = body_poses
+        self._note = note
         self._scene: Scene | None = None
         self._start = np.empty((0, 7))
         self._tables: dict[Role, RayTable] = {}
@@ -89,5 +97,6 @@ class Surroundings:
     def table(self, role: Role) -> RayTable:
         """Return what rays meet: the visuals or the collisions."""
         if role not in self._tables:
+            warmup(lambda count: None if count else self._note("compiling the ray kernel, once, about 15 s …"))
             self._tables[role] = RayTable(self.scene, self.scene.with_role(role))
         return self._tables[role]

@@ -8,10 +8,11 @@ from collections.abc import Iterator
 from urdfkit.description.element import Element
 from urdfkit.description.plugins.control import CONTROL
 from urdfkit.description.plugins.drives import DRIVES
+from urdfkit.description.plugins.sensors import SENSORS
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 from urdfkit.description.robot import Plugin
 
-ALL_SPECS: tuple[PluginSpec, ...] = (*DRIVES, *CONTROL)
+ALL_SPECS: tuple[PluginSpec, ...] = (*DRIVES, *CONTROL, *SENSORS)
 """Every plugin we have a table of."""
 
 _VERSIONED = re.compile(r"^(gz-sim|ignition-gazebo)\d+-(.+-system)$")
@@ -29,9 +30,10 @@ def stem(filename: str) -> str:
 def match(plugin: Plugin) -> PluginSpec | None:
     """Return the table of a plugin, by file name; None where we know none.
 
-    ROS 1 and ROS 2 plugins of Gazebo Classic share file names and are told apart by spelling: a ``<ros>`` block or
-    more snake_case than camelCase parameters mean ROS 2. In the new Gazebo one library may hold several classes, so the
-    plugin's ``name`` decides where the class is known and the file name where it is not.
+    ROS 1 and ROS 2 plugins of Gazebo Classic share file names and are told apart by spelling: a ``<ros>`` block means
+    ROS 2, else the table that knows more of what is written counts, else more snake_case than camelCase means ROS 2. In
+    the new Gazebo one library may hold several classes, so the plugin's ``name`` decides where the class is known and
+    the file name where it is not.
     """
     if plugin.filename is None:
         return None
@@ -42,6 +44,10 @@ def match(plugin: Plugin) -> PluginSpec | None:
     by_class = [spec for spec in candidates if (plugin.name or "").strip() in spec.class_names]
     if by_class:
         return by_class[0]
+    if "ros" not in (tags := [child.tag for child in plugin.element.children]):
+        known = [sum(spec.parameter(tag) is not None for tag in tags) for spec in candidates]
+        if known.count(max(known)) == 1:
+            return candidates[known.index(max(known))]
     ros2 = _is_ros2(plugin.element)
     return next((spec for spec in candidates if (spec.generation == "ros2") is ros2), candidates[0])
 

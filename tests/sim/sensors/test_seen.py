@@ -1,0 +1,67 @@
+"""Lidars of the robots that come along, and things that move."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.sim.sensors.conftest import LASER, heard, scan, sensor
+from urdfkit.description import load
+from urdfkit.description.plugins.sensors import SENSORS
+from urdfkit.sim import Simulator
+
+ROBOTS = Path(__file__).parents[3] / "robots"
+FILENAME = re.compile(r'filename="lib([a-z_0-9]+)[.]so"')
+
+BALL = """</model><model name="ball"><pose>2 0 5 0 0 0</pose><link name="link"><collision name="c"><geometry><sphere>
+<radius>0.5</radius></sphere></geometry></collision></link></model><model name="rest"><static>true</static>"""
+
+
+def test_a_falling_ball_is_seen_where_it_is(post) -> None:
+    simulator = post(sensor(LASER, inside=scan(1, 0, 0), rate=1000), room=BALL)
+    messages = heard(simulator, "/post/scan", 1.2)
+    seen = [k for k, m in enumerate(messages) if np.isfinite(m.ranges[0])]
+    fall = [5 - 0.5 * 9.8 * ((k + 1) * 1e-3) ** 2 for k in range(len(messages))]
+    expected = [k for k, z in enumerate(fall) if abs(z - 0.5) < 0.5]
+    assert abs(seen[0] - expected[0]) <= 1
+    assert abs(seen[-1] - expected[-1]) <= 1
+    middle = min(expected, key=lambda k: abs(fall[k] - 0.5))
+    assert messages[middle].ranges[0] == pytest.approx(1.5, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("robot", "arguments", "topics"),
+    [
+        ("heterogeneous", {}, {"/heterogeneous/scan1": 720, "/heterogeneous/scan2": 720}),
+        ("diff_wheeled_robot_with_laser", {}, {"/scan": 720}),
+        ("gem_e2", {"gazebo": "classic"}, {"/velodyne_points": 2000}),
+        ("gem_e2", {"gazebo": "gz"}, {"/velodyne": 100, "/velodyne/points": 2000}),
+    ],
+)
+def test_lidars_of_robots_see_the_cylinders(robot: str, arguments: dict[str, str], topics: dict[str, int]) -> None:
+    notes: list[str] = []
+    (file,) = ROBOTS.glob(f"*/*_description/urdf/{robot}.urdf.xacro")
+    simulator = Simulator(
+        load(file, arguments=arguments, package_path=[file.parents[2]]), world="cylinders", note=notes.append
+    )
+    simulator.run(0.1)
+    for topic, least in topics.items():
+        message = simulator.bus.latest(topic)
+        assert (message.width * message.height if hasattr(message, "width") else len(message.ranges)) >= least
+        if hasattr(message, "ranges"):
+            assert np.isfinite(message.ranges).any() or robot == "gem_e2"  # whose middle ring looks over everything
+            assert (message.ranges > 0.09).all()
+    assert not [note for note in notes if "laser" in note or "velodyne" in note]
+
+
+def test_every_lidar_that_comes_along_is_simulated() -> None:
+    plugins = ROBOTS.glob("*/*_description/urdf/*.xacro")
+    named = {
+        name for file in plugins for name in FILENAME.findall(file.read_text()) if "laser" in name or "ray" in name
+    }
+    assert named
+    known = {name for spec in SENSORS for name in spec.filenames}
+    assert named <= known
