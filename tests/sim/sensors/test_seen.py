@@ -22,7 +22,7 @@ BALL = """</model><model name="ball"><pose>2 0 5 0 0 0</pose><link name="link"><
 
 def test_a_falling_ball_is_seen_where_it_is(post) -> None:
     simulator = post(sensor(LASER, inside=scan(1, 0, 0), rate=1000), room=BALL)
-    messages = heard(simulator, "/post/scan", 1.2)
+    messages = heard(simulator, "/scan", 1.2)
     seen = [k for k, m in enumerate(messages) if np.isfinite(m.ranges[0])]
     fall = [5 - 0.5 * 9.8 * ((k + 1) * 1e-3) ** 2 for k in range(len(messages))]
     expected = [k for k, z in enumerate(fall) if abs(z - 0.5) < 0.5]
@@ -35,7 +35,7 @@ def test_a_falling_ball_is_seen_where_it_is(post) -> None:
 @pytest.mark.parametrize(
     ("robot", "arguments", "topics"),
     [
-        ("heterogeneous", {}, {"/heterogeneous/scan1": 720, "/heterogeneous/scan2": 720}),
+        ("heterogeneous", {}, {"/scan1": 720, "/scan2": 720}),
         ("diff_wheeled_robot_with_laser", {}, {"/scan": 720}),
         ("gem_e2", {"gazebo": "classic"}, {"/velodyne_points": 2000}),
         ("gem_e2", {"gazebo": "gz"}, {"/velodyne": 100, "/velodyne/points": 2000}),

@@ -35,6 +35,36 @@ def scene_type() -> Any:
 
 
 @lru_cache(maxsize=1)
+def looker() -> Callable[..., Any]:
+    """Return the compiled `picture.look`."""
+    from numba import float64 as f
+    from numba import int64 as i
+    from numba import types, uint8
+
+    from urdfkit.scene.rays.picture import look
+
+    paint = types.Tuple((f[:, ::1], i[::1], f[:, ::1]))
+    return load_compiled(
+        look,
+        (
+            scene_type(),
+            paint,
+            f[:, ::1],
+            f[:, ::1],
+            f[::1],
+            f[:, ::1],
+            f,
+            f,
+            f[::1],
+            f[::1],
+            uint8[:, ::1],
+            f[::1],
+            i[::1],
+        ),
+    )
+
+
+@lru_cache(maxsize=1)
 def placer() -> Callable[..., Any]:
     """Return the compiled `place.place`."""
     from numba import float64 as f
@@ -93,6 +123,6 @@ def warmup(progress: Progress | None = None) -> bool:
             pass
 
     with event.install_listener("numba:compile", Listener()):
-        for kernel in (builder, placer, caster):
+        for kernel in (builder, placer, caster, looker):
             kernel()
     return bool(compiled)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.description.robot import Box, Capsule, Cylinder, Sphere
 from urdfkit.description.world import Ellipsoid, Plane
+from urdfkit.scene.mesh import TriMesh
 from urdfkit.scene.placement import upright
 from urdfkit.scene.rays import solids
 from urdfkit.scene.rays.cast import SCRATCH
@@ -52,6 +53,7 @@ class RayTable:
     Attributes:
         shapes: what `Hits.shapes` counts.
         bodies: number of the body of each shape; shape (len(shapes),).
+        kernel_scene: what the kernels take.
     """
 
     def __init__(self, scene: Scene, shapes: Iterable[Shape]) -> None:
@@ -79,7 +81,7 @@ class RayTable:
         self._health = np.zeros(2)
         self._scratch = np.empty(TREE_SCRATCH)
         self._poses = np.full((len(scene.bodies), 7), np.nan)
-        self._scene: tuple[Any, ...] = (
+        self.kernel_scene: tuple[Any, ...] = (
             self._world, self._kinds, self._roots, self._order, self._bounds.reshape(-1), self._links.reshape(-1),
             self._mesh_bounds, self._mesh_links, self._corners,
         )  # fmt: skip
@@ -88,6 +90,7 @@ class RayTable:
         """Lay the trees of all meshes end to end, each mesh once."""
         starts: dict[str, tuple[int, MeshTree]] = {}
         trees: list[tuple[int, int, MeshTree]] = []
+        self._meshes: list[tuple[int, int, TriMesh]] = []
         nodes = triangles = 0
         for k, shape in enumerate(shapes):
             if shape.mesh is None:
@@ -96,6 +99,7 @@ class RayTable:
                 tree = mesh_tree(shape.mesh)
                 starts[shape.mesh.hash] = nodes, tree
                 trees.append((nodes, triangles, tree))
+                self._meshes.append((triangles, len(tree.order), shape.mesh))
                 nodes, triangles = nodes + len(tree.links), triangles + len(tree.order)
             self._roots[k], tree = starts[shape.mesh.hash]
             self._mesh_boxes[k] = tree.bounds[0]
@@ -111,6 +115,15 @@ class RayTable:
             corners[first : first + len(tree.order)] = tree.corners
             self._faces[first : first + len(tree.order)] = tree.order
         self._mesh_bounds, self._mesh_links, self._corners = bounds.ravel(), joined.ravel(), corners.ravel()
+
+    def tints(self) -> Array:
+        """Return red, green and blue, 0..1, of every triangle as the kernels number them; white where there is none."""
+        found = np.ones((len(self._faces), 3))
+        for first, count, mesh in self._meshes:
+            if mesh.colors is not None:
+                corners = mesh.colors[:, :3][mesh.faces[self._faces[first : first + count]]]
+                found[first : first + count] = corners.mean(axis=1) / 255.0
+        return found
 
     def place(self, poses: ArrayLike) -> None:
         """Move the bodies.
@@ -155,7 +168,7 @@ class RayTable:
         distances, facing = np.empty(count), np.empty((count if normals else 0, 3))
         hits, parts = np.empty(count, dtype=np.int64), np.empty(count, dtype=np.int64)
         caster()(
-            self._scene, np.concatenate([placed[:3, :3].ravel(), placed[:3, 3]]), origins, directions,
+            self.kernel_scene, np.concatenate([placed[:3, :3].ravel(), placed[:3, 3]]), origins, directions,
             float(near), float(min(far, FAR)), np.empty(SCRATCH), distances, hits, parts, facing,
         )  # fmt: skip
         if len(self._faces):

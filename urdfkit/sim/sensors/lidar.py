@@ -57,7 +57,7 @@ class Lidar(Sensor):
     """A lidar; what it publishes is its subclass's to say."""
 
     namespace = ""
-    """Where ROS 1 puts the plugin that does not say; ``{model}`` is the robot's name."""
+    """Where ROS 1 puts the plugin whose ``<robotNamespace>`` is empty; ``{model}`` is the robot's name."""
 
     def configure(self, setup: Setup) -> None:
         """Read the scan, the rate and the plugin's parameters, and advertise.
@@ -72,7 +72,8 @@ class Lidar(Sensor):
         self._surroundings = setup.surroundings
         names = {**setup.names, "link": setup.link, "sensor": self.name}
         read = Parameters(self.plugin, self.spec, names)
-        topics = Topics(self.plugin, self.spec, namespace=self.namespace.format(**names))
+        empty = self.plugin.element.find("robotNamespace") is not None
+        topics = Topics(self.plugin, self.spec, namespace=self.namespace.format(**names) if empty else "")
         self.scan = scan_of(sensor)
         self.rate = _slower(number(sensor.element, "update_rate", 0.0), read.number("update_rate"))
         self.frame = (read.text("frame") or read.text("old_frame") or read.text("default_frame")).lstrip("/")

@@ -1,0 +1,95 @@
+"""The camera model: which direction each pixel looks in, with Brown's distortion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import tan
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+TILE = 4
+"""Pixels that are neighbours in the picture are neighbours among the rays: tiles of 4 × 4."""
+
+
+@dataclass(frozen=True)
+class Distortion:
+    """Radial (k) and tangential (p) coefficients (Brown, *Decentering Distortion of Lenses*, 1966), as OpenCV's."""
+
+    k1: float = 0.0
+    k2: float = 0.0
+    p1: float = 0.0
+    p2: float = 0.0
+    k3: float = 0.0
+
+    def __bool__(self) -> bool:
+        return any((self.k1, self.k2, self.p1, self.p2, self.k3))
+
+    def distort(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """Return where points of the undistorted picture, in units of the focal length, go."""
+        r2 = x * x + y * y
+        radial = 1 + r2 * (self.k1 + r2 * (self.k2 + r2 * self.k3))
+        return (
+            x * radial + 2 * self.p1 * x * y + self.p2 * (r2 + 2 * x * x),
+            y * radial + self.p1 * (r2 + 2 * y * y) + 2 * self.p2 * x * y,
+        )
+
+    def undistort(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """Return where points of the picture come from; NaN where nothing goes there."""
+        a, b = x.copy(), y.copy()
+        with np.errstate(over="ignore", invalid="ignore"):
+            for _ in range(60):
+                u, v = self.distort(a, b)
+                a, b = a + (x - u), b + (y - v)
+            u, v = self.distort(a, b)
+            lost = ~(np.hypot(u - x, v - y) < 1e-6)
+        a[lost] = b[lost] = np.nan
+        return a, b
+
+
+@dataclass(frozen=True)
+class Lens:
+    """A pinhole camera that looks along x, with z up in the picture and y to its left.
+
+    Attributes:
+        width: of the picture [px].
+        height: of the picture [px].
+        field_of_view: horizontal [rad].
+        distortion: of its lens.
+    """
+
+    width: int
+    height: int
+    field_of_view: float
+    distortion: Distortion = Distortion()
+
+    @property
+    def focal_length(self) -> float:
+        """Focal length [px]."""
+        return self.width / (2.0 * tan(self.field_of_view / 2.0))
+
+    @cached_property
+    def order(self) -> NDArray[np.int64]:
+        """For each ray the number of its pixel, row by row; shape (width · height,)."""
+        row, column = np.divmod(np.arange(self.width * self.height), self.width)
+        within = (row % TILE) * TILE + column % TILE
+        return np.lexsort((within, column // TILE, row // TILE))
+
+    @cached_property
+    def directions(self) -> Array:
+        """A unit vector per ray in the camera's frame, tile by tile; shape (width · height, 3).
+
+        Pixels that nothing is projected to look backwards along x: they see nothing.
+        """
+        row, column = np.divmod(self.order, self.width)
+        x = (column - (self.width - 1) / 2) / self.focal_length
+        y = (row - (self.height - 1) / 2) / self.focal_length
+        if self.distortion:
+            x, y = self.distortion.undistort(x, y)
+        found = np.column_stack([np.ones_like(x), -x, -y])
+        found /= np.linalg.norm(found, axis=1, keepdims=True)
+        found[np.isnan(found).any(axis=1)] = (-1.0, 0.0, 0.0)
+        return np.ascontiguousarray(found)
