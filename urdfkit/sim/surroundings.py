@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from urdfkit.description.world import World
 from urdfkit.scene import MeshLoader, Role, Scene, Shape
+from urdfkit.scene.image import Painter
+from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.rays import RayTable, warmup
 from urdfkit.scene.world import shapes_of_link
 from urdfkit.sim.things import groups_of
@@ -70,6 +72,7 @@ class Surroundings:
         self._scene: Scene | None = None
         self._start = np.empty((0, 7))
         self._tables: dict[Role, RayTable] = {}
+        self._painter: Painter | None = None
 
     @property
     def scene(self) -> Scene:
@@ -93,6 +96,12 @@ class Surroundings:
             if (row := self._rows.get(name)) is not None:
                 found[count + row] = pose
         return found
+
+    def painter(self) -> Painter:
+        """Return what takes pictures of the visuals, by the lights of the world."""
+        if self._painter is None:
+            self._painter = Painter(self.table("visual"), lighting_of(self._world))
+        return self._painter
 
     def table(self, role: Role) -> RayTable:
         """Return what rays meet: the visuals or the collisions."""

@@ -22,6 +22,10 @@ def plugin_of(inside: str, filename: str):
 @pytest.mark.parametrize(
     ("filename", "inside", "kind", "generation"),
     [
+        ("libgazebo_ros_camera.so", "<cameraName>c</cameraName>", "camera", "ros1"),
+        ("libgazebo_ros_camera.so", "<camera_name>c</camera_name>", "camera", "ros2"),
+        ("libgazebo_ros_openni_kinect.so", "", "openni_kinect", "ros1"),
+        ("libgazebo_ros_depth_camera.so", "", "depth_camera", "ros1"),
         ("libgazebo_ros_laser.so", "<topicName>t</topicName>", "laser", "ros1"),
         ("libgazebo_ros_gpu_laser.so", "", "laser", "ros1"),
         ("libgazebo_ros_block_laser.so", "", "block_laser", "ros1"),
@@ -66,4 +70,4 @@ def test_defaults_are_the_sources(filename: str, inside: str, expected: dict[str
 
 def test_every_table_names_its_source_and_bare_sensors_have_one() -> None:
     assert all(spec.source for spec in (*SENSORS, *BARE.values()))
-    assert set(BARE) == {"ray", "gpu_ray", "lidar", "gpu_lidar"}
+    assert set(BARE) >= {"ray", "gpu_ray", "lidar", "gpu_lidar", "camera", "depth_camera", "rgbd_camera"}

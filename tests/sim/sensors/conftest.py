@@ -11,8 +11,10 @@ import pytest
 from urdfkit.description import load
 from urdfkit.sim import Simulator, Spawn
 
+ROBOTS = Path(__file__).parents[3] / "robots"
+
 WALL = """<link name="{name}"><pose>{x} {y} 0 0 0 0</pose><{role} name="shape"><laser_retro>{retro}</laser_retro>
-<geometry><box><size>{dx} {dy} 4</size></box></geometry></{role}></link>"""
+<geometry><box><size>{dx} {dy} 20</size></box></geometry></{role}></link>"""
 
 
 def wall(name: str, x: float, y: float, dx: float, dy: float, *, retro: float = 0.0, role: str = "collision") -> str:

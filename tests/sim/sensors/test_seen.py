@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tests.sim.sensors.conftest import LASER, heard, scan, sensor
+from tests.sim.sensors.conftest import LASER, ROBOTS, heard, scan, sensor
 from urdfkit.description import load
 from urdfkit.description.plugins.sensors import SENSORS
 from urdfkit.sim import Simulator
 
-ROBOTS = Path(__file__).parents[3] / "robots"
 FILENAME = re.compile(r'filename="lib([a-z_0-9]+)[.]so"')
 
 BALL = """</model><model name="ball"><pose>2 0 5 0 0 0</pose><link name="link"><collision name="c"><geometry><sphere>

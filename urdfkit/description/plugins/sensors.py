@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+from urdfkit.description.plugins.camera import CAMERA_GZ, CAMERAS, DEPTH_CAMERA_GZ, RGBD_CAMERA_GZ
 from urdfkit.description.plugins.lidar import LIDAR_GZ, LIDAR_TYPES, LIDARS
 from urdfkit.description.plugins.spec import PluginSpec
 
-SENSORS = (*LIDARS,)
+SENSORS = (*LIDARS, *CAMERAS)
 """Every sensor plugin."""
 
-BARE: dict[str, PluginSpec] = dict.fromkeys(LIDAR_TYPES, LIDAR_GZ)
+BARE: dict[str, PluginSpec] = {
+    **dict.fromkeys(LIDAR_TYPES, LIDAR_GZ),
+    "camera": CAMERA_GZ,
+    "depth": DEPTH_CAMERA_GZ,
+    "depth_camera": DEPTH_CAMERA_GZ,
+    "rgbd": RGBD_CAMERA_GZ,
+    "rgbd_camera": RGBD_CAMERA_GZ,
+}
 """Type of a ``<sensor>`` without a plugin → its table: in the new Gazebo sensors publish by themselves."""

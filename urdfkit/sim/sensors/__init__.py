@@ -3,8 +3,23 @@
 from __future__ import annotations
 
 from urdfkit.sim.plugin import Sensor
+from urdfkit.sim.sensors.camera import GzCamera, RosCamera
+from urdfkit.sim.sensors.depth_camera import DepthCamera, GzDepthCamera, GzRgbdCamera, OpenniKinect
 from urdfkit.sim.sensors.laser import BlockLaser, Laser, Range
 from urdfkit.sim.sensors.point_cloud import GzLidar, RaySensor, Velodyne
 
-SENSORS: tuple[type[Sensor], ...] = (Laser, BlockLaser, Range, RaySensor, Velodyne, GzLidar)
+SENSORS: tuple[type[Sensor], ...] = (
+    Laser,
+    BlockLaser,
+    Range,
+    RaySensor,
+    Velodyne,
+    GzLidar,
+    RosCamera,
+    DepthCamera,
+    OpenniKinect,
+    GzCamera,
+    GzDepthCamera,
+    GzRgbdCamera,
+)
 """Every sensor; a test walks this folder and fails if one is missing here."""

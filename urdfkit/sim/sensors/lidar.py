@@ -9,26 +9,23 @@ others visuals.
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.errors import SimulationError
 from urdfkit.messages import header, message_type
-from urdfkit.scene.placement import pose_matrices
-from urdfkit.sim.parameters import Parameters
-from urdfkit.sim.plugin import Sensor, Setup
+from urdfkit.sim.sensors.mounted import Mounted
 from urdfkit.sim.sensors.noise import noise_of
 from urdfkit.sim.sensors.scan import scan_of
-from urdfkit.sim.sensors.values import number, pose_of
-from urdfkit.sim.topics import Topics
 
 if TYPE_CHECKING:
-    from urdfkit.sim.state import State
+    from urdfkit.description.robot import SensorTag
+    from urdfkit.scene import Role
+    from urdfkit.sim.parameters import Parameters
+    from urdfkit.sim.plugin import Setup
+    from urdfkit.sim.topics import Topics
 
 Array = NDArray[np.float64]
 
@@ -53,74 +50,32 @@ class Reading:
     random: np.random.Generator
 
 
-class Lidar(Sensor):
+class Lidar(Mounted):
     """A lidar; what it publishes is its subclass's to say."""
 
-    namespace = ""
-    """Where ROS 1 puts the plugin whose ``<robotNamespace>`` is empty; ``{model}`` is the robot's name."""
-
-    def configure(self, setup: Setup) -> None:
-        """Read the scan, the rate and the plugin's parameters, and advertise.
-
-        Raises:
-            SimulationError: something makes no sense, with its place.
-        """
-        sensor = setup.sensor
-        if sensor is None or setup.surroundings is None:
-            raise SimulationError("a lidar stands in a <sensor>", position=self.plugin.element.origin.position)
-        self.name = sensor.name or "sensor"
-        self._surroundings = setup.surroundings
-        names = {**setup.names, "link": setup.link, "sensor": self.name}
-        read = Parameters(self.plugin, self.spec, names)
-        empty = self.plugin.element.find("robotNamespace") is not None
-        topics = Topics(self.plugin, self.spec, namespace=self.namespace.format(**names) if empty else "")
+    def _prepare(self, setup: Setup, sensor: SensorTag, read: Parameters, topics: Topics) -> None:
         self.scan = scan_of(sensor)
-        self.rate = _slower(number(sensor.element, "update_rate", 0.0), read.number("update_rate"))
-        self.frame = (read.text("frame") or read.text("old_frame") or read.text("default_frame")).lstrip("/")
-        self._role: Any = "collision" if sensor.type == "ray" else "visual"
+        self._role: Role = "collision" if sensor.type == "ray" else "visual"
         self._directions = self.scan.directions()
-        self._pose = pose_of(sensor.element)
-        self._link = setup.kinematics.link_names.index(setup.link)
         self._noise = noise_of(sensor.element.find("ray") or sensor.element.find("lidar"), setup.random)
-        self._key = int(setup.random.integers(1 << 62))
         self._advertise(setup, read, topics)
 
     @abstractmethod
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
         """Read what is the plugin's own and fill `topics`."""
 
-    @abstractmethod
-    def messages(self) -> tuple[Callable[[Reading], Any], ...]:
-        """Return what makes the message of each of `topics`."""
-
-    def measure(self, state: State, count: int) -> None:
-        """Publish what is seen from here; nothing is computed before somebody looks."""
-        t, poses = state.t, self._surroundings.poses(state.link_poses())
-        look = self._look(t, poses, self.done)
-        for topic, message in zip(self.topics, self.messages(), strict=True):
-            topic.offer(lambda make=message: make(look()), count=count)  # type: ignore[misc]
-
-    def _look(self, t: float, poses: Array, turn: int) -> Callable[[], Reading]:
-        """Return what takes the reading, once for all topics. Noise depends on the reading's number alone."""
-
-        @cache
-        def look() -> Reading:
-            table = self._surroundings.table(self._role)
-            table.place(poses)
-            scan = self.scan
-            frame = pose_matrices(poses[self._link])[0] @ self._pose
-            hits = table.cast((0.0, 0.0, 0.0), self._directions, near=scan.range_min, far=scan.range_max, frame=frame)
-            ranges = hits.distances
-            random = np.random.Generator(np.random.Philox(key=[self._key, turn]))
-            low, high = ranges <= scan.range_min, ranges >= scan.range_max
-            if self._noise:
-                ranges = np.clip(self._noise.on(ranges, random), scan.range_min, scan.range_max)
-            ranges = np.where(high, np.inf, np.where(low, -np.inf, ranges))
-            retro = np.array([*(shape.laser_retro for shape in table.shapes), 0.0])
-            shape = (scan.rings, scan.samples)
-            return Reading(t, ranges.reshape(shape), retro[hits.shapes].reshape(shape), random)
-
-        return look
+    def _look(self, t: float, poses: Array, frame: Array, random: np.random.Generator) -> Reading:
+        table, scan = self._surroundings.table(self._role), self.scan
+        table.place(poses)
+        hits = table.cast((0.0, 0.0, 0.0), self._directions, near=scan.range_min, far=scan.range_max, frame=frame)
+        ranges = hits.distances
+        low, high = ranges <= scan.range_min, ranges >= scan.range_max
+        if self._noise:
+            ranges = np.clip(self._noise.on(ranges, random), scan.range_min, scan.range_max)
+        ranges = np.where(high, np.inf, np.where(low, -np.inf, ranges))
+        retro = np.array([*(shape.laser_retro for shape in table.shapes), 0.0])
+        shape = (scan.rings, scan.samples)
+        return Reading(t, ranges.reshape(shape), retro[hits.shapes].reshape(shape), random)
 
     # What several plugins publish.
 
@@ -146,8 +101,3 @@ class Lidar(Sensor):
         with np.errstate(invalid="ignore"):
             found: Array = ranges.reshape(-1, 1) * self._directions
         return found
-
-
-def _slower(one: float, other: float) -> float:
-    """Return the smaller of two rates that are set; zero where none is."""
-    return min((rate for rate in (one, other) if rate > 0), default=0.0)

@@ -1,0 +1,220 @@
+"""Cameras: topics, encodings, intrinsics, depths and points as each plugin has them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tests.sim.sensors.conftest import ROBOTS, heard, noise, sensor, wall
+from tests.sim.sensors.test_clouds import layout, rows
+from urdfkit.description import load
+from urdfkit.sim import Simulator
+
+ROOM = wall("east", 3.05, 0, 0.1, 500, role="visual") + wall("north", 0, 2.05, 500, 0.1, role="visual")
+
+
+def camera(width=64, height=48, fov=1.2, form="R8G8B8", more="", near=0.05, far=50.0) -> str:
+    return (
+        f"<camera><horizontal_fov>{fov}</horizontal_fov><image><width>{width}</width><height>{height}</height>"
+        f"<format>{form}</format></image><clip><near>{near}</near><far>{far}</far></clip>{more}</camera>"
+    )
+
+
+def ros1(file: str = "camera", more: str = "") -> str:
+    return (
+        f'<plugin name="c" filename="libgazebo_ros_{file}.so"><cameraName>cam</cameraName>'
+        f"<frameName>optical</frameName>{more}</plugin>"
+    )
+
+
+def eye(plugin: str = "", type: str = "camera", inside: str | None = None, more: str = "") -> str:
+    return sensor(plugin, inside=camera() if inside is None else inside, type=type, more=more)
+
+
+def pixels(message) -> np.ndarray:
+    kind = {"32FC1": "<f4", "16UC1": "<u2"}.get(message.encoding, "u1")
+    found = np.frombuffer(message.data.tobytes(), kind).reshape(message.height, message.width, -1)
+    assert message.step == len(message.data) // message.height
+    return found[..., 0] if found.shape[-1] == 1 else found
+
+
+def test_a_camera_of_ros_1(post) -> None:
+    simulator = post(eye(ros1()), room=ROOM)
+    (picture,) = heard(simulator, "/cam/image_raw")
+    assert (picture.width, picture.height, picture.encoding, picture.step) == (64, 48, "rgb8", 192)
+    assert picture.header.frame_id == "optical"
+    (info,) = heard(simulator, "/cam/camera_info")
+    f = 64 / (2 * np.tan(0.6))
+    assert info.k.reshape(3, 3) == pytest.approx(np.array([[f, 0, 32.5], [0, f, 24.5], [0, 0, 1]]))
+    assert info.p.reshape(3, 4)[:, :3] == pytest.approx(info.k.reshape(3, 3))
+    assert (info.width, info.height, info.distortion_model, info.header.frame_id) == (64, 48, "plumb_bob", "optical")
+    assert info.d.tolist() == [0.0] * 5
+
+
+def test_what_is_written_about_intrinsics_is_told(post) -> None:
+    more = "<focalLength>50</focalLength><Cx>30</Cx><Cy>20</Cy><hackBaseline>0.07</hackBaseline>"
+    more += "<distortionK1>-0.1</distortionK1>"
+    (info,) = heard(post(eye(ros1(more=more)), room=ROOM), "/cam/camera_info")
+    assert info.k.tolist() == [50, 0, 30, 0, 50, 20, 0, 0, 1]
+    assert info.p[3] == pytest.approx(-3.5)
+    assert info.d.tolist() == [-0.1, 0, 0, 0, 0]
+
+
+def test_nobody_looks_for_camera_info(post) -> None:
+    simulator = post(eye(ros1()), room=ROOM)
+    heard(simulator, "/cam/camera_info", 0.5)
+    assert simulator._plugins.sensors[0]._surroundings._painter is None
+
+
+@pytest.mark.parametrize("form", ["L8", "B8G8R8", "BAYER_RGGB8", "BAYER_GRBG8"])
+def test_formats_hold_the_same_picture(post, form: str) -> None:
+    room = ROOM.replace("</geometry>", "</geometry><material><diffuse>1 0.5 0.25 1</diffuse></material>")
+    (colored,) = heard(post(eye(ros1()), room=room), "/cam/image_raw")
+    (other,) = heard(post(eye(ros1(), inside=camera(form=form)), room=room), "/cam/image_raw")
+    rgb, found = pixels(colored), pixels(other)
+    if form == "B8G8R8":
+        assert other.encoding == "bgr8"
+        assert np.array_equal(found[..., ::-1], rgb)
+    elif form == "L8":
+        assert other.encoding == "mono8"
+        assert np.abs(found - rgb @ (0.299, 0.587, 0.114)).max() <= 0.51
+    else:
+        order = form[6:10]
+        for k, color in enumerate(order):
+            assert np.array_equal(found[k // 2 :: 2, k % 2 :: 2], rgb[k // 2 :: 2, k % 2 :: 2, "RGB".index(color)])
+        assert other.encoding == f"bayer_{order.lower()}8"
+
+
+def depths(width=64, height=48, fov=1.2):
+    """Return how deep the walls of `ROOM` are in a camera that looks along x."""
+    f = width / (2 * np.tan(fov / 2))
+    left = np.tile(((width - 1) / 2 - np.arange(width)) / f, (height, 1))
+    return np.where(left > 2 / 3, 2 / np.maximum(left, 1e-9), 3.0)
+
+
+@pytest.mark.parametrize("file", ["openni_kinect", "depth_camera"])
+def test_depth_cameras_of_ros_1(post, file: str) -> None:
+    more = "<pointCloudCutoff>0.4</pointCloudCutoff><pointCloudCutoffMax>2.99</pointCloudCutoffMax>"
+    simulator = post(eye(ros1(file, more), "depth"), room=ROOM)
+    (message,) = heard(simulator, "/cam/depth/image_raw")
+    found, true = pixels(message), depths()
+    farthest = 2.99 if file == "openni_kinect" else np.inf
+    assert message.encoding == "32FC1"
+    assert np.allclose(found, np.where(true < farthest, true, np.nan), atol=1e-5, equal_nan=True)
+    (cloud,) = heard(simulator, "/cam/points")
+    points = rows(cloud)
+    assert layout(cloud) == [("x", 0), ("y", 4), ("z", 8), ("rgb", 16)]
+    assert (cloud.width, cloud.height, cloud.point_step) == (64, 48, 32)
+    assert cloud.is_dense == (file == "depth_camera")
+    # Each point falls back on its own pixel.
+    f = 64 / (2 * np.tan(0.6))
+    row, column = np.divmod(np.arange(64 * 48), 64)
+    seen = np.isfinite(points["z"])
+    assert np.allclose((f * points["x"] / points["z"] + 31.5)[seen], column[seen], atol=1e-3)
+    assert np.allclose((f * points["y"] / points["z"] + 23.5)[seen], row[seen], atol=1e-3)
+    assert np.allclose(points["z"].reshape(48, 64), found, equal_nan=True)
+    assert {t.name for t in simulator.bus.topics} >= {"/cam/depth/camera_info"}
+
+
+def test_points_have_the_colours_of_their_pixels(post) -> None:
+    room = ROOM.replace("</geometry>", "</geometry><material><diffuse>1 0.5 0.25 1</diffuse></material>")
+    simulator = post(eye(ros1("openni_kinect"), "depth"), room=room)
+    simulator.run(0.1)
+    rgb = pixels(simulator.bus.latest("/cam/ir/image_raw")).reshape(-1, 3)
+    packed = rows(simulator.bus.latest("/cam/points"))["rgb"].copy().view(np.uint32)
+    assert np.array_equal(np.column_stack([packed >> 16 & 255, packed >> 8 & 255, packed & 255]), rgb)
+    assert rgb[0, 0] > rgb[0, 1] > rgb[0, 2]
+
+
+def test_millimetres(post) -> None:
+    more = "<useDepth16UC1Format>true</useDepth16UC1Format><pointCloudCutoffMax>2.99</pointCloudCutoffMax>"
+    (message,) = heard(post(eye(ros1("openni_kinect", more), "depth"), room=ROOM), "/cam/depth/image_raw")
+    true = depths()
+    assert message.encoding == "16UC1"
+    assert np.abs(pixels(message) - np.where(true < 2.99, 1000 * true, 0)).max() <= 0.51
+
+
+def test_a_camera_of_ros_2_with_depth(post) -> None:
+    plugin = """<plugin name="c" filename="libgazebo_ros_camera.so"><ros><namespace>n</namespace></ros>
+    <camera_name>cam</camera_name>
+    <min_depth>2.2</min_depth><max_depth>2.99</max_depth></plugin>"""
+    simulator = post(eye(plugin, "depth"), room=ROOM)
+    names = {t.name for t in simulator.bus.topics}
+    assert names >= {"/n/cam/image_raw", "/n/cam/camera_info", "/n/cam/depth/camera_info", "/n/cam/points"}
+    (message,) = heard(simulator, "/n/cam/depth/image_raw")
+    true = depths(fov=1.2)
+    expected = np.where(true >= 2.99, np.inf, np.where(true <= 2.2, -np.inf, true))
+    assert np.allclose(pixels(message), expected, atol=1e-5)
+    assert message.header.frame_id == "eye"
+
+
+def test_cameras_of_the_new_gazebo(post) -> None:
+    optical = camera(more="<optical_frame_id>o</optical_frame_id>")
+    simulator = post(
+        eye(inside=optical, more="<topic>a/picture</topic>")
+        + eye(type="rgbd_camera", more="<topic>b</topic>").replace('"lidar"', '"other"'),
+        room=ROOM,
+    )
+    (picture,) = heard(simulator, "/a/picture")
+    assert picture.header.frame_id == "o"
+    (info,) = heard(simulator, "/a/camera_info")
+    assert (info.k[2], info.k[5]) == (32.0, 24.0)
+    (depth,) = heard(simulator, "/b/depth_image")
+    assert np.allclose(pixels(depth), depths(), atol=1e-5)
+    (cloud,) = heard(simulator, "/b/points")
+    points = rows(cloud)
+    assert (np.isclose(points["x"], 3, atol=1e-5) | np.isclose(points["y"], 2, atol=1e-5)).all()
+    assert {t.name for t in simulator.bus.topics} >= {"/b/image", "/b/camera_info"}
+
+
+def test_noise_has_its_mean_and_deviation(post) -> None:
+    noisy = camera(500, 400, more=noise(0.02, 0.01))
+    (plain,) = heard(post(eye(ros1(), inside=camera(500, 400)), room=ROOM), "/cam/image_raw")
+    (grainy,) = heard(post(eye(ros1(), inside=noisy), room=ROOM), "/cam/image_raw")
+    off = pixels(grainy).astype(float) - pixels(plain)
+    assert abs(off.mean() - 2.55) < 5 * 5.1 / np.sqrt(off.size) + 0.01
+    assert off.std() == pytest.approx(np.hypot(5.1, 12**-0.5), rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("inside", "said"),
+    [
+        (camera(form="R8G8B9"), "pictures of format `R8G8B9` are not taken; did you mean `R8G8B8`?"),
+        (camera(width=0), "<width> is `0`; it must be a finite number, 1 or greater"),
+        (camera(width=99999, height=99999), "a picture of 99999 × 99999 pixels cannot be taken"),
+        (camera(fov=3.5), "<horizontal_fov> is 3.5 rad; it must be between 0 and π"),
+        (camera(near=2, far=1), "a camera that sees from 2 m to 1 m sees nothing"),
+        ("", "a camera lacks its <camera>"),
+    ],
+)
+def test_a_camera_that_makes_no_sense_is_left_out_by_name(post, inside: str, said: str) -> None:
+    notes: list[str] = []
+    simulator = post(eye(ros1(), inside=inside), room=ROOM, note=notes.append)
+    (note,) = [each for each in notes if "left out" in each]
+    assert said in note
+    assert note.endswith("sensor `lidar` is left out")
+    simulator.run(0.1)
+
+
+@pytest.mark.parametrize(
+    ("robot", "topic"),
+    [
+        ("simpleton", "/simpleton/camera1/image_raw"),
+        ("mybot", "/mybot/camera1/image_raw"),
+        ("artoo", "/artoo/camera1/image_raw"),
+        ("bot", "/robot_0/camera1/image_raw"),
+        ("heterogeneous", "/camera/depth/image_raw"),
+    ],
+)
+def test_cameras_of_robots_see_the_house(robot: str, topic: str) -> None:
+    notes: list[str] = []
+    (file,) = ROBOTS.glob(f"*/*_description/urdf/{robot}.urdf.xacro")
+    simulator = Simulator(load(file, package_path=[file.parents[2]]), world="house", note=notes.append)
+    simulator.run(0.2)
+    message = simulator.bus.latest(topic)
+    seen = pixels(message)
+    if message.encoding == "32FC1":
+        assert np.isfinite(seen).mean() > 0.2
+    else:
+        assert len(np.unique(seen.reshape(-1, 3), axis=0)) > 5
+    assert not [note for note in notes if "camera" in note]

@@ -1,0 +1,153 @@
+"""Cameras: pictures and camera_info of gazebo_ros_camera and of the new Gazebo's own.
+
+The camera looks along the x axis of its link, as in Gazebo; the frame in the header is whatever the plugin is told, by
+custom an optical one. The principal point that Gazebo Classic tells is one pixel off the one it draws with, (W + 1)/2
+instead of (W - 1)/2; that is kept, as robots' drivers know it.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.scene.image import Picture
+from urdfkit.scene.lens import Distortion
+from urdfkit.sim.sensors.clouds import POINT_CLOUD_2
+from urdfkit.sim.sensors.depth import points, within
+from urdfkit.sim.sensors.mounted import Mounted
+from urdfkit.sim.sensors.noise import noise_of
+from urdfkit.sim.sensors.optics import CAMERA_INFO, IMAGE, camera_info, depth_image, image, optics_of
+
+if TYPE_CHECKING:
+    from urdfkit.description.robot import SensorTag
+    from urdfkit.sim.parameters import Parameters
+    from urdfkit.sim.plugin import Setup
+    from urdfkit.sim.topics import Topics
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Sight:
+    """What a camera saw.
+
+    Attributes:
+        t: when [s].
+        picture: colours, depths and shapes.
+    """
+
+    t: float
+    picture: Picture
+
+
+class Camera(Mounted):
+    """A camera; what it publishes is its subclass's to say."""
+
+    namespace = "{model}"
+
+    def _prepare(self, setup: Setup, sensor: SensorTag, read: Parameters, topics: Topics) -> None:
+        optics = optics_of(sensor)
+        written = Distortion(*(read.number(meaning) for meaning in ("k1", "k2", "p1", "p2", "k3")))
+        if written and not optics.lens.distortion:
+            optics = replace(optics, lens=replace(optics.lens, distortion=written))
+        self.optics = optics
+        self._noise = noise_of(optics.element, setup.random)
+        lens, gz = optics.lens, self.spec.generation == "gz"
+        self._focal = read.number("focal_length") or lens.focal_length
+        self._cx = read.number("cx") or (lens.width + (0 if gz else 1)) / 2
+        self._cy = read.number("cy") or (lens.height + (0 if gz else 1)) / 2
+        self._baseline = read.number("baseline")
+        if (optical := optics.element.find("optical_frame_id")) is not None and optical.text:
+            self.frame = optical.text
+        self._advertise(setup, read, topics)
+
+    @abstractmethod
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        """Read what is the plugin's own and fill `topics`."""
+
+    def _look(self, t: float, poses: Array, frame: Array, random: np.random.Generator) -> Sight:
+        painter = self._surroundings.painter()
+        painter.table.place(poses)
+        picture = painter.take(self.optics.lens, frame, near=self.optics.near, far=self.optics.far)
+        if self._noise:
+            noisy = self._noise.on(picture.rgb / 255.0, random)
+            picture = replace(picture, rgb=np.rint(255.0 * np.clip(noisy, 0.0, 1.0)).astype(np.uint8))
+        return Sight(t, picture)
+
+    def _image(self, sight: Sight) -> Any:
+        return image(sight.t, self.frame, sight.picture.rgb, self.optics.encoding)
+
+    def info(self, t: float) -> Any:
+        """Return the CameraInfo, which nothing has to be looked at for."""
+        return camera_info(
+            t, self.frame, self.optics.lens, focal=self._focal, cx=self._cx, cy=self._cy, baseline=self._baseline
+        )
+
+    def topic_of(self, read: Parameters, topics: Topics, meaning: str, name: str) -> str:
+        """Return a topic of this camera: below its name, under what is written for `meaning`, else as `name`."""
+        return topics.resolve(f"{read.text('camera')}/{read.text(meaning, name)}".lstrip("/"))
+
+
+class RosCamera(Camera):
+    """gazebo_ros_camera of ROS 1 and ROS 2; in ROS 2 with depths and points on a sensor of type depth.
+
+    What is too near is -inf, what is too far +inf in ROS 2's depths, and NaN in its points.
+    """
+
+    kind = "camera"
+
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        self._deep = self.spec.generation == "ros2" and (setup.sensor is not None and setup.sensor.type == "depth")
+        self._min_depth, self._max_depth = read.number("min_depth", 0.4), read.number("max_depth", np.inf)
+
+        def topic(type: str, name: str, meaning: str = "") -> Any:
+            return setup.bus.advertise(self.topic_of(read, topics, meaning, name), type)
+
+        looked = [topic(IMAGE, "image_raw", "image_topic")]
+        plain = [topic(CAMERA_INFO, "camera_info", "info_topic")]
+        if self._deep:
+            looked += [topic(IMAGE, "depth/image_raw"), topic(POINT_CLOUD_2, "points")]
+            plain.append(topic(CAMERA_INFO, "depth/camera_info"))
+        self.topics = (*looked, *plain)
+
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the messages of the first of `topics`."""
+        return (self._image, self._depth, self._points) if self._deep else (self._image,)
+
+    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+        """Return what makes the messages of the others."""
+        return (self.info, self.info) if self._deep else (self.info,)
+
+    def _depth(self, sight: Sight) -> Any:
+        depth = sight.picture.depth
+        deep = np.where(depth >= self._max_depth, np.inf, np.where(depth <= self._min_depth, -np.inf, depth))
+        return depth_image(sight.t, self.frame, deep.astype(np.float32))
+
+    def _points(self, sight: Sight) -> Any:
+        deep = within(sight.picture.depth, self._min_depth, self._max_depth)
+        return points(sight.t, self.frame, self.optics.lens, deep, sight.picture.rgb)
+
+
+class GzCamera(Camera):
+    """A camera of the new Gazebo, which publishes by itself."""
+
+    kind = "gz_camera"
+
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        picture = topics.resolve(read.text("image_topic"))
+        written = self.optics.element.find("camera_info_topic")
+        info = written.text if written is not None and written.text else f"{picture.rpartition('/')[0]}/camera_info"
+        self.topics = (setup.bus.advertise(picture, IMAGE), setup.bus.advertise(topics.resolve(info), CAMERA_INFO))
+
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the messages of the first of `topics`."""
+        return (self._image,)
+
+    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+        """Return what makes the messages of the others."""
+        return (self.info,)

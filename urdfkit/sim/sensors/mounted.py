@@ -1,0 +1,109 @@
+"""What lidars and cameras share: they sit on a link, look at what is around, and do it only for somebody."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError
+from urdfkit.scene.placement import pose_matrices
+from urdfkit.sim.parameters import Parameters
+from urdfkit.sim.plugin import Sensor, Setup
+from urdfkit.sim.sensors.values import number, pose_of
+from urdfkit.sim.topics import Topics
+
+if TYPE_CHECKING:
+    from urdfkit.description.robot import SensorTag
+    from urdfkit.sim.state import State
+
+Array = NDArray[np.float64]
+
+
+class Mounted(Sensor):
+    """A sensor on a link that looks at its surroundings; one look makes the messages of all its topics.
+
+    Attributes:
+        frame: whose coordinates it tells.
+    """
+
+    namespace = ""
+    """Where ROS 1 puts the plugin whose ``<robotNamespace>`` is empty; ``{model}`` is the robot's name."""
+
+    frame: str = ""
+
+    def configure(self, setup: Setup) -> None:
+        """Read the sensor, its rate and the plugin's parameters, and advertise.
+
+        Raises:
+            SimulationError: something makes no sense, with its place.
+        """
+        sensor = setup.sensor
+        if sensor is None or setup.surroundings is None:
+            raise SimulationError(
+                "this plugin stands in a <sensor>, and in none here", position=self.plugin.element.origin.position
+            )
+        if setup.link not in setup.kinematics.link_names:
+            raise SimulationError(
+                f"a sensor stands in <gazebo reference=…> of a link; `{setup.link}` is none",
+                position=sensor.element.origin.position,
+            )
+        self.name = sensor.name or "sensor"
+        names = {**setup.names, "link": setup.link, "sensor": self.name}
+        read = Parameters(self.plugin, self.spec, names)
+        empty = self.plugin.element.find("robotNamespace") is not None
+        topics = Topics(self.plugin, self.spec, namespace=self.namespace.format(**names) if empty else "")
+        self.rate = _slower(number(sensor.element, "update_rate", 0.0), read.number("update_rate"))
+        frame = read.text("frame") or read.text("old_frame") or read.text("default_frame")
+        self.frame = frame.lstrip("/")
+        self._surroundings = setup.surroundings
+        self._pose = pose_of(sensor.element)
+        self._link = setup.kinematics.link_names.index(setup.link)
+        self._key = int(setup.random.integers(1 << 62))
+        self._prepare(setup, sensor, read, topics)
+
+    @abstractmethod
+    def _prepare(self, setup: Setup, sensor: SensorTag, read: Parameters, topics: Topics) -> None:
+        """Read what is this kind's own, and fill `topics`."""
+
+    @abstractmethod
+    def _look(self, t: float, poses: Array, frame: Array, random: np.random.Generator) -> Any:
+        """Look from a frame, shape (4, 4), at bodies at their poses, and return what was seen."""
+
+    @abstractmethod
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the messages of the first of `topics` from what was seen."""
+
+    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+        """Return what makes the messages of the others from the time alone [s]; nobody has to look for them."""
+        return ()
+
+    def measure(self, state: State, count: int) -> None:
+        """Publish what is seen from here; nothing is computed before somebody wants it.
+
+        Noise depends on the seed and the number of the publication alone.
+        """
+        t, turn, poses = state.t, self.done, self._surroundings.poses(state.link_poses())
+
+        @cache
+        def seen() -> Any:
+            frame = pose_matrices(poses[self._link])[0] @ self._pose
+            return self._look(t, poses, frame, np.random.Generator(np.random.Philox(key=[self._key, turn])))
+
+        def offer(topic: Any, message: Callable[[Any], Any]) -> None:
+            topic.offer(lambda: message(seen()), count=count)
+
+        messages, remarks = self.messages(), self.remarks()
+        for topic, message in zip(self.topics, messages, strict=not remarks):
+            offer(topic, message)
+        for topic, remark in zip(self.topics[len(messages) :], remarks, strict=True):
+            topic.offer(partial(remark, t), count=count)
+
+
+def _slower(one: float, other: float) -> float:
+    """Return the smaller of two rates that are set; zero where none is."""
+    return min((rate for rate in (one, other) if rate > 0), default=0.0)
