@@ -106,6 +106,6 @@ class Surroundings:
     def table(self, role: Role) -> RayTable:
         """Return what rays meet: the visuals or the collisions."""
         if role not in self._tables:
-            warmup(lambda count: None if count else self._note("compiling the ray kernel, once, about 15 s …"))
+            warmup(lambda count: None if count else self._note("compiling the ray kernels, once, about 25 s …"))
             self._tables[role] = RayTable(self.scene, self.scene.with_role(role))
         return self._tables[role]

@@ -8,6 +8,22 @@ SECONDS, SECONDS_WORLD = 20, 60
 """About how long the compilation of either kernel takes."""
 
 
+SECONDS_RAYS = 25
+"""About how long the compilation of the kernels that sensors see by takes."""
+
+
+def prepare_rays(out: TextIO) -> bool:
+    """Make sure that the kernels that sensors see by are compiled and loaded; return whether they had to be compiled.
+
+    Args:
+        out: where to announce a compilation.
+    """
+    from urdfkit.scene.rays import warmup
+
+    about = f"compiling the ray kernels, once, about {SECONDS_RAYS} s …"
+    return warmup(lambda functions: None if functions else print(about, file=out, flush=True))
+
+
 def prepare_kernel(out: TextIO, *, world: bool = False) -> bool:
     """Make sure that the kernel is compiled and loaded, so that no later step waits for it.
 

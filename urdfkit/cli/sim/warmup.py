@@ -14,10 +14,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Compile and cache."""
-    from urdfkit.cli.sim.kernel import prepare_kernel
+    from urdfkit.cli.sim.kernel import prepare_kernel, prepare_rays
 
     begin = time.perf_counter()
-    compiled = [prepare_kernel(sys.stderr), prepare_kernel(sys.stderr, world=True)]
+    compiled = [prepare_kernel(sys.stderr), prepare_kernel(sys.stderr, world=True), prepare_rays(sys.stderr)]
     spent = time.perf_counter() - begin
     ready = "the physics kernels were ready"
     print(f"the physics kernels are compiled and cached ({spent:.1f} s)" if any(compiled) else ready)
