@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from urdfkit.description.element import Element
 from urdfkit.description.robot import Collision, Geometry, Link, Mesh, Robot, Visual
-from urdfkit.description.world import Ellipsoid, Plane
+from urdfkit.description.world import Cone, Ellipsoid, Plane
 from urdfkit.errors import ResourceError
 from urdfkit.scene.colors import DEFAULT, Palette, Rgba
 from urdfkit.scene.mesh import MeshLoader, TriMesh
@@ -30,7 +30,7 @@ class Shape:
         name: unique in the scene, ``body/role/…`` with the name written in the description or a number.
         body: name of the body (link) it is fixed to.
         role: ``visual`` or ``collision``.
-        geometry: box, cylinder, sphere, capsule or mesh as written; in a world, plane and ellipsoid, too.
+        geometry: box, cylinder, sphere, capsule or mesh as written; in a world, plane, ellipsoid and cone, too.
         placement: of the shape in its body, shape (4, 4), read-only.
         rgba: colour, components in 0..1; `DEFAULT` where the description names none.
         has_color: whether the description names a colour; if not, the mesh's own colours are to be shown.
@@ -41,7 +41,7 @@ class Shape:
     name: str
     body: str
     role: Role
-    geometry: Geometry | Plane | Ellipsoid
+    geometry: Geometry | Plane | Ellipsoid | Cone
     placement: NDArray[np.float64] = field(repr=False)
     rgba: Rgba = DEFAULT
     has_color: bool = False

@@ -15,6 +15,7 @@ from urdfkit.description.plugins import ALL_SPECS, PluginSpec, match
 from urdfkit.description.plugins.lookup import stem
 from urdfkit.description.plugins.sensors import BARE
 from urdfkit.description.robot import Plugin, Robot, SensorTag
+from urdfkit.description.world.systems import NEEDLESS
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.sim.controllers import CONTROLLERS
 from urdfkit.sim.controllers.joint_state import JointStatePublisher
@@ -73,7 +74,7 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
                 setup.note(f"{error}; sensor `{sensor.name if sensor is not None else plugin.name}` is left out")
                 continue
             works.append(made)
-        else:
+        elif stem(plugin.filename or "") not in NEEDLESS:
             setup.note(_unknown(plugin, [table for classes, _ in rooms for made in classes for table in made.specs]))
     if robot.ros2_control and not any(controller.kind == "ros2_control" for controller in installed.controllers):
         for block in robot.ros2_control:

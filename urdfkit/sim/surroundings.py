@@ -66,7 +66,7 @@ class Surroundings:
         note: Callable[[str], None],
     ) -> None:
         self._robot = robot
-        self._world = world
+        self.world = world
         self._body_poses = body_poses
         self._note = note
         self._scene: Scene | None = None
@@ -78,7 +78,7 @@ class Surroundings:
     def scene(self) -> Scene:
         """The robot's links, then the bodies of the world."""
         if self._scene is None:
-            world, self._start = world_scene(self._world)
+            world, self._start = world_scene(self.world)
             self._rows = {name.removeprefix(BODY): row for row, name in enumerate(world.bodies)}
             self._scene = Scene((*self._robot.bodies, *world.bodies), (*self._robot.shapes, *world.shapes))
         return self._scene
@@ -100,7 +100,7 @@ class Surroundings:
     def painter(self) -> Painter:
         """Return what takes pictures of the visuals, by the lights of the world."""
         if self._painter is None:
-            self._painter = Painter(self.table("visual"), lighting_of(self._world))
+            self._painter = Painter(self.table("visual"), lighting_of(self.world))
         return self._painter
 
     def table(self, role: Role) -> RayTable:

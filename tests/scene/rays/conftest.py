@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from urdfkit.description.robot import Box, Capsule, Cylinder, Sphere
-from urdfkit.description.world import Ellipsoid, Plane
+from urdfkit.description.world import Cone, Ellipsoid, Plane
 from urdfkit.scene import Scene, Shape
 from urdfkit.scene.placement import pose_matrices
 from urdfkit.scene.rays import warmup
@@ -39,6 +39,7 @@ def random_geometry(random, kind):
         "sphere": Sphere(a),
         "cylinder": Cylinder(a, b),
         "capsule": Capsule(a, b),
+        "cone": Cone(a, b),
         "ellipsoid": Ellipsoid((a, b, c)),
         "plane": Plane((0.6, 0.0, 0.8)),
     }[kind]

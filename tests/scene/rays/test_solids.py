@@ -10,7 +10,7 @@ from tests.scene.rays.truth import nearest
 from urdfkit.scene.rays import RayTable
 
 POSES = 10_000
-KINDS = ("box", "sphere", "cylinder", "capsule", "ellipsoid", "plane")
+KINDS = ("box", "sphere", "cylinder", "capsule", "ellipsoid", "cone", "plane")
 
 
 @pytest.mark.parametrize("kind", KINDS)

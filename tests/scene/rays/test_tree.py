@@ -10,7 +10,7 @@ from urdfkit.scene.rays import RayTable
 from urdfkit.scene.rays.kernels import builder
 from urdfkit.scene.rays.tree import SCRATCH
 
-KINDS = ("box", "sphere", "cylinder", "capsule", "ellipsoid")
+KINDS = ("box", "sphere", "cylinder", "capsule", "ellipsoid", "cone")
 
 
 def crowd(random, count):

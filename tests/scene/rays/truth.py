@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from urdfkit.description.robot import Box, Capsule, Cylinder, Sphere
-from urdfkit.description.world import Ellipsoid, Plane
+from urdfkit.description.world import Cone, Ellipsoid, Plane
 
 Real = np.longdouble
 
@@ -43,6 +43,10 @@ def _meetings(geometry, R, o, d):
                 for t in _roots(d @ d, 2 * (c @ d), c @ c - Real(r) ** 2):
                     if (z @ (o + t * d)) * np.sign(end) >= half:
                         yield t
+        case Cone(radius=r, length=length):
+            z, half = R[:, 2], Real(length) / 2
+            yield from (t for t in _slope(z, o, d, Real(r) / length, half) if abs(z @ (o + t * d)) <= half)
+            yield from (t for t in _discs(z, o, d, Real(r), half) if z @ (o + t * d) < 0)
         case Ellipsoid(radii=radii):
             A = R @ np.diag(1 / np.asarray(radii, dtype=Real) ** 2) @ R.T
             yield from _roots(d @ A @ d, 2 * (o @ A @ d), o @ A @ o - 1)
@@ -55,6 +59,16 @@ def _meetings(geometry, R, o, d):
 def _side(z, o, d, r):
     flat_o, flat_d = np.cross(z, o), np.cross(z, d)
     yield from _roots(flat_d @ flat_d, 2 * (flat_o @ flat_d), flat_o @ flat_o - r**2)
+
+
+def _slope(z, o, d, k, half):
+    """Yield where a ray meets the double cone of slope `k` about z whose apex is at `half`."""
+    from_apex = o - half * z
+    along_o, along_d = z @ from_apex, z @ d
+    g = 1 + k**2
+    yield from _roots(
+        d @ d - g * along_d**2, 2 * (from_apex @ d - g * along_o * along_d), from_apex @ from_apex - g * along_o**2
+    )
 
 
 def _discs(z, o, d, r, half):

@@ -27,6 +27,7 @@ from urdfkit.scene.rays.packet import (
 from urdfkit.scene.rays.solids import (
     BOX,
     CAPSULE,
+    CONE,
     CYLINDER,
     ELLIPSOID,
     MESH,
@@ -35,6 +36,7 @@ from urdfkit.scene.rays.solids import (
     STRIDE,
     box,
     capsule,
+    cone,
     cylinder,
     ellipsoid,
     plane,
@@ -64,6 +66,8 @@ def meet(work: Any, scene: Any, shape: int, near: float) -> None:
         capsule(work, shapes, at, number, near)
     elif kind == ELLIPSOID:
         ellipsoid(work, shapes, at, number, near)
+    elif kind == CONE:
+        cone(work, shapes, at, number, near)
     elif kind == PLANE:
         plane(work, shapes, at, number, near)
     elif kind == MESH:

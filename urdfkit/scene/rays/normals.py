@@ -6,7 +6,7 @@ from typing import Any
 
 from urdfkit.scene.rays.compilation import inlined
 from urdfkit.scene.rays.packet import DX, HIT, OX, PART, REACH, WIDTH
-from urdfkit.scene.rays.solids import BOX, CAPSULE, CYLINDER, ELLIPSOID, SPHERE, STRIDE
+from urdfkit.scene.rays.solids import BOX, CAPSULE, CONE, CYLINDER, ELLIPSOID, SPHERE, STRIDE
 from urdfkit.scene.rays.triangles import CORNERS
 
 
@@ -62,6 +62,11 @@ def solid_normal(kind: int, a: float, b: float, c: float, x: float, y: float, z:
         return x, y, z
     if kind == CAPSULE:
         return x, y, z - min(max(z, -b), b)
+    if kind == CONE:
+        slope = 0.5 * a / b
+        if -(z + b) >= (x * x + y * y) ** 0.5 - slope * (b - z):
+            return 0.0, 0.0, z
+        return x, y, slope * slope * (b - z)
     if kind == ELLIPSOID:
         return x / (a * a), y / (b * b), z / (c * c)
     return 0.0, 0.0, 1.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from urdfkit.scene.rays.compilation import inlined
-from urdfkit.scene.rays.solids import BOX, CAPSULE, CYLINDER, ELLIPSOID, MESH, PLANE, SPHERE, STRIDE
+from urdfkit.scene.rays.solids import BOX, CAPSULE, CONE, CYLINDER, ELLIPSOID, MESH, PLANE, SPHERE, STRIDE
 from urdfkit.scene.rays.tree import build_compiled, refit
 
 REBUILD = 1.3
@@ -100,7 +100,7 @@ def surround(shapes: Any, at: int, kind: int, mesh_boxes: Any, boxes: Any, k: in
             reach = abs(u) * a + abs(v) * b + abs(w) * c
         elif kind == SPHERE:
             reach = a
-        elif kind == CYLINDER:
+        elif kind in (CYLINDER, CONE):
             reach = abs(w) * b + a * (u * u + v * v) ** 0.5
         elif kind == CAPSULE:
             reach = abs(w) * b + a

@@ -12,7 +12,7 @@ from typing import Any
 from urdfkit.scene.rays.compilation import compiled, inlined
 from urdfkit.scene.rays.packet import DX, DY, DZ, FAR, HIT, OX, OY, OZ, PART, REACH, WIDTH
 
-BOX, SPHERE, CYLINDER, CAPSULE, ELLIPSOID, PLANE, MESH = range(7)
+BOX, SPHERE, CYLINDER, CAPSULE, ELLIPSOID, PLANE, MESH, CONE = range(8)
 """Kinds of shapes."""
 
 STRIDE = 16
@@ -165,6 +165,39 @@ def ellipsoid(packet: Any, shapes: Any, at: int, shape: float, near: float) -> N
         half = sqrt(max(under, 0.0) * inverse)
         enter = foot - half if under >= 0.0 else FAR
         settle(packet, k, shape, near, enter, foot + half)
+
+
+@compiled
+def cone(packet: Any, shapes: Any, at: int, shape: float, near: float) -> None:
+    """Cast a packet at a cone about z, apex up; its size is the radius of its base and half its length.
+
+    Inside is ``x² + y² ≤ k²·(half - z)²`` between base and apex. Distances are taken from the point of the ray that is
+    nearest to the cone's middle, which keeps the digits of what is seen from afar.
+    """
+    frame = frame_of(shapes, at)
+    radius, half = shapes[at + 12], shapes[at + 13]
+    k2 = (0.5 * radius / half) ** 2
+    for k in range(WIDTH):
+        x, y, z, dx, dy, dz = turned(packet, k, frame)
+        foot = -(x * dx + y * dy + z * dz)
+        x, y, z = x + foot * dx, y + foot * dy, z + foot * dz
+        w = half - z
+        a = dx * dx + dy * dy - k2 * dz * dz
+        a = a if abs(a) > 1e-200 else 1e-200
+        b = x * dx + y * dy + k2 * w * dz
+        c = x * x + y * y - k2 * w * w
+        under = b * b - a * c
+        q = -(b + sqrt(max(under, 0.0)) * (1.0 if b >= 0.0 else -1.0))
+        one, two = q / a, (c / q if q != 0.0 else q / a)
+        first, last = min(one, two), max(one, two)
+        # A flat ray is inside between its roots, a steep one from the second on, or up to the first, in this half.
+        flat, down = a > 0.0, dz < 0.0
+        t0 = first if flat else (last if down else -FAR)
+        t1 = last if flat else (FAR if down else first)
+        none = flat & (under < 0.0)
+        z0, z1 = slab(z, dz, half)
+        enter, leave = max(t0, z0), min(t1, z1)
+        settle(packet, k, shape, near, FAR if none else foot + enter, -FAR if none else foot + leave)
 
 
 @compiled

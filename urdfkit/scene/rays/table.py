@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.description.robot import Box, Capsule, Cylinder, Sphere
-from urdfkit.description.world import Ellipsoid, Plane
+from urdfkit.description.world import Cone, Ellipsoid, Plane
 from urdfkit.scene.mesh import TriMesh
 from urdfkit.scene.placement import upright
 from urdfkit.scene.rays import solids
@@ -192,6 +192,8 @@ def _numbers(shape: Shape) -> tuple[int, tuple[float, float, float], Array]:
             return solids.CYLINDER, (radius, length / 2, 0.0), straight
         case Capsule(radius=radius, length=length):
             return solids.CAPSULE, (radius, length / 2, 0.0), straight
+        case Cone(radius=radius, length=length):
+            return solids.CONE, (radius, length / 2, 0.0), straight
         case Ellipsoid(radii=radii):
             return solids.ELLIPSOID, radii, straight
         case Plane(normal=normal, size=(x, y)):

@@ -5,7 +5,9 @@ from __future__ import annotations
 from urdfkit.sim.plugin import Sensor
 from urdfkit.sim.sensors.camera import GzCamera, RosCamera
 from urdfkit.sim.sensors.depth_camera import DepthCamera, GzDepthCamera, GzRgbdCamera, OpenniKinect
+from urdfkit.sim.sensors.imu import GzImu, ImuSensor
 from urdfkit.sim.sensors.laser import BlockLaser, Laser, Range
+from urdfkit.sim.sensors.p3d import P3d
 from urdfkit.sim.sensors.point_cloud import GzLidar, RaySensor, Velodyne
 
 SENSORS: tuple[type[Sensor], ...] = (
@@ -21,5 +23,8 @@ SENSORS: tuple[type[Sensor], ...] = (
     GzCamera,
     GzDepthCamera,
     GzRgbdCamera,
+    ImuSensor,
+    GzImu,
+    P3d,
 )
 """Every sensor; a test walks this folder and fails if one is missing here."""

@@ -57,7 +57,7 @@ class Mounted(Sensor):
         read = Parameters(self.plugin, self.spec, names)
         empty = self.plugin.element.find("robotNamespace") is not None
         topics = Topics(self.plugin, self.spec, namespace=self.namespace.format(**names) if empty else "")
-        self.rate = _slower(number(sensor.element, "update_rate", 0.0), read.number("update_rate"))
+        self.rate = slower(number(sensor.element, "update_rate", 0.0), read.number("update_rate"))
         frame = read.text("frame") or read.text("old_frame") or read.text("default_frame")
         self.frame = frame.lstrip("/")
         self._surroundings = setup.surroundings
@@ -104,6 +104,6 @@ class Mounted(Sensor):
             topic.offer(partial(remark, t), count=count)
 
 
-def _slower(one: float, other: float) -> float:
+def slower(one: float, other: float) -> float:
     """Return the smaller of two rates that are set; zero where none is."""
     return min((rate for rate in (one, other) if rate > 0), default=0.0)

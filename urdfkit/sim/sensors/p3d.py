@@ -1,0 +1,84 @@
+"""True poses: gazebo_ros_p3d of ROS 1 and ROS 2, an Odometry with the twist along the world's axes."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.messages import ODOMETRY, header, message_type, twist
+from urdfkit.sim.parameters import Parameters
+from urdfkit.sim.plugin import Sensor, Setup
+from urdfkit.sim.rotation import from_rpy, product
+from urdfkit.sim.sensors.motion import Moment
+from urdfkit.sim.topics import Topics
+
+if TYPE_CHECKING:
+    from urdfkit.sim.state import State
+
+WORLD = ("world", "map")
+"""Names of the world's frame (gazebo_ros_p3d.cpp)."""
+
+
+class P3d(Sensor):
+    """Where a link is, and how it moves, in the world."""
+
+    kind = "p3d"
+
+    def configure(self, setup: Setup) -> None:
+        """Read the parameters and advertise.
+
+        Raises:
+            SimulationError: a parameter makes no sense, with its place.
+        """
+        read = Parameters(self.plugin, self.spec, setup.names)
+        links = setup.kinematics.link_names
+        self._link = read.text("body")
+        if self._link not in links:
+            raise SimulationError(
+                f"<{read.tag('body')}> is `{self._link}`, which is no link{did_you_mean(self._link, links)}",
+                position=read.place("body"),
+            )
+        self._frame = read.text("frame").lstrip("/")
+        if self._frame not in WORLD:
+            raise SimulationError(
+                f"poses relative to `{self._frame}` are not simulated yet: <{read.tag('frame')}> must be world",
+                position=read.place("frame"),
+            )
+        name = read.text("topic") if self.spec.generation == "ros1" else "odom"
+        if not name:
+            raise SimulationError("gazebo_ros_p3d lacks its <topicName>", position=self.plugin.element.origin.position)
+        self.name = self.plugin.name or "p3d"
+        self.rate = read.number("update_rate")
+        self._offset = np.array(read.vector("xyz_offset", 3))
+        roll, pitch, yaw = read.vector("rpy_offset", 3)
+        self._turn = from_rpy(roll, pitch, yaw)
+        self._noise = read.number("gaussian_noise", unsigned=True)
+        self._key = int(setup.random.integers(1 << 62))
+        self._kinematics = setup.kinematics
+        self.topics = (setup.bus.advertise(Topics(self.plugin, self.spec).resolve(name), ODOMETRY),)
+
+    def measure(self, state: State, count: int) -> None:
+        """Publish."""
+        self.topics[0].offer(partial(self._message, Moment(self._kinematics, state), self.done), count=count)
+
+    def _message(self, now: Moment, turn: int) -> Any:
+        import pinocchio as pin
+
+        motion = now.motion(self._link, np.eye(4))
+        random = np.random.Generator(np.random.Philox(key=[self._key, turn]))
+        shaken = self._noise * random.standard_normal((2, 3))
+        x, y, z = (motion.position + self._offset).tolist()
+        quaternion = product(self._turn, pin.Quaternion(motion.rotation).coeffs())
+        covariance = np.diag([self._noise**2] * 6).ravel()
+        pose = message_type("geometry_msgs/msg/Pose")(
+            message_type("geometry_msgs/msg/Point")(x, y, z), message_type("geometry_msgs/msg/Quaternion")(*quaternion)
+        )
+        moving = twist((motion.linear + shaken[0]).tolist(), (motion.angular + shaken[1]).tolist())
+        return message_type(ODOMETRY)(
+            header(now.t, self._frame), self._link,
+            message_type("geometry_msgs/msg/PoseWithCovariance")(pose, covariance),
+            message_type("geometry_msgs/msg/TwistWithCovariance")(moving, covariance.copy()),
+        )  # fmt: skip
