@@ -265,12 +265,21 @@ def command(*words: str) -> list[str]:
     return [sys.executable, "-m", "urdfkit", "sim", "run", *words]
 
 
-def test_ctrl_c_ends_it_without_a_word() -> None:
+def test_ctrl_c_ends_it_without_a_word(tmp_path: Path) -> None:
+    brick = tmp_path / "brick.urdf"
+    brick.write_text(
+        '<robot name="brick"><link name="base"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" '
+        'ixz="0" iyz="0"/></inertial></link><gazebo><plugin name="g" filename="libgazebo_ros_vacuum_gripper.so"/>'
+        "</gazebo></robot>"
+    )
     with subprocess.Popen(
-        command("simpleton", "--for", "1e6"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        command(str(brick), "--world", "void", "--for", "1e6"),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
     ) as process:
         assert process.stderr is not None
-        assert "libgazebo_ros_camera.so: not simulated yet" in process.stderr.readline()  # it is about to begin
+        assert "libgazebo_ros_vacuum_gripper.so: not simulated yet" in process.stderr.readline()  # it is about to begin
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=30)
     assert (process.returncode, out, err) == (130, "", "")

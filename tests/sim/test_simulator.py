@@ -249,10 +249,17 @@ def test_continuous_joints_count_their_turns(make: Make) -> None:
     assert simulator.state.position("left_joint") == pytest.approx(100.0, abs=0.1)
 
 
-def test_a_robot_by_name_with_a_plugin_that_is_not_simulated() -> None:
+def test_a_robot_by_name_with_its_camera_leaves_nothing_to_say() -> None:
     notes: list[str] = []
     Simulator("simpleton", note=notes.append)
-    assert notes == ["plugin libgazebo_ros_camera.so: not simulated yet"]
+    assert notes == []
+
+
+def test_a_plugin_that_is_not_simulated_is_named(write_rover: Callable[..., Path]) -> None:
+    notes: list[str] = []
+    gripper = '<gazebo><plugin name="g" filename="libgazebo_ros_vacuum_gripper.so"/></gazebo>'
+    Simulator(write_rover(gripper), note=notes.append)
+    assert notes == ["plugin libgazebo_ros_vacuum_gripper.so: not simulated yet"]
 
 
 def test_what_cannot_be_simulated_is_said_with_its_place(write_rover: Callable[..., Path]) -> None:

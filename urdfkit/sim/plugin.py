@@ -172,9 +172,10 @@ class Sensor(ABC):
             SimulationError: a parameter makes no sense, with its place.
         """
 
-    def schedule(self, dt: float) -> None:
-        """Take note of the simulation's step [s], after `configure`."""
+    def schedule(self, dt: float, step: int = 0) -> None:
+        """Take note of the simulation's step [s], after `configure`, and of how many there have been."""
         self._ticks = Ticks(self.rate, dt)
+        self.done = self._ticks.until(step)
 
     def next_stop(self, step: int) -> int:
         """Return the step at which the simulation has to stop for it; `NEVER` while nobody listens."""

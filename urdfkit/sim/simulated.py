@@ -102,7 +102,6 @@ class SimulatedRobot:
         self._bus: _OwnBus | None = None
         self._publications: list[Publication] = []
         self._drives: list[tuple[Any, Ticks, Ticks]] = []
-        self._sensors: list[tuple[Any, Ticks]] = []
 
     @property
     def has_plugins(self) -> bool:
@@ -155,7 +154,8 @@ class SimulatedRobot:
         setup = self._setup = replace(setup, bus=bus)
         self.plugins = install(self.robot, setup, seed=seed)
         self._drives = [(d, Ticks(d.write_rate, setup.dt), Ticks(d.read_rate, setup.dt)) for d in self.plugins.drives]
-        self._sensors = [(s, Ticks(s.rate, setup.dt)) for s in self.plugins.sensors]
+        for sensor in self.plugins.sensors:
+            sensor.schedule(setup.dt, self.state.step)
         self.controllers = Controllers([c.loop for c in self.plugins.controllers if c.loop is not None])
         for controller in self.plugins.controllers:
             controller.schedule(setup.dt)
@@ -202,7 +202,7 @@ class SimulatedRobot:
             if not drive.resting:
                 stops.append(writes.after(step))
         stops.extend(controller.after(step) for controller in self.plugins.controllers)
-        stops.extend(ticks.after(step) for _, ticks in self._sensors)
+        stops.extend(sensor.next_stop(step) for sensor in self.plugins.sensors)
         if self.motors.has_goals:
             stops.append(self._approach.after(step))
         return min(stops, default=NEVER)
@@ -215,9 +215,8 @@ class SimulatedRobot:
         for controller in self.plugins.controllers:
             if controller.due(step):
                 controller.read(self.state)
-        for sensor, ticks in self._sensors:
-            if ticks.falls_on(step):
-                sensor.measure(self.state)
+        for sensor in self.plugins.sensors:
+            sensor.catch_up(self.state)
         for publication in (*self._publications, *self.controllers.publications):
             publication.catch_up(self.state)
 
@@ -228,6 +227,8 @@ class SimulatedRobot:
             drive.reset()
         for publication in (*self._publications, *self.controllers.publications):
             publication.reset()
+        for sensor in self.plugins.sensors:
+            sensor.reset()
 
     def retire(self) -> None:
         """Stop listening: it is removed from the world."""

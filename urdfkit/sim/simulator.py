@@ -27,6 +27,7 @@ from urdfkit.sim.schedule import Ticks
 from urdfkit.sim.simulated import SimulatedRobot
 from urdfkit.sim.spawn import Spawn
 from urdfkit.sim.stage import Stage
+from urdfkit.sim.surroundings import Surroundings
 from urdfkit.sim.world_topics import ModelStates, listen
 
 Array = NDArray[np.float64]
@@ -125,7 +126,7 @@ class Simulator(Population):
         message_type(TWIST)  # loads the types now, or says that they are missing
         self._setup = Setup(
             self.bus, self.kinematics, self.name, found.name, dt, np.random.default_rng(seed), self.note, distro,
-            tuple(Path(file) for file in controllers),
+            tuple(Path(file) for file in controllers), surroundings=Surroundings(self, self.note),
         )  # fmt: skip
         self._seed = seed
         for each in self.robots.values():

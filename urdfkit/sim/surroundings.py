@@ -1,19 +1,27 @@
-"""Everything there is to see and to touch around a robot, the robot included, and where it is now."""
+"""Everything there is to see and to touch in a simulation, robots included, and where it was at a moment."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.world import World
+from urdfkit.description.world.poses import compose
 from urdfkit.scene import MeshLoader, Role, Scene, Shape
 from urdfkit.scene.image import Painter
 from urdfkit.scene.lights import lighting_of
+from urdfkit.scene.placement import pose_matrices, pose_matrix
 from urdfkit.scene.rays import RayTable, warmup
 from urdfkit.scene.world import shapes_of_link
-from urdfkit.sim.things import groups_of
+from urdfkit.sim.placing import seven
+from urdfkit.sim.things import parts_of
+
+if TYPE_CHECKING:
+    from urdfkit.sim.simulated import SimulatedRobot
 
 Array = NDArray[np.float64]
 
@@ -21,91 +29,156 @@ BODY = "world/"
 """Goes before the names of the world's bodies: no link has a slash there."""
 
 
+class Populated(Protocol):
+    """What a simulation says of its world, see `Population`."""
+
+    @property
+    def world(self) -> World:
+        """As it is at present."""
+        ...
+
+    @property
+    def revision(self) -> int:
+        """Changes whenever something comes or goes."""
+        ...
+
+    @property
+    def robots(self) -> Mapping[str, SimulatedRobot]:
+        """By name."""
+        ...
+
+    def body_poses(self) -> dict[str, tuple[float, ...]]:
+        """Where bodies are, by name."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """What there was at a moment, and where.
+
+    Attributes:
+        revision: of the population.
+        world: its bodies.
+        robots: name, scene and poses of the links, shape (links, 7), of each robot.
+        bodies: name → x y z [m] and quaternion x y z w of the world's bodies.
+    """
+
+    revision: int
+    world: World
+    robots: tuple[tuple[str, Scene, Array], ...]
+    bodies: Mapping[str, Sequence[float]]
+
+    def placement(self, robot: str, link: int) -> Array:
+        """Return where a link was; shape (4, 4)."""
+        poses = next(poses for name, _, poses in self.robots if name == robot)
+        found: Array = pose_matrices(poses[link])[0]
+        return found
+
+
 def world_scene(world: World) -> tuple[Scene, Array]:
-    """Return the scene of a world's models, and the poses at which its bodies start; shape (bodies, 7).
+    """Return the scene of a world's bodies, and the poses at which they start; shape (bodies, 7).
 
     Args:
         world: as read; its bodies are called as `bodies_of` calls them, after `BODY`.
 
     Raises:
         ResourceError: a mesh is broken.
-        SimulationError: something in it cannot be simulated, with its place.
     """
-    import pinocchio as pin
-
     meshes = MeshLoader()
     names: list[str] = []
     shapes: list[Shape] = []
-    poses: list[Array] = []
+    poses: list[Any] = []
     for model in world.models:
-        for name, _, links in groups_of(model):
-            body, into = BODY + name, np.linalg.inv(links[0][1])
+        for name, _, links in parts_of(model):
+            body, into = BODY + name, np.linalg.inv(pose_matrix(links[0][1]))
             names.append(body)
-            poses.append(pin.SE3ToXYZQUAT(pin.SE3(links[0][1])))
+            poses.append(seven(compose(model.pose, links[0][1])))
             for link_name, pose, link in links:
                 prefix = f"{link_name}/" if len(links) > 1 else ""
-                shapes.extend(shapes_of_link(link, body, into @ pose, meshes=meshes, prefix=prefix))
-    return Scene(tuple(names), tuple(shapes)), np.array(poses).reshape(-1, 7)
+                placed = into @ pose_matrix(pose)
+                shapes.extend(shapes_of_link(link, body, placed, meshes=meshes, prefix=prefix))
+    return Scene(tuple(names), tuple(shapes)), np.array(poses, dtype=float).reshape(-1, 7)
 
 
-class Surroundings:
-    """One scene of the robot and the world, for sensors; made when the first of them looks.
+class View:
+    """One scene of everything, ready for rays and pictures; made once for as long as nothing comes or goes.
 
     Args:
-        robot: its scene.
-        world: what is around it.
-        body_poses: says where the world's bodies are, by name; those it does not know stay where they started.
+        layout: what there is.
         note: tells the user something.
     """
 
-    def __init__(
-        self,
-        robot: Scene,
-        world: World,
-        body_poses: Callable[[], Mapping[str, tuple[float, ...]]],
-        note: Callable[[str], None],
-    ) -> None:
-        self._robot = robot
-        self.world = world
-        self._body_poses = body_poses
+    def __init__(self, layout: Layout, note: Callable[[str], None]) -> None:
+        world, self._start = world_scene(layout.world)
+        self._names = [name.removeprefix(BODY) for name in world.bodies]
+        bodies: list[str] = []
+        shapes: list[Shape] = []
+        for robot, scene, _ in layout.robots:
+            bodies += [f"{robot}::{link}" for link in scene.bodies]
+            shapes += [_of(robot, shape) for shape in scene.shapes]
+        self.scene = Scene((*bodies, *world.bodies), (*shapes, *world.shapes))
+        self._lighting = lighting_of(layout.world)
         self._note = note
-        self._scene: Scene | None = None
-        self._start = np.empty((0, 7))
         self._tables: dict[Role, RayTable] = {}
         self._painter: Painter | None = None
 
-    @property
-    def scene(self) -> Scene:
-        """The robot's links, then the bodies of the world."""
-        if self._scene is None:
-            world, self._start = world_scene(self.world)
-            self._rows = {name.removeprefix(BODY): row for row, name in enumerate(world.bodies)}
-            self._scene = Scene((*self._robot.bodies, *world.bodies), (*self._robot.shapes, *world.shapes))
-        return self._scene
+    def poses(self, layout: Layout) -> Array:
+        """Return where everything was; shape (len(scene.bodies), 7)."""
+        rows = [layout.bodies.get(name, start) for name, start in zip(self._names, self._start.tolist(), strict=True)]
+        return np.vstack([*(poses for _, _, poses in layout.robots), np.array(rows, dtype=float).reshape(-1, 7)])
 
-    def poses(self, links: Array) -> Array:
-        """Return where everything is now; shape (len(scene.bodies), 7).
-
-        Args:
-            links: poses of the robot's links, shape (links, 7).
-        """
-        count = len(links)
-        found = np.empty((len(self.scene.bodies), 7))
-        found[:count], found[count:] = links, self._start
-        for name, pose in self._body_poses().items():
-            if (row := self._rows.get(name)) is not None:
-                found[count + row] = pose
-        return found
-
-    def painter(self) -> Painter:
-        """Return what takes pictures of the visuals, by the lights of the world."""
-        if self._painter is None:
-            self._painter = Painter(self.table("visual"), lighting_of(self.world))
-        return self._painter
-
-    def table(self, role: Role) -> RayTable:
-        """Return what rays meet: the visuals or the collisions."""
+    def table(self, role: Role, layout: Layout) -> RayTable:
+        """Return what rays meet, the visuals or the collisions, where it was."""
         if role not in self._tables:
             warmup(lambda count: None if count else self._note("compiling the ray kernels, once, about 25 s …"))
             self._tables[role] = RayTable(self.scene, self.scene.with_role(role))
-        return self._tables[role]
+        table = self._tables[role]
+        table.place(self.poses(layout))
+        return table
+
+    def painter(self, layout: Layout) -> Painter:
+        """Return what takes pictures of the visuals where they were, by the lights of the world."""
+        table = self.table("visual", layout)
+        if self._painter is None:
+            self._painter = Painter(table, self._lighting)
+        return self._painter
+
+
+class Surroundings:
+    """What sensors look at.
+
+    Args:
+        population: the world and what is in it.
+        note: tells the user something.
+    """
+
+    def __init__(self, population: Populated, note: Callable[[str], None]) -> None:
+        self._population = population
+        self._note = note
+        self._view: tuple[int, View] | None = None
+
+    @property
+    def world(self) -> World:
+        """The world as it is at present."""
+        return self._population.world
+
+    @property
+    def was_looked_at(self) -> bool:
+        """Whether anybody has looked so far."""
+        return self._view is not None
+
+    def layout(self) -> Layout:
+        """Return what there is now, and where."""
+        here = self._population
+        robots = tuple((name, each.scene, each.state.link_poses()) for name, each in here.robots.items())
+        return Layout(here.revision, here.world, robots, here.body_poses())
+
+    def view(self, layout: Layout) -> View:
+        """Return the scene of a layout."""
+        if self._view is None or self._view[0] != layout.revision:
+            self._view = layout.revision, View(layout, self._note)
+        return self._view[1]
+
+
+def _of(robot: str, shape: Shape) -> Shape:
+    return replace(shape, name=f"{robot}::{shape.name}", body=f"{robot}::{shape.body}")

@@ -261,7 +261,8 @@ def _shape(shape: WorldShape, name: str, body: str, role: Role, frame: Array, me
         mesh = meshes.load(Path(shape.file), geometry.scale)
     rgba = _color(shape) if role == "visual" else None
     return Shape(
-        name, body, role, cast("Geometry", geometry), placement, rgba or DEFAULT, rgba is not None, mesh
+        name, body, role, cast("Geometry", geometry), placement, rgba or DEFAULT, rgba is not None, mesh,
+        shape.laser_retro,
     )  # fmt: skip
 
 

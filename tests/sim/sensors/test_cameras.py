@@ -63,7 +63,7 @@ def test_what_is_written_about_intrinsics_is_told(post) -> None:
 def test_nobody_looks_for_camera_info(post) -> None:
     simulator = post(eye(ros1()), room=ROOM)
     heard(simulator, "/cam/camera_info", 0.5)
-    assert simulator._plugins.sensors[0]._surroundings._painter is None
+    assert not simulator._setup.surroundings.was_looked_at
 
 
 @pytest.mark.parametrize("form", ["L8", "B8G8R8", "BAYER_RGGB8", "BAYER_GRBG8"])

@@ -7,10 +7,10 @@ import re
 import numpy as np
 import pytest
 
-from tests.sim.sensors.conftest import LASER, ROBOTS, heard, scan, sensor
+from tests.sim.sensors.conftest import LASER, ROBOTS, heard, scan, sensor, wall
 from urdfkit.description import load
 from urdfkit.description.plugins.sensors import SENSORS
-from urdfkit.sim import Simulator
+from urdfkit.sim import Simulator, Spawn
 
 FILENAME = re.compile(r'filename="lib([a-z_0-9]+)[.]so"')
 
@@ -63,3 +63,31 @@ def test_every_lidar_that_comes_along_is_simulated() -> None:
     assert named
     known = {name for spec in SENSORS for name in spec.filenames}
     assert named <= known
+
+
+def test_what_comes_and_goes_is_seen_as_long_as_it_is_there(post) -> None:
+    simulator = post(sensor(LASER, inside=scan(1, 0, 0), rate=100), room="")
+    assert np.isinf(heard(simulator, "/scan", 0.05)[-1].ranges[0])
+    simulator.spawn("unit_box", (4.0, 0.0, 0.5), name="thing")
+    assert heard(simulator, "/scan", 0.05)[-1].ranges[0] == pytest.approx(3.5, abs=1e-3)
+    simulator.place("thing", (6.0, 0.0, 0.5))
+    assert heard(simulator, "/scan", 0.05)[-1].ranges[0] == pytest.approx(5.5, abs=1e-3)
+    simulator.remove("thing")
+    assert np.isinf(heard(simulator, "/scan", 0.05)[-1].ranges[0])
+
+
+def test_another_robot_is_seen_and_sees(post) -> None:
+    simulator = post(sensor(LASER, inside=scan(1, 0, 0), rate=100), room="")
+    simulator.spawn("rrbot", (5.0, 0.0, 0.0, np.pi), name="other")
+    mine = heard(simulator, "/scan", 0.05)[-1].ranges[0]
+    assert 4.5 < mine < 5.0  # the foot of the other robot
+    assert heard(simulator, "/rrbot/laser/scan", 0.05)
+
+
+def test_a_lidar_of_a_model_in_the_world_is_simulated(post) -> None:
+    sdf = sensor(inside=scan(1, 0, 0).replace("ray>", "lidar>"), type="gpu_lidar", more="<topic>tower</topic>")
+    room = f"""</model><model name="tower"><link name="l"><pose>0 0 0.2 0 0 0</pose>{sdf}<collision name="c"><geometry>
+    <box><size>0.1 0.1 0.4</size></box></geometry></collision></link></model><model name="wall"><static>true</static>
+    {wall("w", 7.05, 0, 0.1, 20, role="visual")}"""
+    simulator = post(sensor(LASER, inside=scan(1, 0, 0)), room=room, spawn=Spawn(x=-3.0, z=0.0))
+    assert heard(simulator, "/tower", 0.1)[-1].ranges[0] == pytest.approx(7.0, abs=1e-3)

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from urdfkit.description.robot import SensorTag
     from urdfkit.sim.parameters import Parameters
     from urdfkit.sim.plugin import Setup
+    from urdfkit.sim.surroundings import Layout
     from urdfkit.sim.topics import Topics
 
 Array = NDArray[np.float64]
@@ -70,9 +71,8 @@ class Camera(Mounted):
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
         """Read what is the plugin's own and fill `topics`."""
 
-    def _look(self, t: float, poses: Array, frame: Array, random: np.random.Generator) -> Sight:
-        painter = self._surroundings.painter()
-        painter.table.place(poses)
+    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Sight:
+        painter = self._surroundings.view(layout).painter(layout)
         picture = painter.take(self.optics.lens, frame, near=self.optics.near, far=self.optics.far)
         if self._noise:
             noisy = self._noise.on(picture.rgb / 255.0, random)

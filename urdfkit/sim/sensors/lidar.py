@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from urdfkit.scene import Role
     from urdfkit.sim.parameters import Parameters
     from urdfkit.sim.plugin import Setup
+    from urdfkit.sim.surroundings import Layout
     from urdfkit.sim.topics import Topics
 
 Array = NDArray[np.float64]
@@ -64,9 +65,8 @@ class Lidar(Mounted):
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
         """Read what is the plugin's own and fill `topics`."""
 
-    def _look(self, t: float, poses: Array, frame: Array, random: np.random.Generator) -> Reading:
-        table, scan = self._surroundings.table(self._role), self.scan
-        table.place(poses)
+    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Reading:
+        table, scan = self._surroundings.view(layout).table(self._role, layout), self.scan
         hits = table.cast((0.0, 0.0, 0.0), self._directions, near=scan.range_min, far=scan.range_max, frame=frame)
         ranges = hits.distances
         low, high = ranges <= scan.range_min, ranges >= scan.range_max

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
-from urdfkit.scene.placement import pose_matrices
 from urdfkit.sim.parameters import Parameters
 from urdfkit.sim.plugin import Sensor, Setup
 from urdfkit.sim.sensors.values import number, pose_of
@@ -20,6 +19,7 @@ from urdfkit.sim.topics import Topics
 if TYPE_CHECKING:
     from urdfkit.description.robot import SensorTag
     from urdfkit.sim.state import State
+    from urdfkit.sim.surroundings import Layout
 
 Array = NDArray[np.float64]
 
@@ -62,6 +62,7 @@ class Mounted(Sensor):
         self.frame = frame.lstrip("/")
         self._surroundings = setup.surroundings
         self._pose = pose_of(sensor.element)
+        self._robot = setup.model
         self._link = setup.kinematics.link_names.index(setup.link)
         self._key = int(setup.random.integers(1 << 62))
         self._prepare(setup, sensor, read, topics)
@@ -71,8 +72,8 @@ class Mounted(Sensor):
         """Read what is this kind's own, and fill `topics`."""
 
     @abstractmethod
-    def _look(self, t: float, poses: Array, frame: Array, random: np.random.Generator) -> Any:
-        """Look from a frame, shape (4, 4), at bodies at their poses, and return what was seen."""
+    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
+        """Look from a frame, shape (4, 4), at what there was, and return what was seen."""
 
     @abstractmethod
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
@@ -87,12 +88,12 @@ class Mounted(Sensor):
 
         Noise depends on the seed and the number of the publication alone.
         """
-        t, turn, poses = state.t, self.done, self._surroundings.poses(state.link_poses())
+        t, turn, layout = state.t, self.done, self._surroundings.layout()
 
         @cache
         def seen() -> Any:
-            frame = pose_matrices(poses[self._link])[0] @ self._pose
-            return self._look(t, poses, frame, np.random.Generator(np.random.Philox(key=[self._key, turn])))
+            frame = layout.placement(self._robot, self._link) @ self._pose
+            return self._look(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, turn])))
 
         def offer(topic: Any, message: Callable[[Any], Any]) -> None:
             topic.offer(lambda: message(seen()), count=count)
