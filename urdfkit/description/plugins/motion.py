@@ -1,4 +1,4 @@
-"""Sensors of motion: inertial measurement units and true poses (p3d)."""
+"""Sensors of motion and place: inertial measurement units, true poses (p3d) and GPS."""
 
 from __future__ import annotations
 
@@ -90,5 +90,29 @@ P3D_ROS_2 = PluginSpec(
 )
 """Publishes on ``odom``, changed by ``<ros><remapping>`` only."""
 
-MOTION = (IMU_SENSOR_ROS_1, IMU_SENSOR_ROS_2, P3D_ROS_1, P3D_ROS_2)
+GPS_ROS_2 = PluginSpec(
+    kind="gps",
+    generation="ros2",
+    filenames=("gazebo_ros_gps_sensor",),
+    class_names=(),
+    parameters=(Parameter("frame", "frame_name", "{link}", names="frame"), *GAZEBO_ROS_2),
+    source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_gps_sensor.cpp",
+)
+"""Publishes on ``~/out``."""
+
+NAVSAT_GZ = PluginSpec(
+    kind="gz_navsat",
+    generation="gz",
+    filenames=(),
+    class_names=(),
+    parameters=(
+        Parameter("topic", "topic", "/world/{world}/model/{model}/link/{link}/sensor/{sensor}/navsat", names="topic"),
+        Parameter("frame", "gz_frame_id", names="frame"),
+        Parameter("old_frame", "ignition_frame_id", names="frame"),
+        Parameter("default_frame", "frame_id", "{model}/{link}/{sensor}", names="frame"),
+    ),
+    source="gz-sensors main, src/NavSatSensor.cc",
+)
+
+MOTION = (IMU_SENSOR_ROS_1, IMU_SENSOR_ROS_2, P3D_ROS_1, P3D_ROS_2, GPS_ROS_2)
 """Every plugin that senses motion."""

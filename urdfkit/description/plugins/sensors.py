@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.plugins.camera import CAMERA_GZ, CAMERAS, DEPTH_CAMERA_GZ, RGBD_CAMERA_GZ
 from urdfkit.description.plugins.lidar import LIDAR_GZ, LIDAR_TYPES, LIDARS
-from urdfkit.description.plugins.motion import IMU_GZ, MOTION
+from urdfkit.description.plugins.motion import IMU_GZ, MOTION, NAVSAT_GZ
 from urdfkit.description.plugins.spec import PluginSpec
 
 SENSORS = (*LIDARS, *CAMERAS, *MOTION)
@@ -13,6 +13,8 @@ SENSORS = (*LIDARS, *CAMERAS, *MOTION)
 BARE: dict[str, PluginSpec] = {
     **dict.fromkeys(LIDAR_TYPES, LIDAR_GZ),
     "imu": IMU_GZ,
+    "gps": NAVSAT_GZ,
+    "navsat": NAVSAT_GZ,
     "camera": CAMERA_GZ,
     "depth": DEPTH_CAMERA_GZ,
     "depth_camera": DEPTH_CAMERA_GZ,
