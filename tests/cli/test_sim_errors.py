@@ -202,9 +202,9 @@ def test_unknown_plugins_of_a_world_are_noted_and_the_rest_runs(tmp_path: Path, 
 @pytest.mark.parametrize(
     ("options", "body_or_joint"),
     [
-        (["--initial-twist", "1e300,0,0,0,0,0"], "joint `"),
-        (["--gravity", "0,0,-1e308"], "joint `"),
-        (["--initial-joints", "left_wheel_joint=0:1e200"], "joint `"),
+        (["--initial-twist", "1e300,0,0,0,0,0"], "root link `base_footprint`"),
+        (["--gravity", "0,0,-1e308"], "root link `base_footprint`"),
+        (["--initial-joints", "left_wheel_joint=0:1e200"], "root link `base_footprint`"),
     ],
 )
 def test_divergence_is_said_with_time_and_joint(capsys: Capture, options: list[str], body_or_joint: str) -> None:

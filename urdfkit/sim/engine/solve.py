@@ -214,6 +214,17 @@ def sweep(floats: Any, integers: Any, rows: int, x: Any, sweeps: int, tiny: floa
             break
 
 
+@inlined
+def gains_energy(floats: Any, integers: Any, rows: int, x: Any) -> bool:
+    """Return whether impulses do more work than none: x·(A·x/2 + g) > 0."""
+    A = field(floats, integers, At.A)
+    g = field(floats, integers, At.g)
+    work = 0.0
+    for k in range(rows):
+        work += 0.5 * x[k] * (result(rows, A, g, x, k) + g[k])
+    return work > 0.0
+
+
 @compiled
 def approach(floats: Any, integers: Any, rows: int, tiny: float) -> int:
     """Find the impulses by way of softer problems, where guesses from the last step's have failed.
@@ -252,6 +263,11 @@ def approach(floats: Any, integers: Any, rows: int, tiny: float) -> int:
             softness = max(SLIDING_SOFTNESS, HARDENING * softness)
         sweeps = max(10, 3 * sweeps)
         sweep(floats, integers, rows, near, sweeps, tiny)
+    if gains_energy(floats, integers, rows, near):
+        # From nothing, sweeps only ever take energy away.
+        for k in range(rows):
+            near[k] = 0.0
+        sweep(floats, integers, rows, near, SWEEPS, tiny)
     for k in range(rows):
         x[k] = near[k]
     return 0
