@@ -313,3 +313,10 @@ def test_closed_outputs_are_no_error(closed: str) -> None:
     done = subprocess.run(["/bin/sh", "-c", shell], capture_output=True, text=True, check=False)
     assert done.returncode == 0
     assert "Traceback" not in done.stderr
+
+
+def test_a_joint_that_a_controller_commands_is_not_held_as_well(capsys: Capture) -> None:
+    assert main(["sim", "run", "rrbot", "-q", "--for", "0.1", "--joint-target", "joint1=1.0"]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "--joint-target joint1: controller `joint1_position_controller` commands this joint" in err

@@ -231,3 +231,20 @@ def test_what_is_not_there_is_said_with_what_is_near() -> None:
     simulator.spawn("ball", FAR, name="egg")
     with pytest.raises(SimulationError, match="has a `egg` already; call it `egg_1`"):
         simulator.spawn("ball", FAR, name="egg")
+
+
+def test_what_comes_where_a_robot_is_does_not_blow_it_away() -> None:
+    simulator = Simulator("simpleton", note=lambda _: None)
+    simulator.spawn("crate", (0.0, 0.0, 0.0))
+    fastest = 0.0
+    for _ in range(60):
+        simulator.run(0.02)
+        fastest = max(fastest, *map(abs, simulator.state.base_velocity), *map(abs, simulator.bodies["crate"].twist[:3]))
+    assert fastest < 5.0
+    assert max(map(abs, simulator.state.base_pose[:3])) < 1.0
+
+
+@pytest.mark.parametrize("steps", [1.5, -1])
+def test_a_step_is_a_whole_number(steps: float) -> None:
+    with pytest.raises(SimulationError, match="is no number of steps"):
+        Simulator("simpleton", note=lambda _: None).step(steps)  # type: ignore[arg-type]

@@ -162,8 +162,10 @@ class Simulator(Population):
         """Advance by `n` steps.
 
         Raises:
-            SimulationError: the simulation diverged.
+            SimulationError: the simulation diverged, or `n` is no number of steps.
         """
+        if not isinstance(n, int) or n < 0:
+            raise SimulationError(f"`{n}` is no number of steps: a whole number, zero or more; `run` takes seconds")
         end = self.state.step + n
         while self.state.step < end:
             self._write()  # 1 drives and controllers write targets

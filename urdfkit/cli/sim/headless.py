@@ -14,7 +14,7 @@ from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim import values
 from urdfkit.cli.sim.controllers import add_controllers
 from urdfkit.cli.sim.distro import add_distro
-from urdfkit.errors import UsageError
+from urdfkit.errors import SimulationError, UsageError
 
 if TYPE_CHECKING:
     from urdfkit.cli.sim.report import Effort
@@ -149,9 +149,23 @@ def command(simulator: Simulator, arguments: argparse.Namespace) -> None:
     if arguments.cmd_vel is not None:
         ramp(simulator, arguments.cmd_vel, arguments.cmd_ramp or 0.0)
     for joint, target in (arguments.joint_target or {}).items():
+        _require_free(simulator, joint)
         simulator.motors.hold(joint, target)
     for message in arguments.topic_pub:
         publish_at(simulator, message)
+
+
+def _require_free(simulator: Simulator, joint: str) -> None:
+    """Refuse to hold a joint that a controller commands in every step.
+
+    Raises:
+        SimulationError: a running controller claims it.
+    """
+    for one in simulator.controllers.list():
+        if one.state in ("running", "active") and any(claim.split("/")[0] == joint for claim in one.claims):
+            raise SimulationError(
+                f"--joint-target {joint}: controller `{one.name}` commands this joint; publish to it with --topic-pub"
+            )
 
 
 def ramp(simulator: Simulator, command: tuple[float, float, float], seconds: float) -> None:

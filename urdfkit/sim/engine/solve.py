@@ -52,6 +52,10 @@ SOFTENINGS = 3
 """Problems not solved before sweeps help."""
 SWEEPS = 400
 """Most sweeps at a time."""
+STRAYING = 10.0
+"""Ratio of a row's velocity after the impulses to the largest before that is taken for a mistake."""
+MANY = 6
+"""Guesses beyond which their result is looked at twice."""
 LARGE = 60
 """Rows beyond which sweeps cost less than softer problems, each a matrix to eliminate several times."""
 
@@ -215,6 +219,21 @@ def sweep(floats: Any, integers: Any, rows: int, x: Any, sweeps: int, tiny: floa
 
 
 @inlined
+def strays(floats: Any, integers: Any, rows: int, x: Any, largest: float) -> bool:
+    """Return whether impulses make rows far faster than any was, as no impact without restitution does.
+
+    What is wedged where there is no room is pushed both ways by rows that contradict each other, harder with every
+    step, and what comes out when one of them lets go is no solution.
+    """
+    A = field(floats, integers, At.A)
+    g = field(floats, integers, At.g)
+    for k in range(rows):  # noqa: SIM110
+        if abs(result(rows, A, g, x, k)) > STRAYING * (largest + 0.1):
+            return True
+    return False
+
+
+@inlined
 def gains_energy(floats: Any, integers: Any, rows: int, x: Any) -> bool:
     """Return whether impulses do more work than none: x·(A·x/2 + g) > 0."""
     A = field(floats, integers, At.A)
@@ -329,10 +348,18 @@ def solve(floats: Any, integers: Any, rows: int) -> int:
         wrong = attempts(floats, integers, rows, rest, SOFTNESS, tiny)
         tried += wrong + 1
         if wrong == ATTEMPTS:
-            return approach(floats, integers, rows, tiny)
+            tried = approach(floats, integers, rows, tiny)
+            break
         if softened(floats, integers, rows, rest) <= tiny:
             break
         rest = near
         for k in range(rows):
             near[k] = x[k]
+    if (tried <= 0 or tried > MANY) and strays(floats, integers, rows, x, largest):
+        for k in range(rows):
+            near[k] = 0.0
+        sweep(floats, integers, rows, near, SWEEPS, tiny)
+        for k in range(rows):
+            x[k] = near[k]
+        return 0
     return tried
