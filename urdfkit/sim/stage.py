@@ -14,8 +14,9 @@ from urdfkit.description.world import World, WorldModel, WorldRobot, add_model, 
 from urdfkit.description.world.poses import IDENTITY, compose, inverse
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.sim.carry import Made, carry_over
-from urdfkit.sim.engine import Body, Engine, Ground, Loose, warmup
+from urdfkit.sim.engine import Body, Engine, Ground, Loose
 from urdfkit.sim.engine.engine import Provider
+from urdfkit.sim.engine.warmup import announcement, warmup
 from urdfkit.sim.entries import Entries, Entry
 from urdfkit.sim.placing import pose_from, seven
 from urdfkit.sim.pushes import Pushes
@@ -318,10 +319,8 @@ class Stage:
         first = robots[0]
         together = bool(bodies or robots[1:])
         if self._provider == "compiled":
-            about = "for worlds that hold bodies, once, about 60 s …" if together else "once, about 20 s …"
-            warmup(
-                lambda count: None if count else self._note(f"compiling the physics kernel, {about}"), world=together
-            )
+            about = announcement(world=together)
+            warmup(lambda count: None if count else self._note(about), world=together)
         engine = Engine(
             first.kinematics,
             first.shapes,

@@ -4,10 +4,6 @@ from __future__ import annotations
 
 from typing import TextIO
 
-SECONDS, SECONDS_WORLD = 20, 60
-"""About how long the compilation of either kernel takes."""
-
-
 SECONDS_RAYS = 25
 """About how long the compilation of the kernels that sensors see by takes."""
 
@@ -43,14 +39,13 @@ def prepare_kernel(out: TextIO, *, world: bool = False) -> bool:
 
     if find_spec("numba") is None:
         raise MissingDependencyError("sim needs numba: pip install 'urdfkit[sim]'")
-    from urdfkit.sim.engine import warmup
+    from urdfkit.sim.engine.warmup import announcement, warmup
 
     terminal = out.isatty()
 
     def progress(functions: int) -> None:
         if functions == 0:
-            what, seconds = (" for worlds that hold bodies", SECONDS_WORLD) if world else ("", SECONDS)
-            print(f"compiling the physics kernel{what}, once, about {seconds} s …", file=out, flush=True)
+            print(announcement(world=world), file=out, flush=True)
         elif terminal:
             print(f"\r{functions} functions", end="", file=out, flush=True)
 

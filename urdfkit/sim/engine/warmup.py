@@ -51,8 +51,14 @@ def world_kernel() -> Kernel:
     return load_compiled(advance, ("floats", "integers", "count", "flag"), digest=world_digest())
 
 
+def announcement(*, world: bool = False) -> str:
+    """Return what to say before a compilation: which kernel, and about how long it takes [CPU s, measured]."""
+    what, seconds = (" for worlds that hold bodies", 90) if world else ("", 20)
+    return f"compiling the physics kernel{what}, once, about {seconds} s …"
+
+
 def warmup(progress: Progress | None = None, *, world: bool = False) -> bool:
-    """Make the kernel ready to run; return whether it had to be compiled (some 20 s) rather than loaded.
+    """Make the kernel ready to run; return whether it had to be compiled (see `announcement`) rather than loaded.
 
     Args:
         progress: called with 0 before a compilation starts and with a growing count while it runs.
