@@ -72,6 +72,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add("--fixed-base", action="store_true", help="bolt the root link to the world")
     add("--until", metavar='"EXPR"', help='stop as soon as it is true, e.g. "x > 1 or t > 3"')
+    add(
+        "--save-image",
+        type=values.topic_file(".png"),
+        action="append",
+        default=[],
+        metavar="TOPIC=FILE.png",
+        help="write the last picture of a topic (repeatable; TOPIC may be left out where there is only one)",
+    )
     add("--save-world", metavar="FILE", help="write the world as it is in the end, without the robot, as SDF")
     add(
         "--engine",
@@ -93,6 +101,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Simulate and report."""
     if arguments.cmd_ramp is not None and arguments.cmd_vel is None:
         raise UsageError("sim run: --cmd-ramp ramps up --cmd-vel, which is missing")
+    from urdfkit.cli.sim import pictures
     from urdfkit.cli.sim.kernel import prepare_kernel
     from urdfkit.cli.sim.report import as_json, as_text
 
@@ -100,7 +109,9 @@ def run(arguments: argparse.Namespace) -> int:
         prepare_kernel(sys.stderr)
     simulator = load(arguments)
     command(simulator, arguments)
+    images = pictures.find_topics(simulator, arguments.save_image)
     spent = advance(simulator, arguments.duration, arguments.until)
+    pictures.save(simulator, images)
     if arguments.save_world is not None:
         simulator.save_world(arguments.save_world)
     print(json.dumps(as_json(simulator, spent), indent=1) if arguments.json else as_text(simulator, spent))

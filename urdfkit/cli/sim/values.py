@@ -6,6 +6,7 @@ import argparse
 import re
 from collections.abc import Callable
 from math import isfinite
+from pathlib import Path
 from typing import NamedTuple
 
 
@@ -162,3 +163,28 @@ def topic_message(text: str) -> TopicMessage:
     if len(parts) < 2:
         raise argparse.ArgumentTypeError(f'`{text}` is not "TOPIC TYPE YAML@T"')
     return TopicMessage(parts[0], parts[1], parts[2] if len(parts) == 3 else "{}", t)
+
+
+class TopicFile(NamedTuple):
+    """``TOPIC=FILE``: what to save where; the topic is empty where it is left out."""
+
+    topic: str
+    file: Path
+
+
+def topic_file(suffix: str) -> Callable[[str], TopicFile]:
+    """Return a reader of ``TOPIC=FILE`` or ``FILE``.
+
+    Args:
+        suffix: of the file, such as ``.png``.
+    """
+
+    def read(text: str) -> TopicFile:
+        topic, equals, file = text.partition("=")
+        if not equals:
+            topic, file = "", text
+        if Path(file).suffix.lower() != suffix:
+            raise argparse.ArgumentTypeError(f"`{text}` is not TOPIC=FILE{suffix}")
+        return TopicFile(topic.strip(), Path(file))
+
+    return read

@@ -1,0 +1,65 @@
+"""``sim run --save-image``: what is in the file, and what is refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from urdfkit.cli import main
+from urdfkit.cli.sim.pictures import png
+from urdfkit.sim.sensors.optics import depth_image, image
+
+Capture = pytest.CaptureFixture[str]
+TOPIC = "/simpleton/camera1/image_raw"
+
+
+def test_the_last_picture_is_saved(tmp_path: Path, capsys: Capture) -> None:
+    file = tmp_path / "seen.png"
+    assert main(["sim", "run", "simpleton", "--world", "house", "--for", "0.1", "--save-image", f"{TOPIC}={file}"]) == 0
+    assert "base" in capsys.readouterr().out
+    with Image.open(file) as found:
+        assert (found.format, found.size, found.mode) == ("PNG", (800, 800), "RGB")
+        assert len(np.unique(np.asarray(found).reshape(-1, 3), axis=0)) > 5
+
+
+@pytest.mark.parametrize("encoding", ["rgb8", "bgr8", "mono8", "bayer_rggb8"])
+def test_pictures_of_every_encoding(tmp_path: Path, encoding: str) -> None:
+    rgb = np.random.default_rng(1).integers(0, 256, (6, 10, 3), dtype=np.uint8)
+    message = image(0.0, "eye", rgb, encoding)
+    found = opened(tmp_path, message)
+    if encoding in ("rgb8", "bgr8"):
+        assert np.array_equal(found, rgb)
+    else:
+        assert np.array_equal(found, message.data.reshape(6, 10))
+
+
+@pytest.mark.parametrize("millimetres", [True, False])
+def test_depths_are_millimetres(tmp_path: Path, millimetres: bool) -> None:
+    depth = np.array([[0.5, np.nan, 1.2344], [np.inf, 65.0, 70.0]], dtype=np.float32)
+    found = opened(tmp_path, depth_image(0.0, "eye", depth, millimetres=millimetres))
+    assert found.tolist() == [[500, 0, 1234], [0, 65000, 0]]
+
+
+def opened(folder: Path, message: Any) -> np.ndarray:
+    (folder / "picture.png").write_bytes(png(message))
+    with Image.open(folder / "picture.png") as picture:
+        return np.asarray(picture)
+
+
+@pytest.mark.parametrize(
+    ("option", "said"),
+    [
+        ("/simpleton/camera1/image=x.png", f"no pictures come on /simpleton/camera1/image; did you mean `{TOPIC}`?"),
+        (f"{TOPIC}=x.jpg", "is not TOPIC=FILE.png"),
+        ("x.png", "no picture came on /simpleton/camera1/image_raw in 0 s; run for longer"),
+    ],
+)
+def test_what_cannot_be_saved_is_said(tmp_path: Path, capsys: Capture, option: str, said: str) -> None:
+    option = option.replace("x.png", str(tmp_path / "x.png"))
+    assert main(["sim", "run", "simpleton", "--for", "0", "--save-image", option]) == 2
+    assert said in capsys.readouterr().err.splitlines()[-1]
+    assert not list(tmp_path.iterdir())

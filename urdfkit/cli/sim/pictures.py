@@ -1,0 +1,94 @@
+"""``sim run --save-image``: the last picture of a topic, as PNG."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.atomic import write_bytes
+from urdfkit.bus import absolute
+from urdfkit.errors import MissingDependencyError, UsageError, did_you_mean
+
+if TYPE_CHECKING:
+    from urdfkit.cli.sim.values import TopicFile
+    from urdfkit.sim.simulator import Simulator
+
+IMAGE = "sensor_msgs/msg/Image"
+
+
+def find_topics(simulator: Simulator, wanted: Sequence[TopicFile]) -> list[tuple[str, Path]]:
+    """Return the topic and the file of each ``--save-image``.
+
+    Raises:
+        UsageError: there is no such topic, it carries no pictures, or none is named and there are several.
+        MissingDependencyError: Pillow is not installed.
+    """
+    from importlib.util import find_spec
+
+    if wanted and find_spec("PIL") is None:
+        raise MissingDependencyError("--save-image needs Pillow: pip install 'urdfkit[sim]'")
+    there = [topic.name for topic in simulator.bus.topics if topic.type == IMAGE]
+    return [(_topic(each.topic, there), each.file) for each in wanted]
+
+
+def _topic(name: str, there: Sequence[str]) -> str:
+    if name:
+        if absolute(name) not in there:
+            hint = did_you_mean(absolute(name), there) or (f"; there are {', '.join(there)}" if there else "")
+            raise UsageError(f"--save-image: no pictures come on {absolute(name)}{hint}")
+        return absolute(name)
+    if len(there) != 1:
+        found = f"there are {', '.join(there)}" if there else "nothing here publishes any"
+        raise UsageError(f"--save-image: say which pictures, TOPIC=FILE.png; {found}")
+    return there[0]
+
+
+def save(simulator: Simulator, wanted: Sequence[tuple[str, Path]]) -> None:
+    """Write the last picture of each topic.
+
+    Raises:
+        UsageError: none has been taken so far.
+        ResourceError: it cannot be written.
+    """
+    for topic, file in wanted:
+        message = simulator.bus.latest(topic)
+        if message is None:
+            raise UsageError(f"--save-image: no picture came on {topic} in {simulator.t:g} s; run for longer")
+        write_bytes(file, png(message))
+
+
+def png(message: Any) -> bytes:
+    """Return an Image as PNG.
+
+    Depths become 16 bits of millimetres, zero where there is none, as in 16UC1. Bayer patterns stay grey.
+
+    Args:
+        message: of type sensor_msgs/Image.
+    """
+    import numpy as np
+    from PIL import Image
+
+    def rows(kind: str, channels: int = 1) -> Any:
+        lines = np.frombuffer(message.data.tobytes(), "u1").reshape(message.height, message.step)
+        size = np.dtype(kind).itemsize * channels * message.width
+        found = np.ascontiguousarray(lines[:, :size]).view(kind).reshape(message.height, message.width, channels)
+        return found[:, :, 0] if channels == 1 else found
+
+    match message.encoding:
+        case "rgb8":
+            pixels = rows("u1", 3)
+        case "bgr8":
+            pixels = rows("u1", 3)[:, :, ::-1]
+        case "32FC1":
+            depth = rows("<f4")
+            known = np.isfinite(depth) & (depth > 0) & (depth < 65.535)
+            pixels = np.rint(np.where(known, depth, 0.0) * 1000.0).astype(np.uint16)
+        case "16UC1" | "mono16":
+            pixels = rows("<u2")
+        case _:
+            pixels = rows("u1")
+    file = io.BytesIO()
+    Image.fromarray(np.ascontiguousarray(pixels)).save(file, format="PNG")
+    return file.getvalue()
