@@ -12,6 +12,7 @@
     ├── KinematicsError          unknown frame or joint, a value outside the model
     │   └── JointLimitError      carries joint, value, lower, upper (urdfkit.kinematics)
     ├── SimulationError          the robot or the world cannot be simulated
+    │   └── UnknownNameError     nothing of that name in a simulation; a KeyError as well
     └── MissingDependencyError   an optional package is not installed; carries the command to run
 
 A message is one line. It says what is wrong, the value with its unit, where (``file:line:column``) and the nearest
@@ -71,6 +72,14 @@ class KinematicsError(UrdfkitError):
 
 class SimulationError(UrdfkitError):
     """The robot or the world cannot be simulated."""
+
+
+class UnknownNameError(SimulationError, KeyError):
+    """Nothing of that name is in a simulation; a KeyError as well, as mappings and their users want."""
+
+    def __str__(self) -> str:
+        """Return the message: a KeyError alone would put it in quotes."""
+        return Exception.__str__(self)
 
 
 class MissingDependencyError(UrdfkitError):

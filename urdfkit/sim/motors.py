@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
+from urdfkit.sim.views import numbers
 
 if TYPE_CHECKING:
+    from urdfkit.description.robot import Joint
     from urdfkit.sim.controllers.pid import Gains
 
 Array = NDArray[np.float64]
@@ -78,6 +80,7 @@ class Motors:
         self.attach(velocity, effort, applied, servos, set_base_velocity)
         names = (*kinematics.joint_names, *kinematics.mimic_names)
         self._index = {name: kinematics.velocity_index(name) for name in names}
+        self._limits = {name: effort_limit(joint) for name, joint in kinematics.robot.joint_by_name.items()}
         self._goals: dict[str, float] = {}
 
     def attach(
@@ -89,7 +92,7 @@ class Motors:
         set_base_velocity: Callable[[Sequence[float]], None],
     ) -> None:
         """Write to another engine from now on: one for the same robot in a world that has changed."""
-        self._velocity, self._effort, self._applied = velocity, effort, applied
+        self._velocity, self._effort, self._applied = numbers(velocity), numbers(effort), numbers(applied)
         self._servos = servos
         self._set_base_velocity = set_base_velocity
 
@@ -114,11 +117,14 @@ class Motors:
             SimulationError: no such joint, a value that is no finite number or outside the joint's limits.
         """
         self._set(joint, 0.0, self.limit(joint) if effort is None else effort)
+        unit = "m" if self._kinematics.robot.joint_by_name[joint].type == "prismatic" else "rad"
         if not isfinite(position):
-            raise SimulationError(f"joint `{joint}` cannot go to {position}: it must be a finite number")
+            raise SimulationError(f"joint `{joint}` cannot go to {position} {unit}: it must be a finite number")
         lower, upper = self._kinematics.limits(joint)
         if not lower <= position <= upper:
-            raise SimulationError(f"joint `{joint}` cannot go to {position:g}: its limits are {lower:g} … {upper:g}")
+            raise SimulationError(
+                f"joint `{joint}` cannot go to {position:g} {unit}: its limits are {lower:g} … {upper:g} {unit}"
+            )
         self._goals[joint] = position
 
     def exert(self, joint: str, effort: float) -> None:
@@ -164,9 +170,9 @@ class Motors:
             SimulationError: no such joint, or a value that is no finite number or negative where that makes no sense.
         """
         index = self._checked(joint)
-        numbers = (stiffness, damping, position, velocity)
-        if not all(map(isfinite, numbers)) or stiffness < 0 or damping < 0 or not effort >= 0:
-            raise SimulationError(f"joint `{joint}`: no servo can do {numbers} with effort {effort}")
+        values = (stiffness, damping, position, velocity)
+        if not all(map(isfinite, values)) or stiffness < 0 or damping < 0 or not effort >= 0:
+            raise SimulationError(f"joint `{joint}`: no servo can do {values} with effort {effort}")
         self._goals.pop(joint, None)
         self._velocity[index] = self._effort[index] = 0.0
         servos = self._servos
@@ -190,9 +196,7 @@ class Motors:
 
     def limit(self, joint: str) -> float:
         """Return the joint's ``<limit effort>`` [N·m] or [N], infinite where there is none."""
-        written = self._kinematics.robot.joint_by_name.get(joint)
-        limit = written.limit if written is not None else None
-        return inf if limit is None or limit.effort is None else limit.effort
+        return self._limits.get(joint, inf)
 
     def release(self, joint: str) -> None:
         """Let a joint turn freely."""
@@ -203,9 +207,8 @@ class Motors:
     def release_all(self) -> None:
         """Let every joint turn freely."""
         self._goals.clear()
-        self._velocity[:] = 0.0
-        self._effort[:] = 0.0
-        self._applied[:] = 0.0
+        for values in (self._velocity, self._effort, self._applied):
+            np.asarray(values)[:] = 0.0
         self._servos.stiffness[:] = self._servos.damping[:] = self._servos.integral_gain[:] = 0.0
 
     @property
@@ -233,7 +236,13 @@ class Motors:
         self._servos.stiffness[index] = self._servos.damping[index] = self._servos.integral_gain[index] = 0.0
 
     def _checked(self, joint: str) -> int:
-        if joint not in self._index:
+        index = self._index.get(joint)
+        if index is None:
             self._kinematics.velocity_index(joint)  # raises, with the nearest name
             raise SimulationError(f"joint `{joint}` has more than one degree of freedom: it has no motor")
-        return self._index[joint]
+        return index
+
+
+def effort_limit(joint: Joint) -> float:
+    """Return the ``<limit effort>`` of a joint [N·m] or [N], infinite where there is none."""
+    return inf if joint.limit is None or joint.limit.effort is None else joint.limit.effort

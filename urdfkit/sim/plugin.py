@@ -176,22 +176,28 @@ class Sensor(ABC):
         """Take note of the simulation's step [s], after `configure`, and of how many there have been."""
         self._ticks = Ticks(self.rate, dt)
         self.done = self._ticks.until(step)
+        self._due = self._ticks.after(step)
 
     def next_stop(self, step: int) -> int:
         """Return the step at which the simulation has to stop for it; `NEVER` while nobody listens."""
-        heard = not self.topics or any(topic.subscribers for topic in self.topics)
-        return self._ticks.after(step) if heard else NEVER
+        for topic in self.topics:
+            if topic.subscribers:
+                return self._ticks.after(step)
+        return NEVER if self.topics else self._ticks.after(step)
 
     def catch_up(self, state: State) -> None:
         """Measure what has fallen due."""
-        due = self._ticks.until(state.step) - self.done
-        if due > 0:
-            self.done += due
-            self.measure(state, due)
+        if state.step < self._due:
+            return
+        fallen = self._ticks.until(state.step) - self.done
+        self.done += fallen
+        self._due = self._ticks.after(state.step)
+        self.measure(state, fallen)
 
     def reset(self) -> None:
         """Start again at step 0."""
         self.done = 0
+        self._due = self._ticks.after(0)
 
     @abstractmethod
     def measure(self, state: State, count: int) -> None:

@@ -64,13 +64,22 @@ class Population:
 
         Links of other robots, and of models with joints, are called ``NAME::LINK``.
         """
+        return self.keep_body_poses()()
+
+    def keep_body_poses(self) -> Callable[[], dict[str, tuple[float, ...]]]:
+        """Return what tells the `body_poses` of this moment, also later."""
         stage = self._stage
-        found = {**stage.still, **{name: body.pose for name, body in stage.loose.items()}}
-        for robot in list(stage.robots.values())[1:]:
-            poses = robot.state.link_poses().tolist()
-            names = robot.kinematics.link_names
-            found |= {f"{robot.name}::{link}": tuple(pose) for link, pose in zip(names, poses, strict=True)}
-        return found
+        still, loose = stage.still, {name: body.pose for name, body in stage.loose.items()}
+        robots = [(robot, robot.state.snapshot()) for robot in stage.everybody[1:]]
+
+        def build() -> dict[str, tuple[float, ...]]:
+            found = {**still, **loose}
+            for robot, moment in robots:
+                poses, names = moment.link_poses().tolist(), robot.kinematics.link_names
+                found |= {f"{robot.name}::{link}": tuple(pose) for link, pose in zip(names, poses, strict=True)}
+            return found
+
+        return build
 
     def looks(self) -> tuple[Shape, ...]:
         """Return what everything looks like that `body_poses` names, each shape on the body of that name."""
@@ -208,6 +217,10 @@ class Population:
     @property
     def _active(self) -> list[SimulatedRobot]:
         return [robot for robot in self._stage.everybody if robot.is_active]
+
+    def pushes_on(self, robot: str, links: Sequence[str]) -> tuple[tuple[Array, Array, Array], ...]:
+        """Return force [N], torque [N·m] and point of attack [m], in the world, of what pushes links of a robot."""
+        return self._stage.pushes.on(self.robots[robot], links)
 
     def _install(self, robot: SimulatedRobot) -> None:
         if robot is self._stage.everybody[0]:

@@ -42,12 +42,16 @@ class Publication(ABC):
         topic: where to.
         rate: [Hz]; zero or less means every step.
         dt: the simulation's step [s].
+
+    Attributes:
+        due: the step of the next publication: before it there is nothing to catch up with, and nothing to stop for.
     """
 
     def __init__(self, topic: Topic, rate: float, dt: float) -> None:
         self.topic = topic
         self._ticks = Ticks(rate, dt)
         self._done = 0
+        self.due = self._ticks.after(0)
 
     def next_stop(self, step: int) -> int:
         """Return the step at which the simulation has to stop for it; `NEVER` while nobody listens."""
@@ -55,18 +59,21 @@ class Publication(ABC):
 
     def catch_up(self, state: State) -> None:
         """Publish what has fallen due."""
-        due = self._ticks.until(state.step) - self._done
-        if due > 0:
-            self._done += due
-            self.topic.offer(self.message(state), count=due)
+        if state.step < self.due:
+            return
+        fallen = self._ticks.until(state.step) - self._done
+        self._done += fallen
+        self.due = self._ticks.after(state.step)
+        self.topic.offer(self.message(state), count=fallen)
 
     def reset(self) -> None:
         """Start again at step 0."""
-        self._done = 0
+        self.start_at(0)
 
     def start_at(self, step: int) -> None:
         """Take what fell due until a step as done: it begins there."""
         self._done = self._ticks.until(step)
+        self.due = self._ticks.after(step)
 
     @abstractmethod
     def message(self, state: State) -> Callable[[], Any]:

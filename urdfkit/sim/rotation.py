@@ -8,16 +8,16 @@ from typing import Any
 
 def rotate(quaternion: Any, vector: Any) -> tuple[float, float, float]:
     """Return v + 2w(u × v) + 2u × (u × v), the vector turned by the unit quaternion (u, w)."""
-    x, y, z, w = (float(part) for part in quaternion)
-    a, b, c = (float(part) for part in vector)
+    x, y, z, w = map(float, quaternion)
+    a, b, c = map(float, vector)
     tx, ty, tz = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
     return a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx
 
 
 def product(first: Any, second: Any) -> tuple[float, float, float, float]:
     """Return the Hamilton product of two quaternions x y z w."""
-    ax, ay, az, aw = (float(part) for part in first)
-    bx, by, bz, bw = (float(part) for part in second)
+    ax, ay, az, aw = map(float, first)
+    bx, by, bz, bw = map(float, second)
     return (
         aw * bx + ax * bw + ay * bz - az * by,
         aw * by - ax * bz + ay * bw + az * bx,
@@ -36,7 +36,13 @@ def from_rpy(roll: float, pitch: float, yaw: float) -> tuple[float, float, float
 
 def to_rpy(quaternion: Any) -> tuple[float, float, float]:
     """Return fixed-axis roll, pitch, yaw [rad] of a unit quaternion x y z w."""
-    x, y, z, w = (float(part) for part in quaternion)
+    x, y, z, w = map(float, quaternion)
     roll = atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
     pitch = asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
-    return roll, pitch, atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    return roll, pitch, yaw_of((x, y, z, w))
+
+
+def yaw_of(quaternion: Any) -> float:
+    """Return the heading [rad] of a unit quaternion x y z w: the last of fixed-axis roll, pitch, yaw."""
+    x, y, z, w = quaternion
+    return atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))

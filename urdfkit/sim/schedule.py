@@ -35,8 +35,9 @@ class Ticks:
 
     def falls_on(self, step: int) -> bool:
         """Whether a tick falls on `step`; the zeroth falls on step 0."""
-        return self.at(self.until(step)) == step
+        return step % self._whole == 0 if self._whole else self.at(self.until(step)) == step
 
     def after(self, step: int) -> int:
         """Return the step of the first tick later than `step`."""
-        return self.at(self.until(step) + 1)
+        whole = self._whole
+        return (step // whole + 1) * whole if whole else self.at(self.until(step) + 1)

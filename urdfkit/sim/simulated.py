@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -15,6 +15,7 @@ from urdfkit.kinematics import Kinematics
 from urdfkit.scene import Scene, scene_of
 from urdfkit.sim.controllers.switching import Controllers
 from urdfkit.sim.engine import Engine, Ground, Member, Surface
+from urdfkit.sim.engine.arrays import FOUND_CONTACTS
 from urdfkit.sim.engine.part import Part
 from urdfkit.sim.installed import Installed, install
 from urdfkit.sim.loading import require_masses
@@ -25,6 +26,7 @@ from urdfkit.sim.schedule import NEVER, Ticks
 from urdfkit.sim.spawn import Spawn
 from urdfkit.sim.state import State
 from urdfkit.sim.surfaces import surfaces_of
+from urdfkit.sim.views import numbers
 
 Array = NDArray[np.float64]
 
@@ -133,8 +135,9 @@ class SimulatedRobot:
             part.motor_effort,
             part.applied,
             Servos(*(getattr(part, name) for name in SERVO_ARRAYS)),
-            part.set_base_velocity,
+            self._set_base_velocity,
         )
+        self._found, self._against = (numbers(engine._arrays[name]) for name in ("counts", "contact_against"))
         if hasattr(self, "state"):
             self.state.attach(engine, part)
             self.motors.attach(*handles)
@@ -143,6 +146,13 @@ class SimulatedRobot:
             self.state.step = engine.steps
             self.motors = Motors(self.kinematics, *handles)
         self._approach = Ticks(APPROACH_RATE, engine.dt)
+
+    def _set_base_velocity(self, twist: Sequence[float]) -> None:
+        """Set the floating base's twist, see `Part.set_base_velocity`."""
+        touching = self._against[: self._found[FOUND_CONTACTS]].tolist()
+        if max(touching, default=-1) < 0:  # nothing but the ground: nothing to be taken back for
+            self.part._given = None
+        self.part.set_base_velocity(twist)
 
     def install(self, setup: Setup, *, seed: int) -> None:
         """Set its plugins to work, and publish what nobody has to ask for.
@@ -196,16 +206,24 @@ class SimulatedRobot:
 
     def next_stop(self, step: int) -> int:
         """Return the first step after `step` at which something of it is due; `NEVER` for what has no plugins."""
-        stops = [each.next_stop(step) for each in (*self._publications, *self.controllers.publications)]
+        nearest = NEVER
         for drive, writes, reads in self._drives:
-            stops.append(reads.after(step))
+            nearest = min(nearest, reads.after(step))
             if not drive.resting:
-                stops.append(writes.after(step))
-        stops.extend(controller.after(step) for controller in self.plugins.controllers)
-        stops.extend(sensor.next_stop(step) for sensor in self.plugins.sensors)
+                nearest = min(nearest, writes.after(step))
+        for controller in self.plugins.controllers:
+            nearest = min(nearest, controller.after(step))
         if self.motors.has_goals:
-            stops.append(self._approach.after(step))
-        return min(stops, default=NEVER)
+            nearest = min(nearest, self._approach.after(step))
+        if nearest <= step + 1:  # nothing else can be due before
+            return nearest
+        for sensor in self.plugins.sensors:
+            nearest = min(nearest, sensor.next_stop(step))
+        for publications in (self._publications, *self.controllers.each_publications):
+            for publication in publications:
+                if publication.due < nearest:
+                    nearest = min(nearest, publication.next_stop(step))
+        return nearest
 
     def read(self, step: int) -> None:
         """Let drives, controllers and sensors publish what they measure."""
@@ -217,8 +235,10 @@ class SimulatedRobot:
                 controller.read(self.state)
         for sensor in self.plugins.sensors:
             sensor.catch_up(self.state)
-        for publication in (*self._publications, *self.controllers.publications):
-            publication.catch_up(self.state)
+        for publications in (self._publications, *self.controllers.each_publications):
+            for publication in tuple(publications):  # whoever hears of one may load or unload a controller
+                if publication.due <= step:
+                    publication.catch_up(self.state)
 
     def reset(self) -> None:
         """Forget commands, targets and odometry; `begin` puts it back."""

@@ -23,7 +23,7 @@ from urdfkit.sim.loading import load_robot
 from urdfkit.sim.plugin import Drive, Setup
 from urdfkit.sim.population import Population
 from urdfkit.sim.publications import Clock, Publication
-from urdfkit.sim.schedule import Ticks
+from urdfkit.sim.schedule import NEVER, Ticks
 from urdfkit.sim.simulated import SimulatedRobot
 from urdfkit.sim.spawn import Spawn
 from urdfkit.sim.stage import Stage
@@ -168,12 +168,12 @@ class Simulator(Population):
             raise SimulationError(f"`{n}` is no number of steps: a whole number, zero or more; `run` takes seconds")
         end = self.state.step + n
         while self.state.step < end:
-            self._write()  # 1 drives and controllers write targets
-            steps = min(self._next_stop(), end) - self.state.step
+            active = self._write()  # 1 drives and controllers write targets
+            steps = min(self._next_stop(active), end) - self.state.step
             self._stage.advance(steps)  # 2 the engine advances; 3 frames: computed when somebody asks
-            self._read()  # 4 sensors that are due measure; 5 joint states, transforms, clock
+            self._read(active)  # 4 sensors that are due measure; 5 joint states, transforms, clock
 
-    def _write(self) -> None:
+    def _write(self) -> list[SimulatedRobot]:
         step = self.state.step
         while self._calls and self._calls[0][0] <= step:
             due, number, period, call = heapq.heappop(self._calls)
@@ -181,23 +181,28 @@ class Simulator(Population):
             if period > 0:
                 again = max(step + 1, due + max(1, round(period / self.dt)))
                 heapq.heappush(self._calls, (again, number, period, call))
-        for robot in self._active:
+        active = self._active
+        for robot in active:
             robot.write(step)
+        return active
 
-    def _next_stop(self) -> int:
+    def _next_stop(self, active: Sequence[SimulatedRobot]) -> int:
         step = self.state.step
-        stops = [each.next_stop(step) for each in self._shared]
-        stops += [robot.next_stop(step) for robot in self._active]
-        if self._calls:
-            stops.append(max(step + 1, self._calls[0][0]))
-        return min(stops)
+        nearest = max(step + 1, self._calls[0][0]) if self._calls else NEVER
+        for robot in active:
+            nearest = min(nearest, robot.next_stop(step))
+        for publication in self._shared:
+            if publication.due < nearest:
+                nearest = min(nearest, publication.next_stop(step))
+        return nearest
 
-    def _read(self) -> None:
+    def _read(self, active: Sequence[SimulatedRobot]) -> None:
         step = self.state.step
-        for robot in self._active:
+        for robot in active:
             robot.read(step)
         for publication in self._shared:
-            publication.catch_up(self.state)
+            if publication.due <= step:
+                publication.catch_up(self.state)
 
     def reset(self) -> None:
         """Start again: robots, bodies and time; subscriptions and message counts stay, scheduled calls are dropped.

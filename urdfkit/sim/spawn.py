@@ -70,10 +70,9 @@ class Spawn:
         upright = np.array([0.0, 0.0, 0.0, *quaternion])
         if kinematics.floating_base:
             return lowest_point(scene, kinematics.link_poses(kinematics.configuration(self.joints, base=upright)))
-        from urdfkit.sim.state import Snapshot
+        from urdfkit.sim.state import link_poses
 
-        q = kinematics.configuration(self.joints)
-        return lowest_point(scene, Snapshot(kinematics, 0.0, q, upright).link_poses())
+        return lowest_point(scene, link_poses(kinematics, kinematics.configuration(self.joints), upright))
 
     def configuration(self, kinematics: Kinematics, pose: Array) -> tuple[Array, Array]:
         """Return q and v at the start.

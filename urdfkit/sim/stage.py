@@ -48,9 +48,11 @@ class Stage:
         robots: name → robot, `first` first; trees of links and joints of models too.
         pushes: what pushes at present.
         revision: how often the stage was made anew.
+        still: body → pose, of those that do not move.
     """
 
     engine: Engine
+    still: dict[str, tuple[float, ...]]
     _robots: list[SimulatedRobot]
     _bodies: list[Body]
     _made: Made
@@ -105,11 +107,6 @@ class Stage:
     def loose(self) -> dict[str, Loose]:
         """The bodies that are free to move."""
         return self.engine.bodies
-
-    @property
-    def still(self) -> dict[str, tuple[float, ...]]:
-        """Body → pose, of those that do not move."""
-        return {body.name: tuple(body.pose) for body in self._bodies if body.static}
 
     def body(self, name: str) -> Body:
         """Return a body as the engine was given it.
@@ -349,6 +346,7 @@ class Stage:
             robot.state.step = engine.steps
             robot.state.advance(0)
         self.engine, self._made, self._bodies, self._robots = engine, made, bodies, robots
+        self.still = {body.name: tuple(body.pose) for body in bodies if body.static}
         self.revision += 1
 
     # Where things are

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.errors import UnknownNameError, did_you_mean
 from urdfkit.kinematics import Kinematics
+from urdfkit.sim.engine.state import configuration
 from urdfkit.sim.rotation import product, rotate
+from urdfkit.sim.views import numbers
 
 if TYPE_CHECKING:
     from urdfkit.sim.engine import Contact, Engine
@@ -19,34 +23,36 @@ Placement = tuple[tuple[float, float, float], tuple[float, float, float, float]]
 
 
 class Snapshot:
-    """The robot's configuration at one moment, kept.
+    """The robot's configuration at one moment, kept; what follows from it is worked out when somebody asks.
 
     Args:
         kinematics: the robot's model.
         t: simulated time [s].
-        q: configuration, copied.
+        part: which of the engine's robots it is; its coordinates are copied.
         base: pose of the root link of a robot that is bolted down; None for one that floats.
 
     Attributes:
         t: simulated time [s].
-        q: configuration; shape (nq,).
     """
 
-    def __init__(self, kinematics: Kinematics, t: float, q: Array, base: Array | None) -> None:
+    def __init__(self, kinematics: Kinematics, t: float, part: Part, base: Array | None) -> None:
         self._kinematics = kinematics
         self.t = t
-        self.q = q.copy()
+        self._arrays, self._tree = part._arrays, part._tree
+        self._coordinates: Array = part._arrays["s"].copy()
         self._base = base
         self._poses: Array | None = None
+
+    @cached_property
+    def q(self) -> Array:
+        """Configuration; shape (nq,)."""
+        kept: Any = {name: self._arrays[name] for name in ("tree_body", "first_s")} | {"s": self._coordinates}
+        return configuration(self._kinematics.model, kept, self._tree)
 
     def link_poses(self) -> Array:
         """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7)."""
         if self._poses is None:
-            self._poses = self._kinematics.link_poses(self.q)
-            if self._base is not None:
-                for row in self._poses:
-                    row[:3] = self._base[:3] + rotate(self._base[3:], row[:3])
-                    row[3:] = product(self._base[3:], row[3:])
+            self._poses = link_poses(self._kinematics, self.q, self._base)
         return self._poses
 
     def placement(self, link: str | None, relative_to: str | None) -> Placement:
@@ -74,22 +80,26 @@ class State:
         self._kinematics = kinematics
         self._base = base
         self.step = 0
-        self.attach(engine, part)
         names = (*kinematics.joint_names, *kinematics.mimic_names)
         self._index = {name: kinematics.velocity_index(name) for name in names}
+        self.attach(engine, part)
 
     def attach(self, engine: Engine, part: Part | None = None) -> None:
         """Look at another engine from now on: one for the same robot in a world that has changed."""
         self._engine = engine
         self._part: Part = engine if part is None else part
         self._snapshot: Snapshot | None = None
-        self._positions: list[float] | None = None
         self._pose: tuple[float, ...] | None = None
+        arrays, tree = engine._arrays, self._part._tree
+        dof = int(arrays["tree_dof"][tree])
+        self._at = {name: int(arrays["dof_s"][dof + k]) for name, k in self._index.items()}
+        self._coordinates, self._velocities = numbers(arrays["s"]), numbers(self._part.v)
+        self._root = int(arrays["tree_s"][tree])
 
     def advance(self, steps: int) -> None:
         """Take note that the engine moved on by `steps`."""
         self.step += steps
-        self._snapshot = self._positions = self._pose = None
+        self._snapshot = self._pose = None
 
     @property
     def t(self) -> float:
@@ -124,44 +134,101 @@ class State:
         return energy_of(self._kinematics, self._part.q, self._part.v, self._base, self._engine._arrays["gravity"])
 
     def position(self, joint: str) -> float:
-        """Return a joint's position [rad] or [m]; that of a continuous joint counts its turns."""
-        if self._positions is None:
-            self._positions = self._part.positions.tolist()
-        return self._positions[self._index[joint]]
+        """Return a joint's position [rad] or [m]; that of a continuous joint counts its turns.
+
+        Raises:
+            UnknownNameError: no joint of that name moves in one degree of freedom.
+        """
+        try:
+            found: float = self._coordinates[self._at[joint]]
+        except KeyError:
+            raise self._no_joint(joint) from None
+        return found
 
     def velocity(self, joint: str) -> float:
-        """Return a joint's velocity [rad/s] or [m/s]."""
-        return float(self._part.v[self._index[joint]])
+        """Return a joint's velocity [rad/s] or [m/s].
+
+        Raises:
+            UnknownNameError: no joint of that name moves in one degree of freedom.
+        """
+        try:
+            found: float = self._velocities[self._index[joint]]
+        except KeyError:
+            raise self._no_joint(joint) from None
+        return found
 
     def effort(self, joint: str) -> float:
-        """Return what the joint's motor, its servo and efforts beside them exerted in the last step [N·m] or [N]."""
+        """Return what the joint's motor, its servo and efforts beside them exerted in the last step [N·m] or [N].
+
+        Raises:
+            UnknownNameError: no joint of that name moves in one degree of freedom.
+        """
+        if joint not in self._index:
+            raise self._no_joint(joint)
         index = self._index[joint]
         return float(self._part.effort[index] + self._part.applied[index])
+
+    def _no_joint(self, joint: str) -> UnknownNameError:
+        robot = self._kinematics.robot
+        if joint in robot.joint_by_name:
+            return UnknownNameError(f"joint `{joint}` is {robot.joint_by_name[joint].type}: it has no one position")
+        return UnknownNameError(f"no joint `{joint}` in robot `{robot.name}`{did_you_mean(str(joint), self._index)}")
 
     @property
     def base_pose(self) -> tuple[float, ...]:
         """The root link in the world: x y z [m] and quaternion x y z w."""
         if self._pose is None:
-            self._pose = tuple((self._part.q[:7] if self._base is None else self._base).tolist())
+            if self._base is None:
+                self._pose = tuple(self._coordinates[self._root : self._root + 7].tolist())
+            else:
+                self._pose = tuple(self._base.tolist())
         return self._pose
+
+    @property
+    def base_twist(self) -> tuple[float, ...]:
+        """Velocity of the root link [m/s] and its angular velocity [rad/s], along its own axes."""
+        return (0.0,) * 6 if self._base is not None else tuple(self._velocities[:6].tolist())
 
     @property
     def base_velocity(self) -> tuple[float, ...]:
         """Velocity of the root link's origin [m/s] and its angular velocity [rad/s], along the world's axes."""
-        if self._base is not None:
-            return (0.0,) * 6
-        rotation, v = self.base_pose[3:], self._part.v[:6].tolist()
-        return (*rotate(rotation, v[:3]), *rotate(rotation, v[3:]))
+        return (0.0,) * 6 if self._base is not None else in_the_world(self.base_pose, self.base_twist)
 
     def snapshot(self) -> Snapshot:
         """Return this moment, kept; the same object for everybody who asks before the next step."""
         if self._snapshot is None:
-            self._snapshot = Snapshot(self._kinematics, self.t, self._part.q, self._base)
+            self._snapshot = Snapshot(self._kinematics, self.t, self._part, self._base)
         return self._snapshot
 
     def link_poses(self) -> Array:
         """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7)."""
         return self.snapshot().link_poses()
+
+
+def link_poses(kinematics: Kinematics, q: Array, base: Array | None) -> Array:
+    """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7).
+
+    Args:
+        kinematics: the robot's model.
+        q: configuration; shape (nq,).
+        base: pose of the root link of a robot that is bolted down; None for one that floats.
+    """
+    poses = kinematics.link_poses(q)
+    if base is not None:
+        for row in poses:
+            row[:3] = base[:3] + rotate(base[3:], row[:3])
+            row[3:] = product(base[3:], row[3:])
+    return poses
+
+
+def in_the_world(pose: tuple[float, ...], twist: tuple[float, ...]) -> tuple[float, ...]:
+    """Return a velocity [m/s, rad/s] along the world's axes that a twist along a link's own axes is.
+
+    Args:
+        pose: of the link, x y z [m] and quaternion x y z w.
+        twist: linear first.
+    """
+    return (*rotate(pose[3:], twist[:3]), *rotate(pose[3:], twist[3:]))
 
 
 def energy_of(kinematics: Kinematics, q: Array, v: Array, base: Array | None, gravity: Array) -> tuple[float, float]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -22,6 +23,7 @@ from urdfkit.sim.things import parts_of
 
 if TYPE_CHECKING:
     from urdfkit.sim.simulated import SimulatedRobot
+    from urdfkit.sim.state import Snapshot
 
 Array = NDArray[np.float64]
 
@@ -47,30 +49,35 @@ class Populated(Protocol):
         """By name."""
         ...
 
-    def body_poses(self) -> dict[str, tuple[float, ...]]:
-        """Where bodies are, by name."""
+    def keep_body_poses(self) -> Callable[[], dict[str, tuple[float, ...]]]:
+        """Return what tells where bodies are now, by name, also later."""
         ...
 
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """What there was at a moment, and where.
+    """What there was at a moment, and where: kept cheaply, and worked out when somebody looks.
 
     Attributes:
         revision: of the population.
         world: its bodies.
-        robots: name, scene and poses of the links, shape (links, 7), of each robot.
-        bodies: name → x y z [m] and quaternion x y z w of the world's bodies.
+        robots: name, scene and configuration of each robot.
+        kept: returns where the world's bodies were.
     """
 
     revision: int
     world: World
-    robots: tuple[tuple[str, Scene, Array], ...]
-    bodies: Mapping[str, Sequence[float]]
+    robots: tuple[tuple[str, Scene, Snapshot], ...]
+    kept: Callable[[], Mapping[str, Sequence[float]]]
+
+    @cached_property
+    def bodies(self) -> Mapping[str, Sequence[float]]:
+        """Name → x y z [m] and quaternion x y z w of the world's bodies."""
+        return self.kept()
 
     def placement(self, robot: str, link: int) -> Array:
         """Return where a link was; shape (4, 4)."""
-        poses = next(poses for name, _, poses in self.robots if name == robot)
+        poses = next(moment.link_poses() for name, _, moment in self.robots if name == robot)
         found: Array = pose_matrices(poses[link])[0]
         return found
 
@@ -125,7 +132,8 @@ class View:
     def poses(self, layout: Layout) -> Array:
         """Return where everything was; shape (len(scene.bodies), 7)."""
         rows = [layout.bodies.get(name, start) for name, start in zip(self._names, self._start.tolist(), strict=True)]
-        return np.vstack([*(poses for _, _, poses in layout.robots), np.array(rows, dtype=float).reshape(-1, 7)])
+        links = (moment.link_poses() for _, _, moment in layout.robots)
+        return np.vstack([*links, np.array(rows, dtype=float).reshape(-1, 7)])
 
     def table(self, role: Role, layout: Layout) -> RayTable:
         """Return what rays meet, the visuals or the collisions, where it was."""
@@ -140,6 +148,9 @@ class View:
         """Return what takes pictures of the visuals where they were, by the lights of the world."""
         table = self.table("visual", layout)
         if self._painter is None:
+            for shape in self.scene.with_role("visual"):
+                for name in shape.mesh.missing if shape.mesh is not None and not shape.has_color else ():
+                    self._note(f"`{shape.name}` is seen without its texture: `{name}` is not there, or no picture")
             self._painter = Painter(table, self._lighting)
         return self._painter
 
@@ -163,6 +174,15 @@ class Surroundings:
         return self._population.world
 
     @property
+    def robots(self) -> Mapping[str, SimulatedRobot]:
+        """The robots by name."""
+        return self._population.robots
+
+    def pushes_on(self, robot: str, links: Sequence[str]) -> tuple[tuple[Array, Array, Array], ...]:
+        """Return force [N], torque [N·m] and point of attack [m], in the world, of what pushes links of a robot."""
+        return self._population.pushes_on(robot, links)
+
+    @property
     def was_looked_at(self) -> bool:
         """Whether anybody has looked so far."""
         return self._view is not None
@@ -170,8 +190,8 @@ class Surroundings:
     def layout(self) -> Layout:
         """Return what there is now, and where."""
         here = self._population
-        robots = tuple((name, each.scene, each.state.link_poses()) for name, each in here.robots.items())
-        return Layout(here.revision, here.world, robots, here.body_poses())
+        robots = tuple((name, each.scene, each.state.snapshot()) for name, each in here.robots.items())
+        return Layout(here.revision, here.world, robots, here.keep_body_poses())
 
     def view(self, layout: Layout) -> View:
         """Return the scene of a layout."""

@@ -176,7 +176,7 @@ class Report(Publication):
         if self._running():
             super().catch_up(state)
         else:
-            self._done = self._ticks.until(state.step)
+            self.start_at(state.step)
 
     def message(self, state: State) -> Callable[[], Any]:
         """Return what builds the message of this moment, also later."""

@@ -19,15 +19,19 @@ class Controllers:
 
     Args:
         loops: the control loops, one per plugin.
+
+    Attributes:
+        each_publications: per loop, what its loaded controllers publish while they run.
     """
 
     def __init__(self, loops: Sequence[ControlLoop]) -> None:
         self._loops = tuple(loops)
+        self.each_publications: tuple[Sequence[Publication], ...] = tuple(loop.publications for loop in self._loops)
 
     @property
     def publications(self) -> list[Publication]:
         """What the loaded controllers publish while they run."""
-        return [publication for loop in self._loops for publication in loop.publications]
+        return [publication for publications in self.each_publications for publication in publications]
 
     @property
     def command_topics(self) -> dict[str, str]:

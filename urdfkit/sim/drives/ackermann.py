@@ -17,9 +17,11 @@ from urdfkit.sim.drives.odometer import from_world, odometer
 from urdfkit.sim.drives.pid import Pid
 from urdfkit.sim.drives.steering import put
 from urdfkit.sim.drives.wheels import Wheels
+from urdfkit.sim.motors import effort_limit
 from urdfkit.sim.parameters import Parameters
 from urdfkit.sim.plugin import Drive, Setup
 from urdfkit.sim.schedule import Ticks
+from urdfkit.sim.state import in_the_world
 from urdfkit.sim.topics import Topics
 
 if TYPE_CHECKING:
@@ -61,7 +63,8 @@ class Ackermann(Drive):
         self._read_gains(setup, read)
         self.write_rate = self.read_rate = read.number("update_rate")
         self._ticks = Ticks(self.write_rate, setup.dt)
-        self._command = Command(setup, topics.resolve("cmd_vel"), lambda: None)
+        self._command = Command(setup, topics.resolve("cmd_vel"), self._aim)
+        self._aim()
         self.commands = (self._command.topic,)
         self._odometer = odometer(
             setup,
@@ -110,6 +113,8 @@ class Ackermann(Drive):
         self._fastest = read.number("max_speed", positive=True)
         self._steepest = read.number("max_steer", positive=True)
         self._ratio = self._steepest / read.number("max_steering_angle", positive=True)
+        written = setup.kinematics.robot.joint_by_name
+        self._strengths = {meaning: effort_limit(written[joint]) for meaning, joint in self._joints.items()}
 
     def _read_gains(self, setup: Setup, read: Parameters) -> None:
         def pid(meaning: str) -> Pid:
@@ -126,18 +131,14 @@ class Ackermann(Drive):
 
     def write(self, state: State, motors: Motors) -> None:
         """Exert efforts on steering and rear wheels."""
-        joints, period = self._joints, self._ticks.period
-        wanted, angle = self._command.linear[0], self._command.angular[2]
-        right, left = self.angles(copysign(1.0, wanted) * angle)
-        speed = max(-self._fastest, min(self._fastest, wanted))
-        drive = self._pids["speed"].update(state.velocity(joints["rear_right_joint"]) - speed / self._radius, period)
-        efforts = {"rear_right_joint": drive, "rear_left_joint": drive}
-        for meaning, target in (("right_steering", right), ("left_steering", left)):
-            joint = f"{meaning}_joint"
-            efforts[joint] = self._pids[meaning].update(state.position(joints[joint]) - target, period)
-        for meaning, effort in efforts.items():
-            most = motors.limit(joints[meaning])
-            motors.exert(joints[meaning], max(-most, min(most, effort)) / self._ticks.steps)
+        joints, pids, period = self._joints, self._pids, self._ticks.period
+        drive = pids["speed"].update(state.velocity(joints["rear_right_joint"]) - self._turning, period)
+        self._exert("rear_right_joint", drive, motors)
+        self._exert("rear_left_joint", drive, motors)
+        off = state.position(joints["right_steering_joint"]) - self._right
+        self._exert("right_steering_joint", pids["right_steering"].update(off, period), motors)
+        off = state.position(joints["left_steering_joint"]) - self._left
+        self._exert("left_steering_joint", pids["left_steering"].update(off, period), motors)
         if self._hand_wheel:
             put(
                 self._hand_wheel,
@@ -148,6 +149,16 @@ class Ackermann(Drive):
                 motors=motors,
             )
 
+    def _exert(self, meaning: str, effort: float, motors: Motors) -> None:
+        most = self._strengths[meaning]
+        motors.exert(self._joints[meaning], max(-most, min(most, effort)) / self._ticks.steps)
+
+    def _aim(self) -> None:
+        """Find how fast the wheels shall turn [rad/s], and where the steered ones shall point [rad]."""
+        wanted, angle = self._command.linear[0], self._command.angular[2]
+        self._turning = max(-self._fastest, min(self._fastest, wanted)) / self._radius
+        self._right, self._left = self.angles(copysign(1.0, wanted) * angle)
+
     def angles(self, wanted: float) -> tuple[float, float]:
         """Return the angles [rad] of the right and the left wheel at which both circle the same point."""
         slope = tan(max(-self._steepest, min(self._steepest, wanted)))
@@ -156,15 +167,14 @@ class Ackermann(Drive):
 
     def read(self, state: State) -> None:
         """Publish odometry, the true pose in the world, wheel transforms, the distance so far, the steering angle."""
-        pose, velocity = state.base_pose, state.base_velocity
-        here = pose[:2]
-        if self._last is not None:
-            self._distance += hypot(here[0] - self._last[0], here[1] - self._last[1])
-        self._last = here
-        self._odometer.publish(state.t, lambda: from_world(pose, velocity))
+        pose, twist = state.base_pose, state.base_twist
+        self._odometer.publish(state.t, lambda: from_world(pose, in_the_world(pose, twist)))
         self._wheels.publish(state)
         if self._distance_topic is not None:
-            distance = self._distance
+            here = pose[:2]
+            if self._last is not None:
+                self._distance += hypot(here[0] - self._last[0], here[1] - self._last[1])
+            self._last, distance = here, self._distance
             self._distance_topic.offer(lambda: self._number(distance))
         if self._angle_topic is not None:
             angle = self._mean_angle(state)
@@ -183,6 +193,7 @@ class Ackermann(Drive):
     def reset(self) -> None:
         """Forget commands, the integrals of errors and the distance."""
         self._command.clear()
+        self._aim()
         for pid in self._pids.values():
             pid.reset()
         self._distance = 0.0

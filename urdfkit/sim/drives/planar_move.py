@@ -13,7 +13,7 @@ from urdfkit.sim.drives.command import Command
 from urdfkit.sim.drives.odometer import Estimate, from_world, odometer
 from urdfkit.sim.parameters import Parameters
 from urdfkit.sim.plugin import Drive, Setup
-from urdfkit.sim.rotation import rotate, to_rpy
+from urdfkit.sim.rotation import rotate, yaw_of
 from urdfkit.sim.topics import Topics
 
 if TYPE_CHECKING:
@@ -68,8 +68,10 @@ class PlanarMove(Drive):
 
     def write(self, state: State, motors: Motors) -> None:
         """Give the base its velocity."""
+        rotation = x, y, z, w = state.base_pose[3:]
+        heading = yaw_of(rotation)
         if self._before is None:
-            self._before = _place(state, to_rpy(state.base_pose[3:])[2])
+            self._before = _place(state, heading)
         if not self._movable:
             return
         if self._timeout >= 0:
@@ -77,12 +79,11 @@ class PlanarMove(Drive):
                 self._heard = (self._command.count, state.t)
             elif state.t - self._heard[1] > self._timeout:
                 self._command.clear()
-        pose = state.base_pose
-        (x, y, _), w = self._command.linear, self._command.angular[2]
-        heading = to_rpy(pose[3:])[2]
-        along, across = x * cos(heading) - y * sin(heading), y * cos(heading) + x * sin(heading)
-        back = (-pose[3], -pose[4], -pose[5], pose[6])
-        motors.move_base(rotate(back, (along, across, 0.0)), rotate(back, (0.0, 0.0, w)))
+        (ahead, aside, _), turning = self._command.linear, self._command.angular[2]
+        cosine, sine = cos(heading), sin(heading)
+        along, across = ahead * cosine - aside * sine, aside * cosine + ahead * sine
+        back = (-x, -y, -z, w)
+        motors.move_base(rotate(back, (along, across, 0.0)), rotate(back, (0.0, 0.0, turning)))
 
     def read(self, state: State) -> None:
         """Publish odometry: the true pose in the world; in ROS 1 with the velocity since the message before."""
@@ -93,7 +94,7 @@ class PlanarMove(Drive):
 
     def _difference(self, state: State, now: Estimate) -> Estimate:
         """Return the estimate with the velocity that the displacement since the last one makes, in the base's axes."""
-        heading = to_rpy(state.base_pose[3:])[2]
+        heading = yaw_of(state.base_pose[3:])
         t, x, y, last = self._before or _place(state, heading)
         period = state.t - t
         here = self._before = _place(state, heading)
