@@ -28,17 +28,23 @@ GAZEBO: dict[str, Rgba] = {
     "GreenTransparent": (0.0, 1.0, 0.0, 0.5),
     "Grey": (0.7, 0.7, 0.7, 1.0),
     "GreyTransparent": (0.5, 0.5, 0.5, 0.5),
+    "JointAnchor": (1.0, 1.0, 1.0, 1.0),
+    "LightOff": (1.0, 0.0, 0.0, 1.0),
+    "LightOn": (0.0, 1.0, 0.0, 1.0),
     "Orange": (1.0, 0.5088, 0.0468, 1.0),
     "OrangeTransparent": (1.0, 0.44, 0.0, 0.4),
     "PaintedWall": (0.9, 0.9, 0.9, 1.0),
     "Pioneer2Body": (0.681193, 0.000923, 0.000923, 1.0),
+    "PioneerBody": (1.0, 0.0, 0.0, 1.0),
     "Purple": (1.0, 0.0, 1.0, 1.0),
     "PurpleGlow": (1.0, 0.0, 1.0, 1.0),
     "Red": (1.0, 0.0, 0.0, 1.0),
     "RedBright": (0.87, 0.26, 0.07, 1.0),
     "RedGlow": (1.0, 0.0, 0.0, 1.0),
     "RedTransparent": (1.0, 0.0, 0.0, 0.5),
-    "SkyBlue": (0.13, 0.44, 0.7, 1.0),
+    "Residential": (0.35, 0.35, 0.35, 1.0),
+    "Road": (0.35, 0.35, 0.35, 1.0),
+    "SkyBlue": (0.0, 0.0, 1.0, 1.0),
     "Turquoise": (0.0, 1.0, 1.0, 1.0),
     "TurquoiseGlow": (0.0, 1.0, 1.0, 1.0),
     "White": (1.0, 1.0, 1.0, 1.0),
@@ -70,9 +76,16 @@ class Palette:
             if material is not None and material.name and material.rgba is not None:
                 self._named.setdefault(material.name, material.rgba)
         self._gazebo: dict[str, Rgba] = {}
+        self._clear: dict[str, float] = {}
         for block in robot.gazebo:
             if block.reference and (rgba := _gazebo_color(block.element)) is not None:
                 self._gazebo[block.reference] = rgba
+            if block.reference and (clear := _transparency(block.element)) is not None:
+                self._clear[block.reference] = clear
+
+    def opacity(self, link: str) -> float:
+        """Return what the ``<transparency>`` of a link's ``<gazebo>`` block leaves, 0..1; 1 where there is none."""
+        return 1.0 - self._clear.get(link, 0.0)
 
     def of(self, link: str, visual: Visual) -> Rgba | None:
         """Return the colour of a visual, components in 0..1; None where nothing says one."""
@@ -96,6 +109,15 @@ def _gazebo_color(block: Element) -> Rgba | None:
         if (known := GAZEBO.get(name.text.strip().removeprefix("Gazebo/"))) is not None:
             return known
     return None
+
+
+def _transparency(block: Element) -> float | None:
+    """Return the transparency, 0..1, that a ``<gazebo reference=…>`` block gives the visuals of its link."""
+    written = (block.find("visual") or block).find("transparency")
+    try:
+        return None if written is None else min(max(float(written.text), 0.0), 1.0)
+    except ValueError:
+        return None
 
 
 def _numbers(text: str) -> Rgba | None:

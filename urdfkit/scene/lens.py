@@ -43,6 +43,8 @@ class Distortion:
         with np.errstate(over="ignore", invalid="ignore"):
             for _ in range(60):
                 u, v = self.distort(a, b)
+                if (np.abs(x - u) + np.abs(y - v)).max(initial=0.0) < 1e-12:
+                    break
                 a, b = a + (x - u), b + (y - v)
             u, v = self.distort(a, b)
             lost = ~(np.hypot(u - x, v - y) < 1e-6)
@@ -85,6 +87,15 @@ class Lens:
         Pixels that nothing is projected to look backwards along x: they see nothing.
         """
         row, column = np.divmod(self.order, self.width)
+        return self.towards(column.astype(float), row.astype(float))
+
+    def towards(self, column: Array, row: Array) -> Array:
+        """Return the unit vectors towards places in the picture, as `directions`; shape (n, 3).
+
+        Args:
+            column: to the right, 0 in the middle of the first pixel [px].
+            row: downwards, likewise [px].
+        """
         x = (column - (self.width - 1) / 2) / self.focal_length
         y = (row - (self.height - 1) / 2) / self.focal_length
         if self.distortion:
@@ -93,3 +104,14 @@ class Lens:
         found /= np.linalg.norm(found, axis=1, keepdims=True)
         found[np.isnan(found).any(axis=1)] = (-1.0, 0.0, 0.0)
         return np.ascontiguousarray(found)
+
+
+def spread(samples: int) -> Array:
+    """Return where in a pixel so many samples lie evenly, around its middle [px]; shape (samples, 2).
+
+    Source: Roberts, *The unreasonable effectiveness of quasirandom sequences* (2018), the sequence R2.
+    """
+    turns = np.arange(1.0, samples + 1)[:, None] * np.array((0.7548776662466927, 0.5698402909980532))
+    within = turns % 1.0
+    found: Array = within - within.mean(axis=0)
+    return found

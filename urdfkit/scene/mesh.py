@@ -8,7 +8,7 @@ import logging
 import re
 import warnings
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,7 @@ from urdfkit.description.packages import near_path
 from urdfkit.description.robot import Vector
 from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
 from urdfkit.scene.collada import harm, metres_per_unit
+from urdfkit.scene.texture import Beside, Texture, is_as_read, texture_of
 
 FORMATS = (".stl", ".obj", ".dae", ".glb", ".gltf", ".ply")
 """The file formats that are read."""
@@ -29,6 +30,9 @@ MAX_BYTES = 256 * 2**20
 
 MAX_TRIANGLES = 5_000_000
 """Largest number of triangles in one mesh."""
+
+_PULLS = re.compile(rb"<init_from>|\"uri\"")
+"""What names pictures beside the file."""
 
 _LFS = b"version https://git-lfs.github.com/spec/"
 
@@ -42,6 +46,10 @@ class TriMesh:
         faces: indices of vertices, counter-clockwise seen from outside, shape (m, 3), int32.
         normals: unit normals of the vertices where the file has them, shape (n, 3), float32, or None (shade flat).
         colors: colours of the vertices where the file has them, shape (n, 4), uint8, or None.
+        uv: where in its texture each vertex is, from the lower left corner, shape (n, 2), float32, or None.
+        textures: pictures on its surface.
+        face_textures: for each triangle which of them, -1 for none; shape (m,), int32, or None.
+        missing: names of pictures that the file asks for and that are not there, or are none.
         hash: hexadecimal digest of all of the above: equal meshes have equal hashes.
     """
 
@@ -50,10 +58,14 @@ class TriMesh:
     normals: NDArray[np.float32] | None = field(default=None, repr=False)
     colors: NDArray[np.uint8] | None = field(default=None, repr=False)
     hash: str = ""
+    uv: NDArray[np.float32] | None = field(default=None, repr=False)
+    textures: tuple[Texture, ...] = field(default=(), repr=False)
+    face_textures: NDArray[np.int32] | None = field(default=None, repr=False)
+    missing: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        digest = hashlib.sha256()
-        for name in ("vertices", "faces", "normals", "colors"):
+        digest = hashlib.sha256("".join(texture.hash for texture in self.textures).encode())
+        for name in ("vertices", "faces", "normals", "colors", "uv", "face_textures"):
             array = getattr(self, name)
             if array is not None:
                 array.flags.writeable = False
@@ -74,7 +86,7 @@ class MeshLoader:
     """
 
     def __init__(self) -> None:
-        self._known: dict[tuple[str, str, Vector], TriMesh] = {}
+        self._known: dict[tuple[str, str, Vector, str], tuple[TriMesh, dict[Path, tuple[int, int]]]] = {}
 
     def load(self, path: Path, scale: Vector = (1.0, 1.0, 1.0)) -> TriMesh:
         """Return the triangles of a file.
@@ -97,10 +109,13 @@ class MeshLoader:
             )
         content = _read(path)
         side_files = b"".join(_side_files(path, content))
-        key = (hashlib.sha256(content + side_files).hexdigest(), path.suffix.lower(), scale)
-        if key not in self._known:
-            self._known[key] = _parse(path, content, scale)
-        return self._known[key]
+        beside = str(path.parent) if _PULLS.search(content) or side_files else ""
+        key = (hashlib.sha256(content + side_files).hexdigest(), path.suffix.lower(), scale, beside)
+        known = self._known.get(key)
+        if known is None or not is_as_read(known[1]):
+            files = Beside(path, MAX_BYTES)
+            known = self._known[key] = _parse(path, content, scale, files), files.read
+        return known[0]
 
 
 def _read(path: Path) -> bytes:
@@ -131,29 +146,12 @@ def _side_files(path: Path, content: bytes) -> Iterator[bytes]:
     if path.suffix.lower() == ".obj":
         for name in re.findall(rb"^\s*mtllib[ \t]+(.+?)\s*$", content, re.MULTILINE):
             try:
-                yield _Beside(path)[name.decode(errors="replace")]
+                yield Beside(path, MAX_BYTES)[name.decode(errors="replace")]
             except KeyError:
                 continue
 
 
-class _Beside(dict[str, bytes]):
-    """The files a mesh may pull in: materials and buffers in its own folder or below; no pictures."""
-
-    def __init__(self, path: Path) -> None:
-        super().__init__()
-        self._folder = path.parent.resolve()
-
-    def __missing__(self, name: str) -> bytes:
-        path = (self._folder / name).resolve()
-        allowed = path.suffix.lower() in (".mtl", ".bin") and path.is_relative_to(self._folder)
-        if not allowed or not path.is_file() or path.stat().st_size > MAX_BYTES:
-            raise KeyError(name)
-        return path.read_bytes()
-
-    get = __missing__  # type: ignore[assignment]  # trimesh asks a resolver by get(name)
-
-
-def _parse(path: Path, content: bytes, scale: Vector) -> TriMesh:
+def _parse(path: Path, content: bytes, scale: Vector, beside: Beside) -> TriMesh:
     try:
         import trimesh
     except ImportError as error:
@@ -163,7 +161,7 @@ def _parse(path: Path, content: bytes, scale: Vector) -> TriMesh:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             logging.getLogger("trimesh").setLevel(logging.CRITICAL)
-            scene = trimesh.load_scene(io.BytesIO(content), file_type=suffix[1:], resolver=_Beside(path), process=False)
+            scene = trimesh.load_scene(io.BytesIO(content), file_type=suffix[1:], resolver=beside, process=False)
             parts = list(_parts(scene))
     except ResourceError:
         raise
@@ -171,7 +169,8 @@ def _parse(path: Path, content: bytes, scale: Vector) -> TriMesh:
         reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
         raise ResourceError(f"mesh {path.name} cannot be read: {reason}") from error
     factor = metres_per_unit(content) if suffix == ".dae" else 1.0
-    return _merge(path, parts, np.array(scale, dtype=float) * factor)
+    mesh = _merge(path, parts, np.array(scale, dtype=float) * factor)
+    return replace(mesh, missing=tuple(dict.fromkeys(beside.missing))) if beside.missing else mesh
 
 
 def _parts(scene: Any) -> Iterator[tuple[Any, Any]]:
@@ -189,7 +188,8 @@ def _parts(scene: Any) -> Iterator[tuple[Any, Any]]:
 
 def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64]) -> TriMesh:
     """Flatten the parts into one mesh, scaled; vertices that agree in everything become one."""
-    vertices, faces, normals, colors = [], [], [], []
+    vertices, faces, normals, colors, uvs, wrapped = [], [], [], [], [], []
+    textures: dict[str, Texture] = {}
     start = 0
     for part, transform in parts:
         linear = scale[:, None] * transform[:3, :3]
@@ -203,6 +203,11 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64])
         faces.append(triangles + start)
         normals.append(_normals(part, linear))
         colors.append(_colors(part))
+        texture = _texture(part)
+        uvs.append(None if texture is None else np.asarray(part.visual.uv, dtype=float))
+        if texture is not None:
+            textures.setdefault(texture.hash, texture)
+        wrapped.append(np.full(len(triangles), -1 if texture is None else list(textures).index(texture.hash)))
         start += len(points)
     if not start or not sum(map(len, faces)):
         raise ResourceError(f"mesh {path.name} holds no triangles")
@@ -218,12 +223,20 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64])
             np.full((len(v), 4), 255, np.uint8) if c is None else c for v, c in zip(vertices, colors, strict=True)
         ]
         columns.append(np.ascontiguousarray(np.concatenate(filled)).view(np.float32))
+    if textures:
+        columns.insert(1, np.concatenate(
+            [np.zeros((len(v), 2)) if uv is None else uv for v, uv in zip(vertices, uvs, strict=True)]
+        ).astype(np.float32) + np.float32(0))  # fmt: skip
     rows, index = _unique(np.ascontiguousarray(np.hstack(columns)))
+    bare = 5 if textures else 3  # columns before the normals
     return TriMesh(
         vertices=np.ascontiguousarray(rows[:, :3]),
         faces=np.ascontiguousarray(index[np.concatenate(faces)].astype(np.int32)),
-        normals=np.ascontiguousarray(rows[:, 3:6]) if has_normals else None,
+        normals=np.ascontiguousarray(rows[:, bare : bare + 3]) if has_normals else None,
         colors=np.ascontiguousarray(rows[:, -1:]).view(np.uint8).reshape(-1, 4) if has_colors else None,
+        uv=np.ascontiguousarray(rows[:, 3:5]) if textures else None,
+        textures=tuple(textures.values()),
+        face_textures=np.concatenate(wrapped).astype(np.int32) if textures else None,
     )
 
 
@@ -251,7 +264,7 @@ def _normals(part: Any, linear: NDArray[np.float64]) -> NDArray[np.float64] | No
 
 
 def _colors(part: Any) -> NDArray[np.uint8] | None:
-    """Return colours per vertex written in the file; the main colour of a material counts, a picture does not."""
+    """Return colours per vertex written in the file, for a material its main colour."""
     visual = part.visual
     if visual.kind == "vertex":
         return np.asarray(visual.vertex_colors, dtype=np.uint8)
@@ -259,3 +272,14 @@ def _colors(part: Any) -> NDArray[np.uint8] | None:
         color = np.asarray(visual.material.main_color, dtype=np.uint8)
         return np.tile(color, (len(part.vertices), 1))
     return None
+
+
+def _texture(part: Any) -> Texture | None:
+    """Return the picture on a part, where it has one and says where on it its vertices are."""
+    if part.visual.kind != "texture" or part.visual.uv is None or len(part.visual.uv) != len(part.vertices):
+        return None
+    try:
+        found = texture_of(part.visual.material)
+    except (OSError, ValueError, SyntaxError):  # what Pillow raises for broken pictures
+        return None
+    return found if np.isfinite(part.visual.uv).all() else None

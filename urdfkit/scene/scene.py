@@ -32,7 +32,7 @@ class Shape:
         role: ``visual`` or ``collision``.
         geometry: box, cylinder, sphere, capsule or mesh as written; in a world, plane, ellipsoid and cone, too.
         placement: of the shape in its body, shape (4, 4), read-only.
-        rgba: colour, components in 0..1; `DEFAULT` where the description names none.
+        rgba: colour and opacity, 0..1; the colour is `DEFAULT`'s where the description names none.
         has_color: whether the description names a colour; if not, the mesh's own colours are to be shown.
         mesh: the triangles of a mesh, its scale applied; None for the other geometries.
         laser_retro: what a lidar reads as intensity.
@@ -109,11 +109,12 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
                 name += "_"
             names.add(name)
             color = palette.of(link.name, item) if isinstance(item, Visual) else None
+            rgba = color or DEFAULT
+            if role == "visual" and (opacity := palette.opacity(link.name)) < 1.0:
+                rgba = (*rgba[:3], rgba[3] * opacity)
             placed = pose_matrix(item.origin)
             retro = retros.get(link.name, 0.0)
-            shapes.append(
-                Shape(name, link.name, role, item.geometry, placed, color or DEFAULT, bool(color), mesh, retro)
-            )
+            shapes.append(Shape(name, link.name, role, item.geometry, placed, rgba, bool(color), mesh, retro))
     return Scene(tuple(link.name for link in links), tuple(shapes), tuple(problems))
 
 

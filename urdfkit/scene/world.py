@@ -43,9 +43,8 @@ def shapes_of_link(
         placed = placement @ pose_matrix(shape.pose)
         placed.flags.writeable = False
         name = f"{body}/{role}/{prefix}{shape.name}"
-        yield Shape(
-            name, body, role, shape.geometry, placed, rgba or DEFAULT, rgba is not None, mesh, shape.laser_retro
-        )
+        shown = rgba or (*DEFAULT[:3], 1.0 - shape.transparency)
+        yield Shape(name, body, role, shape.geometry, placed, shown, rgba is not None, mesh, shape.laser_retro)
 
 
 def color_of(shape: WorldShape) -> Rgba | None:

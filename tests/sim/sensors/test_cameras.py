@@ -176,9 +176,41 @@ def test_noise_has_its_mean_and_deviation(post) -> None:
     assert off.std() == pytest.approx(np.hypot(5.1, 12**-0.5), rel=0.01)
 
 
+def test_edges_are_smooth_where_that_is_asked_for(post) -> None:
+    smooth = camera().replace("</format>", "</format><anti_aliasing>8</anti_aliasing>")
+    room = wall("east", 3.05, 0, 0.1, 1, role="visual").replace("<pose>3.05 0 0 0", "<pose>3.05 0 0 0.3")
+    (plain,) = heard(post(eye(ros1()), room=room), "/cam/image_raw")
+    (found,) = heard(post(eye(ros1(), inside=smooth), room=room), "/cam/image_raw")
+    assert len(np.unique(pixels(plain).reshape(-1, 3), axis=0)) < len(np.unique(pixels(found).reshape(-1, 3), axis=0))
+    (depth,) = heard(post(eye(ros1("openni_kinect"), "depth", smooth), room=room), "/cam/depth/image_raw")
+    edge = pixels(depth)
+    assert (np.isnan(edge) | (np.abs(edge - 3.0) < 0.2)).all()
+
+
+def test_a_texture_that_is_not_there_is_named_once(post, tmp_path) -> None:
+    (tmp_path / "plate.obj").write_text(
+        "mtllib plate.mtl\nv 0 1 0\nv 0 -1 0\nv 0 0 3\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n"
+    )
+    (tmp_path / "plate.mtl").write_text("newmtl m\nmap_Kd gone.png\n")
+    uri = f"<mesh><uri>file://{tmp_path / 'plate.obj'}</uri></mesh>"
+    room = f"""<link name="l"><pose>3 0 0 0 0 0</pose><visual name="v"><geometry>{uri}</geometry></visual></link>"""
+    notes: list[str] = []
+    simulator = post(eye(ros1()), room=room, note=notes.append)
+    (picture,) = heard(simulator, "/cam/image_raw")
+    heard(simulator, "/cam/image_raw")
+    assert [note for note in notes if "gone.png" in note] == [
+        "`world/walls/visual/v` is seen without its texture: `gone.png` is not there, or no picture"
+    ]
+    assert len(np.unique(pixels(picture).reshape(-1, 3), axis=0)) == 2
+
+
 @pytest.mark.parametrize(
     ("inside", "said"),
     [
+        (
+            camera().replace("</format>", "</format><anti_aliasing>1.5</anti_aliasing>"),
+            "<anti_aliasing> is 1.5; it must",
+        ),
         (camera(form="R8G8B9"), "pictures of format `R8G8B9` are not taken; did you mean `R8G8B8`?"),
         (camera(width=0), "<width> is `0`; it must be a finite number, 1 or greater"),
         (camera(width=99999, height=99999), "a picture of 99999 × 99999 pixels cannot be taken"),

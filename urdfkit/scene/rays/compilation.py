@@ -13,7 +13,7 @@ import numba
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-KERNEL_MODULES = ("cast", "compilation", "normals", "packet", "picture", "place", "solids", "tree", "triangles")
+KERNEL_MODULES = ("cast", "compilation", "normals", "packet", "picture", "place", "skin", "solids", "tree", "triangles")
 """Modules of this package with compiled functions."""
 
 # Every operation is rounded as IEEE 754 has it (fastmath off), so distances do not depend on what the compiler makes of

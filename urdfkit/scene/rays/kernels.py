@@ -37,16 +37,17 @@ def scene_type() -> Any:
 @lru_cache(maxsize=1)
 def looker() -> Callable[..., Any]:
     """Return the compiled `picture.look`."""
+    from numba import float32, types, uint8
     from numba import float64 as f
     from numba import int64 as i
-    from numba import types, uint8
 
     from urdfkit.scene.rays.picture import look
 
-    paint = types.Tuple((f[:, ::1], i[::1], f[:, ::1]))
+    paint = types.Tuple((f[:, ::1], i[::1], float32[:, ::1], i[:, ::1], uint8[::1]))
     return load_compiled(
         look,
         (
+            scene_type(),
             scene_type(),
             paint,
             f[:, ::1],

@@ -11,29 +11,45 @@ from urdfkit.scene.rays.triangles import CORNERS
 
 
 @inlined
+def point(work: Any, shapes: Any, k: int, at: int) -> tuple[float, float, float]:
+    """Return where ray `k` of the packet hit, in the frame of the shape."""
+    reach = work[REACH + k]
+    x = work[OX + k] + reach * work[DX + k] - shapes[at + 9]
+    y = work[OX + WIDTH + k] + reach * work[DX + WIDTH + k] - shapes[at + 10]
+    z = work[OX + 2 * WIDTH + k] + reach * work[DX + 2 * WIDTH + k] - shapes[at + 11]
+    return (
+        shapes[at] * x + shapes[at + 3] * y + shapes[at + 6] * z,
+        shapes[at + 1] * x + shapes[at + 4] * y + shapes[at + 7] * z,
+        shapes[at + 2] * x + shapes[at + 5] * y + shapes[at + 8] * z,
+    )
+
+
+@inlined
 def normal(work: Any, scene: Any, k: int) -> tuple[float, float, float]:
     """Return the unit normal in the world where ray `k` of the packet hit, on the ray's side; zero without a hit."""
     shapes, kinds, _, _, _, _, _, _, corners = scene
     hit = int(work[HIT + k])
     if hit < 0:
         return 0.0, 0.0, 0.0
-    at, reach = hit * STRIDE, work[REACH + k]
-    x = work[OX + k] + reach * work[DX + k] - shapes[at + 9]
-    y = work[OX + WIDTH + k] + reach * work[DX + WIDTH + k] - shapes[at + 10]
-    z = work[OX + 2 * WIDTH + k] + reach * work[DX + 2 * WIDTH + k] - shapes[at + 11]
-    p = shapes[at] * x + shapes[at + 3] * y + shapes[at + 6] * z
-    q = shapes[at + 1] * x + shapes[at + 4] * y + shapes[at + 7] * z
-    r = shapes[at + 2] * x + shapes[at + 5] * y + shapes[at + 8] * z
+    at = hit * STRIDE
     if int(work[PART + k]) >= 0:
         u, v, w = triangle_normal(corners, CORNERS * int(work[PART + k]))
     else:
+        p, q, r = point(work, shapes, k, at)
         u, v, w = solid_normal(kinds[hit], shapes[at + 12], shapes[at + 13], shapes[at + 14], p, q, r)
+    nx, ny, nz = outwards(shapes, at, u, v, w)
+    if nx * work[DX + k] + ny * work[DX + WIDTH + k] + nz * work[DX + 2 * WIDTH + k] > 0.0:
+        return -nx, -ny, -nz
+    return nx, ny, nz
+
+
+@inlined
+def outwards(shapes: Any, at: int, u: float, v: float, w: float) -> tuple[float, float, float]:
+    """Return a vector of a shape's frame in the world, of length 1; zero stays zero."""
     nx = shapes[at] * u + shapes[at + 1] * v + shapes[at + 2] * w
     ny = shapes[at + 3] * u + shapes[at + 4] * v + shapes[at + 5] * w
     nz = shapes[at + 6] * u + shapes[at + 7] * v + shapes[at + 8] * w
     length = (nx * nx + ny * ny + nz * nz) ** 0.5
-    if nx * work[DX + k] + ny * work[DX + WIDTH + k] + nz * work[DX + 2 * WIDTH + k] > 0.0:
-        length = -length
     scale = 1.0 / length if length != 0.0 else 0.0
     return nx * scale, ny * scale, nz * scale
 

@@ -2,7 +2,8 @@
 
 Surfaces are matt (Lambert): colour · (ambient + Σ light · cos θ · falloff), each light seen or not by a ray of its own.
 Falloff is ``1 / (constant + linear·r + quadratic·r²)`` within the light's range, as in OGRE's fixed functions, which
-Gazebo draws with; a spot fades between its two cones.
+Gazebo draws with; a spot fades between its two cones. Transparent surfaces are blended with what is behind them and
+cast no shadow.
 """
 
 from __future__ import annotations
@@ -12,8 +13,11 @@ from typing import Any
 
 from urdfkit.scene.rays.cast import load, walk
 from urdfkit.scene.rays.compilation import compiled
-from urdfkit.scene.rays.normals import normal
+from urdfkit.scene.rays.normals import normal, outwards, point
 from urdfkit.scene.rays.packet import DX, FAR, HIT, OX, PART, REACH, WIDTH
+from urdfkit.scene.rays.skin import HUE, OPACITY, OWN, SMOOTH, TEXTURE, UV, between, place_in_triangle, texel
+from urdfkit.scene.rays.solids import STRIDE
+from urdfkit.scene.rays.triangles import CORNERS
 
 LIGHT = 18
 """Numbers per light: kind, towards it or where it is (3), colour (3), range, constant, linear and quadratic falloff,
@@ -22,12 +26,20 @@ whether it casts shadows, where a spot points (3), cosines of half its inner and
 DIRECTIONAL, POINT, SPOT = 0, 1, 2
 """Kinds of lights."""
 
-AT, FACING, COLOR, SHONE = (row * WIDTH for row in (0, 3, 6, 9))
-"""What a packet met: where, which way the surface faces, its colour, the light on it (three rows each) …"""
-DEPTH, SHAPE, GAIN = (row * WIDTH for row in (12, 13, 14))
-"""… how far, which shape (-1: none), and what of one light gets there."""
-DESK = 15 * WIDTH
+AT, FACING, COLOR, SHONE, TOWARDS, BLENT = (row * WIDTH for row in (0, 3, 6, 9, 12, 15))
+"""What a packet met: where, which way the surface faces, its colour, the light on it; the rays' directions and what
+they have seen so far (three rows each) …"""
+SHAPE, GAIN, OPAQUE, LEFT, PAST, DEPTH, FIRST = (row * WIDTH for row in range(18, 25))
+"""… which shape (-1: none), what of one light gets there, its opacity; how much of a ray goes on behind it, how long
+the ray has been; how far and which shape the first was."""
+DESK = 25 * WIDTH
 """Numbers that a picture works on besides a packet's."""
+
+LAYERS = 16
+"""Transparent surfaces that are seen behind each other."""
+
+FAINT = 1.0 / 512.0
+"""What is left of a ray when it has been taken up [share]: half a step of 0..255."""
 
 LIFT = 1e-6
 """Shadow rays begin so far above the surface, relative to how far it is [m/m]."""
@@ -35,6 +47,7 @@ LIFT = 1e-6
 
 def look(
     scene: Any,
+    cover: Any,
     paint: Any,
     lights: Any,
     air: Any,
@@ -52,8 +65,10 @@ def look(
 
     Args:
         scene: as for `cast.cast`.
-        paint: colour of each shape, 0..1, shape (shapes, 3); whether its triangles have colours of their own, shape
-            (shapes,); colour of each triangle, shape (triangles, 3).
+        cover: as `scene`, but without what casts no shadow: its kind is none.
+        paint: colour and opacity of each shape, 0..1, shape (shapes, 4); what it takes from skins, shape (shapes,);
+            skins of the triangles, shape (triangles, `SKIN`); where each texture begins, its width and height, shape
+            (textures, 3); texels.
         lights: `LIGHT` numbers each; shape (lights, `LIGHT`).
         air: light from everywhere and what is seen where nothing is, 0..1; shape (2, 3).
         frame: rotation by rows and position of the camera, which looks along x.
@@ -71,34 +86,105 @@ def look(
     for first in range(0, len(directions), WIDTH):
         desk[:3] = 0.0
         load(work, frame, origin, directions, first, far)
-        walk(work, scene, near)
-        take_down(work, scene, paint, air, desk)
-        for light in range(len(lights)):
-            shine(work, scene, lights, light, desk)
-        for k in range(min(WIDTH, len(directions) - first)):
-            ray, shape = first + k, int(desk[SHAPE + k])
-            hits[ray] = shape
-            depths[ray] = desk[DEPTH + k] * directions[ray, 0] if shape >= 0 else inf
+        for k in range(WIDTH):
+            desk[LEFT + k], desk[PAST + k], desk[DEPTH + k], desk[FIRST + k] = 1.0, 0.0, inf, -1.0
             for c in range(3):
-                lit = desk[COLOR + c * WIDTH + k] * desk[SHONE + c * WIDTH + k]
-                rgb[ray, c] = int(255.0 * min(lit if shape >= 0 else air[1, c], 1.0) + 0.5)
+                row = c * WIDTH + k
+                desk[TOWARDS + row], desk[BLENT + row] = work[DX + row], 0.0
+        walk(work, scene, near)
+        for layer in range(LAYERS):
+            take_down(work, scene, paint, air, desk)
+            for light in range(len(lights)):
+                shine(work, cover, lights, light, desk)
+            if not go_on(work, air, frame, desk, far, layer == LAYERS - 1):
+                break
+            walk(work, scene, 0.0)
+        for k in range(min(WIDTH, len(directions) - first)):
+            ray = first + k
+            hits[ray] = int(desk[FIRST + k])
+            depths[ray] = desk[DEPTH + k] * directions[ray, 0] if desk[FIRST + k] >= 0.0 else inf
+            for c in range(3):
+                rgb[ray, c] = int(255.0 * min(desk[BLENT + c * WIDTH + k], 1.0) + 0.5)
 
 
 @compiled
 def take_down(work: Any, scene: Any, paint: Any, air: Any, desk: Any) -> None:
     """Note what the packet met, before its rays are used for shadows."""
-    colors, tinted, tints = paint
+    shapes, _, _, _, _, _, _, _, corners = scene
+    colors, worn, skins, textures, texels = paint
     for k in range(WIDTH):
         shape, part, depth = int(work[HIT + k]), int(work[PART + k]), work[REACH + k]
-        desk[SHAPE + k], desk[DEPTH + k] = shape, depth
+        desk[SHAPE + k] = shape
+        desk[PAST + k] += depth
         facing = normal(work, scene, k)
         for c in range(3):
             row = c * WIDTH + k
-            desk[AT + row] = work[OX + row] + depth * work[DX + row] + LIFT * depth * facing[c]
+            desk[AT + row] = work[OX + row] + depth * work[DX + row] + LIFT * desk[PAST + k] * facing[c]
             desk[FACING + row] = facing[c]
             desk[SHONE + row] = air[0, c]
             if shape >= 0:
-                desk[COLOR + row] = tints[part, c] if part >= 0 and tinted[shape] != 0 else colors[shape, c]
+                desk[COLOR + row] = colors[shape, c]
+        desk[OPAQUE + k] = colors[shape, 3] if shape >= 0 else 1.0
+        if shape < 0 or part < 0 or worn[shape] == 0:
+            continue
+        at = shape * STRIDE
+        x, y, z = point(work, shapes, k, at)
+        u, v = place_in_triangle(corners, CORNERS * part, x, y, z)
+        if worn[shape] & SMOOTH != 0:
+            nx, ny, nz = outwards(
+                shapes, at, between(skins, part, 0, 3, u, v), between(skins, part, 1, 3, u, v),
+                between(skins, part, 2, 3, u, v),
+            )  # fmt: skip
+            side = 1.0 if nx * facing[0] + ny * facing[1] + nz * facing[2] >= 0.0 else -1.0
+            desk[FACING + k], desk[FACING + WIDTH + k] = side * nx, side * ny
+            desk[FACING + 2 * WIDTH + k] = side * nz
+        if worn[shape] & OWN != 0:
+            which = int(skins[part, TEXTURE])
+            desk[OPAQUE + k] *= skins[part, OPACITY]
+            s, t = between(skins, part, UV, 2, u, v), between(skins, part, UV + 1, 2, u, v)
+            for c in range(4):
+                if which >= 0:
+                    found = texel(texels, textures[which, 0], textures[which, 1], textures[which, 2], s, t, c)
+                    if c == 3:
+                        desk[OPAQUE + k] *= found
+                    else:
+                        desk[COLOR + c * WIDTH + k] = found
+                elif c < 3:
+                    desk[COLOR + c * WIDTH + k] = between(skins, part, HUE + c, 3, u, v)
+
+
+@compiled
+def go_on(work: Any, air: Any, frame: Any, desk: Any, far: float, last: bool) -> bool:
+    """Blend what was met into what was seen; return whether rays go on behind it, and aim them."""
+    wanted = -1
+    for k in range(WIDTH):
+        shape, left = int(desk[SHAPE + k]), desk[LEFT + k]
+        opaque = desk[OPAQUE + k] if shape >= 0 and not last else 1.0
+        for c in range(3):
+            row = c * WIDTH + k
+            seen = min(desk[COLOR + row] * desk[SHONE + row], 1.0) if shape >= 0 else air[1, c]
+            desk[BLENT + row] += left * opaque * seen
+        if shape >= 0 and desk[FIRST + k] < 0.0 and opaque > 0.0 and left > 0.0:
+            desk[FIRST + k], desk[DEPTH + k] = shape, desk[PAST + k]
+        left *= 1.0 - opaque
+        desk[LEFT + k] = left if left > FAINT else 0.0
+        if desk[LEFT + k] > 0.0:
+            wanted = k
+    if wanted < 0:
+        return False
+    for k in range(WIDTH):
+        goes = desk[LEFT + k] > 0.0
+        ray = k if goes else wanted  # goes along with one that matters, and ends where it begins
+        past = desk[PAST + ray] * (1.0 + LIFT)
+        for c in range(3):
+            towards = desk[TOWARDS + c * WIDTH + ray]
+            work[DX + c * WIDTH + k] = towards
+            work[OX + c * WIDTH + k] = frame[9 + c] + past * towards
+        work[REACH + k] = max(far - past, 0.0) if goes else 0.0
+        work[HIT + k], work[PART + k] = -1.0, -1.0
+    for k in range(WIDTH):
+        desk[PAST + k] *= 1.0 + LIFT
+    return True
 
 
 @compiled

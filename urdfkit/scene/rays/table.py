@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import inf
 from typing import Any
@@ -116,14 +116,16 @@ class RayTable:
             self._faces[first : first + len(tree.order)] = tree.order
         self._mesh_bounds, self._mesh_links, self._corners = bounds.ravel(), joined.ravel(), corners.ravel()
 
-    def tints(self) -> Array:
-        """Return red, green and blue, 0..1, of every triangle as the kernels number them; white where there is none."""
-        found = np.ones((len(self._faces), 3))
+    @property
+    def triangle_count(self) -> int:
+        """Triangles of all meshes."""
+        return len(self._faces)
+
+    @property
+    def meshes(self) -> Iterator[tuple[int, NDArray[np.int64], TriMesh]]:
+        """Each mesh, with where its triangles begin among all, and which of its own they are."""
         for first, count, mesh in self._meshes:
-            if mesh.colors is not None:
-                corners = mesh.colors[:, :3][mesh.faces[self._faces[first : first + count]]]
-                found[first : first + count] = corners.mean(axis=1) / 255.0
-        return found
+            yield first, self._faces[first : first + count], mesh
 
     def place(self, poses: ArrayLike) -> None:
         """Move the bodies.

@@ -73,7 +73,8 @@ class Camera(Mounted):
 
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Sight:
         painter = self._surroundings.view(layout).painter(layout)
-        picture = painter.take(self.optics.lens, frame, near=self.optics.near, far=self.optics.far)
+        optics = self.optics
+        picture = painter.take(optics.lens, frame, near=optics.near, far=optics.far, samples=optics.samples)
         if self._noise:
             noisy = self._noise.on(picture.rgb / 255.0, random)
             picture = replace(picture, rgb=np.rint(255.0 * np.clip(noisy, 0.0, 1.0)).astype(np.uint8))

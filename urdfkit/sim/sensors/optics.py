@@ -35,6 +35,9 @@ ENCODINGS = {
 
 MAX_PIXELS = 16_000_000
 
+MAX_SAMPLES = 64
+"""Per pixel, against jagged edges."""
+
 LUMA = np.array([0.299, 0.587, 0.114])
 """Grey of red, green and blue (ITU-R BT.601)."""
 
@@ -48,6 +51,7 @@ class Optics:
         encoding: of its pictures, as sensor_msgs calls it.
         near: what is nearer is not seen [m].
         far: what is farther is not seen [m].
+        samples: rays per pixel at edges.
         element: the ``<camera>``.
     """
 
@@ -55,6 +59,7 @@ class Optics:
     encoding: str
     near: float
     far: float
+    samples: int
     element: Element
 
 
@@ -86,7 +91,13 @@ def optics_of(sensor: SensorTag) -> Optics:
     written = camera.find("distortion")
     distortion = Distortion(*(number(written, tag, 0.0) for tag in ("k1", "k2", "p1", "p2", "k3")))
     lens = Lens(int(width), int(height), angle, distortion)
-    return Optics(lens, _encoding(image), near, far, camera)
+    samples = number(image, "anti_aliasing", 1.0, least=0.0)
+    if samples != int(samples) or samples > MAX_SAMPLES:
+        raise SimulationError(
+            f"<anti_aliasing> is {samples:g}; it must be a whole number of samples, at most {MAX_SAMPLES}",
+            position=(image or camera).origin.position,
+        )
+    return Optics(lens, _encoding(image), near, far, max(1, int(samples)), camera)
 
 
 def _encoding(image: Element | None) -> str:

@@ -1,0 +1,133 @@
+"""Textures: the pictures that meshes are wrapped in, and the files that meshes may pull in."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import warnings
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+MAX_EDGE = 4096
+"""Longer edges of a texture are halved until they fit [px]."""
+
+MAX_PIXELS = 2**28
+"""Pictures of more are not read."""
+
+PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".tif", ".tiff", ".webp")
+_OWN = (".mtl", ".bin")
+
+
+@dataclass(frozen=True, eq=False)
+class Texture:
+    """A picture on a surface.
+
+    Attributes:
+        pixels: red, green, blue and opacity, the top row first, read-only; shape (height, width, 4).
+        hash: hexadecimal digest of it.
+    """
+
+    pixels: NDArray[np.uint8] = field(repr=False)
+    hash: str = ""
+
+    def __post_init__(self) -> None:
+        self.pixels.flags.writeable = False
+        digest = hashlib.sha256(f"{self.pixels.shape}".encode())
+        digest.update(np.ascontiguousarray(self.pixels).data)
+        object.__setattr__(self, "hash", digest.hexdigest()[:32])
+
+
+def texture_of(material: Any) -> Texture | None:
+    """Return the texture of a material as trimesh has it, its colour factor applied; None where it has none.
+
+    Raises:
+        OSError: the picture is broken.
+        ValueError: it is too large.
+    """
+    picture = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
+    if picture is None:
+        return None
+    if picture.width * picture.height > MAX_PIXELS:
+        raise ValueError(f"a texture of {picture.width} × {picture.height} pixels is not read")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        while max(picture.size) > MAX_EDGE:
+            picture = picture.reduce(2)
+        pixels = np.array(picture.convert("RGBA"))
+    factor = getattr(material, "baseColorFactor", None)
+    if factor is not None:
+        scale = np.asarray(factor, dtype=float)
+        scale = scale / (255.0 if np.asarray(factor).dtype.kind in "ui" else 1.0)
+        pixels = np.rint(pixels * np.append(scale, 1.0)[:4]).astype(np.uint8)
+    return Texture(pixels)
+
+
+class Beside(dict[str, bytes]):
+    """The files a mesh may pull in: materials and buffers in its own folder or below, pictures in its model's, too.
+
+    Gazebo keeps the pictures of ``meshes/`` in ``materials/textures/`` beside that folder, and finds them there by
+    their name alone (gazebo: SystemPaths::FindFile in ColladaLoader).
+
+    Args:
+        path: the mesh file.
+        limit: bytes of the largest file that is read.
+
+    Attributes:
+        read: the files that have been read, with what tells that they have changed.
+        missing: names of pictures that were not there, or are none.
+    """
+
+    def __init__(self, path: Path, limit: int) -> None:
+        super().__init__()
+        self._folder = path.parent.resolve()
+        self._limit = limit
+        self.read: dict[Path, tuple[int, int]] = {}
+        self.missing: list[str] = []
+
+    def __missing__(self, name: str) -> bytes:
+        wanted = name.replace("\\", "/").removeprefix("file://")
+        picture = Path(wanted).suffix.lower() in PICTURES
+        places = [(self._folder / wanted, self._folder.parent if picture else self._folder)]
+        if picture:
+            places.append((self._folder.parent / "materials" / "textures" / Path(wanted).name, self._folder.parent))
+            places.append((self._folder / Path(wanted).name, self._folder))
+        for place, within in places:
+            path = place.resolve()
+            allowed = picture or path.suffix.lower() in _OWN
+            if allowed and path.is_relative_to(within) and path.is_file():
+                status = path.stat()
+                if status.st_size <= self._limit:
+                    self.read[path] = status.st_mtime_ns, status.st_size
+                    content = path.read_bytes()
+                    if picture and not _opens(content):
+                        self.missing.append(name)
+                    return content
+        if picture:
+            self.missing.append(name)
+        raise KeyError(name)
+
+    get = __missing__  # type: ignore[assignment]  # trimesh asks a resolver by get(name)
+
+
+def _opens(content: bytes) -> bool:
+    from PIL import Image
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            Image.open(io.BytesIO(content)).verify()
+    except Exception:  # whatever the reader of the format stumbled over
+        return False
+    return True
+
+
+def is_as_read(files: dict[Path, tuple[int, int]]) -> bool:
+    """Whether files are what they were when they were read."""
+    try:
+        return all((s := path.stat()) and (s.st_mtime_ns, s.st_size) == known for path, known in files.items())
+    except OSError:
+        return False
