@@ -46,6 +46,7 @@ def message_type(name: str) -> Any:
 def _store() -> Any:
     """Return rosbags' typestore with the messages it lacks; None without rosbags."""
     from urdfkit.control_messages import CONTROL_MESSAGES
+    from urdfkit.sensor_messages import SENSOR_MESSAGES
     from urdfkit.world_messages import WORLD_MESSAGES
 
     try:
@@ -54,7 +55,7 @@ def _store() -> Any:
         return None
     store = get_typestore(Stores.ROS2_HUMBLE)
     known: dict[str, Any] = {}
-    for name, text in (CONTROL_MESSAGES | WORLD_MESSAGES).items():
+    for name, text in (CONTROL_MESSAGES | WORLD_MESSAGES | SENSOR_MESSAGES).items():
         (known[name],) = get_types_from_msg(text, name).values()  # whose own key has /msg/ in it for services too
     store.register(known)
     return store

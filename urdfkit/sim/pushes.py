@@ -79,6 +79,16 @@ class Pushes:
         """End the pushes on some targets."""
         self._pushes = [push for push in self._pushes if not wanted(push.target)]
 
+    def on(self, robot: SimulatedRobot, links: Sequence[str]) -> tuple[tuple[Array, Array, Array], ...]:
+        """Return force [N], torque [N·m] and point of attack [m], in the world, of what pushes links of a robot."""
+        found = []
+        for push in self._pushes:
+            if push.target[0] is robot and push.target[1] in links:
+                pose = robot.state.link_poses()[robot.kinematics.link_names.index(push.target[1])]
+                at = pose[:3] + np.array(rotate(pose[3:], push.at))
+                found.append((np.array(push.force), np.array(push.torque), at))
+        return tuple(found)
+
     def step(self, engine: Engine) -> None:
         """Advance an engine by one step while what pushes pushes.
 

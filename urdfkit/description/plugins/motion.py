@@ -39,6 +39,26 @@ IMU_SENSOR_ROS_2 = PluginSpec(
 )
 """Publishes on ``~/out``; noise and covariances are the ``<sensor>``'s."""
 
+IMU_BODY_ROS_1 = PluginSpec(
+    kind="imu",
+    generation="ros1",
+    filenames=("gazebo_ros_imu",),
+    class_names=(),
+    parameters=(
+        Parameter("body", "bodyName", names="link"),
+        Parameter("topic", "topicName", "/default_imu", names="topic"),
+        Parameter("service", "serviceName", "/default_imu"),
+        Parameter("frame", "frameName", names="frame"),
+        Parameter("gaussian_noise", "gaussianNoise", "0", "[m/s², rad/s]"),
+        Parameter("xyz_offset", "xyzOffset", unit="[m]"),
+        Parameter("rpy_offset", "rpyOffset", unit="[rad]"),
+        Parameter("update_rate", "updateRate", "0", "[Hz]"),
+        *GAZEBO_ROS_1,
+    ),
+    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_imu.cpp",
+)
+"""A plugin of the model, not of a sensor; its accelerations are without gravity."""
+
 IMU_GZ = PluginSpec(
     kind="gz_imu",
     generation="gz",
@@ -100,19 +120,30 @@ GPS_ROS_2 = PluginSpec(
 )
 """Publishes on ``~/out``."""
 
-NAVSAT_GZ = PluginSpec(
-    kind="gz_navsat",
-    generation="gz",
-    filenames=(),
-    class_names=(),
-    parameters=(
-        Parameter("topic", "topic", "/world/{world}/model/{model}/link/{link}/sensor/{sensor}/navsat", names="topic"),
-        Parameter("frame", "gz_frame_id", names="frame"),
-        Parameter("old_frame", "ignition_frame_id", names="frame"),
-        Parameter("default_frame", "frame_id", "{model}/{link}/{sensor}", names="frame"),
-    ),
-    source="gz-sensors main, src/NavSatSensor.cc",
-)
 
-MOTION = (IMU_SENSOR_ROS_1, IMU_SENSOR_ROS_2, P3D_ROS_1, P3D_ROS_2, GPS_ROS_2)
+def _bare(kind: str, topic: str, source: str) -> PluginSpec:
+    """Return the table of a sensor of the new Gazebo, which publishes by itself: read from the ``<sensor>``."""
+    scoped = "/world/{world}/model/{model}/link/{link}/sensor/{sensor}/"
+    return PluginSpec(
+        kind=kind,
+        generation="gz",
+        filenames=(),
+        class_names=(),
+        parameters=(
+            Parameter("topic", "topic", scoped + topic, names="topic"),
+            Parameter("frame", "gz_frame_id", names="frame"),
+            Parameter("old_frame", "ignition_frame_id", names="frame"),
+            Parameter("default_frame", "frame_id", "{model}/{link}/{sensor}", names="frame"),
+        ),
+        source=f"gz-sensors main, src/{source}",
+    )
+
+
+NAVSAT_GZ = _bare("gz_navsat", "navsat", "NavSatSensor.cc")
+MAGNETOMETER_GZ = _bare("gz_magnetometer", "magnetometer", "MagnetometerSensor.cc")
+ALTIMETER_GZ = _bare("gz_altimeter", "altimeter", "AltimeterSensor.cc")
+AIR_PRESSURE_GZ = _bare("gz_air_pressure", "air_pressure", "AirPressureSensor.cc")
+LOGICAL_CAMERA_GZ = _bare("gz_logical_camera", "logical_camera", "LogicalCameraSensor.cc")
+
+MOTION = (IMU_SENSOR_ROS_1, IMU_SENSOR_ROS_2, IMU_BODY_ROS_1, P3D_ROS_1, P3D_ROS_2, GPS_ROS_2)
 """Every plugin that senses motion."""

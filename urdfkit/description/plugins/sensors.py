@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 from urdfkit.description.plugins.camera import CAMERA_GZ, CAMERAS, DEPTH_CAMERA_GZ, RGBD_CAMERA_GZ
+from urdfkit.description.plugins.hector import HECTOR
 from urdfkit.description.plugins.lidar import LIDAR_GZ, LIDAR_TYPES, LIDARS
-from urdfkit.description.plugins.motion import IMU_GZ, MOTION, NAVSAT_GZ
+from urdfkit.description.plugins.motion import (
+    AIR_PRESSURE_GZ,
+    ALTIMETER_GZ,
+    IMU_GZ,
+    LOGICAL_CAMERA_GZ,
+    MAGNETOMETER_GZ,
+    MOTION,
+    NAVSAT_GZ,
+)
 from urdfkit.description.plugins.spec import PluginSpec
+from urdfkit.description.plugins.touch import CONTACT_GZ, FORCE_TORQUE_GZ, TOUCH
 
-SENSORS = (*LIDARS, *CAMERAS, *MOTION)
+SENSORS = (*LIDARS, *CAMERAS, *MOTION, *TOUCH, *HECTOR)
 """Every sensor plugin."""
 
 BARE: dict[str, PluginSpec] = {
@@ -15,6 +25,12 @@ BARE: dict[str, PluginSpec] = {
     "imu": IMU_GZ,
     "gps": NAVSAT_GZ,
     "navsat": NAVSAT_GZ,
+    "magnetometer": MAGNETOMETER_GZ,
+    "altimeter": ALTIMETER_GZ,
+    "air_pressure": AIR_PRESSURE_GZ,
+    "logical_camera": LOGICAL_CAMERA_GZ,
+    "contact": CONTACT_GZ,
+    "force_torque": FORCE_TORQUE_GZ,
     "camera": CAMERA_GZ,
     "depth": DEPTH_CAMERA_GZ,
     "depth_camera": DEPTH_CAMERA_GZ,

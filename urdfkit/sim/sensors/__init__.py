@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from urdfkit.sim.plugin import Sensor
+from urdfkit.sim.sensors.air import GzAirPressure, GzAltimeter, HectorBaro
+from urdfkit.sim.sensors.bumper import Bumper, GzContact
 from urdfkit.sim.sensors.camera import GzCamera, RosCamera
 from urdfkit.sim.sensors.depth_camera import DepthCamera, GzDepthCamera, GzRgbdCamera, OpenniKinect
-from urdfkit.sim.sensors.gps import Gps, GzNavSat
-from urdfkit.sim.sensors.imu import GzImu, ImuSensor
-from urdfkit.sim.sensors.laser import BlockLaser, Laser, Range
+from urdfkit.sim.sensors.force_torque import GzForceTorque, JointForceTorque
+from urdfkit.sim.sensors.gps import Gps, GzNavSat, HectorGps
+from urdfkit.sim.sensors.imu import BodyImu, GzImu, HectorImu, ImuSensor
+from urdfkit.sim.sensors.laser import BlockLaser, Laser, Range, Sonar
+from urdfkit.sim.sensors.logical_camera import GzLogicalCamera
+from urdfkit.sim.sensors.magnetometer import GzMagnetometer, HectorMagnetic
 from urdfkit.sim.sensors.p3d import P3d
 from urdfkit.sim.sensors.point_cloud import GzLidar, RaySensor, Velodyne
 
@@ -15,6 +20,7 @@ SENSORS: tuple[type[Sensor], ...] = (
     Laser,
     BlockLaser,
     Range,
+    Sonar,
     RaySensor,
     Velodyne,
     GzLidar,
@@ -25,9 +31,22 @@ SENSORS: tuple[type[Sensor], ...] = (
     GzDepthCamera,
     GzRgbdCamera,
     ImuSensor,
+    BodyImu,
     GzImu,
+    HectorImu,
     P3d,
     Gps,
     GzNavSat,
+    HectorGps,
+    GzMagnetometer,
+    HectorMagnetic,
+    GzAltimeter,
+    GzAirPressure,
+    HectorBaro,
+    GzLogicalCamera,
+    Bumper,
+    GzContact,
+    JointForceTorque,
+    GzForceTorque,
 )
 """Every sensor; a test walks this folder and fails if one is missing here."""

@@ -48,6 +48,12 @@ class Earth:
             latitude = atan2(z, flat * (1 - E2 * n / (n + altitude)))
         return degrees(latitude), degrees(atan2(y, x)), altitude
 
+    def compass(self, along: Array) -> tuple[float, float, float]:
+        """Return what a vector along the world's axes is to the east, to the north and up."""
+        x, y, z = along.tolist()
+        c, s = cos(self.heading), sin(self.heading)
+        return c * x - s * y, s * x + c * y, z
+
     def _axes(self) -> Array:
         """Return the world's axes in the earth's; shape (3, 3)."""
         (s, c), (sl, cl) = (sin(self.latitude), cos(self.latitude)), (sin(self.longitude), cos(self.longitude))

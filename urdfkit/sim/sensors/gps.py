@@ -1,86 +1,106 @@
-"""GPS: gazebo_ros_gps_sensor of ROS 2 and the new Gazebo's navsat, a NavSatFix on WGS 84.
+"""GPS: gazebo_ros_gps_sensor of ROS 2, the new Gazebo's navsat and hector_gazebo_ros_gps, on WGS 84.
 
 Noise is in metres along east, north and up; the new Gazebo's source adds it to degrees.
 """
 
 from __future__ import annotations
 
-from functools import partial
-from math import cos, degrees, radians
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import cos, degrees, pi, radians
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from urdfkit.errors import SimulationError
-from urdfkit.messages import header, message_type
+from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.parameters import Parameters
-from urdfkit.sim.plugin import Sensor, Setup
+from urdfkit.sim.plugin import Setup
+from urdfkit.sim.sensors.carried import Carried, Ride
+from urdfkit.sim.sensors.drift import drifting
 from urdfkit.sim.sensors.earth import A, Earth, earth_of
-from urdfkit.sim.sensors.motion import Moment
 from urdfkit.sim.sensors.noise import noise_of
-from urdfkit.sim.sensors.values import number, pose_of
-from urdfkit.sim.topics import Topics
 
 if TYPE_CHECKING:
-    from urdfkit.sim.state import State
+    from urdfkit.description.element import Element
+    from urdfkit.sim.surroundings import Surroundings
+    from urdfkit.sim.topics import Topics
 
 FIX = "sensor_msgs/msg/NavSatFix"
+VELOCITY = "geometry_msgs/msg/Vector3Stamped"
 
 DIAGONAL_KNOWN = 2
 """NavSatFix's COVARIANCE_TYPE_DIAGONAL_KNOWN."""
 
+Array = NDArray[np.float64]
 
-class Gps(Sensor):
+
+@dataclass(frozen=True, eq=False)
+class Fix:
+    """One reading.
+
+    Attributes:
+        t: when [s].
+        place: latitude [°], longitude [°] and altitude [m].
+        velocity: to the north, the west and up [m/s]; shape (3,).
+    """
+
+    t: float
+    place: tuple[float, float, float]
+    velocity: Array
+
+
+class Gps(Carried):
     """gazebo_ros_gps_sensor of ROS 2."""
 
     kind = "gps"
+    _status = 0, 1
+    """NavSatStatus: STATUS_FIX, SERVICE_GPS."""
+    _variances: Array
 
-    def configure(self, setup: Setup) -> None:
-        """Read the sensor and where the world lies, and advertise.
+    def _prepare(
+        self, setup: Setup, element: Element | None, read: Parameters, topics: Topics, surroundings: Surroundings
+    ) -> None:
+        self._earth = earth_of(surroundings.world) or self._nowhere(setup, element)
+        self._errors(setup, element, read)
+        name = read.text("topic") or "~/out"
+        self.topics = (setup.bus.advertise(topics.resolve(name), FIX),)
 
-        Raises:
-            SimulationError: something makes no sense, with its place.
-        """
-        sensor = setup.sensor
-        if sensor is None or setup.surroundings is None or setup.link not in setup.kinematics.link_names:
-            raise SimulationError(
-                "a GPS stands in a <sensor> of a link, and in none here", position=self.plugin.element.origin.position
-            )
-        self.name = sensor.name or "sensor"
-        read = Parameters(self.plugin, self.spec, {**setup.names, "link": setup.link, "sensor": self.name})
-        self.rate = number(sensor.element, "update_rate", 0.0)
-        frame = read.text("frame") or read.text("old_frame") or read.text("default_frame")
-        self.frame = frame.lstrip("/")
-        self._kinematics, self._link, self._mount = setup.kinematics, setup.link, pose_of(sensor.element)
-        earth = earth_of(setup.surroundings.world)
-        if earth is None:
-            setup.note(
-                f"{sensor.element.origin.position}: world `{setup.world}` has no <spherical_coordinates>; "
-                f"GPS `{self.name}` takes its origin for latitude and longitude zero"
-            )
-        self._earth = earth or Earth()
-        gps = sensor.element.find("gps") or sensor.element.find("navsat")
+    def _nowhere(self, setup: Setup, element: Element | None) -> Earth:
+        place = (element or self.plugin.element).origin.position
+        setup.note(
+            f"{place}: world `{setup.world}` has no <spherical_coordinates>; "
+            f"GPS `{self.name}` takes its origin for latitude and longitude zero"
+        )
+        return Earth()
+
+    def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
+        gps = None if element is None else element.find("gps") or element.find("navsat")
         sensing = None if gps is None else gps.find("position_sensing")
         level, upright = (None if sensing is None else sensing.find(tag) for tag in ("horizontal", "vertical"))
         self._noises = noise_of(level, setup.random), noise_of(level, setup.random), noise_of(upright, setup.random)
-        self._key = int(setup.random.integers(1 << 62))
-        name = read.text("topic") if self.spec.generation == "gz" else "~/out"
-        self.topics = (setup.bus.advertise(Topics(self.plugin, self.spec).resolve(name), FIX),)
+        self._variances = np.array([noise.deviation**2 for noise in self._noises])
 
-    def measure(self, state: State, count: int) -> None:
-        """Publish."""
-        self.topics[0].offer(partial(self._message, Moment(self._kinematics, state), self.done), count=count)
+    def _feel(self, ride: Ride) -> Fix:
+        east, north, up = (float(noise.on(np.zeros(()), ride.random)) for noise in self._noises)
+        return self._fix(ride, (east, north, up), np.zeros(3))
 
-    def _message(self, now: Moment, turn: int) -> Any:
-        random = np.random.Generator(np.random.Philox(key=[self._key, turn]))
-        latitude, longitude, altitude = self._earth.locate(now.motion(self._link, self._mount).position)
-        east, north, up = (float(noise.on(np.zeros(()), random)) for noise in self._noises)
-        longitude += degrees(east / (A * max(cos(radians(latitude)), 1e-9)))
-        latitude += degrees(north / A)
-        variances = [noise.deviation**2 for noise in self._noises]
+    def _fix(self, ride: Ride, off: tuple[float, float, float], drift: Array) -> Fix:
+        """Return where it is, off by so much to the east, the north and up [m], and how it moves, off by `drift`."""
+        latitude, longitude, altitude = self._earth.locate(ride.motion.position)
+        longitude += degrees(off[0] / (A * max(cos(radians(latitude)), 1e-9)))
+        latitude += degrees(off[1] / A)
+        east, north, up = self._earth.compass(ride.motion.linear)
+        return Fix(ride.t, (latitude, longitude, altitude + off[2]), np.array([north, -east, up]) + drift)
+
+    def messages(self) -> tuple[Callable[[Fix], Any], ...]:
+        """Return what makes the message of each of `topics`."""
+        return (self._message,)
+
+    def _message(self, fix: Fix) -> Any:
         return message_type(FIX)(
-            header(now.t, self.frame), message_type("sensor_msgs/msg/NavSatStatus")(0, 1), latitude, longitude,
-            altitude + up, np.diag(variances).ravel(), DIAGONAL_KNOWN,
+            header(fix.t, self.frame), message_type("sensor_msgs/msg/NavSatStatus")(*self._status), *fix.place,
+            np.diag(self._variances).ravel(), DIAGONAL_KNOWN,
         )  # fmt: skip
 
 
@@ -88,3 +108,47 @@ class GzNavSat(Gps):
     """A navsat sensor of the new Gazebo, which publishes by itself."""
 
     kind = "gz_navsat"
+
+
+class HectorGps(Gps):
+    """hector_gazebo_ros_gps of ROS 1: a fix, and the velocity to the north, the west and up; both drift."""
+
+    kind = "hector_gps"
+
+    def _prepare(
+        self, setup: Setup, element: Element | None, read: Parameters, topics: Topics, surroundings: Surroundings
+    ) -> None:
+        super()._prepare(setup, element, read, topics, surroundings)
+        earth = self._earth
+        heading = pi / 2 - radians(read.number("heading")) if read.has("heading") else earth.heading
+        self._earth = Earth(
+            radians(read.number("latitude", degrees(earth.latitude))),
+            radians(read.number("longitude", degrees(earth.longitude))),
+            read.number("altitude", earth.elevation),
+            heading,
+        )
+        self._status = int(read.number("status")), int(read.number("service", 1.0))
+        velocity = setup.bus.advertise(topics.resolve(read.text("velocity_topic")), VELOCITY)
+        self.topics = (*self.topics, velocity)
+
+    def _nowhere(self, setup: Setup, element: Element | None) -> Earth:
+        if self.plugin.element.find("referenceLatitude") is not None:
+            return Earth()
+        return super()._nowhere(setup, element)
+
+    def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
+        several = {"rate": self.rate, "dt": setup.dt, "random": setup.random}
+        self._position = drifting(read, "", 3, **several)  # type: ignore[arg-type]
+        self._speed = drifting(read, "velocity_", 3, **several)  # type: ignore[arg-type]
+        self._variances = self._position.variance
+
+    def _feel(self, ride: Ride) -> Fix:
+        east, north, up = self._earth.compass(self._position.at(ride.turn))
+        return self._fix(ride, (east, north, up), self._speed.at(ride.turn))
+
+    def messages(self) -> tuple[Callable[[Fix], Any], ...]:
+        """Return what makes the message of each of `topics`."""
+        return self._message, self._velocity
+
+    def _velocity(self, fix: Fix) -> Any:
+        return message_type(VELOCITY)(header(fix.t, self.frame), vector(fix.velocity.tolist()))

@@ -7,7 +7,8 @@ message that nobody waited for has the mean since the simulation last stopped.
 from __future__ import annotations
 
 from abc import abstractmethod
-from functools import partial
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,144 +17,203 @@ from numpy.typing import NDArray
 from urdfkit.errors import SimulationError
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.parameters import Parameters
-from urdfkit.sim.plugin import Sensor, Setup
-from urdfkit.sim.schedule import NEVER
+from urdfkit.sim.plugin import Setup
+from urdfkit.sim.sensors.carried import Carried, Ride
+from urdfkit.sim.sensors.drift import drifting
 from urdfkit.sim.sensors.motion import Moment
-from urdfkit.sim.sensors.mounted import slower
 from urdfkit.sim.sensors.noise import Noise, noise_of
-from urdfkit.sim.sensors.values import number, pose_of
-from urdfkit.sim.topics import Topics
+from urdfkit.sim.sensors.values import rotation_matrix
 
 if TYPE_CHECKING:
-    from urdfkit.description.robot import SensorTag
+    from urdfkit.description.element import Element
     from urdfkit.sim.state import State
+    from urdfkit.sim.surroundings import Surroundings
+    from urdfkit.sim.topics import Topics
 
 IMU = "sensor_msgs/msg/Imu"
 
 Array = NDArray[np.float64]
 
 
-class Imu(Sensor):
+@dataclass(frozen=True, eq=False)
+class Felt:
+    """One reading.
+
+    Attributes:
+        t: when [s].
+        rotation: of the sensor; shape (3, 3).
+        shaken: added to the quaternion x y z w before it is normalised; shape (4,).
+        turning: rate in the sensor's axes [rad/s]; shape (3,).
+        pulled: acceleration in the sensor's axes [m/s²]; shape (3,).
+    """
+
+    t: float
+    rotation: Array
+    shaken: Array
+    turning: Array
+    pulled: Array
+
+
+class Imu(Carried):
     """An inertial measurement unit; where it publishes and how it errs is its subclass's to say."""
+
+    compares = True
+    _relative = False
+    _variances: tuple[Array, Array, Array]
+    """Diagonals of the covariances of orientation, turning rate and acceleration."""
+
+    def _prepare(
+        self, setup: Setup, element: Element | None, read: Parameters, topics: Topics, surroundings: Surroundings
+    ) -> None:
+        self._gravity = np.array(surroundings.world.gravity)
+        self._reference: Array | None = None
+        self._offset = rotation_matrix(*read.vector("rpy_offset", 3))
+        self._errors(setup, element, read)
+        self.topics = (setup.bus.advertise(topics.resolve(self._topic(read)), IMU),)
+
+    def _topic(self, read: Parameters) -> str:
+        return read.text("topic") or "~/out"
+
+    @abstractmethod
+    def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
+        """Read how it errs, and fill `_variances`."""
+
+    @abstractmethod
+    def _err(self, felt: Felt, ride: Ride) -> Felt:
+        """Return a reading with the errors on it."""
+
+    def catch_up(self, state: State) -> None:
+        """Measure what has fallen due, and remember this moment for the next."""
+        if self._reference is None and self._relative:
+            self._reference = Moment(self._kinematics, state).motion(self.link, self._mount).rotation
+        super().catch_up(state)
+
+    def messages(self) -> tuple[Callable[[Felt], Any], ...]:
+        """Return what makes the message of each of `topics`."""
+        return (self._message,)
+
+    def _feel(self, ride: Ride) -> Felt:
+        R = ride.motion.rotation
+        rotation = self._offset @ (R if self._reference is None else self._reference.T @ R)
+        true = Felt(ride.t, rotation, np.zeros(4), R.T @ ride.motion.angular, R.T @ (ride.acceleration - self._gravity))
+        return self._err(true, ride)
+
+    def _message(self, felt: Felt) -> Any:
+        import pinocchio as pin
+
+        quaternion = pin.Quaternion(felt.rotation).coeffs() + felt.shaken
+        quaternion = quaternion / np.linalg.norm(quaternion)
+        kind = message_type("geometry_msgs/msg/Quaternion")
+        orientation, turning, pulled = (np.diag(each).ravel() for each in self._variances)
+        return message_type(IMU)(
+            header(felt.t, self.frame), kind(*quaternion.tolist()), orientation,
+            vector(felt.turning.tolist()), turning, vector(felt.pulled.tolist()), pulled,
+        )  # fmt: skip
+
+
+class PlainImu(Imu):
+    """An IMU whose noise is SDF's, or one standard deviation for everything."""
 
     _gyro: tuple[Noise, ...]
     _accelerometer: tuple[Noise, ...]
     _compass: float = 0.0
 
-    def configure(self, setup: Setup) -> None:
-        """Read the sensor and the plugin's parameters, and advertise.
-
-        Raises:
-            SimulationError: something makes no sense, with its place.
-        """
-        sensor = setup.sensor
-        if sensor is None or setup.surroundings is None or setup.link not in setup.kinematics.link_names:
-            raise SimulationError(
-                "an IMU stands in a <sensor> of a link, and in none here", position=self.plugin.element.origin.position
-            )
-        self.name = sensor.name or "sensor"
-        read = Parameters(self.plugin, self.spec, {**setup.names, "link": setup.link, "sensor": self.name})
-        self.rate = slower(number(sensor.element, "update_rate", 0.0), read.number("update_rate"))
-        self._kinematics, self._link = setup.kinematics, setup.link
-        self._mount = pose_of(sensor.element)
-        self._gravity = np.array(setup.surroundings.world.gravity)
-        self._key = int(setup.random.integers(1 << 62))
-        self._before: Moment | None = None
-        self._reference: Array | None = None
-        frame = read.text("frame") or read.text("old_frame") or read.text("body") or read.text("default_frame")
-        self.frame = frame.lstrip("/")
-        self._relative = self.spec.generation == "gz" or read.flag("initial_orientation")
-        self._noises(setup, sensor, read)
-        self.topics = (setup.bus.advertise(self._topic(setup, read), IMU),)
-
-    @abstractmethod
-    def _topic(self, setup: Setup, read: Parameters) -> str:
-        """Return where it publishes."""
-
-    @abstractmethod
-    def _noises(self, setup: Setup, sensor: SensorTag, read: Parameters) -> None:
-        """Read how it errs into `_gyro` and `_accelerometer` (three each) and `_compass` (one deviation)."""
-
-    def next_stop(self, step: int) -> int:
-        """Return the step at which the simulation has to stop for it: where it is due, and one before."""
-        due = super().next_stop(step)
-        return due if due == NEVER or due - 1 <= step else due - 1
-
-    def catch_up(self, state: State) -> None:
-        """Measure what has fallen due, and remember this moment for the next."""
-        if self._reference is None and self._relative:
-            self._reference = Moment(self._kinematics, state).motion(self._link, self._mount).rotation
-        super().catch_up(state)
-        self._before = Moment(self._kinematics, state)
-
-    def reset(self) -> None:
-        """Start again at step 0."""
-        super().reset()
-        self._before = None
-
-    def measure(self, state: State, count: int) -> None:
-        """Publish."""
-        self.topics[0].offer(
-            partial(self._message, Moment(self._kinematics, state), self._before, self.done), count=count
+    def _tell(self) -> None:
+        gyro, accelerometer = (
+            np.array([noise.deviation**2 for noise in noises]) for noises in (self._gyro, self._accelerometer)
         )
+        self._variances = np.full(3, self._compass**2), gyro, accelerometer
 
-    def _message(self, now: Moment, before: Moment | None, turn: int) -> Any:
-        import pinocchio as pin
-
-        motion = now.motion(self._link, self._mount)
-        acceleration = np.zeros(3)
-        if before is not None and before.step < now.step:
-            acceleration = (motion.linear - before.motion(self._link, self._mount).linear) / (now.t - before.t)
-        random = np.random.Generator(np.random.Philox(key=[self._key, turn]))
-        felt = _noisy(motion.rotation.T @ (acceleration - self._gravity), self._accelerometer, random)
-        turning = _noisy(motion.rotation.T @ motion.angular, self._gyro, random)
-        rotation = motion.rotation if self._reference is None else self._reference.T @ motion.rotation
-        quaternion = pin.Quaternion(rotation).coeffs()
-        if self._compass:
-            quaternion = quaternion + self._compass * random.standard_normal(4)
-            quaternion = quaternion / np.linalg.norm(quaternion)
-        kind = message_type("geometry_msgs/msg/Quaternion")
-        return message_type(IMU)(
-            header(now.t, self.frame), kind(*quaternion.tolist()), np.diag([self._compass**2] * 3).ravel(),
-            vector(turning.tolist()), np.diag([noise.deviation**2 for noise in self._gyro]).ravel(),
-            vector(felt.tolist()), np.diag([noise.deviation**2 for noise in self._accelerometer]).ravel(),
-        )  # fmt: skip
+    def _err(self, felt: Felt, ride: Ride) -> Felt:
+        pulled = _noisy(felt.pulled, self._accelerometer, ride.random)
+        turning = _noisy(felt.turning, self._gyro, ride.random)
+        shaken = self._compass * ride.random.standard_normal(4) if self._compass else felt.shaken
+        return Felt(felt.t, felt.rotation, shaken, turning, pulled)
 
 
-class ImuSensor(Imu):
+class ImuSensor(PlainImu):
     """gazebo_ros_imu_sensor of ROS 1 and ROS 2."""
 
     kind = "imu_sensor"
 
-    def _topic(self, setup: Setup, read: Parameters) -> str:
-        topics = Topics(self.plugin, self.spec, namespace=setup.model)
-        return topics.resolve(read.text("topic") if self.spec.generation == "ros1" else "~/out")
+    def _namespace(self, setup: Setup) -> str:
+        return setup.model
 
-    def _noises(self, setup: Setup, sensor: SensorTag, read: Parameters) -> None:
+    def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
+        if element is None:
+            raise SimulationError(
+                "an IMU stands in a <sensor> of a link, and in none here", position=self.plugin.element.origin.position
+            )
+        self._relative = read.flag("initial_orientation")
         if self.spec.generation == "ros1":
             self._compass = read.number("gaussian_noise", unsigned=True)
             self._gyro = self._accelerometer = (Noise(deviation=self._compass),) * 3
         else:
-            self._compass = 0.0
-            self._gyro, self._accelerometer = _written(sensor, setup.random)
+            self._gyro, self._accelerometer = _written(element, setup.random)
+        self._tell()
 
 
-class GzImu(Imu):
+class GzImu(PlainImu):
     """An IMU of the new Gazebo, which publishes by itself."""
 
     kind = "gz_imu"
+    _relative = True
 
-    def _topic(self, setup: Setup, read: Parameters) -> str:
-        return Topics(self.plugin, self.spec).resolve(read.text("topic"))
-
-    def _noises(self, setup: Setup, sensor: SensorTag, read: Parameters) -> None:
-        self._compass = 0.0
-        self._gyro, self._accelerometer = _written(sensor, setup.random)
+    def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
+        assert element is not None
+        self._gyro, self._accelerometer = _written(element, setup.random)
+        self._tell()
 
 
-def _written(sensor: SensorTag, random: np.random.Generator) -> tuple[tuple[Noise, ...], tuple[Noise, ...]]:
+class BodyImu(PlainImu):
+    """gazebo_ros_imu of ROS 1: acceleration without gravity, in the link's axes.
+
+    The plugin turns its vectors the wrong way round; here they are in the axes of the link that it names.
+    """
+
+    kind = "imu"
+
+    def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
+        if not read.text("body"):
+            raise SimulationError(
+                f"gazebo_ros_imu lacks its <{read.tag('body')}>", position=self.plugin.element.origin.position
+            )
+        self._gravity = np.zeros(3)
+        deviation = read.number("gaussian_noise", unsigned=True)
+        self._gyro = self._accelerometer = (Noise(deviation=deviation),) * 3
+        self._tell()
+        self._variances = np.full(3, deviation**2), *self._variances[1:]
+
+
+class HectorImu(Imu):
+    """hector_gazebo_ros_imu of ROS 1: errors that drift, and a heading of its own."""
+
+    kind = "hector_imu"
+
+    def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
+        several = {"rate": self.rate, "dt": setup.dt, "random": setup.random}
+        self._accelerometer = drifting(read, "accel_", 3, **several)  # type: ignore[arg-type]
+        self._gyro = drifting(read, "rate_", 3, **several)  # type: ignore[arg-type]
+        yaw = "yaw_" if any(read.has(f"yaw_{each}") for each in ("offset", "drift", "gaussian_noise")) else "heading_"
+        self._heading = drifting(read, yaw, 1, **several)  # type: ignore[arg-type]
+        if old := read.number("gaussian_noise", unsigned=True):
+            self._accelerometer.noise = self._gyro.noise = np.full(3, old)
+        level = self._accelerometer.noise**2 / max(float(self._gravity @ self._gravity), 1e-12)
+        self._variances = (
+            np.array([level[0], level[1], float(self._heading.noise[0]) ** 2]),
+            self._gyro.noise**2,
+            self._accelerometer.noise**2,
+        )
+
+    def _err(self, felt: Felt, ride: Ride) -> Felt:
+        heading = float(self._heading.at(ride.turn)[0])
+        turning, pulled = felt.turning + self._gyro.at(ride.turn), felt.pulled + self._accelerometer.at(ride.turn)
+        return Felt(felt.t, felt.rotation @ rotation_matrix(0.0, 0.0, heading), felt.shaken, turning, pulled)
+
+
+def _written(element: Element, random: np.random.Generator) -> tuple[tuple[Noise, ...], tuple[Noise, ...]]:
     """Return the noises in a sensor's ``<imu>``: of turning rates and of accelerations, along x, y and z."""
-    imu = sensor.element.find("imu")
+    imu = element.find("imu")
     kinds = [None if imu is None else imu.find(tag) for tag in ("angular_velocity", "linear_acceleration")]
     gyro, accelerometer = (
         tuple(noise_of(None if kind is None else kind.find(axis), random) for axis in "xyz") for kind in kinds

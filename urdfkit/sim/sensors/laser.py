@@ -1,13 +1,15 @@
-"""Lidars that give a LaserScan, a Range or an old PointCloud: gazebo_ros_laser, _gpu_laser, _block_laser and _range."""
+"""Lidars that give a LaserScan, a Range or an old PointCloud: gazebo_ros_laser, _block_laser and _range, a sonar."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from urdfkit.sim.sensors.clouds import POINT_CLOUD, old_cloud
+from urdfkit.sim.sensors.drift import drifting
 from urdfkit.sim.sensors.lidar import LASER_SCAN, RANGE, Lidar, Reading
 
 if TYPE_CHECKING:
@@ -80,3 +82,26 @@ class Range(Lidar):
         return self.range_message(
             reading, nearest=nearest, field_of_view=self._field_of_view, ultrasound=self._ultrasound
         )
+
+
+class Sonar(Lidar):
+    """hector_gazebo_ros_sonar of ROS 1: the nearest of all rays, with an error that drifts."""
+
+    kind = "sonar"
+
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        self._error = drifting(read, "", 1, rate=self.rate, dt=setup.dt, random=setup.random)
+        self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), RANGE),)
+
+    def messages(self) -> Messages:
+        """Return what makes the message of each of `topics`."""
+        return (partial(self._range, self.done),)
+
+    def _range(self, turn: int, reading: Reading) -> Any:
+        scan = self.scan
+        nearest = float(np.clip(reading.ranges, scan.range_min, scan.range_max).min())
+        if nearest < scan.range_max:
+            nearest += float(self._error.at(turn)[0])
+            nearest = min(max(nearest, scan.range_min), scan.range_max)
+        across = min(scan.angle_max - scan.angle_min, scan.vertical_max - scan.vertical_min)
+        return self.range_message(reading, nearest=nearest, field_of_view=across, ultrasound=True)

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from urdfkit.errors import SimulationError
 from urdfkit.sim.parameters import Parameters
 from urdfkit.sim.plugin import Sensor, Setup
-from urdfkit.sim.sensors.values import number, pose_of
+from urdfkit.sim.sensors.carried import carrier
+from urdfkit.sim.sensors.values import pose_of, rate_of
 from urdfkit.sim.topics import Topics
 
 if TYPE_CHECKING:
@@ -47,23 +48,19 @@ class Mounted(Sensor):
             raise SimulationError(
                 "this plugin stands in a <sensor>, and in none here", position=self.plugin.element.origin.position
             )
-        if setup.link not in setup.kinematics.link_names:
-            raise SimulationError(
-                f"a sensor stands in <gazebo reference=…> of a link; `{setup.link}` is none",
-                position=sensor.element.origin.position,
-            )
+        link = carrier(setup)
         self.name = sensor.name or "sensor"
         names = {**setup.names, "link": setup.link, "sensor": self.name}
         read = Parameters(self.plugin, self.spec, names)
         empty = self.plugin.element.find("robotNamespace") is not None
         topics = Topics(self.plugin, self.spec, namespace=self.namespace.format(**names) if empty else "")
-        self.rate = slower(number(sensor.element, "update_rate", 0.0), read.number("update_rate"))
+        self.rate = rate_of(sensor.element, read)
         frame = read.text("frame") or read.text("old_frame") or read.text("default_frame")
         self.frame = frame.lstrip("/")
         self._surroundings = setup.surroundings
         self._pose = pose_of(sensor.element)
         self._robot = setup.model
-        self._link = setup.kinematics.link_names.index(setup.link)
+        self._link = setup.kinematics.link_names.index(link)
         self._key = int(setup.random.integers(1 << 62))
         self._prepare(setup, sensor, read, topics)
 
@@ -103,8 +100,3 @@ class Mounted(Sensor):
             offer(topic, message)
         for topic, remark in zip(self.topics[len(messages) :], remarks, strict=True):
             topic.offer(partial(remark, t), count=count)
-
-
-def slower(one: float, other: float) -> float:
-    """Return the smaller of two rates that are set; zero where none is."""
-    return min((rate for rate in (one, other) if rate > 0), default=0.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import isfinite, isnan
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,9 @@ from urdfkit.description.element import Element
 from urdfkit.description.robot import Pose
 from urdfkit.errors import SimulationError
 from urdfkit.scene.placement import pose_matrix
+
+if TYPE_CHECKING:
+    from urdfkit.sim.parameters import Parameters
 
 
 def number(
@@ -59,3 +63,21 @@ def pose_of(sensor: Element) -> NDArray[np.float64]:
     if not all(isfinite(each) for each in (x, y, z, roll, pitch, yaw)):
         raise SimulationError(f"<pose> is `{text}`; it must be 6 finite numbers", position=child.origin.position)
     return pose_matrix(Pose((x, y, z), (roll, pitch, yaw)))
+
+
+def rate_of(sensor: Element | None, read: Parameters) -> float:
+    """Return how often a sensor measures [Hz]: the slower of its ``<update_rate>`` and its plugin's, where set.
+
+    Zero means every step, as in Gazebo.
+
+    Raises:
+        SimulationError: a rate is negative or no number, with its place.
+    """
+    rates = number(sensor, "update_rate", 0.0, least=0.0), read.number("update_rate", unsigned=True)
+    return min((rate for rate in rates if rate > 0), default=0.0)
+
+
+def rotation_matrix(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
+    """Return the rotation by fixed-axis roll, pitch and yaw [rad]; shape (3, 3)."""
+    found: NDArray[np.float64] = pose_matrix(Pose((0.0, 0.0, 0.0), (roll, pitch, yaw)))[:3, :3]
+    return found
