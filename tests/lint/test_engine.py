@@ -71,7 +71,8 @@ def test_what_a_fault_makes_up_is_not_reported(write):
 <gazebo><plugin name="p" filename="libgazebo_ros_diff_drive.so"><leftJoint>j</leftJoint></plugin></gazebo>""",
     )
     assert codes(lint(path)) == ["X103"]
-    bad = write("v.xacro", '<link name="base"><inertial><mass value="${m}"/></inertial></link>')
+    tensor = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+    bad = write("v.xacro", f'<link name="base"><inertial><mass value="${{m}}"/>{tensor}</inertial></link>')
     assert codes(lint(bad)) == ["X104"]
 
 
@@ -82,7 +83,7 @@ def test_unprefixed_macros_are_looked_into_and_their_loss_is_named(write):
 <macro name="wheel" params="side">
   <link name="${side}"><inertial><mass value="1"/>
     <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="3"/></inertial></link>
-  <joint name="${side}_joint" type="continuous"><parent link="base"/><child link="${side}"/></joint>
+  <joint name="${side}_joint" type="fixed"><parent link="base"/><child link="${side}"/></joint>
 </macro>
 <wheel side="left"/>
 <gazebo><plugin name="p" filename="libgazebo_ros_joint_state_publisher.so">
@@ -119,7 +120,8 @@ def test_xacro_arguments_and_package_path(write):
 
 
 def test_selection(write):
-    path = write("r.xacro", '<link name="a"/><link name="b"/><joint name="j"><parent link="a"/></joint>')
+    joint = '<joint name="j"><parent link="a"/><child link="b"/></joint>'
+    path = write("r.xacro", f'<link name="a"/><link name="b"/><link name="c"/>{joint}')
     assert codes(lint(path)) == ["T203", "J401"]
     assert codes(lint(path, select=["T"])) == ["T203"]
     assert codes(lint(path, select=["J4,t203"])) == ["T203", "J401"]

@@ -26,6 +26,11 @@ def files(kind: str) -> list:
     return [pytest.param(path, id=path.parent.name) for path in found]
 
 
+def target(rule: type[Rule]) -> str | None:
+    """The target under which a rule that is only for some is asked."""
+    return rule.only_for[0] if rule.only_for else None
+
+
 def marks(path: Path) -> Counter:
     expected: Counter = Counter()
     for number, line in enumerate(path.read_text().splitlines(), 1):
@@ -36,23 +41,24 @@ def marks(path: Path) -> Counter:
 
 @pytest.mark.parametrize("path", files("bad"))
 def test_bad_files_are_found_out_exactly_where_marked(path):
-    found = lint(path)
+    found = lint(path, target=target(BY_NAME[path.parent.name]))
     assert Counter((finding.code, finding.line) for finding in found) == marks(path), [str(f) for f in found]
     assert BY_NAME[path.parent.name].code in {finding.code for finding in found}
 
 
 @pytest.mark.parametrize("path", files("good"))
 def test_good_files_are_silent(path):
-    assert lint(path) == []
+    assert lint(path, target=target(BY_NAME[path.parent.name])) == []
 
 
 @pytest.mark.parametrize("path", files("fixed"))
 def test_fixes_give_the_fixed_file_and_do_nothing_more(path):
     bad = path.with_stem(path.stem.replace("fixed", "bad"))
     rule = BY_NAME[path.parent.name]
-    fixed = fix([Entry(bad)], Options(select=(rule.code,)), within=[bad.parent], unsafe=rule.fix == "unsafe")
+    options = Options(select=(rule.code,), target=target(rule))
+    fixed = fix([Entry(bad)], options, within=[bad.parent], unsafe=rule.fix == "unsafe")
     assert [change.after.decode() for change in fixed.changes] == [path.read_text()]
-    assert fix([Entry(path)], Options(), within=[path.parent], unsafe=True).changes == ()
+    assert fix([Entry(path)], Options(target=target(rule)), within=[path.parent], unsafe=True).changes == ()
 
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
@@ -72,7 +78,7 @@ def test_the_examples_of_a_page_are_true(rule: type[Rule], tmp_path, monkeypatch
         is_xacro = "xacro" in example[1]
         file = tmp_path / ("example.urdf.xacro" if is_xacro else "example.urdf")
         file.write_text(example[1])
-        codes = {finding.code for finding in lint(file)}
+        codes = {finding.code for finding in lint(file, target=target(rule))}
         assert (rule.code in codes) is is_bad
         assert codes <= {rule.code}
 

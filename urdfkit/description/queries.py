@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from urdfkit.description.robot import Joint, Robot
+from collections.abc import Iterator
+
+from urdfkit.description.element import Element
+from urdfkit.description.robot import Joint, Link, Robot
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Literal, TypeVar
+
+    Named = TypeVar("Named", Link, Joint)
 
 
 def cycles(robot: Robot) -> list[list[Joint]]:
@@ -47,3 +56,19 @@ def mass(robot: Robot, link: str) -> float:
     """Return the mass of a link [kg]; zero where none is written."""
     inertial = robot.link_by_name[link].inertial if link in robot.link_by_name else None
     return (inertial.mass or 0.0) if inertial is not None else 0.0
+
+
+def repeated(parts: tuple[Named, ...]) -> Iterator[tuple[Named, Named]]:
+    """Yield each link, or joint, whose name is taken, with the first of that name; nameless ones are left out."""
+    first: dict[str, Named] = {}
+    for part in parts:
+        if part.name and first.setdefault(part.name, part) is not part:
+            yield part, first[part.name]
+
+
+def dangling(robot: Robot, end: Literal["parent", "child"]) -> Iterator[tuple[Joint, str, Element]]:
+    """Yield each joint whose parent, or child, is no link, with the name it gives and the element that gives it."""
+    for joint in robot.joints:
+        name = joint.parent if end == "parent" else joint.child
+        if name is not None and name not in robot.link_by_name:
+            yield joint, name, joint.element.find(end) or joint.element

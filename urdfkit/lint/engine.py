@@ -130,7 +130,8 @@ class _Checker:
         return (*codes(), *(rule.code for rule in self.foreign))
 
     def _applies(self, rule: type[Rule]) -> bool:
-        return self.wanted(rule.code) and self.options.target not in rule.not_for
+        target = self.options.target
+        return self.wanted(rule.code) and target not in rule.not_for and (not rule.only_for or target in rule.only_for)
 
     def check(self, entry: Entry) -> None:
         """Lint one entry file and everything it includes."""
@@ -140,7 +141,7 @@ class _Checker:
             findings += self._ask_source_rules(file, model)
         findings += self._ask_fault_rules(model, entry)
         if model.expanded.root is not None and not entry.is_library:
-            for rule in (*robot_rules(), *(rule for rule in self.foreign if issubclass(rule, RobotRule))):
+            for rule in (*robot_rules(model.robot), *(rule for rule in self.foreign if issubclass(rule, RobotRule))):
                 if self._applies(rule):
                     findings += rule().check(model)
         if any("urdfkit:" in source.text for source in model.expanded.sources.values()):

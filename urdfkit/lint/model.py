@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
     from urdfkit.description.element import Element
     from urdfkit.description.expanded import Expanded
-    from urdfkit.description.robot import Robot
+    from urdfkit.description.robot import Joint, Link, Mesh, Robot, Vector
+    from urdfkit.lint.placement import Extent, Frame
     from urdfkit.lint.prefix import Signature
     from urdfkit.lint.syntax import Attribute, Tag
 
@@ -80,6 +81,38 @@ class Model:
             for name, signature in signatures(source.text):
                 found.setdefault(name, []).append(signature)
         return found
+
+    @cached_property
+    def parts(self) -> tuple[Link | Joint, ...]:
+        """The links, then the joints."""
+        return (*self.robot.links, *self.robot.joints)
+
+    @cached_property
+    def frames(self) -> dict[str, Frame]:
+        """Link name → its frame in the root link, every joint at zero."""
+        from urdfkit.lint.placement import frames
+
+        return frames(self.robot)
+
+    @cached_property
+    def extents(self) -> dict[str, Extent]:
+        """Link name → what its shapes fill; links without shapes, or with one that cannot be known, are left out."""
+        from urdfkit.lint.placement import extent
+
+        found = ((link.name, extent(link, self.box_of)) for link in self.robot.links)
+        return {name: filled for name, filled in found if filled is not None}
+
+    def box_of(self, mesh: Mesh) -> tuple[Vector, Vector] | None:
+        """Return centre and size of the box around a mesh [m], scale included; None where it cannot be read."""
+        if mesh not in self._boxes:
+            from urdfkit.lint.meshes import box
+
+            self._boxes[mesh] = box(mesh, self)
+        return self._boxes[mesh]
+
+    @cached_property
+    def _boxes(self) -> dict[Mesh, tuple[Vector, Vector] | None]:
+        return {}
 
     @cached_property
     def _documents(self) -> dict[str, Document]:

@@ -32,6 +32,36 @@ URDF_CHILDREN: dict[str, frozenset[str]] = {
 }
 """The elements of URDF and what each may hold (http://wiki.ros.org/urdf/XML)."""
 
+_NAME = ("name",)
+URDF_ATTRIBUTES: dict[str, tuple[str, ...]] = {
+    "link": ("name", "type"),
+    "joint": ("name", "type"),
+    "inertial": (),
+    "visual": _NAME,
+    "collision": _NAME,
+    "geometry": (),
+    "origin": ("xyz", "rpy", "quat_xyzw"),
+    "mass": ("value",),
+    "inertia": ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
+    "box": ("size",),
+    "cylinder": ("radius", "length"),
+    "sphere": ("radius",),
+    "capsule": ("radius", "length"),
+    "mesh": ("filename", "scale"),
+    "material": _NAME,
+    "color": ("rgba",),
+    "texture": ("filename",),
+    "parent": ("link",),
+    "child": ("link",),
+    "axis": ("xyz",),
+    "limit": ("lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"),
+    "dynamics": ("damping", "friction"),
+    "mimic": ("joint", "multiplier", "offset"),
+    "safety_controller": ("soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"),
+    "calibration": ("rising", "falling", "reference_position"),
+}
+"""The attributes of the elements of URDF (urdfdom 4.0 and http://wiki.ros.org/urdf/XML)."""
+
 URDF_ELEMENTS = frozenset(URDF_CHILDREN).union(*URDF_CHILDREN.values())
 
 # Compiled on first use: most files need none of them.

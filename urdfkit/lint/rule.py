@@ -34,6 +34,7 @@ class Rule:
         severity: of its findings.
         fix: whether its findings are mended by ``--fix`` (``safe``), by ``--unsafe-fixes`` (``unsafe``) or by hand.
         not_for: targets whose consumers do not mind.
+        only_for: targets whose consumers mind, where the others do not; without ``--target`` it is not asked then.
     """
 
     code: ClassVar[str]
@@ -41,6 +42,7 @@ class Rule:
     severity: ClassVar[Severity] = "error"
     fix: ClassVar[Literal["safe", "unsafe", "none"]] = "none"
     not_for: ClassVar[frozenset[str]] = frozenset()
+    only_for: ClassVar[tuple[str, ...]] = ()
 
     def at(
         self,

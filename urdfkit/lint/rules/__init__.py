@@ -1,6 +1,7 @@
-"""The rules, by layer. `RULES` is all of them in the order of their codes.
+"""The rules, by layer and family. `RULES` is all of them in the order of their codes.
 
-They are imported when they are asked for: a clean file needs neither the pages of the catalogue nor the fault rules.
+They are imported when they are asked for: a clean file needs neither the pages of the catalogue nor the fault rules,
+and a robot without ``<gazebo>`` needs none of those on Gazebo.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
+    from urdfkit.description.robot import Robot
     from urdfkit.lint.rule import FaultRule, RobotRule, Rule, SourceRule
 
     RULES: tuple[type[Rule], ...]
@@ -16,86 +18,51 @@ if TYPE_CHECKING:
 
 def source_rules() -> tuple[type[SourceRule], ...]:
     """Return the rules on the text of each file."""
-    from urdfkit.lint.rules.document.unbound_namespace_prefix import UnboundNamespacePrefix
-    from urdfkit.lint.rules.xacro.unprefixed_directive import UnprefixedDirective
-    from urdfkit.lint.rules.xacro.unprefixed_macro_call import UnprefixedMacroCall
+    from urdfkit.lint.rules import document, xacro
 
-    return (UnboundNamespacePrefix, UnprefixedDirective, UnprefixedMacroCall)
+    return (*document.source_rules(), *xacro.source_rules())
 
 
 def fault_rules() -> tuple[type[FaultRule], ...]:
     """Return the rules on what xacro could not expand."""
-    from urdfkit.lint.rules.document.xml_not_well_formed import XmlNotWellFormed
-    from urdfkit.lint.rules.xacro.conditional_not_boolean import ConditionalNotBoolean
-    from urdfkit.lint.rules.xacro.expansion_error import ExpansionError
-    from urdfkit.lint.rules.xacro.expression_error import ExpressionError
-    from urdfkit.lint.rules.xacro.include_cycle import IncludeCycle
-    from urdfkit.lint.rules.xacro.include_not_found import IncludeNotFound
-    from urdfkit.lint.rules.xacro.macro_args_mismatch import MacroArgsMismatch
-    from urdfkit.lint.rules.xacro.property_used_before_definition import PropertyUsedBeforeDefinition
-    from urdfkit.lint.rules.xacro.undefined_argument import UndefinedArgument
-    from urdfkit.lint.rules.xacro.undefined_property import UndefinedProperty
-    from urdfkit.lint.rules.xacro.unknown_macro import UnknownMacro
+    from urdfkit.lint.rules import document, xacro
 
-    return (
-        XmlNotWellFormed,
-        UnknownMacro,
-        UndefinedProperty,
-        PropertyUsedBeforeDefinition,
-        UndefinedArgument,
-        MacroArgsMismatch,
-        IncludeNotFound,
-        IncludeCycle,
-        ConditionalNotBoolean,
-        ExpressionError,
-        ExpansionError,
-    )
+    return (*document.fault_rules(), *xacro.fault_rules())
 
 
-def robot_rules() -> tuple[type[RobotRule], ...]:
-    """Return the rules on the expanded robot."""
-    from urdfkit.lint.rules.document.bad_number import BadNumber
-    from urdfkit.lint.rules.document.unknown_element import UnknownElement
-    from urdfkit.lint.rules.gazebo.plugin_joint_undefined import PluginJointUndefined
-    from urdfkit.lint.rules.inertial.inertia_not_positive_definite import InertiaNotPositiveDefinite
-    from urdfkit.lint.rules.inertial.inertia_triangle_inequality import InertiaTriangleInequality
-    from urdfkit.lint.rules.joints.joint_type_missing import JointTypeMissing
-    from urdfkit.lint.rules.joints.joint_type_unknown import JointTypeUnknown
-    from urdfkit.lint.rules.joints.limit_lower_above_upper import LimitLowerAboveUpper
-    from urdfkit.lint.rules.joints.limit_missing import LimitMissing
-    from urdfkit.lint.rules.tree.child_link_undefined import ChildLinkUndefined
-    from urdfkit.lint.rules.tree.duplicate_joint import DuplicateJoint
-    from urdfkit.lint.rules.tree.duplicate_link import DuplicateLink
-    from urdfkit.lint.rules.tree.multiple_parents import MultipleParents
-    from urdfkit.lint.rules.tree.multiple_roots import MultipleRoots
-    from urdfkit.lint.rules.tree.no_root_or_cycle import NoRootOrCycle
-    from urdfkit.lint.rules.tree.parent_link_undefined import ParentLinkUndefined
+def robot_rules(robot: Robot | None = None) -> tuple[type[RobotRule], ...]:
+    """Return the rules on the expanded robot.
 
-    return (
-        UnknownElement,
-        BadNumber,
-        ParentLinkUndefined,
-        ChildLinkUndefined,
-        MultipleRoots,
-        NoRootOrCycle,
-        MultipleParents,
-        DuplicateLink,
-        DuplicateJoint,
-        JointTypeMissing,
-        JointTypeUnknown,
-        LimitMissing,
-        LimitLowerAboveUpper,
-        InertiaNotPositiveDefinite,
-        InertiaTriangleInequality,
-        PluginJointUndefined,
-    )
+    Args:
+        robot: leave out the families that have nothing to look at in this one.
+    """
+    from urdfkit.lint.rules import document, names, tree, xacro
+
+    found = [*document.robot_rules(), *xacro.robot_rules(), *tree.robot_rules(), *names.robot_rules()]
+    if robot is None or robot.joints:
+        from urdfkit.lint.rules import joints
+
+        found += joints.robot_rules()
+    if robot is None or robot.links:
+        from urdfkit.lint.rules import geometry, inertial, semantics
+
+        found += [*inertial.robot_rules(), *geometry.robot_rules(), *semantics.robot_rules()]
+    if robot is None or robot.gazebo:
+        from urdfkit.lint.rules import gazebo
+
+        found += gazebo.robot_rules()
+    if robot is None or robot.transmissions or robot.ros2_control or robot.gazebo:
+        from urdfkit.lint.rules import control
+
+        found += control.robot_rules()
+    return tuple(found)
 
 
 def suppression_rules() -> tuple[type[Rule], ...]:
     """Return the rules on the comments that suppress findings."""
-    from urdfkit.lint.rules.document.unknown_suppression import UnknownSuppression
+    from urdfkit.lint.rules import document
 
-    return (UnknownSuppression,)
+    return document.suppression_rules()
 
 
 def __getattr__(name: str) -> Any:

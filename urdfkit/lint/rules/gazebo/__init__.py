@@ -1,1 +1,14 @@
 """Rules on Gazebo tags and plugins."""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.rule import RobotRule
+
+
+def robot_rules() -> tuple[type[RobotRule], ...]:
+    """Return the rules on the expanded robot."""
+    from urdfkit.lint.rules.gazebo.plugin_joint_undefined import PluginJointUndefined
+
+    return (PluginJointUndefined,)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from urdfkit.description.queries import dangling
+from urdfkit.lint.edits import meant, new_value
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -37,25 +39,26 @@ class ChildLinkUndefined(RobotRule):
       <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
     </robot>
     ```
+
+    ## Fix safety
+    Unsafe: the link with the nearest name is taken.
     """
 
     code = "T202"
     name = "child-link-undefined"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint whose child is no link."""
-        robot = model.robot
         if model.is_incomplete:
             return
-        for joint in robot.joints:
-            if joint.child is not None and joint.child not in robot.link_by_name:
-                from urdfkit.errors import did_you_mean
-
-                yield self.at(
-                    model,
-                    joint.element.find("child") or joint.element,
-                    f"joint `{joint.name}` has the child `{joint.child}`, which is no link"
-                    f"{did_you_mean(joint.child, robot.link_by_name)}",
-                    attribute="link",
-                    joint=joint.name,
-                )
+        for joint, name, element in dangling(model.robot, "child"):
+            near, hint = meant(name, model.robot.link_by_name)
+            yield self.at(
+                model,
+                element,
+                f"joint `{joint.name}` has the child `{name}`, which is no link{hint}",
+                attribute="link",
+                joint=joint.name,
+                fix=new_value(model, element, "link", near, "unsafe", f"Write `{near}`") if near else None,
+            )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.description.queries import repeated
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -49,17 +50,12 @@ class DuplicateJoint(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint whose name is taken."""
-        robot = model.robot
-        if len(robot.joint_by_name) == len(robot.joints):
-            return
-        for joint in robot.joints:
-            first = robot.joint_by_name[joint.name]
-            if first is not joint and joint.name:
-                yield self.at(
-                    model,
-                    joint.element,
-                    f"joint `{joint.name}` is there already",
-                    attribute="name",
-                    joint=joint.name,
-                    help=f"the first is at {first.element.origin.position}",
-                )
+        for joint, first in repeated(model.robot.joints):
+            yield self.at(
+                model,
+                joint.element,
+                f"joint `{joint.name}` is there already",
+                attribute="name",
+                joint=joint.name,
+                help=f"the first is at {model.shown(first.element.origin.position)}",
+            )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.description.queries import repeated
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -46,17 +47,12 @@ class DuplicateLink(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each link whose name is taken."""
-        robot = model.robot
-        if len(robot.link_by_name) == len(robot.links):
-            return
-        for link in robot.links:
-            first = robot.link_by_name[link.name]
-            if first is not link and link.name:
-                yield self.at(
-                    model,
-                    link.element,
-                    f"link `{link.name}` is there already",
-                    attribute="name",
-                    link=link.name,
-                    help=f"the first is at {first.element.origin.position}",
-                )
+        for link, first in repeated(model.robot.links):
+            yield self.at(
+                model,
+                link.element,
+                f"link `{link.name}` is there already",
+                attribute="name",
+                link=link.name,
+                help=f"the first is at {model.shown(first.element.origin.position)}",
+            )

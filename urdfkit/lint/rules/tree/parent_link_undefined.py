@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from urdfkit.description.queries import dangling
+from urdfkit.lint.edits import meant, new_value
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -38,25 +40,26 @@ class ParentLinkUndefined(RobotRule):
       <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
     </robot>
     ```
+
+    ## Fix safety
+    Unsafe: the link with the nearest name is taken.
     """
 
     code = "T201"
     name = "parent-link-undefined"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint whose parent is no link."""
-        robot = model.robot
         if model.is_incomplete:
             return
-        for joint in robot.joints:
-            if joint.parent is not None and joint.parent not in robot.link_by_name:
-                from urdfkit.errors import did_you_mean
-
-                yield self.at(
-                    model,
-                    joint.element.find("parent") or joint.element,
-                    f"joint `{joint.name}` has the parent `{joint.parent}`, which is no link"
-                    f"{did_you_mean(joint.parent, robot.link_by_name)}",
-                    attribute="link",
-                    joint=joint.name,
-                )
+        for joint, name, element in dangling(model.robot, "parent"):
+            near, hint = meant(name, model.robot.link_by_name)
+            yield self.at(
+                model,
+                element,
+                f"joint `{joint.name}` has the parent `{name}`, which is no link{hint}",
+                attribute="link",
+                joint=joint.name,
+                fix=new_value(model, element, "link", near, "unsafe", f"Write `{near}`") if near else None,
+            )

@@ -1,0 +1,129 @@
+"""Fixes that rules have in common: another value, another name, an attribute or element less or more.
+
+Each returns None where the text a person wrote is not literally what came out of the expansion: an expression cannot be
+edited by its value.
+"""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.lint.finding import Edit, Fix
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.element import Element
+    from urdfkit.lint.finding import Safety
+    from urdfkit.lint.model import Model
+    from urdfkit.lint.syntax import Document, Tag
+
+
+def new_value(model: Model, element: Element, attribute: str, value: str, safety: Safety, title: str) -> Fix | None:
+    """Return the fix that gives an attribute another value."""
+    written = model.literal(element, attribute)
+    if written is None or written.value == value:
+        return None
+    span = model.document(element.origin.position.file).source.span(written.value_start, written.value_end)
+    return Fix(safety, title, (Edit(span, value),))
+
+
+def new_name(model: Model, element: Element, attribute: str, name: str, safety: Safety, title: str) -> Fix | None:
+    """Return the fix that calls an attribute something else."""
+    tag = model.tag(element.origin.position)
+    written = tag.attributes.get(attribute) if tag is not None else None
+    if written is None or attribute not in element.attributes:
+        return None
+    source = model.document(element.origin.position.file).source
+    return Fix(safety, title, (Edit(source.span(written.start, written.start + len(attribute)), name),))
+
+
+def new_tag(model: Model, element: Element, name: str, safety: Safety, title: str) -> Fix | None:
+    """Return the fix that calls an element something else."""
+    tag = model.tag(element.origin.position)
+    if tag is None or tag.name != element.tag:
+        return None
+    source = model.document(element.origin.position.file).source
+    edits = [Edit(source.span(tag.start + 1, tag.start + 1 + len(tag.name)), name)]
+    if tag.close is not None:
+        edits.append(Edit(source.span(tag.close + 2, tag.close + 2 + len(tag.name)), name))
+    return Fix(safety, title, tuple(edits))
+
+
+def new_text(model: Model, element: Element, text: str, safety: Safety, title: str) -> Fix | None:
+    """Return the fix that puts another text into an element."""
+    tag = model.tag(element.origin.position)
+    if tag is None or tag.close is None or tag.children:
+        return None
+    source = model.document(element.origin.position.file).source
+    written = source.text[tag.end : tag.close]
+    if written.strip() != element.text or "&" in written or written == text:
+        return None
+    return Fix(safety, title, (Edit(source.span(tag.end, tag.close), text),))
+
+
+def without_attribute(model: Model, element: Element, attribute: str, safety: Safety, title: str) -> Fix | None:
+    """Return the fix that takes an attribute away, with the white space before it."""
+    tag = model.tag(element.origin.position)
+    written = tag.attributes.get(attribute) if tag is not None else None
+    if written is None:
+        return None
+    source = model.document(element.origin.position.file).source
+    start = len(source.text[: written.start].rstrip())
+    return Fix(safety, title, (Edit(source.span(start, written.end), ""),))
+
+
+def without_element(model: Model, element: Element, safety: Safety, title: str) -> Fix | None:
+    """Return the fix that takes an element away, with its line where it has lines of its own."""
+    tag = model.tag(element.origin.position)
+    if tag is None or tag.name != element.tag:
+        return None
+    return Fix(safety, title, (removal(model.document(element.origin.position.file), tag),))
+
+
+def removal(document: Document, tag: Tag) -> Edit:
+    """Return the edit that takes a tag away, with its line where it has lines of its own."""
+    text, start, end = document.source.text, tag.start, tag.close_end
+    before = re.search(r"[ \t]*\Z", text[:start])
+    line = start - len(before[0]) if before else start
+    if line == 0 or text[line - 1] == "\n":
+        after = re.compile(r"[ \t]*\r?\n").match(text, end)
+        if after:
+            start, end = line, after.end()
+    return Edit(document.source.span(start, end), "")
+
+
+def more_attributes(model: Model, element: Element, written: str, safety: Safety, title: str) -> Fix | None:
+    """Return the fix that adds attributes, given as they are to be written."""
+    tag = model.tag(element.origin.position)
+    if tag is None or tag.name != element.tag:
+        return None
+    end = max((attribute.end for attribute in tag.attributes.values()), default=tag.start + 1 + len(tag.name))
+    source = model.document(element.origin.position.file).source
+    return Fix(safety, title, (Edit(source.span(end, end), f" {written}"),))
+
+
+def more_children(model: Model, element: Element, written: str, safety: Safety, title: str) -> Fix | None:
+    """Return the fix that adds a child before the end tag, on a line of its own, indented as the last child is."""
+    tag = model.tag(element.origin.position)
+    if tag is None or tag.name != element.tag or tag.close is None or not tag.children:
+        return None
+    source = model.document(element.origin.position.file).source
+    last = tag.children[-1]
+    line = source.text.rfind("\n", 0, last.start) + 1
+    indent = source.text[line : last.start]
+    text = f"\n{indent}{written}" if not indent.strip() else written
+    return Fix(safety, title, (Edit(source.span(last.close_end, last.close_end), text),))
+
+
+def nearest(name: str, candidates: object) -> str | None:
+    """Return the candidate that is nearest to a name, None where none is near."""
+    from urdfkit.errors import did_you_mean
+
+    hint = did_you_mean(name, candidates)  # type: ignore[arg-type]
+    return hint.split("`")[1] if hint else None
+
+
+def meant(name: str, candidates: object) -> tuple[str | None, str]:
+    """Return the candidate nearest to a name, None where none is, and ``; did you mean …`` or an empty string."""
+    near = nearest(name, candidates)
+    return near, f"; did you mean `{near}`?" if near else ""

@@ -1,0 +1,74 @@
+"""What rules on ``<gazebo>`` have in common: plugins and their tables, what they refer to, who reads them."""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.element import Element
+    from urdfkit.description.plugins import Parameter, PluginSpec
+    from urdfkit.description.robot import GazeboBlock, Plugin, Robot, SensorTag
+    from urdfkit.lint.model import Model
+
+CLASSIC_TARGETS = frozenset(("ros1", "classic"))
+NOT_GAZEBO = frozenset(("mujoco", "isaac", "drake", "moveit"))
+"""Targets that read no ``<gazebo>``."""
+
+OUTSIDE_FRAMES = frozenset(("world", "map", "odom", "/world", "/map", "/odom", "base_footprint_odom"))
+"""Frames that are no links of the robot."""
+
+
+def plugins(robot: Robot) -> Iterator[tuple[Plugin, GazeboBlock, SensorTag | None]]:
+    """Yield every plugin with the block and the sensor it stands in."""
+    for block in robot.gazebo:
+        for plugin in block.plugins:
+            yield plugin, block, None
+        for sensor in block.sensors:
+            for plugin in sensor.plugins:
+                yield plugin, block, sensor
+
+
+def specs(plugin: Plugin) -> list[PluginSpec]:
+    """Return the tables of every generation that has a plugin of that file name."""
+    from urdfkit.description.plugins import ALL_SPECS
+    from urdfkit.description.plugins.lookup import stem
+
+    if plugin.filename is None:
+        return []
+    name = stem("".join(plugin.filename.split()))
+    found = [spec for spec in ALL_SPECS if name in spec.filenames]
+    by_class = [spec for spec in found if (plugin.name or "").strip() in spec.class_names]
+    return by_class or found
+
+
+def spec_of(plugin: Plugin, target: str | None) -> PluginSpec | None:
+    """Return the table a plugin is read by: that of the target's generation, else the one its spelling tells."""
+    found = specs(plugin)
+    if len(found) > 1 and target in ("ros1", "ros2"):
+        return next((spec for spec in found if spec.generation == target), found[0])
+    if len(found) > 1:
+        from urdfkit.description.plugins import match
+
+        return match(plugin) or found[0]
+    return found[0] if found else None
+
+
+def references(model: Model, kinds: tuple[str, ...]) -> Iterator[tuple[str, Element, Parameter, Plugin]]:
+    """Yield what plugins name, with the element that names it, in any generation's spelling."""
+    from urdfkit.description.plugins import values
+
+    for plugin, _, _ in plugins(model.robot):
+        seen: set[str] = set()
+        for spec in specs(plugin):
+            for parameter in spec.parameters:
+                if parameter.names in kinds and parameter.tag not in seen:
+                    seen.add(parameter.tag)
+                    for text, element in values(plugin, parameter):
+                        if text and "$" not in text and not model.is_unresolved(element):
+                            yield text, element, parameter, plugin
+
+
+def is_for_gz(model: Model) -> bool:
+    """Whether the robot is meant for the new Gazebo."""
+    return model.target == "gz"

@@ -1,0 +1,12 @@
+"""Rules on transmissions and ros2_control."""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.lint.rule import RobotRule
+
+
+def robot_rules() -> tuple[type[RobotRule], ...]:
+    """Return the rules on the expanded robot."""
+    return ()

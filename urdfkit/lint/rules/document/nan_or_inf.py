@@ -1,0 +1,81 @@
+"""E012 nan-or-inf."""
+
+from __future__ import annotations
+
+from urdfkit.description.numbers import numbers
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+LARGEST = 1e10
+"""Nothing a robot is made of is larger, in SI units."""
+
+_ATTRIBUTES = {
+    "origin": ("xyz", "rpy"),
+    "mass": ("value",),
+    "inertia": ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
+}
+
+
+class NanOrInf(RobotRule):
+    """A pose, a mass or an inertia is not finite, or no length of this world.
+
+    ## What it does
+    Reports ``nan`` and ``inf``, and poses, masses and inertias beyond 1e10, which stand for infinity in some
+    exporters. Limits of joints may be infinite.
+
+    ## Why is this bad?
+    One such number makes every position a not-a-number: simulators stop or explode.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <visual>
+          <origin xyz="0 0 nan"/>
+          <geometry><sphere radius="0.1"/></geometry>
+        </visual>
+      </link>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <visual>
+          <origin xyz="0 0 0"/>
+          <geometry><sphere radius="0.1"/></geometry>
+        </visual>
+      </link>
+    </robot>
+    ```
+    """
+
+    code = "E012"
+    name = "nan-or-inf"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each value that is not finite or beyond all measure."""
+        for problem in model.robot.problems:
+            if problem.kind == "not-finite":
+                yield self.at(model, problem.element, problem.message, attribute=problem.attribute)
+        for part in model.parts:
+            for element in part.element.walk():
+                for attribute in _ATTRIBUTES.get(element.tag, ()):
+                    text = element.get(attribute)
+                    # Only what has an exponent or eleven digits can be so large.
+                    if text is None or (len(text) < 11 and "e" not in text.lower()):
+                        continue
+                    if any(LARGEST < abs(value) < float("inf") for value in numbers(text) or ()):
+                        yield self.at(
+                            model,
+                            element,
+                            f'{attribute}="{text}" of <{element.tag}> stands for infinity',
+                            attribute=attribute,
+                        )

@@ -1,0 +1,83 @@
+"""J408 rpy-in-degrees."""
+
+from __future__ import annotations
+
+from math import degrees, pi, radians
+
+from urdfkit.description.numbers import numbers
+from urdfkit.lint.edits import new_value
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class RpyInDegrees(RobotRule):
+    """Angles of an ``<origin>`` seem to be in degrees.
+
+    ## What it does
+    Looks at ``rpy`` for round numbers of more than one turn (2π).
+
+    ## Why is this bad?
+    Angles are in radians: 90 turns the part by 117 degrees. Nothing complains, the part just looks wrong.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <visual>
+          <origin rpy="90 0 0"/>
+          <geometry><cylinder radius="0.1" length="0.3"/></geometry>
+        </visual>
+      </link>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <visual>
+          <origin rpy="1.5707963 0 0"/>
+          <geometry><cylinder radius="0.1" length="0.3"/></geometry>
+        </visual>
+      </link>
+    </robot>
+    ```
+
+    ## Fix safety
+    Unsafe: the three angles are taken for degrees.
+    """
+
+    code = "J408"
+    name = "rpy-in-degrees"
+    severity = "warning"
+    fix = "unsafe"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each origin whose angles look like degrees."""
+        for part in model.parts:
+            for holder in (part.element, *part.element.children):
+                origin = holder.find("origin")
+                text = origin.get("rpy") if origin is not None else None
+                angles = numbers(text) if text else None
+                if origin is None or angles is None or not any(map(_is_degrees, angles)):
+                    continue
+                first = next(filter(_is_degrees, angles))
+                value = " ".join(f"{radians(angle):.7g}" for angle in angles)
+                yield self.at(
+                    model,
+                    origin,
+                    f'rpy="{text}": {first:g} rad turn the part by {degrees(first) % 360:.0f} degrees',
+                    attribute="rpy",
+                    help=f"angles are in rad: {first:g} degrees are {radians(first):.6g}",
+                    fix=new_value(model, origin, "rpy", value, "unsafe", "Convert degrees to radians"),
+                )
+
+
+def _is_degrees(angle: float) -> bool:
+    return 2 * pi + 0.01 < abs(angle) <= 720.0 and (2.0 * angle).is_integer()

@@ -1,0 +1,109 @@
+"""E016 stray-quote-or-markdown."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.lint.edits import new_text, new_value
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+_ALWAYS = "`\u2018\u2019\u201c\u201d"
+_QUOTES = "\"'"
+_INVISIBLE = "[\u00a0\u200b-\u200f\u2060\ufeff]"
+_SUSPECT = "[`\u2018\u2019\u201c\u201d\u00a0\u200b-\u200f\u2060\ufeff]|>\\s*[\"']|[\"']\\s*</|=\\s*(?:\"'|'\")|'\"|\"'"
+
+
+class StrayQuote(RobotRule):
+    """A value has a quote, a backtick or an invisible character too many.
+
+    ## What it does
+    Looks in values after expansion for a quote on one side only, for backticks and typographic quotes around them,
+    and for characters that cannot be seen (no-break space, zero-width space).
+
+    ## Why is this bad?
+    They come along when text is copied from a web page. The name is another one then and is found nowhere.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="hand"/>
+      <joint name="wrist" type="fixed">
+        <parent link="base"/>
+        <child link="hand"/>
+      </joint>
+      <gazebo>
+        <plugin name="driver" filename="libmy_driver.so">
+          <joint>"wrist</joint>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="hand"/>
+      <joint name="wrist" type="fixed">
+        <parent link="base"/>
+        <child link="hand"/>
+      </joint>
+      <gazebo>
+        <plugin name="driver" filename="libmy_driver.so">
+          <joint>wrist</joint>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Fix safety
+    Safe: no name or number begins or ends with one of them.
+    """
+
+    code = "E016"
+    name = "stray-quote-or-markdown"
+    severity = "warning"
+    fix = "safe"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each value with a character too many."""
+        if not any(re.search(_SUSPECT, source.text) for source in model.expanded.sources.values()):
+            return
+        for element in model.robot.element.walk():
+            for attribute, value in element.attributes.items():
+                clean = _cleaned(value)
+                if clean is not None and not model.is_unresolved(element, attribute):
+                    fix = new_value(model, element, attribute, clean, "safe", f"Write `{clean}`")
+                    yield self.at(model, element, _message(value, clean), attribute=attribute, fix=fix)
+            clean = _cleaned(element.text) if element.text and not element.children else None
+            if clean is not None and not model.is_unresolved(element):
+                fix = new_text(model, element, clean, "safe", f"Write `{clean}`")
+                yield self.at(model, element, f"<{element.tag}>: {_message(element.text, clean)}", fix=fix)
+
+
+def _cleaned(value: str) -> str | None:
+    """Return the value without what is too much, None where nothing is."""
+    clean = re.sub(_INVISIBLE, "", value).strip(_ALWAYS)
+    if len(clean) > 1 and "\n" not in clean:
+        first, last = clean[0], clean[-1]
+        if first in _QUOTES and clean.count(first) == 1:
+            clean = clean[1:]
+        elif last in _QUOTES and clean.count(last) == 1:
+            clean = clean[:-1]
+    clean = clean.strip()
+    return clean if clean and clean != value.strip() else None
+
+
+def _message(value: str, clean: str) -> str:
+    hidden = re.search(_INVISIBLE, value)
+    if hidden is not None:
+        return f"`{clean}` has a character in it that cannot be seen (U+{ord(hidden[0]):04X})"
+    return f"`{value.strip()}` has a quote too many: `{clean}`"

@@ -1,0 +1,80 @@
+"""J412 axis-not-normalised."""
+
+from __future__ import annotations
+
+from urdfkit.lint.edits import new_value
+from urdfkit.lint.placement import unit
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+TOLERANCE = 1e-3
+"""Rounded axes (0.577 0.577 0.577) are let be."""
+
+
+class AxisNotNormalised(RobotRule):
+    """The axis of a joint has not the length 1.
+
+    ## What it does
+    Measures the axes of joints that move; up to a thousandth more or less is let be.
+
+    ## Why is this bad?
+    urdfdom and KDL take the vector as it is: the joint turns, or slides, too far or not far enough.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="continuous">
+        <parent link="base"/>
+        <child link="arm"/>
+        <axis xyz="0 1 1"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="continuous">
+        <parent link="base"/>
+        <child link="arm"/>
+        <axis xyz="0 0.70710678 0.70710678"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Fix safety
+    Safe: the direction stays, which is all that was meant.
+    """
+
+    code = "J412"
+    name = "axis-not-normalised"
+    severity = "warning"
+    fix = "safe"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each axis that is too long or too short."""
+        for joint in model.robot.joints:
+            length = sum(value * value for value in joint.axis) ** 0.5
+            axis, direction = joint.element.find("axis"), unit(joint.axis)
+            if abs(length - 1.0) <= TOLERANCE or not joint.is_movable or axis is None or direction is None:
+                continue
+            value = " ".join(f"{part + 0.0:.8g}" for part in direction)
+            yield self.at(
+                model,
+                axis,
+                f"joint `{joint.name}`: the axis has the length {length:.4g}, not 1",
+                attribute="xyz",
+                joint=joint.name,
+                help=f'write xyz="{value}"',
+                fix=new_value(model, axis, "xyz", value, "safe", "Make the axis one long"),
+            )

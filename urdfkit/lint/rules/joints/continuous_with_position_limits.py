@@ -1,0 +1,85 @@
+"""J415 continuous-with-position-limits."""
+
+from __future__ import annotations
+
+from math import pi
+
+from urdfkit.lint.edits import without_attribute
+from urdfkit.lint.finding import Fix
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class ContinuousWithPositionLimits(RobotRule):
+    """A continuous joint has position limits.
+
+    ## What it does
+    Looks for ``lower`` and ``upper`` on joints of type ``continuous``. Limits of a turn or more, and two zeros, are
+    a note.
+
+    ## Why is this bad?
+    They are not read: the joint turns without end.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="continuous">
+        <parent link="base"/>
+        <child link="arm"/>
+        <axis xyz="0 1 0"/>
+        <limit lower="-1" upper="1" effort="10" velocity="2"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="revolute">
+        <parent link="base"/>
+        <child link="arm"/>
+        <axis xyz="0 1 0"/>
+        <limit lower="-1" upper="1" effort="10" velocity="2"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Fix safety
+    Unsafe: the limits are taken away, as nobody reads them; perhaps the joint should be revolute.
+    """
+
+    code = "J415"
+    name = "continuous-with-position-limits"
+    severity = "warning"
+    fix = "unsafe"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each continuous joint with position limits."""
+        for joint in model.robot.joints:
+            limit = joint.limit
+            if joint.type != "continuous" or limit is None or (limit.lower is None and limit.upper is None):
+                continue
+            lower, upper = limit.lower or 0.0, limit.upper or 0.0
+            parts = [without_attribute(model, limit.element, side, "unsafe", "") for side in ("lower", "upper")]
+            edits = tuple(edit for part in parts if part is not None for edit in part.edits)
+            means_nothing = lower == upper == 0.0 or upper - lower >= 2 * pi - 0.01
+            yield self.at(
+                model,
+                limit.element,
+                f"joint `{joint.name}` is continuous: lower and upper are not read",
+                attribute="lower" if limit.lower is not None else "upper",
+                joint=joint.name,
+                help="a joint that stops is `revolute`",
+                fix=Fix("unsafe", "Take the position limits away", edits) if edits else None,
+                severity="info" if means_nothing else None,
+            )

@@ -1,0 +1,69 @@
+"""J410 negative-effort-or-velocity."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class NegativeEffortOrVelocity(RobotRule):
+    """The effort or velocity limit of a joint is negative.
+
+    ## What it does
+    Looks for negative ``effort`` and ``velocity`` in ``<limit>``.
+
+    ## Why is this bad?
+    Both are magnitudes. Pinocchio refuses the robot; controllers clamp between limits that exclude each other.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="revolute">
+        <parent link="base"/>
+        <child link="arm"/>
+        <axis xyz="0 1 0"/>
+        <limit lower="-1" upper="1" effort="-1" velocity="2"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="revolute">
+        <parent link="base"/>
+        <child link="arm"/>
+        <axis xyz="0 1 0"/>
+        <limit lower="-1" upper="1" effort="10" velocity="2"/>
+      </joint>
+    </robot>
+    ```
+    """
+
+    code = "J410"
+    name = "negative-effort-or-velocity"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each negative magnitude."""
+        for joint in model.robot.joints:
+            for name in ("effort", "velocity") if joint.limit is not None and joint.is_movable else ():
+                value = getattr(joint.limit, name)
+                if value is not None and value < 0.0 and joint.limit is not None:
+                    yield self.at(
+                        model,
+                        joint.limit.element,
+                        f"joint `{joint.name}`: the {name} limit {value:g} is negative",
+                        attribute=name,
+                        joint=joint.name,
+                        help="it is a magnitude: leave the sign out, or write a large number for no limit",
+                    )

@@ -1,0 +1,74 @@
+"""T210 root-link-has-inertia."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class RootLinkHasInertia(RobotRule):
+    """The root link has an inertia, which KDL does not use.
+
+    ## What it does
+    With ``--target ros1`` or ``ros2`` it looks for a mass on the root link.
+
+    ## Why is this bad?
+    robot_state_publisher warns of it at each start, and dynamics by KDL leave the mass out. Simulators use it, and
+    where the robot floats it has to be there: so this is a note, and only for ROS.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base_link">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+        </inertial>
+      </link>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base_footprint"/>
+      <joint name="base_joint" type="fixed">
+        <parent link="base_footprint"/>
+        <child link="base_link"/>
+      </joint>
+      <link name="base_link">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+        </inertial>
+      </link>
+    </robot>
+    ```
+    """
+
+    code = "T210"
+    name = "root-link-has-inertia"
+    severity = "info"
+    only_for = (
+        "ros1",
+        "ros2",
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for a root link with a mass."""
+        roots = model.robot.roots()
+        if len(roots) == 1 and roots[0].inertial is not None and roots[0].inertial.mass:
+            yield self.at(
+                model,
+                roots[0].element,
+                f"the root link `{roots[0].name}` has an inertia, which KDL leaves out",
+                attribute="name",
+                link=roots[0].name,
+                help="put an empty link (base_footprint) above it, fixed to it",
+            )
