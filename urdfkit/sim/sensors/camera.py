@@ -15,15 +15,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.scene.image import Picture
+from urdfkit.scene import Shape
+from urdfkit.scene.image import Painter, Picture
 from urdfkit.scene.lens import Distortion
 from urdfkit.sim.sensors.clouds import POINT_CLOUD_2
 from urdfkit.sim.sensors.depth import points, within
 from urdfkit.sim.sensors.mounted import Mounted
-from urdfkit.sim.sensors.noise import noise_of
-from urdfkit.sim.sensors.optics import CAMERA_INFO, IMAGE, camera_info, depth_image, image, optics_of
+from urdfkit.sim.sensors.noise import Noise, noise_of
+from urdfkit.sim.sensors.optics import CAMERA_INFO, IMAGE, Optics, camera_info, cameras_of, depth_image, image, optics_of
+from urdfkit.sim.sensors.values import pose_of
 
 if TYPE_CHECKING:
+    from urdfkit.description.element import Element
     from urdfkit.description.robot import SensorTag
     from urdfkit.sim.parameters import Parameters
     from urdfkit.sim.plugin import Setup
@@ -40,58 +43,105 @@ class Sight:
     Attributes:
         t: when [s].
         picture: colours, depths and shapes.
+        shapes: what the picture's shapes are, in the order of its numbers.
+        frame: where the camera was; shape (4, 4).
     """
 
     t: float
     picture: Picture
+    shapes: tuple[Shape, ...]
+    frame: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Eye:
+    """One of a sensor's cameras.
+
+    Attributes:
+        name: of the camera; empty where it has none.
+        pose: in the sensor; shape (4, 4).
+        optics: how it is built.
+        noise: on its pictures.
+        focal: length that camera_info tells [px].
+        cx: principal point that it tells [px].
+        cy: principal point that it tells [px].
+        baseline: to the left camera of a pair [m].
+    """
+
+    name: str
+    pose: Array
+    optics: Optics
+    noise: Noise
+    focal: float
+    cx: float
+    cy: float
+    baseline: float
+
+    def info(self, frame: str, t: float) -> Any:
+        """Return the CameraInfo, which nothing has to be looked at for."""
+        return camera_info(
+            t, frame, self.optics.lens, focal=self.focal, cx=self.cx, cy=self.cy, baseline=self.baseline
+        )
+
+    def look(self, t: float, view: Painter, frame: Array, random: np.random.Generator) -> Sight:
+        """Return what is seen from where the sensor is."""
+        optics, placed = self.optics, frame @ self.pose
+        picture = view.take(optics.lens, placed, near=optics.near, far=optics.far, samples=optics.samples)
+        if self.noise:
+            noisy = self.noise.on(picture.rgb / 255.0, random)
+            picture = replace(picture, rgb=np.rint(255.0 * np.clip(noisy, 0.0, 1.0)).astype(np.uint8))
+        return Sight(t, picture, view.table.shapes, placed)
 
 
 class Camera(Mounted):
-    """A camera; what it publishes is its subclass's to say."""
+    """A sensor of one or more cameras; what it publishes is its subclass's to say."""
 
     namespace = "{model}"
 
     def _prepare(self, setup: Setup, sensor: SensorTag, read: Parameters, topics: Topics) -> None:
-        optics = optics_of(sensor)
+        several = cameras_of(sensor)
+        if (sensor.type or "").strip() not in ("multicamera", "stereo_camera"):
+            several = several[:1]
+        self.eyes = [self._eye(each, setup, read, alone=len(several) == 1) for each in several]
+        self.optics = self.eyes[0].optics
+        if (optical := self.optics.element.find("optical_frame_id")) is not None and optical.text:
+            self.frame = optical.text
+        self._advertise(setup, read, topics)
+
+    def _eye(self, camera: Element, setup: Setup, read: Parameters, *, alone: bool) -> Eye:
+        optics = optics_of(camera)
         written = Distortion(*(read.number(meaning) for meaning in ("k1", "k2", "p1", "p2", "k3")))
         if written and not optics.lens.distortion:
             optics = replace(optics, lens=replace(optics.lens, distortion=written))
-        self.optics = optics
-        self._noise = noise_of(optics.element, setup.random)
         lens, gz = optics.lens, self.spec.generation == "gz"
-        self._focal = read.number("focal_length") or lens.focal_length
-        self._cx = read.number("cx") or (lens.width + (0 if gz else 1)) / 2
-        self._cy = read.number("cy") or (lens.height + (0 if gz else 1)) / 2
-        self._baseline = read.number("baseline")
-        if (optical := optics.element.find("optical_frame_id")) is not None and optical.text:
-            self.frame = optical.text
-        self._advertise(setup, read, topics)
+        return Eye(
+            camera.get("name") or "",
+            np.eye(4) if alone and camera.find("pose") is None else pose_of(camera),
+            optics,
+            noise_of(camera, setup.random),
+            read.number("focal_length") or lens.focal_length,
+            read.number("cx") or (lens.width + (0 if gz else 1)) / 2,
+            read.number("cy") or (lens.height + (0 if gz else 1)) / 2,
+            read.number("baseline"),
+        )
 
     @abstractmethod
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
         """Read what is the plugin's own and fill `topics`."""
 
-    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Sight:
-        painter = self._surroundings.view(layout).painter(layout)
-        optics = self.optics
-        picture = painter.take(optics.lens, frame, near=optics.near, far=optics.far, samples=optics.samples)
-        if self._noise:
-            noisy = self._noise.on(picture.rgb / 255.0, random)
-            picture = replace(picture, rgb=np.rint(255.0 * np.clip(noisy, 0.0, 1.0)).astype(np.uint8))
-        return Sight(t, picture)
+    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
+        return self.eyes[0].look(t, self._surroundings.view(layout).painter(layout), frame, random)
 
     def _image(self, sight: Sight) -> Any:
         return image(sight.t, self.frame, sight.picture.rgb, self.optics.encoding)
 
     def info(self, t: float) -> Any:
-        """Return the CameraInfo, which nothing has to be looked at for."""
-        return camera_info(
-            t, self.frame, self.optics.lens, focal=self._focal, cx=self._cx, cy=self._cy, baseline=self._baseline
-        )
+        """Return the CameraInfo of the first camera."""
+        return self.eyes[0].info(self.frame, t)
 
-    def topic_of(self, read: Parameters, topics: Topics, meaning: str, name: str) -> str:
-        """Return a topic of this camera: below its name, under what is written for `meaning`, else as `name`."""
-        return topics.resolve(f"{read.text('camera')}/{read.text(meaning, name)}".lstrip("/"))
+    def topic_of(self, read: Parameters, topics: Topics, meaning: str, name: str, eye: str = "") -> str:
+        """Return a topic of a camera: below its name, under what is written for `meaning`, else as `name`."""
+        return topics.resolve(f"{read.text('camera')}/{eye}/{read.text(meaning, name)}".replace("//", "/").lstrip("/"))
 
 
 class RosCamera(Camera):

@@ -26,12 +26,18 @@ ENCODINGS = {
     "RGB_INT8": "rgb8",
     "B8G8R8": "bgr8",
     "BGR_INT8": "bgr8",
+    "L16": "mono16",
+    "L_INT16": "mono16",
+    "R16G16B16": "rgb16",
+    "RGB_INT16": "rgb16",
+    "R_FLOAT32": "rgb8",
     "BAYER_RGGB8": "bayer_rggb8",
     "BAYER_BGGR8": "bayer_bggr8",
     "BAYER_GBRG8": "bayer_gbrg8",
     "BAYER_GRBG8": "bayer_grbg8",
 }
-"""SDF's name of a format → sensor_msgs' of its encoding (gazebo_ros_camera_utils.cpp)."""
+"""SDF's name of a format → sensor_msgs' of its encoding (gazebo_ros_camera_utils.cpp); depth cameras of the new Gazebo
+are told R_FLOAT32, which is what their depths are in anyway."""
 
 MAX_PIXELS = 16_000_000
 
@@ -63,15 +69,24 @@ class Optics:
     element: Element
 
 
-def optics_of(sensor: SensorTag) -> Optics:
-    """Return how a sensor's camera is built.
+def cameras_of(sensor: SensorTag) -> list[Element]:
+    """Return the ``<camera>`` elements of a sensor.
+
+    Raises:
+        SimulationError: there is none, with the sensor's place.
+    """
+    found = [child for child in sensor.element.children if child.tag == "camera"]
+    if not found:
+        raise SimulationError("a camera lacks its <camera>", position=sensor.element.origin.position)
+    return found
+
+
+def optics_of(camera: Element) -> Optics:
+    """Return how a ``<camera>`` is built.
 
     Raises:
         SimulationError: it makes no sense, with its place.
     """
-    camera = sensor.element.find("camera")
-    if camera is None:
-        raise SimulationError("a camera lacks its <camera>", position=sensor.element.origin.position)
     image, clip = camera.find("image"), camera.find("clip")
     width, height = number(image, "width", 320.0, least=1.0), number(image, "height", 240.0, least=1.0)
     if width != int(width) or height != int(height) or width * height > MAX_PIXELS:
@@ -124,6 +139,9 @@ def image(t: float, frame: str, rgb: NDArray[np.uint8], encoding: str) -> Any:
     pixels = rgb
     if encoding == "bgr8":
         pixels = rgb[:, :, ::-1]
+    elif encoding in ("rgb16", "mono16"):  # the same picture; white is 65535
+        deep = rgb if encoding == "rgb16" else rgb @ LUMA
+        pixels = np.rint(deep * 257.0).astype("<u2").view(np.uint8)
     elif encoding == "mono8":
         pixels = np.rint(rgb @ LUMA).astype(np.uint8)
     elif encoding.startswith("bayer_"):
