@@ -80,6 +80,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="TOPIC=FILE.png",
         help="write the last picture of a topic (repeatable; TOPIC may be left out where there is only one)",
     )
+    add(
+        "--save-scan",
+        type=values.topic_file(".json", ".csv"),
+        action="append",
+        default=[],
+        metavar="TOPIC=FILE.json",
+        help="write the last scan or cloud of a topic, as JSON or .csv (repeatable; as --save-image)",
+    )
     add("--save-world", metavar="FILE", help="write the world as it is in the end, without the robot, as SDF")
     add(
         "--engine",
@@ -101,7 +109,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Simulate and report."""
     if arguments.cmd_ramp is not None and arguments.cmd_vel is None:
         raise UsageError("sim run: --cmd-ramp ramps up --cmd-vel, which is missing")
-    from urdfkit.cli.sim import pictures
+    from urdfkit.cli.sim import pictures, scans
     from urdfkit.cli.sim.kernel import prepare_kernel
     from urdfkit.cli.sim.report import as_json, as_text
 
@@ -110,8 +118,10 @@ def run(arguments: argparse.Namespace) -> int:
     simulator = load(arguments)
     command(simulator, arguments)
     images = pictures.find_topics(simulator, arguments.save_image)
+    ranges = scans.find_topics(simulator, arguments.save_scan)
     spent = advance(simulator, arguments.duration, arguments.until)
     pictures.save(simulator, images)
+    scans.save(simulator, ranges)
     if arguments.save_world is not None:
         simulator.save_world(arguments.save_world)
     print(json.dumps(as_json(simulator, spent), indent=1) if arguments.json else as_text(simulator, spent))

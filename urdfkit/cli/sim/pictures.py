@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.atomic import write_bytes
-from urdfkit.bus import absolute
-from urdfkit.errors import MissingDependencyError, UsageError, did_you_mean
+from urdfkit.cli.sim import saved
+from urdfkit.errors import MissingDependencyError, UsageError
 
 if TYPE_CHECKING:
     from urdfkit.cli.sim.values import TopicFile
@@ -29,20 +29,7 @@ def find_topics(simulator: Simulator, wanted: Sequence[TopicFile]) -> list[tuple
 
     if wanted and find_spec("PIL") is None:
         raise MissingDependencyError("--save-image needs Pillow: pip install 'urdfkit[sim]'")
-    there = [topic.name for topic in simulator.bus.topics if topic.type == IMAGE]
-    return [(_topic(each.topic, there), each.file) for each in wanted]
-
-
-def _topic(name: str, there: Sequence[str]) -> str:
-    if name:
-        if absolute(name) not in there:
-            hint = did_you_mean(absolute(name), there) or (f"; there are {', '.join(there)}" if there else "")
-            raise UsageError(f"--save-image: no pictures come on {absolute(name)}{hint}")
-        return absolute(name)
-    if len(there) != 1:
-        found = f"there are {', '.join(there)}" if there else "nothing here publishes any"
-        raise UsageError(f"--save-image: say which pictures, TOPIC=FILE.png; {found}")
-    return there[0]
+    return saved.find_topics(simulator, wanted, option="--save-image", types=(IMAGE,), what="pictures", suffix=".png")
 
 
 def save(simulator: Simulator, wanted: Sequence[tuple[str, Path]]) -> None:

@@ -172,19 +172,19 @@ class TopicFile(NamedTuple):
     file: Path
 
 
-def topic_file(suffix: str) -> Callable[[str], TopicFile]:
+def topic_file(*suffixes: str) -> Callable[[str], TopicFile]:
     """Return a reader of ``TOPIC=FILE`` or ``FILE``.
 
     Args:
-        suffix: of the file, such as ``.png``.
+        suffixes: that the file may have, such as ``.png``.
     """
 
     def read(text: str) -> TopicFile:
         topic, equals, file = text.partition("=")
         if not equals:
             topic, file = "", text
-        if Path(file).suffix.lower() != suffix:
-            raise argparse.ArgumentTypeError(f"`{text}` is not TOPIC=FILE{suffix}")
+        if Path(file).suffix.lower() not in suffixes:
+            raise argparse.ArgumentTypeError(f"`{text}` is not TOPIC=FILE{' or '.join(suffixes)}")
         return TopicFile(topic.strip(), Path(file))
 
     return read

@@ -1,0 +1,46 @@
+"""What ``sim run --save-…`` has in common: which topic is meant."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from urdfkit.bus import absolute
+from urdfkit.errors import UsageError, did_you_mean
+
+if TYPE_CHECKING:
+    from urdfkit.cli.sim.values import TopicFile
+    from urdfkit.sim.simulator import Simulator
+
+
+def find_topics(
+    simulator: Simulator, wanted: Sequence[TopicFile], *, option: str, types: Sequence[str], what: str, suffix: str
+) -> list[tuple[str, Path]]:
+    """Return the topic and the file of each use of an option.
+
+    Args:
+        simulator: where to look.
+        wanted: what was asked for.
+        option: such as ``--save-image``.
+        types: of messages that can be saved.
+        what: these are called.
+        suffix: of the file.
+
+    Raises:
+        UsageError: there is no such topic, it carries something else, or none is named and there are several.
+    """
+    there = [topic.name for topic in simulator.bus.topics if topic.type in types]
+
+    def topic(name: str) -> str:
+        if name:
+            if absolute(name) not in there:
+                hint = did_you_mean(absolute(name), there) or (f"; there are {', '.join(there)}" if there else "")
+                raise UsageError(f"{option}: no {what} come on {absolute(name)}{hint}")
+            return absolute(name)
+        if len(there) != 1:
+            found = f"there are {', '.join(there)}" if there else "nothing here publishes any"
+            raise UsageError(f"{option}: say which {what}, TOPIC=FILE{suffix}; {found}")
+        return there[0]
+
+    return [(topic(each.topic), each.file) for each in wanted]
