@@ -47,6 +47,7 @@ def _store() -> Any:
     """Return rosbags' typestore with the messages it lacks; None without rosbags."""
     from urdfkit.control_messages import CONTROL_MESSAGES
     from urdfkit.sensor_messages import SENSOR_MESSAGES
+    from urdfkit.vision_messages import VISION_MESSAGES
     from urdfkit.world_messages import WORLD_MESSAGES
 
     try:
@@ -55,7 +56,7 @@ def _store() -> Any:
         return None
     store = get_typestore(Stores.ROS2_HUMBLE)
     known: dict[str, Any] = {}
-    for name, text in (CONTROL_MESSAGES | WORLD_MESSAGES | SENSOR_MESSAGES).items():
+    for name, text in (CONTROL_MESSAGES | WORLD_MESSAGES | SENSOR_MESSAGES | VISION_MESSAGES).items():
         (known[name],) = get_types_from_msg(text, name).values()  # whose own key has /msg/ in it for services too
     store.register(known)
     return store

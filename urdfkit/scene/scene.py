@@ -16,6 +16,7 @@ from urdfkit.description.robot import Collision, Geometry, Link, Mesh, Robot, Vi
 from urdfkit.description.world import Cone, Ellipsoid, Plane
 from urdfkit.errors import ResourceError
 from urdfkit.scene.colors import DEFAULT, Palette, Rgba
+from urdfkit.scene.labels import labels_of
 from urdfkit.scene.mesh import MeshLoader, TriMesh
 from urdfkit.scene.placement import pose_matrix
 
@@ -36,6 +37,7 @@ class Shape:
         has_color: whether the description names a colour; if not, the mesh's own colours are to be shown.
         mesh: the triangles of a mesh, its scale applied; None for the other geometries.
         laser_retro: what a lidar reads as intensity.
+        label: what a segmentation camera reads; 0 for none.
     """
 
     name: str
@@ -47,6 +49,7 @@ class Shape:
     has_color: bool = False
     mesh: TriMesh | None = None
     laser_retro: float = 0.0
+    label: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +90,7 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
     meshes = meshes or MeshLoader()
     palette = Palette(robot)
     links = robot.link_by_name_in_order()
-    retros = _laser_retros(robot)
+    retros, labels = _laser_retros(robot), labels_of(robot)
     shapes: list[Shape] = []
     problems: list[ResourceError] = []
     for link in links:
@@ -113,8 +116,8 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
             if role == "visual" and (opacity := palette.opacity(link.name)) < 1.0:
                 rgba = (*rgba[:3], rgba[3] * opacity)
             placed = pose_matrix(item.origin)
-            retro = retros.get(link.name, 0.0)
-            shapes.append(Shape(name, link.name, role, item.geometry, placed, rgba, bool(color), mesh, retro))
+            retro, label = retros.get(link.name, 0.0), labels.get(link.name, labels.get("", 0))
+            shapes.append(Shape(name, link.name, role, item.geometry, placed, rgba, bool(color), mesh, retro, label))
     return Scene(tuple(link.name for link in links), tuple(shapes), tuple(problems))
 
 

@@ -10,14 +10,16 @@ from numpy.typing import NDArray
 
 from urdfkit.description.robot import Mesh
 from urdfkit.description.world import WorldLink, WorldShape
+from urdfkit.description.world.shape import plugins_of
 from urdfkit.scene.colors import DEFAULT, GAZEBO, Rgba
+from urdfkit.scene.labels import label_of
 from urdfkit.scene.mesh import MeshLoader
 from urdfkit.scene.placement import pose_matrix
 from urdfkit.scene.scene import Role, Shape
 
 
 def shapes_of_link(
-    link: WorldLink, body: str, placement: NDArray[np.float64], *, meshes: MeshLoader, prefix: str = ""
+    link: WorldLink, body: str, placement: NDArray[np.float64], *, meshes: MeshLoader, prefix: str = "", label: int = 0
 ) -> Iterator[Shape]:
     """Yield the visuals and collisions of a link.
 
@@ -29,6 +31,7 @@ def shapes_of_link(
         placement: of the link in that body; shape (4, 4).
         meshes: reads the mesh files.
         prefix: goes before the names of the shapes where a body has several links.
+        label: of the model, for visuals that have none of their own.
 
     Raises:
         ResourceError: a mesh is broken.
@@ -44,7 +47,8 @@ def shapes_of_link(
         placed.flags.writeable = False
         name = f"{body}/{role}/{prefix}{shape.name}"
         shown = rgba or (*DEFAULT[:3], 1.0 - shape.transparency)
-        yield Shape(name, body, role, shape.geometry, placed, shown, rgba is not None, mesh, shape.laser_retro)
+        called = label_of(plugins_of(shape.kept)) or label
+        yield Shape(name, body, role, shape.geometry, placed, shown, rgba is not None, mesh, shape.laser_retro, called)
 
 
 def color_of(shape: WorldShape) -> Rgba | None:

@@ -14,6 +14,7 @@ from urdfkit.description.world import World
 from urdfkit.description.world.poses import compose
 from urdfkit.scene import MeshLoader, Role, Scene, Shape
 from urdfkit.scene.image import Painter
+from urdfkit.scene.labels import label_of
 from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.placement import pose_matrices, pose_matrix
 from urdfkit.scene.rays import RayTable, warmup
@@ -103,7 +104,8 @@ def world_scene(world: World) -> tuple[Scene, Array]:
             for link_name, pose, link in links:
                 prefix = f"{link_name}/" if len(links) > 1 else ""
                 placed = into @ pose_matrix(pose)
-                shapes.extend(shapes_of_link(link, body, placed, meshes=meshes, prefix=prefix))
+                label = label_of(model.plugins)
+                shapes.extend(shapes_of_link(link, body, placed, meshes=meshes, prefix=prefix, label=label))
     return Scene(tuple(names), tuple(shapes)), np.array(poses, dtype=float).reshape(-1, 7)
 
 

@@ -68,6 +68,8 @@ def png(message: Any) -> bytes:
             pixels = rows("u1", 3)
         case "bgr8":
             pixels = rows("u1", 3)[:, :, ::-1]
+        case "rgb16":
+            pixels = (rows("<u2", 3) >> 8).astype(np.uint8)  # PNG libraries know 16 bits of grey only
         case "32FC1":
             depth = rows("<f4")
             known = np.isfinite(depth) & (depth > 0) & (depth < 65.535)

@@ -43,6 +43,16 @@ CAMERA_ROS_1 = PluginSpec(
 )
 """Topics go below ``robotNamespace`` and ``cameraName``."""
 
+MULTICAMERA_ROS_1 = PluginSpec(
+    kind="multicamera",
+    generation="ros1",
+    filenames=("gazebo_ros_multicamera",),
+    class_names=(),
+    parameters=CAMERA_ROS_1.parameters,
+    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_multicamera.cpp",
+)
+"""As `CAMERA_ROS_1`, with ``/left`` and ``/right`` after ``cameraName``; the baseline counts for the right one."""
+
 _DEPTH_ROS_1 = (
     Parameter("depth_topic", "depthImageTopicName", "depth/image_raw", names="topic"),
     Parameter("depth_info_topic", "depthImageCameraInfoTopicName", "depth/camera_info", names="topic"),
@@ -120,6 +130,8 @@ def _gz(kind: str, topic: str) -> PluginSpec:
 CAMERA_GZ = _gz("gz_camera", "/image")
 DEPTH_CAMERA_GZ = _gz("gz_depth_camera", "/depth_image")
 RGBD_CAMERA_GZ = _gz("gz_rgbd_camera", "")
+SEGMENTATION_CAMERA_GZ = _gz("gz_segmentation_camera", "/segmentation")
+BOUNDING_BOX_CAMERA_GZ = _gz("gz_bounding_box_camera", "/boundingbox")
 
-CAMERAS = (CAMERA_ROS_1, OPENNI_KINECT_ROS_1, DEPTH_CAMERA_ROS_1, CAMERA_ROS_2)
+CAMERAS = (CAMERA_ROS_1, MULTICAMERA_ROS_1, OPENNI_KINECT_ROS_1, DEPTH_CAMERA_ROS_1, CAMERA_ROS_2)
 """Every camera plugin."""

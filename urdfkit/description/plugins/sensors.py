@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from urdfkit.description.plugins.camera import CAMERA_GZ, CAMERAS, DEPTH_CAMERA_GZ, RGBD_CAMERA_GZ
+from urdfkit.description.plugins.camera import (
+    BOUNDING_BOX_CAMERA_GZ,
+    CAMERA_GZ,
+    CAMERAS,
+    DEPTH_CAMERA_GZ,
+    RGBD_CAMERA_GZ,
+    SEGMENTATION_CAMERA_GZ,
+)
 from urdfkit.description.plugins.hector import HECTOR
 from urdfkit.description.plugins.lidar import LIDAR_GZ, LIDAR_TYPES, LIDARS
 from urdfkit.description.plugins.motion import (
@@ -36,5 +43,22 @@ BARE: dict[str, PluginSpec] = {
     "depth_camera": DEPTH_CAMERA_GZ,
     "rgbd": RGBD_CAMERA_GZ,
     "rgbd_camera": RGBD_CAMERA_GZ,
+    "segmentation": SEGMENTATION_CAMERA_GZ,
+    "segmentation_camera": SEGMENTATION_CAMERA_GZ,
+    "boundingbox": BOUNDING_BOX_CAMERA_GZ,
+    "boundingbox_camera": BOUNDING_BOX_CAMERA_GZ,
 }
 """Type of a ``<sensor>`` without a plugin → its table: in the new Gazebo sensors publish by themselves."""
+
+SENSOR_TYPES = tuple(
+    dict.fromkeys(
+        (
+            *BARE,
+            *("air_flow", "air_speed", "bounding_box_camera", "boundingbox", "boundingbox_camera", "custom", "dvl"),
+            *("multicamera", "rfid", "rfidtag", "segmentation", "segmentation_camera", "sonar", "thermal"),
+            *("thermal_camera", "transceiver", "wideanglecamera", "wide_angle_camera", "wireless_receiver"),
+            *("wireless_transmitter",),
+        )
+    )
+)
+"""What the ``type`` of a ``<sensor>`` may be (sdformat main, src/Sensor.cc), simulated here or not."""

@@ -25,6 +25,8 @@ NEEDLESS = frozenset(
         "gz-sim-air-pressure-system",
         "gz-sim-magnetometer-system",
         "gz-sim-forcetorque-system",
+        "gz-sim-label-system",
+        "ignition-gazebo-label-system",
         "gz-sim-joint-state-publisher-system",
         "gazebo_ros_api_plugin",
         "gazebo_ros_paths_plugin",

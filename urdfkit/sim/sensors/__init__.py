@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from urdfkit.sim.plugin import Sensor
 from urdfkit.sim.sensors.air import GzAirPressure, GzAltimeter, HectorBaro
+from urdfkit.sim.sensors.annotating import GzBoundingBoxCamera, GzSegmentationCamera
 from urdfkit.sim.sensors.bumper import Bumper, GzContact
-from urdfkit.sim.sensors.camera import GzCamera, RosCamera
+from urdfkit.sim.sensors.camera import GzCamera
 from urdfkit.sim.sensors.depth_camera import DepthCamera, GzDepthCamera, GzRgbdCamera, OpenniKinect
 from urdfkit.sim.sensors.force_torque import GzForceTorque, JointForceTorque
 from urdfkit.sim.sensors.gps import Gps, GzNavSat, HectorGps
@@ -13,8 +14,10 @@ from urdfkit.sim.sensors.imu import BodyImu, GzImu, HectorImu, ImuSensor
 from urdfkit.sim.sensors.laser import BlockLaser, Laser, Range, Sonar
 from urdfkit.sim.sensors.logical_camera import GzLogicalCamera
 from urdfkit.sim.sensors.magnetometer import GzMagnetometer, HectorMagnetic
+from urdfkit.sim.sensors.multicamera import MultiCamera
 from urdfkit.sim.sensors.p3d import P3d
 from urdfkit.sim.sensors.point_cloud import GzLidar, RaySensor, Velodyne
+from urdfkit.sim.sensors.ros_camera import RosCamera
 
 SENSORS: tuple[type[Sensor], ...] = (
     Laser,
@@ -25,11 +28,14 @@ SENSORS: tuple[type[Sensor], ...] = (
     Velodyne,
     GzLidar,
     RosCamera,
+    MultiCamera,
     DepthCamera,
     OpenniKinect,
     GzCamera,
     GzDepthCamera,
     GzRgbdCamera,
+    GzSegmentationCamera,
+    GzBoundingBoxCamera,
     ImuSensor,
     BodyImu,
     GzImu,

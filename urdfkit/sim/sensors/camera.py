@@ -1,4 +1,4 @@
-"""Cameras: pictures and camera_info of gazebo_ros_camera and of the new Gazebo's own.
+"""Cameras: what they look through and with, and those of the new Gazebo that publish by themselves.
 
 The camera looks along the x axis of its link, as in Gazebo; the frame in the header is whatever the plugin is told, by
 custom an optical one. The principal point that Gazebo Classic tells is one pixel off the one it draws with, (W + 1)/2
@@ -18,11 +18,9 @@ from numpy.typing import NDArray
 from urdfkit.scene import Shape
 from urdfkit.scene.image import Painter, Picture
 from urdfkit.scene.lens import Distortion
-from urdfkit.sim.sensors.clouds import POINT_CLOUD_2
-from urdfkit.sim.sensors.depth import points, within
 from urdfkit.sim.sensors.mounted import Mounted
 from urdfkit.sim.sensors.noise import Noise, noise_of
-from urdfkit.sim.sensors.optics import CAMERA_INFO, IMAGE, Optics, camera_info, cameras_of, depth_image, image, optics_of
+from urdfkit.sim.sensors.optics import CAMERA_INFO, IMAGE, Optics, camera_info, cameras_of, image, optics_of
 from urdfkit.sim.sensors.values import pose_of
 
 if TYPE_CHECKING:
@@ -34,6 +32,9 @@ if TYPE_CHECKING:
     from urdfkit.sim.topics import Topics
 
 Array = NDArray[np.float64]
+
+SEVERAL = ("multicamera", "stereo_camera")
+"""Types of sensors that have more than one camera."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,9 +80,7 @@ class Eye:
 
     def info(self, frame: str, t: float) -> Any:
         """Return the CameraInfo, which nothing has to be looked at for."""
-        return camera_info(
-            t, frame, self.optics.lens, focal=self.focal, cx=self.cx, cy=self.cy, baseline=self.baseline
-        )
+        return camera_info(t, frame, self.optics.lens, focal=self.focal, cx=self.cx, cy=self.cy, baseline=self.baseline)
 
     def look(self, t: float, view: Painter, frame: Array, random: np.random.Generator) -> Sight:
         """Return what is seen from where the sensor is."""
@@ -100,15 +99,15 @@ class Camera(Mounted):
 
     def _prepare(self, setup: Setup, sensor: SensorTag, read: Parameters, topics: Topics) -> None:
         several = cameras_of(sensor)
-        if (sensor.type or "").strip() not in ("multicamera", "stereo_camera"):
+        if sensor_type(setup) not in SEVERAL:
             several = several[:1]
-        self.eyes = [self._eye(each, setup, read, alone=len(several) == 1) for each in several]
+        self.eyes = [self._eye(each, setup, read) for each in several]
         self.optics = self.eyes[0].optics
         if (optical := self.optics.element.find("optical_frame_id")) is not None and optical.text:
             self.frame = optical.text
         self._advertise(setup, read, topics)
 
-    def _eye(self, camera: Element, setup: Setup, read: Parameters, *, alone: bool) -> Eye:
+    def _eye(self, camera: Element, setup: Setup, read: Parameters) -> Eye:
         optics = optics_of(camera)
         written = Distortion(*(read.number(meaning) for meaning in ("k1", "k2", "p1", "p2", "k3")))
         if written and not optics.lens.distortion:
@@ -116,7 +115,7 @@ class Camera(Mounted):
         lens, gz = optics.lens, self.spec.generation == "gz"
         return Eye(
             camera.get("name") or "",
-            np.eye(4) if alone and camera.find("pose") is None else pose_of(camera),
+            pose_of(camera),
             optics,
             noise_of(camera, setup.random),
             read.number("focal_length") or lens.focal_length,
@@ -144,46 +143,6 @@ class Camera(Mounted):
         return topics.resolve(f"{read.text('camera')}/{eye}/{read.text(meaning, name)}".replace("//", "/").lstrip("/"))
 
 
-class RosCamera(Camera):
-    """gazebo_ros_camera of ROS 1 and ROS 2; in ROS 2 with depths and points on a sensor of type depth.
-
-    What is too near is -inf, what is too far +inf in ROS 2's depths, and NaN in its points.
-    """
-
-    kind = "camera"
-
-    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
-        self._deep = self.spec.generation == "ros2" and (setup.sensor is not None and setup.sensor.type == "depth")
-        self._min_depth, self._max_depth = read.number("min_depth", 0.4), read.number("max_depth", np.inf)
-
-        def topic(type: str, name: str, meaning: str = "") -> Any:
-            return setup.bus.advertise(self.topic_of(read, topics, meaning, name), type)
-
-        looked = [topic(IMAGE, "image_raw", "image_topic")]
-        plain = [topic(CAMERA_INFO, "camera_info", "info_topic")]
-        if self._deep:
-            looked += [topic(IMAGE, "depth/image_raw"), topic(POINT_CLOUD_2, "points")]
-            plain.append(topic(CAMERA_INFO, "depth/camera_info"))
-        self.topics = (*looked, *plain)
-
-    def messages(self) -> tuple[Callable[[Any], Any], ...]:
-        """Return what makes the messages of the first of `topics`."""
-        return (self._image, self._depth, self._points) if self._deep else (self._image,)
-
-    def remarks(self) -> tuple[Callable[[float], Any], ...]:
-        """Return what makes the messages of the others."""
-        return (self.info, self.info) if self._deep else (self.info,)
-
-    def _depth(self, sight: Sight) -> Any:
-        depth = sight.picture.depth
-        deep = np.where(depth >= self._max_depth, np.inf, np.where(depth <= self._min_depth, -np.inf, depth))
-        return depth_image(sight.t, self.frame, deep.astype(np.float32))
-
-    def _points(self, sight: Sight) -> Any:
-        deep = within(sight.picture.depth, self._min_depth, self._max_depth)
-        return points(sight.t, self.frame, self.optics.lens, deep, sight.picture.rgb)
-
-
 class GzCamera(Camera):
     """A camera of the new Gazebo, which publishes by itself."""
 
@@ -202,3 +161,8 @@ class GzCamera(Camera):
     def remarks(self) -> tuple[Callable[[float], Any], ...]:
         """Return what makes the messages of the others."""
         return (self.info,)
+
+
+def sensor_type(setup: Setup) -> str:
+    """Return the type of the sensor that is being configured."""
+    return (setup.sensor.type or "").strip() if setup.sensor is not None else ""
