@@ -13,7 +13,7 @@ import numpy as np
 from urdfkit import registry
 from urdfkit.description.plugins import ALL_SPECS, PluginSpec, match
 from urdfkit.description.plugins.lookup import stem
-from urdfkit.description.plugins.sensors import BARE
+from urdfkit.description.plugins.sensors import BARE, SENSOR_TYPES
 from urdfkit.description.robot import Plugin, Robot, SensorTag
 from urdfkit.description.world.systems import NEEDLESS
 from urdfkit.errors import SimulationError, did_you_mean
@@ -59,8 +59,8 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
         own = replace(setup, random=np.random.default_rng([seed, number]), sensor=sensor, link=link)
         bare = sensor is not None and plugin.element is sensor.element
         spec = BARE.get((sensor.type or "").strip()) if bare and sensor is not None else match(plugin)
-        if bare and spec is None:
-            setup.note(f"{plugin.element.origin.position}: sensor `{plugin.name}` is not simulated yet")
+        if sensor is not None and (strange := _strange(sensor, simulated=spec is not None or not bare)):
+            setup.note(strange)
             continue
         if spec is not None and spec.kind == "joint_state_publisher":
             installed.joint_states.append(joint_states(plugin, spec, own))
@@ -85,6 +85,21 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
     if not installed.joint_states and not _publishes_joint_states(installed):
         installed.joint_states.append(all_joint_states(setup))
     return installed
+
+
+def _strange(sensor: SensorTag, *, simulated: bool) -> str:
+    """Return why a sensor is left out before it is looked into: its place, and the nearest type; empty if it is not."""
+    place, kind = sensor.element.origin.position, (sensor.type or "").strip()
+    if not kind:
+        return f"{place}: a sensor has no type; sensor `{sensor.name or 'sensor'}` is left out"
+    if kind not in SENSOR_TYPES:
+        hint = did_you_mean(kind, SENSOR_TYPES)
+        return f"{place}: no sensor is of type `{kind}`{hint}; sensor `{sensor.name or 'sensor'}` is left out"
+    if not simulated:
+        return (
+            f"{place}: sensors of type `{kind}` are not simulated yet; sensor `{sensor.name or 'sensor'}` is left out"
+        )
+    return ""
 
 
 def _unknown(plugin: Plugin, tables: Sequence[PluginSpec]) -> str:

@@ -41,11 +41,10 @@ def save(simulator: Simulator, wanted: Sequence[tuple[str, Path]]) -> None:
         message = simulator.bus.latest(topic)
         if message is None:
             raise UsageError(f"--save-scan: no scan came on {topic} in {simulator.t:g} s; run for longer")
-        about, columns = _scan(message) if hasattr(message, "ranges") else _cloud(message)
+        numbers, columns = _scan(message) if hasattr(message, "ranges") else _cloud(message)
         stamp = message.header.stamp
-        about = {
-            "topic": topic, "frame": message.header.frame_id, "time": stamp.sec + 1e-9 * stamp.nanosec, **about,
-        }  # fmt: skip
+        time = stamp.sec + 1e-9 * stamp.nanosec
+        about = {"topic": topic, "frame": message.header.frame_id, "time": time, **numbers}
         write_text(file, _table(columns) if file.suffix.lower() == ".csv" else _json(about, columns))
 
 
