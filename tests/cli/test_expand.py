@@ -74,7 +74,8 @@ def test_notes_go_to_standard_error(model: Path, capsys: pytest.CaptureFixture[s
     model.write_text(MODEL.replace("</robot>", "<a b=\"${xacro.warning('mind the gap')}\"/></robot>"))
     assert main(["expand", str(model), "prefx:=a"]) == 0
     assert capsys.readouterr().err == (
-        "robot.urdf.xacro:6:1: warning: mind the gap\nurdfkit: warning: no file uses the argument `prefx`\n"
+        "robot.urdf.xacro:6:1: warning: mind the gap\n"
+        "urdfkit: warning: no file uses the argument `prefx`; did you mean `prefix`?\n"
     )
     assert main(["expand", "-q", str(model), "prefx:=a"]) == 0
     assert capsys.readouterr().err == ""

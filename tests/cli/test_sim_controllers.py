@@ -42,7 +42,7 @@ def test_the_file_that_was_found_is_named(run: Callable[..., Any]) -> None:
     code, _, err = run("--for", 0.1)
     assert code == 0
     assert "rrbot_control.yaml (loaded by" in err
-    assert "`i` has no effect without `i_clamp`" in err
+    assert "has no effect" not in err
 
 
 def test_errors_are_one_line_with_their_place(run: Callable[..., Any], tmp_path: Path) -> None:

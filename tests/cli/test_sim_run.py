@@ -154,6 +154,8 @@ def test_messages_at_their_time(capsys: Capture) -> None:
         main(["sim", "run", "simpleton", "--for", "0", "--topic-pub", "/simpleton/cmd_vle geometry_msgs/Twist {}"]) == 0
     )
     assert "nobody listens to /simpleton/cmd_vle; did you mean `/simpleton/cmd_vel`?" in capsys.readouterr().err
+    assert main(["sim", "run", "simpleton", "--for", "0", "--topic-pub", "/cmd_vl geometry_msgs/Twist {}"]) == 0
+    assert "nobody listens to /cmd_vl; did you mean `/simpleton/cmd_vel`?" in capsys.readouterr().err
 
 
 def test_until(capsys: Capture) -> None:

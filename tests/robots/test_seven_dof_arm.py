@@ -74,7 +74,7 @@ def test_a_controller_for_every_joint(robot, settings):
     for number, joint in enumerate(JOINTS, 1):
         controller = settings[f"joint{number}_position_controller"]
         assert controller["joint"] == joint
-        assert controller["pid"] == gains[joint] == {"p": 100.0, "i": 0.01, "d": 10.0}
+        assert controller["pid"] == gains[joint] == {"p": 100.0, "i": 0.0, "d": 10.0}
     transmissions = {t.joints[0].name: t.joints[0].hardware_interfaces for t in robot.transmissions}
     assert transmissions == dict.fromkeys(JOINTS + FINGERS, ("hardware_interface/PositionJointInterface",))
 

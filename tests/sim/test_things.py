@@ -77,6 +77,28 @@ def test_what_cannot_be_simulated_is_refused_with_its_place(world) -> None:
     assert "probe.world" in str(caught.value)
 
 
+def test_an_inertia_that_nothing_has_is_refused_with_its_place(world) -> None:
+    crate = box("crate", "3 0 0.1 0 0 0").replace("<izz>0.01</izz>", "<izz>0.5</izz>")
+    message = r"inertia of link `link` of `crate` is impossible: of its principal moments 0\.01, 0\.01 and 0\.5 kg·m²"
+    with pytest.raises(SimulationError, match=message) as caught:
+        Simulator("simpleton", world=world(crate))
+    assert "probe.world" in str(caught.value)
+    Simulator("simpleton", world=world(crate.replace("<static>false", "<static>true")))
+
+
+def test_a_mimic_joint_of_sdf_is_noted_with_its_place(world) -> None:
+    inertia = "<inertial><mass>1</mass></inertial>"
+    axis = "<axis><xyz>0 0 1</xyz>{}</axis><parent>link</parent><child>{}</child></joint>"
+    more = f'<link name="a">{inertia}</link><link name="b">{inertia}</link><joint name="j" type="revolute">'
+    more += axis.format("", "a") + '<joint name="k" type="revolute">'
+    more += axis.format('<mimic joint="j"><multiplier>2</multiplier></mimic>', "b")
+    notes: list[str] = []
+    Simulator("simpleton", world=world(box("door", "3 0 0.1 0 0 0", more=more)), note=notes.append)
+    (note,) = [each for each in notes if "mimic" in each]
+    assert "probe.world:" in note
+    assert "<mimic> is not simulated: the joint does not move with joint `j`, but on its own" in note
+
+
 def test_a_wall_stops_a_robot_with_all_the_force_its_wheels_have(world) -> None:
     simulator = Simulator("simpleton", world=world(box("wall", "0.8 0 0.1 0 0 0", static=True)))
     simulator.command((0.3, 0, 0), (0, 0, 0))

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from urdfkit.cli.parser import add_model
+from urdfkit.cli.unused import unused
 from urdfkit.errors import ResourceError, UsageError
 
 TYPE_CHECKING = False
@@ -49,9 +50,8 @@ def run(arguments: argparse.Namespace) -> int:
 def _show_notes(expanded: Expanded, arguments: dict[str, str]) -> None:
     for note in expanded.warnings:
         print(f"{note.position}: {note.level}: {note.message}", file=sys.stderr)
-    for name in arguments:
-        if not any(name in source.text for source in expanded.sources.values()):
-            print(f"urdfkit: warning: no file uses the argument `{name}`", file=sys.stderr)
+    for line in unused(arguments, [source.text for source in expanded.sources.values()]):
+        print(f"urdfkit: warning: {line}", file=sys.stderr)
 
 
 def _write(expanded: Expanded, output: Path) -> None:

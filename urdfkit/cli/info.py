@@ -9,6 +9,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.parser import add_model
+from urdfkit.cli.unused import note_unused
 from urdfkit.errors import MissingDependencyError, UrdfkitError
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     model = find_model(arguments.model, package_path=arguments.package_path)
     robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
+    note_unused(model.arguments, robot.files, quiet=arguments.quiet)
     facts = facts_of(robot)
     if facts["note"] and not arguments.quiet:
         print(f"urdfkit: note: {facts['note']}", file=sys.stderr)

@@ -12,6 +12,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from urdfkit.cli.unused import note_unused
 from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, did_you_mean
 
 if TYPE_CHECKING:
@@ -78,7 +79,9 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.resources import find_model
 
     found = find_model(model, package_path=arguments.package_path)
-    tree = TransformTree(load(found.path, arguments=found.arguments, package_path=found.package_path))
+    robot = load(found.path, arguments=found.arguments, package_path=found.package_path)
+    note_unused(found.arguments, robot.files, quiet=arguments.quiet)
+    tree = TransformTree(robot)
     _warn_of_limits(tree, positions)
     if arguments.tree:
         if frames:

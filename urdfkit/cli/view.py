@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.page import Page, add_page_options, note, require_page, until_interrupted
 from urdfkit.cli.parser import add_model
+from urdfkit.cli.unused import note_unused
 from urdfkit.errors import UrdfkitError
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
     model = find_model(arguments.model, package_path=arguments.package_path)
     with until_interrupted():
         figure = Figure.read(model)
+        note_unused(model.arguments, figure.files, quiet=arguments.quiet)
         server = Server("view", host=arguments.host, port=arguments.port)
         page = Page(server, host=arguments.host, browser=not arguments.no_browser)
         try:

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from urdfkit.description.robot import Pose, Robot
 from urdfkit.description.world import World, WorldModel
-from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.scene import Shape
 from urdfkit.sim.arrivals import Arrival, arrival
+from urdfkit.sim.given import Named, nearest
 from urdfkit.sim.placing import pose_of, seven
 from urdfkit.sim.plugin import Setup
 from urdfkit.sim.pushes import Target, steps_of
@@ -52,12 +53,12 @@ class Population:
     @property
     def robots(self) -> Mapping[str, SimulatedRobot]:
         """Robots by name, the simulation's own first, and whatever else of the world has joints that move."""
-        return self._stage.robots
+        return Named("robot", self._stage.robots)
 
     @property
     def bodies(self) -> Mapping[str, Thing]:
         """The world's rigid bodies by name: look where they are, place them, push them."""
-        return {name: Thing(self, name) for name in self._stage.body_names}
+        return Named("body", {name: Thing(self, name) for name in self._stage.body_names})
 
     def body_poses(self) -> dict[str, tuple[float, ...]]:
         """Return name → x y z [m] and quaternion x y z w of everything in the world but its robot and the ground.
@@ -264,4 +265,4 @@ class Population:
             raise SimulationError(f"body `{name}` does not move; nothing can push it")
         known = [*stage.loose, *first.kinematics.link_names]
         known += [f"{each.name}::{link}" for each in robots.values() for link in each.kinematics.link_names]
-        raise SimulationError(f"no body or link `{name}` in the simulation{did_you_mean(name, known)}")
+        raise UnknownNameError(f"no body or link `{name}` in the simulation{nearest(name, known)}")

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import heapq
 import logging
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,9 @@ from urdfkit.errors import SimulationError
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.sim.distro import Distro
 from urdfkit.sim.engine.engine import Provider
+from urdfkit.sim.given import nearest, number, vector
 from urdfkit.sim.loading import load_robot
+from urdfkit.sim.overlap import note_overlaps
 from urdfkit.sim.plugin import Drive, Setup
 from urdfkit.sim.population import Population
 from urdfkit.sim.publications import Clock, Publication
@@ -31,6 +34,9 @@ from urdfkit.sim.surroundings import Surroundings
 from urdfkit.sim.world_topics import ModelStates, listen
 
 Array = NDArray[np.float64]
+
+PROVIDERS = ("compiled", "pinocchio")
+"""Who can compute the dynamics."""
 
 LOG = logging.getLogger("urdfkit.sim")
 
@@ -93,11 +99,17 @@ class Simulator(Population):
         note: Callable[[str], None] | None = None,
     ) -> None:
         distro = Distro(ros_distro)
+        if engine not in PROVIDERS:
+            raise SimulationError(f"no engine `{engine}`{nearest(str(engine), PROVIDERS)}")
+        if not isinstance(seed, int) or seed < 0:
+            raise SimulationError(f"`{seed}` is no seed; it must be a whole number, zero or more")
+        if not isinstance(spawn, Spawn | None):
+            raise SimulationError(f"`spawn` is {spawn!r}; it must be a Spawn, such as Spawn(x=1.0, yaw=1.57)")
         self.robot = robot if isinstance(robot, Robot) else load_robot(robot, package_path)
         found = _with_gravity(
             world if isinstance(world, World) else load_world(world, package_path=package_path), gravity
         )
-        self.dt = dt = found.physics.max_step_size if dt is None else dt
+        self.dt = dt = found.physics.max_step_size if dt is None else number(dt, "the step", "s")
         if not 1e-6 <= dt <= 0.1:
             raise SimulationError(f"a step of {dt:g} s makes no sense; try 0.001")
         self.bus = Bus() if bus is None else bus
@@ -139,6 +151,8 @@ class Simulator(Population):
         for each in self._active:
             each.publish_fixed()
         listen(self)
+        if engine == "compiled":
+            note_overlaps(self._stage.engine, self.kinematics.link_names, self.note)
 
     # Time
 
@@ -153,7 +167,7 @@ class Simulator(Population):
         Raises:
             SimulationError: the simulation diverged, or `seconds` is negative or not finite.
         """
-        if not 0 <= seconds < 1e9:
+        if not 0 <= number(seconds, "the time to run for", "s") < 1e9:
             raise SimulationError(f"cannot run for {seconds:g} s; it must be a number of seconds, zero or more")
         if not self.paused:
             self.step(round(seconds / self.dt))
@@ -219,14 +233,26 @@ class Simulator(Population):
     # Doing things at a time
 
     def at(self, t: float, call: Callable[[], None]) -> None:
-        """Call `call` before the first step at or after simulated time `t` [s]."""
+        """Call `call` before the first step at or after simulated time `t` [s].
+
+        Raises:
+            SimulationError: `t` is no finite number.
+        """
         self._schedule(t, 0.0, call)
 
     def every(self, period: float, call: Callable[[], None], *, start: float = 0.0) -> None:
-        """Call `call` every `period` [s], from `start` [s] on, before the step that begins then."""
+        """Call `call` every `period` [s], from `start` [s] on, before the step that begins then.
+
+        Raises:
+            SimulationError: the period is not greater than zero, or a number is not finite.
+        """
+        if not number(period, "the period", "s") > 0:
+            raise SimulationError(f"a period of {period:g} s makes no sense; it must be greater than zero")
         self._schedule(start, period, call)
 
     def _schedule(self, t: float, period: float, call: Callable[[], None]) -> None:
+        if not isfinite(number(t, "the time of a call", "s")):
+            raise SimulationError(f"nothing can be called at {t:g} s; it must be a finite number")
         step = max(self.state.step, int(np.ceil(t / self.dt - 1e-6)))
         self._call_number += 1
         heapq.heappush(self._calls, (step, self._call_number, period, call))
@@ -252,8 +278,11 @@ class Simulator(Population):
         """Publish a velocity command [m/s, rad/s] to every drive of the robot.
 
         Raises:
-            SimulationError: the robot has no drive.
+            SimulationError: the robot has no drive, or these are not three numbers each.
         """
+        for values, what, unit in ((linear, "linear", "m/s"), (angular, "angular", "rad/s")):
+            if not isinstance(values, Iterable) or len(tuple(values)) != 3:
+                raise SimulationError(f"the {what} velocity is {values!r}; it must be three numbers [{unit}]")
         if not self.command_topics:
             raise SimulationError(f"robot `{self.name}` has no drive that takes velocity commands")
         for topic in self.command_topics:
@@ -289,6 +318,5 @@ class Simulator(Population):
 def _with_gravity(world: World, gravity: Sequence[float] | None) -> World:
     if gravity is None:
         return world
-    if len(gravity) != 3 or not np.isfinite(gravity).all():
-        raise SimulationError(f"gravity {tuple(gravity)} must be three finite numbers [m/s²]")
-    return replace(world, gravity=(float(gravity[0]), float(gravity[1]), float(gravity[2])))
+    x, y, z = vector(gravity, 3, "gravity", "m/s²")
+    return replace(world, gravity=(x, y, z))

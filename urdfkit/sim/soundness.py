@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import isfinite
+from typing import Protocol
 
 import numpy as np
 
@@ -17,6 +18,23 @@ IMPOSSIBLE = 1e-3
 
 Wrong = tuple[str, Element]
 """What is wrong, and where."""
+
+
+class Tensor(Protocol):
+    """A tensor of inertia [kg·m²]."""
+
+    @property
+    def ixx(self) -> float: ...  # noqa: D102 - as it is written
+    @property
+    def ixy(self) -> float: ...  # noqa: D102
+    @property
+    def ixz(self) -> float: ...  # noqa: D102
+    @property
+    def iyy(self) -> float: ...  # noqa: D102
+    @property
+    def iyz(self) -> float: ...  # noqa: D102
+    @property
+    def izz(self) -> float: ...  # noqa: D102
 
 
 def require_sound(robot: Robot) -> None:
@@ -48,6 +66,12 @@ def _masses(link: Link) -> Iterator[Wrong]:
         yield f"link `{link.name}` has a mass of {inertial.mass:g} kg; it must be positive", element
     if (i := inertial.inertia) is None:
         return
+    if why := impossible(i):
+        yield f"the inertia of link `{link.name}` is impossible: {why}", i.element
+
+
+def impossible(i: Tensor) -> str:
+    """Return why no body has a tensor of inertia; empty where one may."""
     tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
     a, b, c = np.linalg.eigvalsh(tensor).tolist()
     if a < -IMPOSSIBLE * max(abs(a), abs(c)):
@@ -55,9 +79,8 @@ def _masses(link: Link) -> Iterator[Wrong]:
     elif c - a - b > IMPOSSIBLE * c:
         why = "the largest exceeds the sum of the others, which no distribution of mass has"
     else:
-        return
-    moments = f"{a:.6g}, {b:.6g} and {c:.6g} kg·m²"
-    yield f"the inertia of link `{link.name}` is impossible: of its principal moments {moments} {why}", i.element
+        return ""
+    return f"of its principal moments {a:.6g}, {b:.6g} and {c:.6g} kg·m² {why}"
 
 
 def _sizes(link: Link, collision: Collision) -> Iterator[Wrong]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
 from urdfkit.scene import Scene, lowest_point
+from urdfkit.sim.given import vector
 from urdfkit.sim.rotation import from_rpy, rotate
 
 Array = NDArray[np.float64]
@@ -52,12 +52,12 @@ class Spawn:
             ground: height of what is below [m]; None for nothing.
 
         Raises:
-            SimulationError: a number is not finite.
+            SimulationError: not a finite number.
             KinematicsError: an unknown joint.
         """
-        numbers = (self.x, self.y, self.z or 0.0, self.roll, self.pitch, self.yaw, *self.twist)
-        if not all(isfinite(number) for number in numbers):
-            raise SimulationError(f"a robot cannot start at {numbers}: every number must be finite")
+        pose = (self.x, self.y, 0.0 if self.z is None else self.z, self.roll, self.pitch, self.yaw)
+        vector(pose, 6, "where a robot starts", "m, rad")
+        vector(self.twist, 6, "the velocity a robot starts with", "m/s, rad/s")
         quaternion = from_rpy(self.roll, self.pitch, self.yaw)
         height = self.z
         if height is None:

@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 from urdfkit.description.robot import Pose, Robot
 from urdfkit.description.world import World, WorldModel, WorldRobot, add_model, remove_model
 from urdfkit.description.world.poses import IDENTITY, compose, inverse
-from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.sim.carry import Made, carry_over
 from urdfkit.sim.engine import Body, Engine, Ground, Loose
 from urdfkit.sim.engine.engine import Provider
 from urdfkit.sim.engine.warmup import announcement, warmup
 from urdfkit.sim.entries import Entries, Entry
+from urdfkit.sim.given import nearest, vector
 from urdfkit.sim.placing import pose_from, seven
 from urdfkit.sim.pushes import Pushes
 from urdfkit.sim.simulated import SimulatedRobot, ground_height
@@ -116,7 +117,7 @@ class Stage:
         """
         found = next((body for body in self._bodies if body.name == name), None)
         if found is None:
-            raise SimulationError(f"no body `{name}` in the world{did_you_mean(name, self.body_names)}")
+            raise UnknownNameError(f"no body `{name}` in the world{nearest(name, self.body_names)}")
         return found
 
     @property
@@ -131,8 +132,8 @@ class Stage:
             SimulationError: there is none.
         """
         if name not in self._entries:
-            hint = did_you_mean(name, self._entries)
-            raise SimulationError(f"no model or robot `{name}` in world `{self.world.name}`{hint}")
+            hint = nearest(name, self._entries)
+            raise UnknownNameError(f"no model or robot `{name}` in world `{self.world.name}`{hint}")
         return self._entries[name]
 
     # Coming and going
@@ -201,9 +202,7 @@ class Stage:
         Raises:
             SimulationError: there is none, or a robot that is bolted down is to move.
         """
-        speed = np.array(twist, dtype=float)
-        if speed.shape != (6,) or not np.isfinite(speed).all():
-            raise SimulationError(f"a velocity is six finite numbers, linear first, not {tuple(twist)}")
+        speed = np.array(vector(twist, 6, "the velocity", "m/s, rad/s"))
         if name not in self._entries and name in self.body_names:
             self.move_body(name, pose, twist)
             return
@@ -230,7 +229,7 @@ class Stage:
         """
         self.body(name)
         if name in self.loose:
-            self.loose[name].place(seven(pose), twist)
+            self.loose[name].place(seven(pose), vector(twist, 6, "the velocity", "m/s, rad/s"))
         elif name in self._entries:
             self.move(name, compose(pose, inverse(self._entries[name].offsets[name])), twist)
         else:

@@ -23,6 +23,7 @@ from urdfkit.scene.scene import Role
 from urdfkit.sim.engine import Body, Piece, Surface
 from urdfkit.sim.placing import seven
 from urdfkit.sim.rounded import hull_of
+from urdfkit.sim.soundness import impossible
 
 Array = NDArray[np.float64]
 Placed = tuple[str, Pose, WorldLink]
@@ -215,6 +216,10 @@ def _merged(name: str, around: Pose, links: Sequence[Placed], meshes: MeshLoader
 
 
 def _require_ordinary(link: WorldLink, name: str) -> None:
+    if why := impossible(link.inertial):
+        raise SimulationError(
+            f"the inertia of link `{link.name}` of `{name}` is impossible: {why}", position=link.position
+        )
     if not link.gravity or link.kinematic:
         wish = "to float without gravity" if not link.gravity else "to be moved by command only"
         raise SimulationError(

@@ -14,9 +14,12 @@ from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim import values
 from urdfkit.cli.sim.controllers import add_controllers
 from urdfkit.cli.sim.distro import add_distro
-from urdfkit.errors import SimulationError, UsageError
+from urdfkit.cli.unused import note_unused
+from urdfkit.errors import SimulationError, UsageError, did_you_mean
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from urdfkit.cli.sim.report import Effort
     from urdfkit.sim.simulator import Simulator
 
@@ -140,6 +143,7 @@ def load(arguments: argparse.Namespace) -> Simulator:
 
     model = find_model(arguments.model, package_path=arguments.package_path)
     robot = load_description(model.path, arguments=model.arguments, package_path=model.package_path)
+    note_unused(model.arguments, robot.files, quiet=arguments.quiet)
     spawn = None
     if arguments.spawn or arguments.initial_twist or arguments.initial_joints:
         positions, velocities = arguments.initial_joints or ({}, {})
@@ -226,7 +230,6 @@ def publish_at(simulator: Simulator, wanted: values.TopicMessage) -> None:
     import yaml
 
     from urdfkit.bus import absolute
-    from urdfkit.errors import did_you_mean
     from urdfkit.messages import from_fields, full_type_name
 
     try:
@@ -238,8 +241,17 @@ def publish_at(simulator: Simulator, wanted: values.TopicMessage) -> None:
     heard = [topic.name for topic in simulator.bus.topics if topic.subscribers]
     simulator.bus.advertise(wanted.topic, kind)
     if absolute(wanted.topic) not in heard:
-        simulator.note(f"nobody listens to {absolute(wanted.topic)}{did_you_mean(absolute(wanted.topic), heard)}")
+        simulator.note(f"nobody listens to {absolute(wanted.topic)}{nearest_topic(absolute(wanted.topic), heard)}")
     simulator.at(wanted.t, lambda: simulator.bus.publish(wanted.topic, kind, message))
+
+
+def nearest_topic(name: str, heard: Sequence[str]) -> str:
+    """Return ``; did you mean …`` for the topic that is nearest to a name, as a whole or by its last part."""
+    if hint := did_you_mean(name, heard):
+        return hint
+    by_end = {topic.rpartition("/")[2]: topic for topic in reversed(heard)}
+    end = did_you_mean(name.rpartition("/")[2], by_end)
+    return f"; did you mean `{by_end[end.split('`')[1]]}`?" if end else f" (heard are {', '.join(sorted(heard))})"
 
 
 def advance(simulator: Simulator, seconds: float, until: str | None) -> Effort:

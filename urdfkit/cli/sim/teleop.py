@@ -12,6 +12,7 @@ from urdfkit.cli.page import Page, add_page_options, note, require_page, until_i
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim.controllers import add_controllers
 from urdfkit.cli.sim.distro import add_distro
+from urdfkit.cli.unused import note_unused
 from urdfkit.errors import SimulationError
 
 if TYPE_CHECKING:
@@ -59,6 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
     with until_interrupted():
         model = find_model(arguments.model, package_path=arguments.package_path)
         robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
+        note_unused(model.arguments, robot.files, quiet=arguments.quiet)
         server = Server("sim", host=arguments.host, port=arguments.port)
         page = Page(server, host=arguments.host, browser=not arguments.no_browser)
         try:
@@ -72,6 +74,8 @@ def run(arguments: argparse.Namespace) -> int:
             )
             ride = Ride(simulator, server)
             ride.show()
+            if ride.sights.find():
+                compile_rays(server, page.open)
             page.open()
             note(KEYS if simulator.command_topics else "this robot has no drive that takes velocity commands")
             ride.run()
@@ -113,6 +117,21 @@ def compile_kernel(server: Server, first: Callable[[], None]) -> None:
     server.declare("progress", label=None)
 
 
+def compile_rays(server: Server, first: Callable[[], None]) -> None:
+    """Compile what sensors see by if it has not been, saying so in the terminal and on the page."""
+    from urdfkit.cli.sim.kernel import SECONDS_RAYS
+    from urdfkit.scene.rays import warmup
+
+    def say(functions: int) -> None:
+        if functions == 0:
+            first()
+            note(f"compiling the ray kernels, once, about {SECONDS_RAYS} s …")
+            server.declare("progress", label="compiling the ray kernels, once …")
+
+    warmup(say)
+    server.declare("progress", label=None)
+
+
 class Ride:
     """The loop of a simulation that is driven: look at the driver, advance to now, show where everything is.
 
@@ -131,6 +150,8 @@ class Ride:
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
+        from urdfkit.cli.sim.sights import Sights
+
         self.simulator = simulator
         self.server = server
         self._clock = clock
@@ -144,6 +165,7 @@ class Ride:
         self._root = kinematics.link_names.index(kinematics.root)
         self._drawn: tuple[str, ...] = ()
         self._revision = -1
+        self.sights = Sights(simulator, server, clock)
 
     def show(self) -> None:
         """Put the robot and what else the world holds on the page, where they are."""
@@ -254,6 +276,7 @@ class Ride:
             self.show()
         poses = self._poses()
         self.server.publish(simulator.t, poses)
+        self.sights.show()
         if now - self._reported < STATUS:
             return
         self._reported = now

@@ -69,6 +69,9 @@ def _link(joint: Element, tag: str, scope: Scope) -> str:
 
 def _axis(context: Context, element: Element, scope: Scope, child: str, pose: Pose) -> WorldAxis:
     remark_unknown(context, element)
+    if (mimic := element.find("mimic")) is not None:
+        leader = f" with joint `{mimic.get('joint')}`" if mimic.get("joint") else ""
+        context.note(mimic, f"<mimic> is not simulated: the joint does not move{leader}, but on its own")
     limit, dynamics = element.find("limit"), element.find("dynamics")
     lower, upper = (
         _limit(scalar(limit, tag, sign * inf, infinite=True)) for tag, sign in (("lower", -1), ("upper", 1))

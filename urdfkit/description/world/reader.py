@@ -61,6 +61,7 @@ def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) ->
         raise ResourceError(f"`{world}` is a folder; a world is a .world or .sdf file (worlds: {', '.join(names)})")
     if path.suffix in _SUFFIXES and not path.exists():
         hint = f"; did you mean `{path.stem}`, which we ship?" if path.stem in names else near_path(path)
+        hint = hint or did_you_mean(path.stem, names) or f" (worlds that we ship: {', '.join(names)})"
         raise ResourceError(f"cannot read {shown_path(path)}: No such file or directory{hint}")
     if path.suffix not in _SUFFIXES:
         raise ResourceError(

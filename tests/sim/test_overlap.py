@@ -1,0 +1,52 @@
+"""A robot that starts inside something: a note that names link, thing and depth, and nothing else happens."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from urdfkit.sim import Simulator, Spawn
+
+WALL = """<sdf version="1.9"><world name="w"><model name="ground_plane"><static>true</static><link name="l">
+<collision name="c"><geometry><plane><normal>0 0 1</normal></plane></geometry></collision></link></model>
+<model name="wall"><static>true</static><pose>2 0 1 0 0 0</pose><link name="l"><collision name="c"><geometry><box>
+<size>0.4 6 2</size></box></geometry></collision></link></model></world></sdf>"""
+
+
+@pytest.fixture
+def world(tmp_path: Path) -> Path:
+    path = tmp_path / "w.world"
+    path.write_text(WALL)
+    return path
+
+
+def deep(world: Path | str, spawn: Spawn) -> list[str]:
+    notes: list[str] = []
+    Simulator("simpleton", world=world, spawn=spawn, note=notes.append)
+    return [note for note in notes if "deep" in note]
+
+
+def test_inside_a_wall(world: Path) -> None:
+    (note,) = deep(world, Spawn(x=2.0, y=0.0))
+    assert re.fullmatch(r"link `\w+` starts 200 mm deep in `wall`; start the robot elsewhere \(--spawn, Spawn\)", note)
+
+
+def test_below_the_ground() -> None:
+    (note,) = deep("empty", Spawn(z=-0.05))
+    assert " starts 50 mm deep in `ground_plane`" in note
+
+
+def test_nothing_is_said_of_a_robot_that_stands_or_touches(world: Path) -> None:
+    assert deep(world, Spawn(x=0.0)) == []
+    assert deep("empty", Spawn(z=-0.001)) == []
+
+
+def test_looking_changes_nothing(world: Path) -> None:
+    simulator = Simulator("simpleton", world=world, spawn=Spawn(x=2.0), note=lambda text: None)
+    before = simulator.state.q.tobytes() + simulator.state.v.tobytes()
+    simulator.reset()
+    assert simulator.state.q.tobytes() + simulator.state.v.tobytes() == before
+    assert simulator.t == 0.0
+    assert simulator.state.contacts == ()

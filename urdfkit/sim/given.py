@@ -1,0 +1,73 @@
+"""What callers of the library give: numbers and vectors, looked at before anything is computed with them."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import Any, TypeVar
+
+from urdfkit.errors import SimulationError, UnknownNameError, did_you_mean
+
+Found = TypeVar("Found")
+
+COUNTS = {2: "two", 3: "three", 4: "four", 6: "six", 7: "seven"}
+
+
+def number(value: Any, what: str, unit: str) -> float:
+    """Return a number, finite or not.
+
+    Raises:
+        SimulationError: it is not one.
+    """
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise SimulationError(f"{what} is {value!r}; it must be a number [{unit}]") from None
+
+
+def vector(values: Any, length: int, what: str, unit: str) -> tuple[float, ...]:
+    """Return so many finite numbers.
+
+    Raises:
+        SimulationError: they are something else.
+    """
+    try:
+        found = tuple(float(value) for value in values)
+    except (TypeError, ValueError):
+        found = ()
+    if len(found) != length or not all(map(isfinite, found)):
+        raise SimulationError(f"{what} is {values!r}; it must be {COUNTS[length]} finite numbers [{unit}]")
+    return found
+
+
+class Named(dict[str, Found]):
+    """Things of a simulation by name.
+
+    Args:
+        kind: what they are, for the error.
+        things: name → thing.
+    """
+
+    def __init__(self, kind: str, things: dict[str, Found]) -> None:
+        super().__init__(things)
+        self._kind = kind
+
+    def __missing__(self, name: str) -> Found:
+        """Say which is the nearest.
+
+        Raises:
+            UnknownNameError: always.
+        """
+        raise UnknownNameError(f"no {self._kind} `{name}` in the simulation{nearest(str(name), self)}")
+
+
+def nearest(name: str, known: Any, *, most: int = 12) -> str:
+    """Return ``; did you mean …`` for the nearest of what is known; what there is where nothing is near."""
+    names = list(dict.fromkeys(known))
+    if hint := did_you_mean(name, names):
+        return hint
+    inside = [other for other in names if name and name.lower() in other.lower()]
+    if inside:
+        return f"; did you mean `{min(inside, key=len)}`?"
+    if not names:
+        return "; there is none"
+    return f" (there are {', '.join(names[:most])}{', …' * (len(names) > most)})"

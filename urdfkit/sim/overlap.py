@@ -1,0 +1,48 @@
+"""Whether a robot starts inside something: no push out of it would be what the user had in mind, so they are told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from typing import TYPE_CHECKING
+
+from urdfkit.errors import SimulationError
+
+if TYPE_CHECKING:
+    from urdfkit.sim.engine import Contact, Engine
+
+DEEP = 0.005
+"""How deep a link may be in something without a word [m]; models that are put down by hand are a little."""
+
+
+def note_overlaps(engine: Engine, links: Collection[str], note: Callable[[str], None]) -> None:
+    """Note what a robot starts inside of, the deepest of its links for each thing.
+
+    Args:
+        engine: at the start; left as it was.
+        links: the robot's.
+        note: tells the user something.
+    """
+    deepest: dict[str, tuple[float, str]] = {}
+    for contact in touching(engine):
+        if contact.depth > DEEP and (contact.a in links) is not (contact.b in links):
+            link, thing = (contact.a, contact.b) if contact.a in links else (contact.b, contact.a)
+            deepest[thing] = max(deepest.get(thing, (0.0, "")), (contact.depth, link))
+    for thing, (depth, link) in deepest.items():
+        note(
+            f"link `{link}` starts {1000 * depth:.0f} mm deep in `{thing}`; start the robot elsewhere (--spawn, Spawn)"
+        )
+
+
+def touching(engine: Engine) -> tuple[Contact, ...]:
+    """Return what touches at present, which a step finds out; what the step did is undone."""
+    blocks = engine._arrays.floats, engine._arrays.integers
+    kept, t, steps = [block.copy() for block in blocks], engine.t, engine.steps
+    try:
+        engine.step()
+        return engine.contacts()
+    except SimulationError:
+        return ()  # whoever steps on is told
+    finally:
+        for block, before in zip(blocks, kept, strict=True):
+            block[:] = before
+        engine.t, engine.steps = t, steps
