@@ -131,7 +131,7 @@ def test_selection(write):
 
 
 @pytest.mark.parametrize(
-    ("option", "hint"), [({"select": ["I5O3"]}, "did you mean `I503`"), ({"ignore": ["Q"]}, "urdf")]
+    ("option", "hint"), [({"select": ["I5033"]}, "did you mean `I503`"), ({"ignore": ["Q"]}, "urdf")]
 )
 def test_unknown_codes_are_refused(write, option, hint):
     with pytest.raises(UsageError, match=hint):

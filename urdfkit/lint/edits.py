@@ -27,6 +27,19 @@ def new_value(model: Model, element: Element, attribute: str, value: str, safety
     return Fix(safety, title, (Edit(span, value),))
 
 
+def new_values(model: Model, element: Element, values: dict[str, str], safety: Safety, title: str) -> Fix | None:
+    """Return the fix that gives several attributes other values; None unless each of them is written out."""
+    edits: list[Edit] = []
+    source = model.document(element.origin.position.file).source
+    for attribute, value in values.items():
+        written = model.literal(element, attribute)
+        if written is None:
+            return None
+        if written.value != value:
+            edits.append(Edit(source.span(written.value_start, written.value_end), value))
+    return Fix(safety, title, tuple(edits)) if edits else None
+
+
 def new_name(model: Model, element: Element, attribute: str, name: str, safety: Safety, title: str) -> Fix | None:
     """Return the fix that calls an attribute something else."""
     tag = model.tag(element.origin.position)

@@ -69,6 +69,8 @@ def references(model: Model, kinds: tuple[str, ...]) -> Iterator[tuple[str, Elem
                             yield text, element, parameter, plugin
 
 
-def is_for_gz(model: Model) -> bool:
-    """Whether the robot is meant for the new Gazebo."""
-    return model.target == "gz"
+def is_simulated(model: Model) -> bool:
+    """Whether the robot is meant for a simulator: the target is one, or it brings plugins or sensors for Gazebo."""
+    if model.target is not None and model.target not in ("ros1", "ros2", "moveit"):
+        return True
+    return any(block.plugins or block.sensors for block in model.robot.gazebo)

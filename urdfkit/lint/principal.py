@@ -78,6 +78,44 @@ def _rotate(a: list[list[float]], p: int, q: int) -> None:
     a[r][q] = a[q][r] = s * rp + c * rq
 
 
+_ORDERS = {
+    "by columns (ixx, ixy, iyy, ixz, iyz, izz)": (0, 1, 3, 2, 4, 5),
+    "with the diagonal first (ixx, iyy, izz, ixy, ixz, iyz)": (0, 3, 4, 1, 5, 2),
+    "with the diagonal first (ixx, iyy, izz, ixy, iyz, ixz)": (0, 3, 5, 1, 4, 2),
+    "with the diagonal first (ixx, iyy, izz, iyz, ixz, ixy)": (0, 5, 4, 1, 3, 2),
+}
+"""Orders in which the six entries may have been given → where ixx, ixy, ixz, iyy, iyz and izz are among them."""
+
+
+def reordered(element: Element) -> tuple[str, tuple[float, ...]] | None:
+    """Return in which other order the entries of an ``<inertia>`` must have been given, and what they are then.
+
+    That is where the tensor as written has a moment that is not positive, and one other order alone gives a tensor that
+    a body can have, with a diagonal that outweighs its products. None for all others.
+
+    Args:
+        element: the ``<inertia>``.
+    """
+    values = [number(element.attributes.get(name, "")) for name in _COMPONENTS]
+    known = [value for value in values if value is not None and isfinite(value)]
+    if len(known) < len(_COMPONENTS) or not any(known[1:3]) or is_possible(known):
+        return None
+    found: dict[tuple[tuple[float, ...], ...], tuple[str, tuple[float, ...]]] = {}
+    for order, places in _ORDERS.items():
+        given = tuple(known[place] for place in places)
+        diagonal, products = (given[0], given[3], given[5]), (given[1], given[2], given[4])
+        if is_possible(given) and max(map(abs, products)) < 0.5 * min(diagonal):
+            found.setdefault((tuple(sorted(diagonal)), tuple(sorted(map(abs, products)))), (order, given))
+    return next(iter(found.values())) if len(found) == 1 else None
+
+
+def is_possible(values: Sequence[float]) -> bool:
+    """Return whether a body can have the six entries ixx, ixy, ixz, iyy, iyz, izz."""
+    xx, xy, xz, yy, yz, zz = values
+    small, middle, large = eigenvalues(xx, xy, xz, yy, yz, zz)
+    return small > 1e-9 * large and small + middle >= large * (1.0 - 1e-3)
+
+
 def shown(values: Sequence[float], *, digits: int = 3) -> list[str]:
     """Return the values with as few significant digits (at least `digits`) as tell unlike sums of them apart."""
     first, second, third = values
@@ -91,3 +129,9 @@ def shown(values: Sequence[float], *, digits: int = 3) -> list[str]:
 def _padded(value: float, digits: int) -> str:
     text = f"{value:#.{digits}g}"
     return text.rstrip(".") if "e" not in text else f"{value:.{digits}g}"
+
+
+def is_identity(element: Element) -> bool:
+    """Return whether an ``<inertia>`` is 1 on the diagonal and 0 beside it."""
+    values = [number(element.attributes.get(name, "")) for name in _COMPONENTS]
+    return values == [1.0, 0.0, 0.0, 1.0, 0.0, 1.0]

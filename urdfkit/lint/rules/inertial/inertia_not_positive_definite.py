@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.principal import principal_moments
+from urdfkit.lint.principal import principal_moments, reordered
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -63,7 +63,7 @@ class InertiaNotPositiveDefinite(RobotRule):
                 continue
             for moments, element in principal_moments(link):
                 size = max(abs(moments[0]), abs(moments[2]))
-                if size == 0.0 or moments[0] > TOLERANCE * size:
+                if size == 0.0 or moments[0] > TOLERANCE * size or reordered(element) is not None:
                     continue
                 listed = ", ".join(f"{moment:.3g}" for moment in moments)
                 wrong = "negative" if moments[0] < -TOLERANCE * size else "zero"

@@ -1,0 +1,86 @@
+"""I512 collision-without-inertial."""
+
+from __future__ import annotations
+
+from urdfkit.lint.gazebo import is_simulated
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class CollisionWithoutInertial(RobotRule):
+    """A link that can be bumped into has no mass.
+
+    ## What it does
+    Looks for links with ``<collision>`` and without ``<inertial>`` in robots that have masses elsewhere or are
+    simulated.
+
+    ## Why is this bad?
+    Gazebo keeps such a link only where a fixed joint lumps it into another one.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+        </inertial>
+      </link>
+      <link name="bumper">
+        <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
+      </link>
+      <joint name="mount" type="fixed">
+        <parent link="base"/>
+        <child link="bumper"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+        </inertial>
+      </link>
+      <link name="bumper">
+        <inertial>
+          <mass value="0.1"/>
+          <inertia ixx="0.0002" ixy="0" ixz="0" iyy="0.0002" iyz="0" izz="0.0002"/>
+        </inertial>
+        <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
+      </link>
+      <joint name="mount" type="fixed">
+        <parent link="base"/>
+        <child link="bumper"/>
+      </joint>
+    </robot>
+    ```
+    """
+
+    code = "I512"
+    name = "collision-without-inertial"
+    severity = "info"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each link with a collision and without mass that is fixed to another."""
+        robot = model.robot
+        if all(link.inertial is None for link in robot.links) and not is_simulated(model):
+            return
+        for link in robot.links:
+            above = robot.parents_of.get(link.name, [])
+            if link.collisions and link.inertial is None and above and all(joint.type == "fixed" for joint in above):
+                yield self.at(
+                    model,
+                    link.collisions[0].element,
+                    f"link `{link.name}` has a collision shape and no mass",
+                    link=link.name,
+                )

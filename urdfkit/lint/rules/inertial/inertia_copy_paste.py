@@ -1,0 +1,107 @@
+"""I510 inertia-copy-paste."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.tensor import COMPONENTS
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.robot import Link
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class InertiaCopyPaste(RobotRule):
+    """Links of different size have the same inertia tensor.
+
+    ## What it does
+    Looks for one tensor on three links or more whose shapes differ in size by more than a tenth.
+
+    ## Why is this bad?
+    A tensor belongs to one shape and mass: it was copied and never computed.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+        </inertial>
+        <visual><geometry><sphere radius="0.2"/></geometry></visual>
+      </link>
+      <link name="upper">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+        </inertial>
+        <visual><geometry><box size="0.3 0.2 0.2"/></geometry></visual>
+      </link>
+      <link name="lower">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+        </inertial>
+        <visual><geometry><box size="0.4 0.1 0.1"/></geometry></visual>
+      </link>
+      <joint name="a" type="fixed"><parent link="base"/><child link="upper"/></joint>
+      <joint name="b" type="fixed"><parent link="upper"/><child link="lower"/></joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.016" ixy="0" ixz="0" iyy="0.016" iyz="0" izz="0.016"/>
+        </inertial>
+        <visual><geometry><sphere radius="0.2"/></geometry></visual>
+      </link>
+      <link name="upper">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.00667" ixy="0" ixz="0" iyy="0.01083" iyz="0" izz="0.01083"/>
+        </inertial>
+        <visual><geometry><box size="0.3 0.2 0.2"/></geometry></visual>
+      </link>
+      <joint name="a" type="fixed"><parent link="base"/><child link="upper"/></joint>
+    </robot>
+    ```
+    """
+
+    code = "I510"
+    name = "inertia-copy-paste"
+    severity = "info"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each tensor that several unlike links share, at the first of them."""
+        groups: dict[tuple[float, ...], list[Link]] = {}
+        for link in model.robot.links:
+            inertia = link.inertial.inertia if link.inertial is not None else None
+            if inertia is not None and link.inertial is not None:
+                values = tuple(getattr(inertia, name) for name in COMPONENTS)
+                if any(values):
+                    groups.setdefault(values, []).append(link)
+        for links in groups.values():
+            sizes = sorted(
+                {round(model.extents[link.name].diagonal, 6) for link in links if link.name in model.extents}
+            )
+            unlike = [a for a, b in pairwise(sizes) if b > 1.1 * a]
+            inertial = links[0].inertial
+            if len(links) < 3 or not unlike or inertial is None or inertial.inertia is None:
+                continue
+            names = ", ".join(link.name for link in links[:3])
+            yield self.at(
+                model,
+                inertial.inertia.element,
+                f"{len(links)} links of different size have this inertia: {names}{' …' if len(links) > 3 else ''}",
+                link=links[0].name,
+                help="compute each from shape and mass",
+            )

@@ -1,0 +1,88 @@
+"""I508 inertia-vs-geometry-too-small."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from urdfkit.lint.principal import principal_moments
+from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.tensor import computed
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+SMALL = 0.05
+"""A solid ball has 0.63, a rod 0.58 of its reach; motors at one end bring it down, but not so far."""
+
+
+class InertiaTooSmall(RobotRule):
+    """The inertia of a link is much smaller than its shapes suggest.
+
+    ## What it does
+    Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of the
+    link's shapes: less than a twentieth of it would put nearly all the mass into one point.
+
+    ## Why is this bad?
+    Light parts with strong joints make simulations jitter, and the integrator needs tiny steps.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="arm">
+        <inertial>
+          <mass value="2"/>
+          <inertia ixx="0.000001" ixy="0" ixz="0" iyy="0.000001" iyz="0" izz="0.000001"/>
+        </inertial>
+        <visual><geometry><box size="0.4 0.1 0.1"/></geometry></visual>
+      </link>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="arm">
+        <inertial>
+          <mass value="2"/>
+          <inertia ixx="0.003333" ixy="0" ixz="0" iyy="0.028333" iyz="0" izz="0.028333"/>
+        </inertial>
+        <visual><geometry><box size="0.4 0.1 0.1"/></geometry></visual>
+      </link>
+    </robot>
+    ```
+
+    ## Fix safety
+    Unsafe: the tensor is computed for the link's shapes, filled evenly.
+    """
+
+    code = "I508"
+    name = "inertia-vs-geometry-too-small"
+    severity = "warning"
+    fix = "unsafe"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each tensor that is too small for the shapes."""
+        for link in model.robot.links:
+            mass = link.inertial.mass if link.inertial is not None else None
+            if link.inertial is None or mass is None or mass <= 0.0:
+                continue
+            extent = model.extents.get(link.name)
+            if extent is None or not link.visuals or extent.outside(link.inertial.origin.xyz) > 0.0:
+                continue  # Where the centre of mass is outside, that is what is wrong.
+            reach = extent.radius(link.inertial.origin.xyz)
+            for moments, element in principal_moments(link):
+                gyration = sqrt(max(moments[2], 0.0) / mass)
+                if 0.0 < gyration < SMALL * reach:
+                    yield self.at(
+                        model,
+                        element,
+                        f"inertia of link `{link.name}` is very small: radius of gyration {gyration:.3g} m, "
+                        f"its shapes reach {reach:.3g} m from the centre of mass",
+                        link=link.name,
+                        help="compute it from shape and mass",
+                        fix=computed(model, link, element),
+                    )

@@ -1,0 +1,90 @@
+"""I504 inertia-zero."""
+
+from __future__ import annotations
+
+from urdfkit.description.masses import massless
+from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.tensor import COMPONENTS, computed
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class InertiaZero(RobotRule):
+    """A link has a mass but no inertia.
+
+    ## What it does
+    Looks for tensors of zeros beside a mass. It is an error where the link is moved by a joint; on links that are
+    fixed to others it is a note: there it makes a point mass.
+
+    ## Why is this bad?
+    Nothing resists its turning: simulators divide by zero, MuJoCo refuses the model.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>
+        </inertial>
+      </link>
+      <joint name="elbow" type="continuous">
+        <parent link="base"/>
+        <child link="arm"/>
+        <axis xyz="0 1 0"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.002"/>
+        </inertial>
+      </link>
+      <joint name="elbow" type="continuous">
+        <parent link="base"/>
+        <child link="arm"/>
+        <axis xyz="0 1 0"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Fix safety
+    Unsafe: the tensor is computed for the link's shapes, filled evenly.
+    """
+
+    code = "I504"
+    name = "inertia-zero"
+    fix = "unsafe"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each tensor of zeros."""
+        bodies: set[str] | None = None
+        for link in model.robot.links:
+            inertial = link.inertial
+            inertia = inertial.inertia if inertial is not None else None
+            if inertial is None or not inertial.mass or inertial.mass < 0.0 or inertia is None:
+                continue
+            if any(getattr(inertia, name) for name in COMPONENTS):
+                continue
+            if bodies is None:
+                bodies = {body.name for body, joint in massless(model.robot, floating=False) if joint is not None}
+            yield self.at(
+                model,
+                inertia.element,
+                f"link `{link.name}` has a mass of {inertial.mass:g} kg, but its inertia is zero",
+                link=link.name,
+                fix=computed(model, link, inertia.element),
+                severity=None if link.name in bodies else "info",
+            )

@@ -1,0 +1,120 @@
+"""I511 moving-link-without-inertial."""
+
+from __future__ import annotations
+
+from urdfkit.description.masses import massless
+from urdfkit.lint.gazebo import is_simulated
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.robot import Joint
+    from urdfkit.lint.finding import Finding, Severity
+    from urdfkit.lint.model import Model
+
+
+class MovingLinkWithoutInertial(RobotRule):
+    """A link that moves has no mass or no inertia.
+
+    ## What it does
+    Looks for links with a shape that are moved by a joint and for which no link fixed to them has a mass and a
+    tensor. It is an error for simulators: with ``--target gz``, ``classic``, ``mujoco``, ``isaac`` or ``drake``, or
+    where the robot brings plugins for Gazebo. For other robots it is a note. Where no link has a mass it is said
+    once, and only for robots that are simulated.
+
+    ## Why is this bad?
+    Gazebo drops the link, and all that hangs on it, without a word; MuJoCo refuses the model.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+        </inertial>
+      </link>
+      <link name="wheel">
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+      </link>
+      <joint name="axle" type="continuous">
+        <parent link="base"/>
+        <child link="wheel"/>
+        <axis xyz="0 1 0"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base">
+        <inertial>
+          <mass value="1"/>
+          <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>
+        </inertial>
+      </link>
+      <link name="wheel">
+        <inertial>
+          <mass value="0.2"/>
+          <inertia ixx="0.0008" ixy="0" ixz="0" iyy="0.0008" iyz="0" izz="0.0008"/>
+        </inertial>
+        <visual><geometry><sphere radius="0.1"/></geometry></visual>
+      </link>
+      <joint name="axle" type="continuous">
+        <parent link="base"/>
+        <child link="wheel"/>
+        <axis xyz="0 1 0"/>
+      </joint>
+    </robot>
+    ```
+    """
+
+    code = "I511"
+    name = "moving-link-without-inertial"
+    severity = "info"
+    not_for = frozenset(("moveit",))
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each body that cannot be moved; one for a robot without any mass."""
+        robot = model.robot
+        if model.is_incomplete:
+            return
+        shaped = [link.name for link in robot.links if link.visuals or link.collisions]
+        severity: Severity = "error" if is_simulated(model) else "info"
+        if all(link.inertial is None for link in robot.links):
+            moved = {joint.child for joint in robot.joints if _moves(joint)}
+            first = next((link for link in robot.links if link.name in moved and link.name in shaped), None)
+            if first is not None and severity == "error":
+                yield self.at(
+                    model,
+                    first.element,
+                    f"no link of the robot has a mass, yet `{first.name}` and others are moved by joints",
+                    attribute="name",
+                    link=first.name,
+                    help="add <inertial> with <mass> and <inertia> to every link that moves",
+                    severity=severity,
+                )
+            return
+        for link, joint in massless(robot, floating=False):
+            if joint is None or link.name not in shaped:
+                continue
+            inertial = link.inertial
+            if inertial is not None and inertial.mass is not None and inertial.inertia is not None:
+                continue  # Both are there, but zero: that is said elsewhere.
+            yield self.at(
+                model,
+                link.element,
+                f"link `{link.name}` is moved by joint `{joint.name}` and has no mass or no inertia",
+                attribute="name",
+                link=link.name,
+                joint=joint.name,
+                help="add <inertial> with <mass> and <inertia>",
+                severity=severity,
+            )
+
+
+def _moves(joint: Joint) -> bool:
+    return joint.is_movable or (joint.type is None and joint.element.find("axis") is not None)

@@ -1,0 +1,94 @@
+"""The inertia tensor of a link's shapes, in plain Python: what rules compare with and fixes write."""
+
+from __future__ import annotations
+
+from urdfkit.description.robot import Box, Capsule, Cylinder, Sphere
+from urdfkit.lint.edits import new_values
+from urdfkit.lint.placement import Extent, rotation
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.element import Element
+    from urdfkit.description.robot import Geometry, Link, Vector
+    from urdfkit.lint.finding import Fix
+    from urdfkit.lint.model import Model
+
+COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+"""The entries of a tensor, as URDF names them."""
+
+Rows = list[list[float]]
+
+
+def tensor_of(link: Link, extent: Extent, mass: float) -> tuple[float, ...] | None:
+    """Return the six entries [kg·m²] of a link's shapes filled evenly with `mass` [kg], in its inertial frame.
+
+    Collision shapes count; visual ones where there are none. Shapes that overlap count twice, and of a mesh the box
+    around it is taken. The tensor is about the shapes' own centre of mass. None where they have no volume.
+    """
+    count = len(link.visuals)
+    shapes = extent.shapes[count:] or extent.shapes[:count]
+    volumes = [_volume(shape) for shape, _ in shapes]
+    if sum(volumes) <= 0.0:
+        return None
+    masses = [mass * volume / sum(volumes) for volume in volumes]
+    poses = [pose for _, pose in shapes]
+    centre = [sum(m * pose.xyz[i] for m, pose in zip(masses, poses, strict=True)) / mass for i in range(3)]
+    total: Rows = [[0.0] * 3 for _ in range(3)]
+    for (shape, pose), m in zip(shapes, masses, strict=True):
+        rows, diagonal = rotation(pose.rpy), _diagonal(shape, m)
+        offset = [pose.xyz[i] - centre[i] for i in range(3)]
+        square = sum(part * part for part in offset)
+        for i in range(3):
+            for j in range(3):
+                own = sum(rows[i][k] * diagonal[k] * rows[j][k] for k in range(3))
+                total[i][j] += own + m * ((square if i == j else 0.0) - offset[i] * offset[j])
+    frame = rotation(link.inertial.origin.rpy) if link.inertial is not None else rotation((0.0, 0.0, 0.0))
+    turned = [
+        [sum(frame[k][i] * total[k][n] * frame[n][j] for k in range(3) for n in range(3)) for j in range(3)]
+        for i in range(3)
+    ]
+    return turned[0][0], turned[0][1], turned[0][2], turned[1][1], turned[1][2], turned[2][2]
+
+
+def computed(model: Model, link: Link, element: Element) -> Fix | None:
+    """Return the fix that writes the tensor of the link's shapes; None where they, or the mass, are not known."""
+    extent = model.extents.get(link.name)
+    mass = link.inertial.mass if link.inertial is not None else None
+    if extent is None or mass is None or mass <= 0.0:
+        return None
+    values = tensor_of(link, extent, mass)
+    if values is None:
+        return None
+    largest = max(values)
+    texts = {name: _written(value, largest) for name, value in zip(COMPONENTS, values, strict=True)}
+    return new_values(model, element, texts, "unsafe", "Compute it from shape and mass")
+
+
+def _written(value: float, largest: float) -> str:
+    return "0" if abs(value) < 1e-9 * largest else f"{value:.6g}"
+
+
+def _volume(shape: Geometry) -> float:
+    if isinstance(shape, Box):
+        return abs(shape.size[0] * shape.size[1] * shape.size[2])
+    if isinstance(shape, Sphere):
+        return 4.18879020479 * shape.radius**3
+    if isinstance(shape, (Cylinder, Capsule)):
+        cap = 4.0 / 3.0 * shape.radius if isinstance(shape, Capsule) else 0.0
+        return 3.14159265359 * shape.radius**2 * (shape.length + cap)
+    return 0.0
+
+
+def _diagonal(shape: Geometry, mass: float) -> Vector:
+    """Return the principal moments of a solid about its centre (any textbook); a capsule is taken as a cylinder."""
+    if isinstance(shape, Box):
+        x, y, z = (size * size for size in shape.size)
+        return mass * (y + z) / 12.0, mass * (x + z) / 12.0, mass * (x + y) / 12.0
+    if isinstance(shape, Sphere):
+        moment = 0.4 * mass * shape.radius**2
+        return moment, moment, moment
+    if isinstance(shape, (Cylinder, Capsule)):
+        length = shape.length + (4.0 / 3.0 * shape.radius if isinstance(shape, Capsule) else 0.0)
+        across = mass * (3.0 * shape.radius**2 + length**2) / 12.0
+        return across, across, mass * shape.radius**2 / 2.0
+    return 0.0, 0.0, 0.0
