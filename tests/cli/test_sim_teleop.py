@@ -351,3 +351,14 @@ def test_what_is_spawned_appears_on_the_page_and_what_is_removed_vanishes() -> N
         assert shown() == {f"world%2F{name}"}
         simulator.remove(name)
         assert shown() == set()
+
+
+@pytest.mark.browser
+def test_the_first_view_is_of_the_robot_not_of_the_house_around_it(serve, visits, keep) -> None:
+    page = visits.open(serve("sim", "teleop", "simpleton", "--world", "house").url)
+    keep(page, "house")
+    robot, everything = page.evaluate("[urdfkit.scene.own.length, urdfkit.scene.nodes.length]")
+    assert robot == 7 < everything
+    assert 0.2 < page.evaluate("urdfkit.stage.radius") < 0.6
+    far = "urdfkit.stage.viewer.camera.position.distanceTo(urdfkit.stage.viewer.controls.target)"
+    assert page.evaluate(far) < 5.0

@@ -15,6 +15,7 @@ export class Scene {
     this.shown = { visual: true, collision: false };
     this.generation = 0;
     this.nodes = [];
+    this.own = [];
     this.model = -1;
     this.pending = null;
     const original = this.viewer.handle_command.bind(this.viewer);
@@ -87,14 +88,18 @@ export class Scene {
     while (this.waiting.size) await Promise.allSettled([...this.waiting]);
   }
 
+  /** What the robot is made of, without the world around it; everything where it has nothing to see. */
   get robot() {
-    return this.viewer.scene_tree.find(["robot"]).object;
+    const seen = (node) => !new THREE.Box3().setFromObject(node).isEmpty();
+    return this.own.some(seen) ? this.own : [this.viewer.scene_tree.find(["robot"]).object];
   }
 
   /** The nodes that poses move, in the order of the rows of a pose frame. */
   use(model) {
     this.model = model.number;
     this.nodes = model.nodes.map((path) => this.viewer.scene_tree.find(path.split("/").filter(Boolean)).object);
+    // No link has a slash in its name; bodies of the world do.
+    this.own = this.nodes.filter((_, i) => !model.nodes[i].includes("/world%2F"));
     this.pending = null;
     for (const name of this.meshes.keys()) this.used.has(name) || this.meshes.delete(name);
   }

@@ -96,10 +96,13 @@ export class Stage {
     this.grid.material.uniforms.reach.value = distance * 5 + 4 * this.cell;
   }
 
-  /** Look at the robot from a good distance. `direction` points from it to the camera, z up. */
+  /** Look at the robot, a list of nodes, from a good distance. `direction` points from it to the camera, z up. */
   fit(robot, direction, zoom = 1) {
-    robot.updateWorldMatrix(true, true);
-    const box = new THREE.Box3().setFromObject(robot);
+    const box = new THREE.Box3();
+    for (const node of robot) {
+      node.updateWorldMatrix(true, true);
+      box.expandByObject(node);
+    }
     if (box.isEmpty()) return false;
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const radius = (this.radius = Math.max(sphere.radius, 0.02));
