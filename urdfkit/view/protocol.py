@@ -1,12 +1,12 @@
 """What travels on the websocket, and the checks on every value that comes in.
 
-Version 1. Text frames are JSON objects with a ``type``; binary frames whose first byte is 0x01 are packed poses; other
-binary frames are meshcat commands (msgpack maps, whose first byte is never 0x01).
+Version 1. Text frames are JSON objects with a ``type``; binary frames whose first byte is 0x01 are packed poses, 0x02
+what a sensor sees; other binary frames are meshcat commands (msgpack maps, whose first byte is neither).
 
 Browser → Python: ``joints`` {positions: {name: value}}, ``axes`` {axes: [x, y, z, turn] each -1..1, speed, turn},
 ``control`` {action}, ``ack`` {sequence}.
 
-Python → browser: ``hello``, ``model``, ``status``, ``fault``, ``progress``, ``driver``, ``joints``.
+Python → browser: ``hello``, ``model``, ``status``, ``fault``, ``progress``, ``driver``, ``joints``, ``sensors``.
 """
 
 from __future__ import annotations
@@ -34,6 +34,8 @@ ACTIONS = ("play", "pause", "reset")
 POSE_HEADER = struct.Struct("<BBHId")
 """0x01, number of the model modulo 256, number of objects, sequence, time [s]: 16 bytes."""
 POSE_MARK = 0x01
+SENSED_MARK = 0x02
+"""As `POSE_HEADER`: mark, kind (0 points, 1 a JPEG), number of the sensor, sequence, time [s]; then the content."""
 
 
 class ProtocolError(Exception):
@@ -162,6 +164,18 @@ def write(type: str, **values: Any) -> str:
         ValueError: a value is not finite.
     """
     return json.dumps({"type": type, **values}, separators=(",", ":"), allow_nan=False)
+
+
+def pack_sensed(index: int, time: float, kind: int, content: bytes) -> bytes:
+    """Pack what a sensor sees for the browser.
+
+    Args:
+        index: number of the sensor in the last ``sensors``.
+        time: simulated time [s].
+        kind: 0 for points, float32 x y z [m] in the world; 1 for a JPEG.
+        content: these.
+    """
+    return POSE_HEADER.pack(SENSED_MARK, kind, index & 0xFFFF, 0, time) + content
 
 
 def pack_poses(sequence: int, time: float, poses: NDArray[np.float64], *, model: int = 0) -> bytes:

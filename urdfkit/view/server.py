@@ -147,6 +147,10 @@ class Server:
         if latest is not None:
             self.hub.poses(*latest)
 
+    def sense(self, index: int, time: float, kind: int, content: bytes) -> None:
+        """Send what a sensor sees, until the next from it; see `protocol.pack_sensed`."""
+        self._post(self.hub.news, f"sensed {index}", protocol.pack_sensed(index, time, kind, content))
+
     def tell(self, type: str, **values: Any) -> None:
         """Send a text that matters only until the next of its type, such as ``status``."""
         self._post(self.hub.news, type, protocol.write(type, **values))

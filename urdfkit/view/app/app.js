@@ -4,6 +4,7 @@ import { Connection } from "./connection.js";
 import { Drive } from "./drive.js";
 import { Joints } from "./joints.js";
 import { Scene } from "./scene.js";
+import { Sensors } from "./sensors.js";
 import { Stage } from "./stage.js";
 
 const PROTOCOL = 1;
@@ -16,6 +17,7 @@ if (!document.createElement("canvas").getContext("webgl2")) {
 
 const stage = new Stage($("pane"));
 const scene = new Scene(stage);
+const sensors = new Sensors(stage);
 const joints = new Joints((positions) => connection.send("joints", { positions }));
 const drive = new Drive((held) => connection.send("axes", held), () => $("pause").click());
 let mode = null;
@@ -46,6 +48,9 @@ const on = {
     scene.use(message);
     joints.show(mode === "view" ? message.joints : []);
     if (another) fitted = false;
+  },
+  sensors(message) {
+    sensors.use(message.sensors);
   },
   joints(message) {
     joints.update(message.positions);
@@ -84,6 +89,7 @@ const connection = new Connection({
   },
   command: (bytes) => scene.command(bytes),
   poses: (frame) => scene.poses(frame, applied),
+  sensed: (frame) => sensors.frame(frame),
 });
 
 function applied(sequence) {
@@ -134,5 +140,5 @@ if (matchMedia("(max-width: 760px)").matches) panel(false);
 
 // For tests and for the curious at the console.
 Object.defineProperty(window, "urdfkit", {
-  value: { stage, scene, joints, drive, connection, link: (index) => scene.nodes[index ?? root] },
+  value: { stage, scene, sensors, joints, drive, connection, link: (index) => scene.nodes[index ?? root] },
 });

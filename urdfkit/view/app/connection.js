@@ -2,9 +2,10 @@
 
 const SILENCE = 6000; // ms without a word from the server after which the line counts as dead
 const POSES = 0x01;
+const SENSED = 0x02;
 
 export class Connection {
-  /** @param on {state(name, text), text(message), poses(frame), command(bytes)} */
+  /** @param on {state(name, text), text(message), poses(frame), sensed(frame), command(bytes)} */
   constructor(on) {
     this.on = on;
     this.tries = 0;
@@ -38,6 +39,7 @@ export class Connection {
       this.heard = performance.now();
       if (typeof data === "string") this.on.text(JSON.parse(data));
       else if (new Uint8Array(data, 0, 1)[0] === POSES) this.on.poses(data);
+      else if (new Uint8Array(data, 0, 1)[0] === SENSED) this.on.sensed(data);
       else this.on.command(new Uint8Array(data));
     };
     socket.onclose = () => socket === this.socket && this.#lost();

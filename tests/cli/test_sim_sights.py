@@ -1,0 +1,143 @@
+"""What lidars and cameras see on the page: points where things are, pictures, and no more of it than there is time."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("meshcat")
+
+from PIL import Image
+
+from urdfkit.cli.sim.sights import MOST_POINTS, PICTURE, POINTS, Sights, picture, points
+from urdfkit.description import load
+from urdfkit.sim import Simulator
+from urdfkit.sim.sensors.clouds import GZ, cloud, old_cloud
+from urdfkit.sim.sensors.optics import depth_image, image
+from urdfkit.view import protocol
+
+LASER = str(
+    Path(__file__).parents[2]
+    / "robots/diff_wheeled_robot/diff_wheeled_robot_description/urdf/diff_wheeled_robot_with_laser.urdf.xacro"
+)
+MOVED = np.array([[0.0, -1, 0, 10], [1, 0, 0, 20], [0, 0, 1, 30], [0, 0, 0, 1]])
+
+
+class Page:
+    """A server that keeps what it is told."""
+
+    def __init__(self) -> None:
+        self.hub = SimpleNamespace(watchers=1)
+        self.sensed: list[tuple[int, float, int, bytes]] = []
+        self.declared: list[dict[str, Any]] = []
+
+    def declare(self, type: str, **values: Any) -> None:
+        self.declared.append({"type": type, **values})
+
+    def sense(self, *content: Any) -> None:
+        self.sensed.append(content)
+
+
+def xyz(packed: bytes) -> np.ndarray:
+    return np.frombuffer(packed, "<f4").reshape(-1, 3)
+
+
+def test_points_are_where_the_sensor_saw_them() -> None:
+    scan = SimpleNamespace(ranges=np.array([2.0, np.inf, 3.0]), angle_min=0.0, angle_increment=np.pi / 4)
+    seen = [[10.0, 22.0, 30.0], [7.0, 20.0, 30.0]]
+    assert xyz(points(scan, MOVED)) == pytest.approx(np.array(seen), abs=1e-5)
+    own = np.array([[2.0, 0, 0], [0, 3.0, 0], [np.nan, 0, 0]])
+    columns = {name: own[:, i] for i, name in enumerate("xyz")}
+    assert xyz(points(cloud(0.0, "f", GZ, columns, width=3), MOVED)) == pytest.approx(np.array(seen), abs=1e-5)
+    old = old_cloud(0.0, "f", own[:2], np.zeros(2))
+    assert xyz(points(old, MOVED)) == pytest.approx(np.array(seen), abs=1e-5)
+    many = SimpleNamespace(ranges=np.ones(50_001), angle_min=0.0, angle_increment=1e-4)
+    assert MOST_POINTS / 2 < len(xyz(points(many, np.eye(4)))) <= MOST_POINTS
+
+
+def test_pictures_are_small_jpegs() -> None:
+    rgb = np.full((400, 800, 3), (10, 200, 30), dtype=np.uint8)
+    with Image.open(io.BytesIO(picture(image(0.0, "eye", rgb, "rgb8")))) as found:
+        assert (found.format, found.size, found.mode) == ("JPEG", (320, 160), "RGB")
+        assert np.asarray(found).mean(axis=(0, 1)) == pytest.approx((10, 200, 30), abs=4)
+    depth = np.full((20, 30), 2.0, dtype=np.float32)
+    depth[:, 15:], depth[:5] = 4.0, np.nan
+    with Image.open(io.BytesIO(picture(depth_image(0.0, "eye", depth, millimetres=False)))) as found:
+        grey = np.asarray(found).astype(int)
+        assert grey.shape == (20, 30)
+        assert grey[15, 5] > grey[15, 25] > grey[1, 5]
+
+
+@pytest.fixture
+def shown():
+    now = [0.0]
+    page = Page()
+    simulator = Simulator(load(LASER), world="cylinders", note=lambda _: None)
+    sights = Sights(simulator, page, lambda: now[0])  # type: ignore[arg-type]
+    assert sights.find()
+    return simulator, page, sights, now
+
+
+def test_the_page_gets_what_the_laser_met(shown) -> None:
+    simulator, page, sights, _ = shown
+    assert page.declared == [{"type": "sensors", "sensors": [{"topic": "/scan", "picture": False}]}]
+    simulator.run(0.1)
+    sights.show()
+    ((index, t, kind, content),) = page.sensed
+    assert (index, t, kind) == (0, pytest.approx(0.1), POINTS)
+    found = xyz(content)
+    assert len(found) > 50
+    where = np.array([pose[:2] for pose in simulator.body_poses().values()])
+    off = np.linalg.norm(found[:, None, :2] - where, axis=-1).min(axis=1)
+    assert off.std() < 1e-4  # all as far from the axis of a cylinder as its radius
+
+
+def test_nobody_watching_means_nobody_looking(shown) -> None:
+    simulator, page, sights, _ = shown
+    page.hub.watchers = 0
+    simulator.run(0.1)
+    assert sights.show() == 0.0
+    assert not page.sensed
+    assert not simulator._setup.surroundings.was_looked_at
+
+
+def test_there_is_time_between_two_looks(shown) -> None:
+    simulator, page, sights, now = shown
+    for _ in range(100):
+        simulator.run(0.01)
+        sights.show()
+        now[0] += 0.01
+    assert 9 <= len(page.sensed) <= 11
+
+
+def test_frames_tell_sensor_kind_and_time() -> None:
+    frame = protocol.pack_sensed(3, 1.5, PICTURE, b"jpeg")
+    assert protocol.POSE_HEADER.unpack(frame[:16]) == (0x02, 1, 3, 0, 1.5)
+    assert frame[16:] == b"jpeg"
+
+
+@pytest.mark.browser
+def test_the_page_shows_points_and_pictures(serve_for_all, visits, keep, until) -> None:
+    server = serve_for_all("sim", "teleop", LASER, "--world", "cylinders")
+    page = visits.open(server.url, viewport={"width": 1100, "height": 700})
+    page.wait_for_selector("#progress", state="hidden", timeout=180_000)
+    until(lambda: page.evaluate("urdfkit.sensors.shown[0]?.count ?? 0") > 50)
+    keep(page, "scan")
+    page.get_by_label("/scan").click()
+    assert not page.evaluate("urdfkit.sensors.shown[0].points.visible")
+    assert visits.problems == []
+
+
+@pytest.mark.browser
+def test_the_page_shows_what_the_camera_sees(serve_for_all, visits, keep, until) -> None:
+    server = serve_for_all("sim", "teleop", "simpleton", "--world", "house")
+    page = visits.open(server.url, viewport={"width": 1100, "height": 700})
+    page.wait_for_selector("#progress", state="hidden", timeout=180_000)
+    until(lambda: page.evaluate("urdfkit.sensors.shown[0]?.image?.naturalWidth ?? 0") == 320)
+    keep(page, "camera")
+    assert visits.problems == []

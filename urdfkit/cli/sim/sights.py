@@ -1,0 +1,160 @@
+"""What lidars and cameras see, on the page of ``sim teleop``: points in the scene, and small pictures.
+
+They are looked at only while somebody watches, the one that waited longest first, and no oftener than leaves the
+simulation most of the time: what a sensor's rate is does not matter to the page.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.sim.sensors.lidar import LASER_SCAN, Lidar
+from urdfkit.sim.sensors.mounted import Mounted
+from urdfkit.sim.sensors.optics import IMAGE
+
+if TYPE_CHECKING:
+    from urdfkit.bus import Topic
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.server import Server
+
+Array = NDArray[Any]
+
+PERIOD = 0.1
+"""Seconds between two looks of one sensor, at least."""
+SHARE = 0.25
+"""Part of the time that looking may take."""
+WIDTH = 320
+"""Of a picture on the page [px], at most."""
+MOST_POINTS = 20_000
+"""Of one scan on the page; of larger ones every second point, every third, …"""
+POINTS, PICTURE = 0, 1
+"""What is in a frame."""
+
+
+@dataclass
+class Sight:
+    """One topic that is shown.
+
+    Attributes:
+        topic: where the sensor publishes.
+        sensor: that publishes there.
+        kind: `POINTS` or `PICTURE`.
+        due: when it may be looked at again [s of the clock].
+        shown: messages there had been when it was looked at last.
+    """
+
+    topic: Topic
+    sensor: Mounted
+    kind: int
+    due: float = 0.0
+    shown: int = 0
+
+
+class Sights:
+    """The lidars and cameras of a simulation, on the page.
+
+    Args:
+        simulator: whose robots' sensors.
+        server: the page.
+        clock: wall clock [s].
+    """
+
+    def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
+        self._simulator, self._server, self._clock = simulator, server, clock
+        self._sights: list[Sight] = []
+        self._revision = -1
+        self._free = 0.0
+
+    def find(self) -> bool:
+        """Take note of the sensors there are, tell the page, and return whether there are any."""
+        self._revision = self._simulator.revision
+        self._sights = []
+        for robot in self._simulator.robots.values():
+            for sensor in robot.plugins.sensors:
+                if isinstance(sensor, Mounted):
+                    self._sights += [Sight(topic, sensor, kind) for topic, kind in _shown(sensor)]
+        names = [{"topic": sight.topic.name, "picture": sight.kind == PICTURE} for sight in self._sights]
+        self._server.declare("sensors", sensors=names)
+        return bool(self._sights)
+
+    def show(self) -> float:
+        """Show what one sensor sees, if one is due and there is time; return how long that took [s]."""
+        if self._simulator.revision != self._revision:
+            self.find()
+        now = self._clock()
+        if not self._server.hub.watchers or now < self._free:
+            return 0.0
+        waiting = [
+            (k, each) for k, each in enumerate(self._sights) if each.due <= now and each.topic.count != each.shown
+        ]
+        if not waiting:
+            return 0.0
+        index, sight = min(waiting, key=lambda pair: pair[1].due)
+        sight.shown = sight.topic.count
+        message = sight.topic.latest
+        if message is not None:
+            found = picture(message) if sight.kind == PICTURE else points(message, sight.sensor.viewpoint)
+            self._server.sense(index, self._simulator.t, sight.kind, found)
+        cost = self._clock() - now
+        sight.due = now + max(PERIOD, cost / SHARE)
+        self._free = now + cost / SHARE
+        return cost
+
+
+def _shown(sensor: Mounted) -> list[tuple[Topic, int]]:
+    if isinstance(sensor, Lidar):
+        kinds = (LASER_SCAN, "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/PointCloud")
+        return [(topic, POINTS) for topic in sensor.topics if topic.type in kinds][:1]
+    return [(topic, PICTURE) for topic in sensor.topics if topic.type == IMAGE]
+
+
+def points(message: Any, viewpoint: Array) -> bytes:
+    """Return where the points of a scan are in the world [m], as little-endian float32.
+
+    Args:
+        message: a LaserScan, PointCloud2 or PointCloud in the coordinates of the sensor.
+        viewpoint: of the sensor; shape (4, 4).
+    """
+    if hasattr(message, "ranges"):
+        angles = message.angle_min + message.angle_increment * np.arange(len(message.ranges))
+        ranges = np.asarray(message.ranges, dtype=float)
+        seen = np.isfinite(ranges)
+        angles, ranges = angles[seen], ranges[seen]
+        found = np.stack([ranges * np.cos(angles), ranges * np.sin(angles), np.zeros(len(ranges))], axis=-1)
+    elif hasattr(message, "data"):
+        offsets = {field.name: field.offset for field in message.fields}
+        rows = np.frombuffer(message.data.tobytes(), dtype=np.uint8).reshape(-1, message.point_step)
+        found = np.stack(
+            [np.ascontiguousarray(rows[:, offsets[axis] : offsets[axis] + 4]).view("<f4")[:, 0] for axis in "xyz"],
+            axis=-1,
+        ).astype(float)
+    else:
+        found = np.array([(each.x, each.y, each.z) for each in message.points], dtype=float).reshape(-1, 3)
+    found = found[np.isfinite(found).all(axis=1)]
+    found = found[:: max(1, -(-len(found) // MOST_POINTS))]
+    return bytes((found @ viewpoint[:3, :3].T + viewpoint[:3, 3]).astype("<f4").tobytes())
+
+
+def picture(message: Any) -> bytes:
+    """Return an Image as a small JPEG; depths as grey, near ones bright."""
+    from PIL import Image
+
+    from urdfkit.cli.sim.pictures import png
+
+    with Image.open(io.BytesIO(png(message))) as whole:
+        small = whole
+        if whole.mode not in ("RGB", "L"):
+            depth = np.asarray(whole, dtype=float)
+            known = depth[depth > 0]
+            far = float(known.max()) if len(known) else 1.0
+            small = Image.fromarray(np.where(depth > 0, 255 - 215 * depth / far, 0).astype(np.uint8))
+        small = small.resize((min(WIDTH, whole.width), max(1, round(whole.height * min(1.0, WIDTH / whole.width)))))
+        file = io.BytesIO()
+        small.save(file, format="JPEG", quality=80)
+    return file.getvalue()
