@@ -68,6 +68,19 @@ def _types() -> dict[str, Any] | None:
     return None if store is None else dict(store.types)
 
 
+def typestore() -> Any:
+    """Return rosbags' typestore, with the messages that it lacks.
+
+    Raises:
+        MissingDependencyError: rosbags is not installed.
+    """
+    from urdfkit.errors import MissingDependencyError
+
+    if (found := _store()) is None:
+        raise MissingDependencyError("messages need rosbags: pip install 'urdfkit[sim]'")
+    return found
+
+
 def full_type_name(name: str) -> str:
     """Turn ``geometry_msgs/Twist`` into ``geometry_msgs/msg/Twist``; leave full names alone."""
     parts = name.split("/")

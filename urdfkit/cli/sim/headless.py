@@ -14,6 +14,7 @@ from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim import values
 from urdfkit.cli.sim.controllers import add_controllers
 from urdfkit.cli.sim.distro import add_distro
+from urdfkit.cli.sim.recording import LOOK, add_record, recording
 from urdfkit.cli.unused import note_unused
 from urdfkit.errors import SimulationError, UsageError, did_you_mean
 
@@ -91,6 +92,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="TOPIC=FILE.json",
         help="write the last scan or cloud of a topic, as JSON or .csv (repeatable; as --save-image)",
     )
+    add_record(parser)
     add("--save-world", metavar="FILE", help="write the world as it is in the end, without the robot, as SDF")
     add(
         "--engine",
@@ -122,7 +124,10 @@ def run(arguments: argparse.Namespace) -> int:
     command(simulator, arguments)
     images = pictures.find_topics(simulator, arguments.save_image)
     ranges = scans.find_topics(simulator, arguments.save_scan)
-    spent = advance(simulator, arguments.duration, arguments.until)
+    with recording(simulator, arguments.record, quiet=arguments.quiet) as look:
+        if arguments.record is not None:
+            simulator.every(LOOK, look)
+        spent = advance(simulator, arguments.duration, arguments.until)
     pictures.save(simulator, images)
     scans.save(simulator, ranges)
     if arguments.save_world is not None:

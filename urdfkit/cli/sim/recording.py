@@ -1,0 +1,51 @@
+"""``--record FILE.mcap``: every message of a simulation in one file."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import argparse
+
+    from urdfkit.sim.simulator import Simulator
+
+LOOK = 0.1
+"""Simulated seconds between looks for topics that have come up."""
+
+
+def add_record(parser: argparse.ArgumentParser) -> None:
+    """Add ``--record``."""
+    parser.add_argument(
+        "--record", metavar="FILE.mcap", help="record every topic, pictures too, for ros2 bag and its relatives"
+    )
+
+
+@contextmanager
+def recording(simulator: Simulator, file: str | None, *, quiet: bool = False) -> Iterator[Callable[[], None]]:
+    """Record while inside; what is yielded looks for topics that have come up.
+
+    Args:
+        simulator: whose messages.
+        file: where to; None records nothing.
+        quiet: do not say what was recorded.
+
+    Raises:
+        UrdfkitError: the file cannot be written.
+    """
+    if file is None:
+        yield lambda: None
+        return
+    from urdfkit.bridges.recorder import Recorder
+
+    with Recorder(simulator.bus, file, lambda: simulator.t) as recorder:
+        topics = recorder.topics
+        try:
+            yield recorder.look
+        finally:
+            recorder.look()
+            topics = recorder.topics
+    if not quiet:
+        print(f"urdfkit: recorded {recorder.count} messages of {topics} topics to {file}", file=sys.stderr)
