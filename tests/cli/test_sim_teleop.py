@@ -362,3 +362,16 @@ def test_the_first_view_is_of_the_robot_not_of_the_house_around_it(serve, visits
     assert 0.2 < page.evaluate("urdfkit.stage.radius") < 0.6
     far = "urdfkit.stage.viewer.camera.position.distanceTo(urdfkit.stage.viewer.controls.target)"
     assert page.evaluate(far) < 5.0
+
+
+def test_a_ride_is_recorded_until_it_is_interrupted(serve, tmp_path, until) -> None:
+    from rosbags.rosbag2 import Reader
+
+    served = serve("sim", "teleop", "simpleton", "--record", "ride.mcap")
+    until(lambda: "Drive with" in served.errors.read_text(), 180.0)
+    time.sleep(0.5)
+    served.end()
+    assert " topics to ride.mcap" in served.errors.read_text()
+    with Reader(tmp_path / "ride.mcap") as reader:
+        assert reader.message_count > 10
+        assert {"/clock", "/tf", "/simpleton/odom"} <= set(reader.topics)

@@ -40,12 +40,11 @@ def recording(simulator: Simulator, file: str | None, *, quiet: bool = False) ->
         return
     from urdfkit.bridges.recorder import Recorder
 
-    with Recorder(simulator.bus, file, lambda: simulator.t) as recorder:
-        topics = recorder.topics
-        try:
-            yield recorder.look
-        finally:
-            recorder.look()
-            topics = recorder.topics
-    if not quiet:
-        print(f"urdfkit: recorded {recorder.count} messages of {topics} topics to {file}", file=sys.stderr)
+    recorder = Recorder(simulator.bus, file, lambda: simulator.t)
+    try:
+        yield recorder.look
+    finally:  # what was recorded is kept, whatever ended it
+        recorder.look()
+        recorder.close()
+        if not quiet:
+            print(f"urdfkit: recorded {recorder.count} messages of {recorder.topics} topics to {file}", file=sys.stderr)

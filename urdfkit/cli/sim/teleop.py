@@ -12,6 +12,7 @@ from urdfkit.cli.page import Page, add_page_options, note, require_page, until_i
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim.controllers import add_controllers
 from urdfkit.cli.sim.distro import add_distro
+from urdfkit.cli.sim.recording import add_record, recording
 from urdfkit.cli.unused import note_unused
 from urdfkit.errors import SimulationError
 
@@ -45,6 +46,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add_distro(parser)
     add_controllers(parser)
+    add_record(parser)
     add_page_options(parser)
     parser.epilog = "examples:\n  urdfkit sim teleop simpleton\n  urdfkit sim teleop simpleton --port 8080 --no-browser"
 
@@ -78,7 +80,8 @@ def run(arguments: argparse.Namespace) -> int:
                 compile_rays(server, page.open)
             page.open()
             note(KEYS if simulator.command_topics else "this robot has no drive that takes velocity commands")
-            ride.run()
+            with recording(simulator, arguments.record) as ride.look:
+                ride.run()
         finally:
             server.stop()
     return 0
@@ -163,6 +166,7 @@ class Ride:
         self._marks: deque[tuple[float, float]] = deque(maxlen=round(1 / STATUS))
         kinematics = simulator.kinematics
         self._root = kinematics.link_names.index(kinematics.root)
+        self.look: Callable[[], None] = lambda: None  # for topics that have come up, where there is a recording
         self._drawn: tuple[str, ...] = ()
         self._revision = -1
         self.sights = Sights(simulator, server, clock)
@@ -224,6 +228,7 @@ class Ride:
                 self.simulator.paused = True
                 note(f"urdfkit: {error}")
                 self.server.declare("fault", message=f"{error}; Reset starts again")
+        self.look()
         self._report()
 
     def _act(self, action: str) -> None:
