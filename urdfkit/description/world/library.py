@@ -19,7 +19,7 @@ STANDS_IN = {
     "cone": "construction_cone",
     "desk_yellow": "desk",
     "drc_practice_orange_jersey_barrier": "jersey_barrier",
-    "drc_practice_white_jersey_barrier": "jersey_barrier",
+    "drc_practice_white_jersey_barrier": "white_jersey_barrier",
     "dumpster": "container",
     "first_2015_trash_can": "bin",
     "grey_wall": "wall",
