@@ -39,6 +39,21 @@ def vector(values: Any, length: int, what: str, unit: str) -> tuple[float, ...]:
     return found
 
 
+def three(values: Any, what: str, unit: str) -> tuple[float, ...]:
+    """Return three numbers, finite or not.
+
+    Raises:
+        SimulationError: they are something else.
+    """
+    try:
+        found = tuple(float(value) for value in values)
+    except (TypeError, ValueError):
+        found = ()
+    if len(found) != 3:
+        raise SimulationError(f"{what} is {values!r}; it must be three numbers [{unit}]")
+    return found
+
+
 class Named(dict[str, Found]):
     """Things of a simulation by name.
 

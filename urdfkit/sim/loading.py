@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +12,16 @@ from numpy.typing import NDArray
 
 from urdfkit.description import Robot, load
 from urdfkit.description.masses import massless
+from urdfkit.description.world import World, load_world
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
 from urdfkit.resources import find_model
+from urdfkit.sim.given import nearest, vector
 from urdfkit.sim.soundness import require_sound
+from urdfkit.sim.spawn import Spawn
+
+PROVIDERS = ("compiled", "pinocchio")
+"""Who can compute the dynamics."""
 
 SINGULAR = 1e-9
 """Least eigenvalue of a mass matrix, scaled to ones on its diagonal, of a robot that can be simulated."""
@@ -28,6 +35,33 @@ def load_robot(model: str | Path, package_path: Sequence[str | Path] = ()) -> Ro
     """
     found = find_model([str(model)], package_path=[str(folder) for folder in package_path])
     return load(found.path, arguments=found.arguments, package_path=found.package_path)
+
+
+def require_sense(engine: str, seed: int, spawn: Spawn | None) -> None:
+    """Refuse arguments of a simulation that are nothing of the kind.
+
+    Raises:
+        SimulationError: the first of them.
+    """
+    if engine not in PROVIDERS:
+        raise SimulationError(f"no engine `{engine}`{nearest(str(engine), PROVIDERS)}")
+    if not isinstance(seed, int) or seed < 0:
+        raise SimulationError(f"`{seed}` is no seed; it must be a whole number, zero or more")
+    if not isinstance(spawn, Spawn | None):
+        raise SimulationError(f"`spawn` is {spawn!r}; it must be a Spawn, such as Spawn(x=1.0, yaw=1.57)")
+
+
+def the_world(world: World | str | Path, gravity: Sequence[float] | None, package_path: Sequence[str | Path]) -> World:
+    """Return a world, loaded by name or file where it is not, with another gravity [m/s²] where that is given.
+
+    Raises:
+        UrdfkitError: there is none, it is broken, or the gravity is no vector.
+    """
+    found = world if isinstance(world, World) else load_world(world, package_path=package_path)
+    if gravity is None:
+        return found
+    x, y, z = vector(gravity, 3, "gravity", "m/s²")
+    return replace(found, gravity=(x, y, z))
 
 
 def require_masses(kinematics: Kinematics, q: NDArray[np.float64], note: Callable[[str], None]) -> None:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import heapq
 import logging
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -15,13 +14,13 @@ from numpy.typing import NDArray
 
 from urdfkit.bus import Bus, Subscription
 from urdfkit.description import Robot
-from urdfkit.description.world import Physics, World, load_world
+from urdfkit.description.world import Physics, World
 from urdfkit.errors import SimulationError
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.sim.distro import Distro
 from urdfkit.sim.engine.engine import Provider
-from urdfkit.sim.given import nearest, number, vector
-from urdfkit.sim.loading import load_robot
+from urdfkit.sim.given import number, three
+from urdfkit.sim.loading import load_robot, require_sense, the_world
 from urdfkit.sim.overlap import note_overlaps
 from urdfkit.sim.plugin import Drive, Setup
 from urdfkit.sim.population import Population
@@ -34,9 +33,6 @@ from urdfkit.sim.surroundings import Surroundings
 from urdfkit.sim.world_topics import ModelStates, listen
 
 Array = NDArray[np.float64]
-
-PROVIDERS = ("compiled", "pinocchio")
-"""Who can compute the dynamics."""
 
 LOG = logging.getLogger("urdfkit.sim")
 
@@ -99,16 +95,9 @@ class Simulator(Population):
         note: Callable[[str], None] | None = None,
     ) -> None:
         distro = Distro(ros_distro)
-        if engine not in PROVIDERS:
-            raise SimulationError(f"no engine `{engine}`{nearest(str(engine), PROVIDERS)}")
-        if not isinstance(seed, int) or seed < 0:
-            raise SimulationError(f"`{seed}` is no seed; it must be a whole number, zero or more")
-        if not isinstance(spawn, Spawn | None):
-            raise SimulationError(f"`spawn` is {spawn!r}; it must be a Spawn, such as Spawn(x=1.0, yaw=1.57)")
+        require_sense(engine, seed, spawn)
         self.robot = robot if isinstance(robot, Robot) else load_robot(robot, package_path)
-        found = _with_gravity(
-            world if isinstance(world, World) else load_world(world, package_path=package_path), gravity
-        )
+        found = the_world(world, gravity, package_path)
         self.dt = dt = found.physics.max_step_size if dt is None else number(dt, "the step", "s")
         if not 1e-6 <= dt <= 0.1:
             raise SimulationError(f"a step of {dt:g} s makes no sense; try 0.001")
@@ -280,9 +269,7 @@ class Simulator(Population):
         Raises:
             SimulationError: the robot has no drive, or these are not three numbers each.
         """
-        for values, what, unit in ((linear, "linear", "m/s"), (angular, "angular", "rad/s")):
-            if not isinstance(values, Iterable) or len(tuple(values)) != 3:
-                raise SimulationError(f"the {what} velocity is {values!r}; it must be three numbers [{unit}]")
+        linear, angular = three(linear, "the linear velocity", "m/s"), three(angular, "the angular velocity", "rad/s")
         if not self.command_topics:
             raise SimulationError(f"robot `{self.name}` has no drive that takes velocity commands")
         for topic in self.command_topics:
@@ -313,10 +300,3 @@ class Simulator(Population):
         if text not in self._noted:
             self._noted.add(text)
             self._note(text)
-
-
-def _with_gravity(world: World, gravity: Sequence[float] | None) -> World:
-    if gravity is None:
-        return world
-    x, y, z = vector(gravity, 3, "gravity", "m/s²")
-    return replace(world, gravity=(x, y, z))

@@ -54,6 +54,10 @@ class Populated(Protocol):
         """Return what tells where bodies are now, by name, also later."""
         ...
 
+    def pushes_on(self, robot: str, links: Sequence[str]) -> tuple[tuple[Array, Array, Array], ...]:
+        """Force [N], torque [N·m] and point of attack [m], in the world, of what pushes links of a robot."""
+        ...
+
 
 @dataclass(frozen=True, eq=False)
 class Layout:
