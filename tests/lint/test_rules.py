@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 from collections import Counter
 from pathlib import Path
 
@@ -63,7 +64,7 @@ def test_fixes_give_the_fixed_file_and_do_nothing_more(path):
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
 def test_each_rule_has_its_files(rule: type[Rule]):
-    kinds = {path.stem for path in (HERE / rule.name).iterdir()}
+    kinds = {path.stem for path in (HERE / rule.name).iterdir() if path.is_file()}
     wanted = {"good", "bad"} | ({"fixed"} if rule.fix != "none" else set())
     assert {kind.partition(".")[0] for kind in kinds} >= wanted
 
@@ -78,6 +79,9 @@ def test_the_examples_of_a_page_are_true(rule: type[Rule], tmp_path, monkeypatch
         is_xacro = "xacro" in example[1]
         file = tmp_path / ("example.urdf.xacro" if is_xacro else "example.urdf")
         file.write_text(example[1])
+        # Meshes that examples need lie beside the files of the rule.
+        for folder in (path for path in (HERE / rule.name).iterdir() if path.is_dir()):
+            shutil.copytree(folder, tmp_path / folder.name, dirs_exist_ok=True)
         codes = {finding.code for finding in lint(file, target=target(rule))}
         assert (rule.code in codes) is is_bad
         assert codes <= {rule.code}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -27,6 +28,7 @@ TRUE_FINDINGS = {
     "romeo_laas_small.urdf": {"I502": 3, "I503": 2},
     "fer.urdf.xacro": {"I503": 1},  # link 4, known to the maker
     "parser_urdf_atlas.urdf": {"I503": 10},
+    "panda-gazebo.urdf": {"G611": 2},  # cylinders without length
     "cfm_damping_implicit_spring_damper.urdf": {"E014": 4},  # masses without tensor: urdfdom drops both
 }
 
@@ -41,13 +43,32 @@ def test_robots_that_load_have_no_error_but_true_ones(monkeypatch):
         if not model["loads"]:
             continue
         outcome = run([Entry(Path(model["entry"]))], Options(arguments=model.get("args") or {}))
-        errors = Counter(finding.code for finding in outcome.findings if finding.severity == "error")
+        errors = Counter(
+            finding.code
+            for finding in outcome.findings
+            if finding.severity == "error" and not (finding.code == "G601" and is_upstream(finding.message))
+        )
         known = next((name for name in TRUE_FINDINGS if model["entry"].endswith(f"/{name}")), None)
         used.add(known)
         if errors != TRUE_FINDINGS.get(known or "", {}):
             unexplained[model["entry"]] = errors
     assert not unexplained
     assert set(TRUE_FINDINGS) <= used
+
+
+@cache
+def upstream() -> dict[str, list[str]]:
+    """The meshes that exist upstream and were left out of the corpus: file name → paths."""
+    found: dict[str, list[str]] = {}
+    for mesh in json.loads((SHARED / "corpus" / "meshes.json").read_text())["meshes"]:
+        found.setdefault(mesh["path"].rpartition("/")[2], []).append(mesh["path"])
+    return found
+
+
+def is_upstream(message: str) -> bool:
+    uri = message.split("`")[1]
+    inside = uri.partition("://")[2].partition("/")[2] if "://" in uri else uri.replace("../", "")
+    return any(path.endswith(f"/{inside}") for path in upstream().get(inside.rpartition("/")[2], []))
 
 
 def cases() -> list:

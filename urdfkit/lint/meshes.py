@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -54,3 +56,29 @@ def box(mesh: Mesh, model: Model) -> tuple[Vector, Vector] | None:
     centre = [(a + b) / 2.0 for a, b in zip(low, high, strict=True)]
     size = [b - a for a, b in zip(low, high, strict=True)]
     return (centre[0], centre[1], centre[2]), (size[0], size[1], size[2])
+
+
+def missing(mesh: Mesh, model: Model) -> tuple[str, str] | None:
+    """Return what of a mesh's URI is not there, ``package`` or ``file``, with its name or a hint; None where all is."""
+    from urdfkit.errors import ResourceError
+
+    uri = mesh.uri.strip()
+    scheme, separator, rest = uri.partition("://")
+    if separator and scheme in ("package", "model"):
+        name = rest.partition("/")[0]
+        try:
+            model.expanded.packages.find(name)
+        except ResourceError:
+            return "package", name
+    elif separator and scheme != "file":
+        return None  # From the net: nobody knows.
+    try:
+        model.expanded.packages.resolve(uri, model.expanded.path)
+    except ResourceError as error:
+        return "file", str(error)
+    return None
+
+
+def is_absolute(uri: str) -> bool:
+    """Whether a URI is a path that only one machine has."""
+    return re.match(r"\s*(?:file:/+[^$]|/|[A-Za-z]:[\\/])", uri) is not None

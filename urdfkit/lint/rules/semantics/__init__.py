@@ -9,4 +9,16 @@ if TYPE_CHECKING:
 
 def robot_rules() -> tuple[type[RobotRule], ...]:
     """Return the rules on the expanded robot."""
-    return ()
+    from urdfkit.lint.rules.semantics.double_offset import DoubleOffset
+    from urdfkit.lint.rules.semantics.left_right_swapped import LeftRightSwapped
+    from urdfkit.lint.rules.semantics.optical_frame import OpticalFrame
+    from urdfkit.lint.rules.semantics.wheel_diameter import WheelDiameter
+    from urdfkit.lint.rules.semantics.wheel_separation import WheelSeparation
+
+    return (
+        WheelSeparation,
+        WheelDiameter,
+        LeftRightSwapped,
+        OpticalFrame,
+        DoubleOffset,
+    )

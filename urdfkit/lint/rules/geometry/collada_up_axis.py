@@ -1,0 +1,81 @@
+"""G608 collada-unit-or-upaxis."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.lint.meshes import meshes, path_of
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class ColladaUpAxis(RobotRule):
+    """A COLLADA mesh says that y is up.
+
+    ## What it does
+    Reads ``<up_axis>`` at the beginning of COLLADA files. A ``<unit>`` other than the metre is a note.
+
+    ## Why is this bad?
+    RViz and Gazebo do not turn the mesh, other readers do: it stands in one program and lies in the next.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <visual><geometry><mesh filename="meshes/lying.dae"/></geometry></visual>
+      </link>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <visual><geometry><mesh filename="meshes/standing.dae"/></geometry></visual>
+      </link>
+    </robot>
+    ```
+    """
+
+    code = "G608"
+    name = "collada-unit-or-upaxis"
+    severity = "warning"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each COLLADA file with another axis or unit than URDF's."""
+        known: dict[str, tuple[str, float]] = {}
+        for mesh, element, link in meshes(model):
+            uri = mesh.uri.strip()
+            if not uri.lower().endswith(".dae"):
+                continue
+            if uri not in known:
+                known[uri] = _asset(path_of(mesh, model))
+            axis, unit = known[uri]
+            if axis not in ("", "Z_UP"):
+                message = f"the mesh `{uri}` has {axis[0].lower()} up, which some readers turn and some do not"
+                help = "export it with z up"
+                yield self.at(model, element, message, attribute="filename", link=link.name, help=help)
+            elif abs(unit - 1.0) > 1e-6:
+                message = f"the mesh `{uri}` is in units of {unit:g} m, which some readers ignore"
+                yield self.at(model, element, message, attribute="filename", link=link.name, severity="info")
+
+
+def _asset(path: Path | None) -> tuple[str, float]:
+    """Return the upward axis of a file, empty where none is written, and its unit [m]."""
+    if path is None:
+        return "", 1.0
+    try:
+        with path.open("rb") as file:
+            head = file.read(65536).decode("utf-8", errors="replace")
+    except OSError:
+        return "", 1.0
+    axis = re.search(r"<up_axis>\s*(\w+)\s*</up_axis>", head)
+    unit = re.search(r"<unit\b[^>]*\bmeter\s*=\s*[\"']([0-9.eE+-]+)[\"']", head)
+    return axis[1] if axis else "", float(unit[1]) if unit else 1.0

@@ -1,0 +1,81 @@
+"""G612 material-undefined."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.robot import Material
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class MaterialUndefined(RobotRule):
+    """A material is used that is defined nowhere.
+
+    ## What it does
+    Looks for ``<material name="…"/>`` without colour and texture whose name no other material of the robot defines.
+
+    ## Why is this bad?
+    check_urdf warns, RViz shows the part in a colour of its own, others refuse the robot.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <visual>
+          <geometry><sphere radius="0.1"/></geometry>
+          <material name="orange"/>
+        </visual>
+      </link>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <material name="orange">
+        <color rgba="1 0.5 0 1"/>
+      </material>
+      <link name="base">
+        <visual>
+          <geometry><sphere radius="0.1"/></geometry>
+          <material name="orange"/>
+        </visual>
+      </link>
+    </robot>
+    ```
+    """
+
+    code = "G612"
+    name = "material-undefined"
+    severity = "warning"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each use of a material that is defined nowhere."""
+        if model.missing_file:
+            return
+        used = [visual.material for link in model.robot.links for visual in link.visuals if visual.material is not None]
+        every = (*model.robot.materials, *used)
+        defined = {material.name for material in every if _is_definition(material)}
+        for material in used:
+            name = material.name
+            if name is None or name in defined or _is_definition(material) or "$" in name:
+                continue
+            from urdfkit.errors import did_you_mean
+
+            nearest = did_you_mean(name, [known for known in defined if known]).removeprefix("; ")
+            yield self.at(
+                model,
+                material.element,
+                f"the material `{name}` is defined nowhere",
+                attribute="name",
+                help=nearest or f'add <material name="{name}"><color rgba="…"/></material> to the robot',
+            )
+
+
+def _is_definition(material: Material) -> bool:
+    return any(child.tag in ("color", "texture") for child in material.element.children)

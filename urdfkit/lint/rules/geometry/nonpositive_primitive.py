@@ -1,0 +1,66 @@
+"""G611 nonpositive-primitive."""
+
+from __future__ import annotations
+
+from urdfkit.description.numbers import numbers
+from urdfkit.lint.placement import shapes_of
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+_SIZES = {
+    "box": ("size",),
+    "cylinder": ("radius", "length"),
+    "sphere": ("radius",),
+    "capsule": ("radius", "length"),
+}
+
+
+class NonpositivePrimitive(RobotRule):
+    """A box, cylinder, sphere or capsule has no size.
+
+    ## What it does
+    Looks for sizes, radii and lengths that are zero or negative.
+
+    ## Why is this bad?
+    MuJoCo and physics engines refuse it ("size must be positive"); elsewhere the shape cannot be seen or touched.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <visual><geometry><cylinder radius="0.1" length="0"/></geometry></visual>
+      </link>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base">
+        <visual><geometry><cylinder radius="0.1" length="0.001"/></geometry></visual>
+      </link>
+    </robot>
+    ```
+    """
+
+    code = "G611"
+    name = "nonpositive-primitive"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each size that is not positive."""
+        for link in model.robot.links:
+            for shape in shapes_of(link):
+                geometry = shape.element.find("geometry")
+                for element in geometry.children if geometry is not None else ():
+                    for attribute in _SIZES.get(element.tag, ()):
+                        text = element.get(attribute, "") or ""
+                        values = numbers(text) or []
+                        if any(value <= 0.0 for value in values) and not model.is_unresolved(element, attribute):
+                            message = f'link `{link.name}`: {attribute}="{text}" of a {element.tag} has to be positive'
+                            yield self.at(model, element, message, attribute=attribute, link=link.name)

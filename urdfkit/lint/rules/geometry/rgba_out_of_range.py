@@ -1,0 +1,76 @@
+"""G614 rgba-out-of-range."""
+
+from __future__ import annotations
+
+from urdfkit.lint.edits import new_value
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+ROUNDING = 0.01
+
+
+class RgbaOutOfRange(RobotRule):
+    """A colour has components beyond 0 to 1.
+
+    ## What it does
+    Looks at ``rgba``.
+
+    ## Why is this bad?
+    Colours are not written as 0 to 255: what is above 1 counts as 1, and the part is white.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <material name="orange">
+        <color rgba="255 127.5 0 1"/>
+      </material>
+      <link name="base"/>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <material name="orange">
+        <color rgba="1 0.5 0 1"/>
+      </material>
+      <link name="base"/>
+    </robot>
+    ```
+
+    ## Fix safety
+    Safe where the components are within 0 to 255 and one is above 2: they are divided by 255. Others are left to
+    you.
+    """
+
+    code = "G614"
+    name = "rgba-out-of-range"
+    severity = "warning"
+    fix = "safe"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each colour that is out of range."""
+        inside = [visual.material for link in model.robot.links for visual in link.visuals]
+        for material in (*model.robot.materials, *inside):
+            rgba = material.rgba if material is not None else None
+            color = material.element.find("color") if material is not None else None
+            if rgba is None or color is None or all(-ROUNDING <= part <= 1.0 + ROUNDING for part in rgba):
+                continue
+            fix = None
+            if min(rgba) >= 0.0 and 2.0 < max(rgba) <= 255.0:
+                alpha = rgba[3] if rgba[3] <= 1.0 else rgba[3] / 255.0
+                value = " ".join(f"{part:.4g}" for part in (*(part / 255.0 for part in rgba[:3]), alpha))
+                fix = new_value(model, color, "rgba", value, "safe", f"Write {value}")
+            yield self.at(
+                model,
+                color,
+                f'rgba="{color.get("rgba")}" has components beyond 0 to 1',
+                attribute="rgba",
+                fix=fix,
+            )

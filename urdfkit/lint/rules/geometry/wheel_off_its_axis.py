@@ -1,0 +1,109 @@
+"""G615 visual-offset-from-wheel-axis."""
+
+from __future__ import annotations
+
+from urdfkit.description.robot import Cylinder, Sphere
+from urdfkit.lint.edits import new_value
+from urdfkit.lint.placement import rotation, unit
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.robot import Vector
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class WheelOffItsAxis(RobotRule):
+    """A wheel is drawn beside the axis it turns about.
+
+    ## What it does
+    Looks at links that a joint turns (or whose joint has no type) and that show one cylinder along the axis, or one
+    sphere: its middle has to lie on the axis. A sphere whose collision shape has the same offset is let be: it is a
+    caster that swivels.
+
+    ## Why is this bad?
+    The wheel goes round like the moon. Mostly the origin was copied from another link; it belongs into the joint.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="wheel">
+        <visual>
+          <origin xyz="0.15 0 0.075"/>
+          <geometry><cylinder radius="0.05" length="0.04"/></geometry>
+        </visual>
+      </link>
+      <joint name="axle" type="continuous">
+        <parent link="base"/>
+        <child link="wheel"/>
+        <origin xyz="0 0.2 0" rpy="-1.5707963267948966 0 0"/>
+        <axis xyz="0 0 1"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="wheel">
+        <visual>
+          <geometry><cylinder radius="0.05" length="0.04"/></geometry>
+        </visual>
+      </link>
+      <joint name="axle" type="continuous">
+        <parent link="base"/>
+        <child link="wheel"/>
+        <origin xyz="0 0.2 0" rpy="-1.5707963267948966 0 0"/>
+        <axis xyz="0 0 1"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Fix safety
+    Unsafe: the origin becomes zero, but perhaps it is the joint that is elsewhere.
+    """
+
+    code = "G615"
+    name = "visual-offset-from-wheel-axis"
+    severity = "warning"
+    fix = "unsafe"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each wheel that is off its axis by more than a tenth of its radius."""
+        for joint in model.robot.joints:
+            wheel = model.robot.link_by_name.get(joint.child or "")
+            if wheel is None or joint.type not in ("continuous", None) or len(wheel.visuals) != 1:
+                continue
+            visual = wheel.visuals[0]
+            shape, offset = visual.geometry, visual.origin.xyz
+            axis = unit(joint.axis) if joint.type is not None or joint.element.find("axis") is not None else None
+            if isinstance(shape, Cylinder) and shape.length < 2.0 * shape.radius and axis is not None:
+                along = tuple(row[2] for row in rotation(visual.origin.rpy))
+                if abs(sum(a * b for a, b in zip(along, axis, strict=True))) < 0.985:
+                    continue  # It swivels, or J414 says what is wrong.
+            elif not isinstance(shape, Sphere) or any(c.origin.xyz == offset for c in wheel.collisions):
+                continue
+            distance = _from(axis, offset)
+            if distance > 0.1 * shape.radius:
+                origin = visual.element.find("origin") or visual.element
+                yield self.at(
+                    model,
+                    origin,
+                    f"`{wheel.name}` is drawn {distance:.3g} m beside the axis of joint `{joint.name}`",
+                    attribute="xyz",
+                    link=wheel.name,
+                    joint=joint.name,
+                    help="the offset belongs into the <origin> of the joint",
+                    fix=new_value(model, origin, "xyz", "0 0 0", "unsafe", "Put it on the axis"),
+                )
+
+
+def _from(axis: Vector | None, offset: Vector) -> float:
+    """Return how far a point is from an axis through the origin, or from the origin [m]."""
+    along = sum(a * b for a, b in zip(axis, offset, strict=True)) if axis is not None else 0.0
+    return float(max(sum(part * part for part in offset) - along * along, 0.0) ** 0.5)

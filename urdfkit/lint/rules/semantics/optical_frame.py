@@ -1,0 +1,81 @@
+"""S905 optical-frame-convention."""
+
+from __future__ import annotations
+
+from math import pi
+
+from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.wheels import same_turn
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+TOLERANCE = 2e-3
+"""1.57 for π/2 is let be."""
+
+
+class OpticalFrame(RobotRule):
+    """An optical frame is not turned as optical frames are.
+
+    ## What it does
+    Looks at fixed joints to links with ``optical`` in their name: from the camera's body (x forward, z up) to the
+    optical frame (z forward, x right) it is rpy = -π/2 0 -π/2 (REP 103).
+
+    ## Why is this bad?
+    Point clouds and detections come out rotated by 90 degrees.
+
+    ## Example
+    ```xml
+    <robot name="camera">
+      <link name="camera_link"/>
+      <link name="camera_optical_frame"/>
+      <joint name="camera_optical_joint" type="fixed">
+        <parent link="camera_link"/>
+        <child link="camera_optical_frame"/>
+        <origin rpy="0 0 0"/>
+      </joint>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="camera" xmlns:xacro="http://www.ros.org/wiki/xacro">
+      <link name="camera_link"/>
+      <link name="camera_optical_frame"/>
+      <joint name="camera_optical_joint" type="fixed">
+        <parent link="camera_link"/>
+        <child link="camera_optical_frame"/>
+        <origin rpy="${-pi/2} 0 ${-pi/2}"/>
+      </joint>
+    </robot>
+    ```
+    """
+
+    code = "S905"
+    name = "optical-frame-convention"
+    severity = "info"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each optical frame with another rotation."""
+        for joint in model.robot.joints:
+            child, parent = (joint.child or "").lower(), (joint.parent or "").lower()
+            if joint.type != "fixed" or "optical" not in child or "optical" in parent:
+                continue
+            origin = joint.element.find("origin")
+            if origin is not None and model.is_unresolved(origin, "rpy"):
+                continue
+            if same_turn(joint.origin.rpy, (-pi / 2, 0.0, -pi / 2)) > TOLERANCE:
+                shown = " ".join(f"{angle:.4g}" for angle in joint.origin.rpy)
+                yield self.at(
+                    model,
+                    origin or joint.element,
+                    f"the optical frame `{joint.child}` is turned by {shown}, not by -π/2 0 -π/2",
+                    attribute="rpy",
+                    link=joint.child,
+                    joint=joint.name,
+                    help="an optical frame looks along z, with x to the right and y down",
+                )

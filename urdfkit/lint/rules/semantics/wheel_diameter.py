@@ -1,0 +1,130 @@
+"""S902 wheel-diameter-inconsistent."""
+
+from __future__ import annotations
+
+from urdfkit.lint.edits import new_text
+from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.wheels import drives, written
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+TOLERANCE = 0.05
+
+
+class WheelDiameter(RobotRule):
+    """The wheel diameter, or radius, a drive is told is not that of the wheels.
+
+    ## What it does
+    Compares the parameter with the cylinders or spheres that the wheels are. A twentieth more or less is let be;
+    wheels with meshes only are left alone.
+
+    ## Why is this bad?
+    The robot drives faster or slower than commanded, and its odometry is wrong by the same factor.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="left">
+        <visual><geometry><sphere radius="0.05"/></geometry></visual>
+      </link>
+      <link name="right">
+        <visual><geometry><sphere radius="0.05"/></geometry></visual>
+      </link>
+      <joint name="left_joint" type="fixed">
+        <parent link="base"/>
+        <child link="left"/>
+        <origin xyz="0 0.15 0"/>
+      </joint>
+      <joint name="right_joint" type="fixed">
+        <parent link="base"/>
+        <child link="right"/>
+        <origin xyz="0 -0.15 0"/>
+      </joint>
+      <gazebo>
+        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+          <leftJoint>left_joint</leftJoint>
+          <rightJoint>right_joint</rightJoint>
+          <wheelSeparation>0.3</wheelSeparation>
+          <wheelDiameter>0.2</wheelDiameter>
+          <robotBaseFrame>base</robotBaseFrame>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="left">
+        <visual><geometry><sphere radius="0.05"/></geometry></visual>
+      </link>
+      <link name="right">
+        <visual><geometry><sphere radius="0.05"/></geometry></visual>
+      </link>
+      <joint name="left_joint" type="fixed">
+        <parent link="base"/>
+        <child link="left"/>
+        <origin xyz="0 0.15 0"/>
+      </joint>
+      <joint name="right_joint" type="fixed">
+        <parent link="base"/>
+        <child link="right"/>
+        <origin xyz="0 -0.15 0"/>
+      </joint>
+      <gazebo>
+        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+          <leftJoint>left_joint</leftJoint>
+          <rightJoint>right_joint</rightJoint>
+          <wheelSeparation>0.3</wheelSeparation>
+          <wheelDiameter>0.1</wheelDiameter>
+          <robotBaseFrame>base</robotBaseFrame>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Fix safety
+    Unsafe: the parameter is set to what the wheels are, but it may be the wheels that are drawn too large.
+    """
+
+    code = "S902"
+    name = "wheel-diameter-inconsistent"
+    severity = "warning"
+    fix = "unsafe"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each drive whose wheels have another size."""
+        if not model.robot.gazebo:
+            return
+        for drive in drives(model):
+            radii = [radius for wheel in (*drive.left, *drive.right) for radius in wheel.radii]
+            for meaning, factor in (("wheel_diameter", 2.0), ("wheel_radius", 1.0)):
+                value = written(model, drive, meaning)
+                if value is None or not radii:
+                    continue
+                number, element, tag = value
+                if any(abs(number - factor * radius) <= TOLERANCE * factor * radius for radius in radii):
+                    continue
+                text = f"{factor * radii[0]:.6g}"
+                yield self.at(
+                    model,
+                    element,
+                    f"<{tag}> is {number:g} m, but the wheels have {text} m",
+                    joint=drive.left[0].joint.name,
+                    fix=new_text(model, element, text, "unsafe", f"Write {text}") if element.tag == tag else None,
+                )

@@ -1,0 +1,132 @@
+"""S901 wheel-separation-inconsistent."""
+
+from __future__ import annotations
+
+from urdfkit.lint.edits import new_text
+from urdfkit.lint.placement import unit
+from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.wheels import drives, written
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+TOLERANCE = 0.05
+
+
+class WheelSeparation(RobotRule):
+    """The wheel separation a drive is told is not that of the wheels.
+
+    ## What it does
+    Compares the parameter with the distance of the joints, and of the wheels' shapes, across the robot, every joint
+    at zero. A twentieth more or less is let be. Robots with several wheels on a side are left alone: as they slip
+    when they turn, their separation is tuned.
+
+    ## Why is this bad?
+    The robot turns more or less than commanded, and its odometry is wrong by the same factor.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="left"/>
+      <link name="right"/>
+      <joint name="left_joint" type="continuous">
+        <parent link="base"/>
+        <child link="left"/>
+        <origin xyz="0 0.15 0"/>
+        <axis xyz="0 1 0"/>
+      </joint>
+      <joint name="right_joint" type="continuous">
+        <parent link="base"/>
+        <child link="right"/>
+        <origin xyz="0 -0.15 0"/>
+        <axis xyz="0 1 0"/>
+      </joint>
+      <gazebo>
+        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+          <leftJoint>left_joint</leftJoint>
+          <rightJoint>right_joint</rightJoint>
+          <wheelSeparation>0.2</wheelSeparation>
+          <wheelDiameter>0.1</wheelDiameter>
+          <robotBaseFrame>base</robotBaseFrame>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="left"/>
+      <link name="right"/>
+      <joint name="left_joint" type="continuous">
+        <parent link="base"/>
+        <child link="left"/>
+        <origin xyz="0 0.15 0"/>
+        <axis xyz="0 1 0"/>
+      </joint>
+      <joint name="right_joint" type="continuous">
+        <parent link="base"/>
+        <child link="right"/>
+        <origin xyz="0 -0.15 0"/>
+        <axis xyz="0 1 0"/>
+      </joint>
+      <gazebo>
+        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+          <leftJoint>left_joint</leftJoint>
+          <rightJoint>right_joint</rightJoint>
+          <wheelSeparation>0.3</wheelSeparation>
+          <wheelDiameter>0.1</wheelDiameter>
+          <robotBaseFrame>base</robotBaseFrame>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Fix safety
+    Unsafe: the parameter is set to the distance of the joints, but it may be the joints that are misplaced.
+    """
+
+    code = "S901"
+    name = "wheel-separation-inconsistent"
+    severity = "warning"
+    fix = "unsafe"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each drive whose separation is off."""
+        if not model.robot.gazebo:
+            return
+        for drive in drives(model):
+            value = written(model, drive, "wheel_separation")
+            if value is None or len(drive.left) != 1:
+                continue
+            separation, element, tag = value
+            left, right = drive.left[0], drive.right[0]
+            across = unit(left.axis) or (0.0, 1.0, 0.0)
+            distances = [
+                abs(sum((a - b) * c for a, b, c in zip(one, other, across, strict=True)))
+                for one, other in zip(left.middles, right.middles, strict=False)
+            ]
+            if distances[0] < 0.01 or any(abs(separation - distance) <= TOLERANCE * distance for distance in distances):
+                continue
+            text = f"{distances[0]:.6g}"
+            yield self.at(
+                model,
+                element,
+                f"<{tag}> is {separation:g} m, but `{left.joint.name}` and `{right.joint.name}` are {text} m apart",
+                joint=left.joint.name,
+                fix=new_text(model, element, text, "unsafe", f"Write {text}") if element.tag == tag else None,
+            )

@@ -1,0 +1,131 @@
+"""Drives with wheels on two sides: which joints they turn, and where those are when every joint is at zero."""
+
+from __future__ import annotations
+
+from urdfkit.description.robot import Cylinder, Sphere
+from urdfkit.lint.edits import nearest
+from urdfkit.lint.gazebo import plugins, spec_of
+from urdfkit.lint.placement import Frame, rotation, shapes_of, turned
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.element import Element
+    from urdfkit.description.plugins import PluginSpec
+    from urdfkit.description.robot import Joint, Plugin, Vector
+    from urdfkit.lint.model import Model
+
+_SIDES = {
+    "diff_drive": (("left_joint",), ("right_joint",)),
+    "skid_steer": (("left_front_joint", "left_rear_joint"), ("right_front_joint", "right_rear_joint")),
+    "mecanum_drive": (("front_left_joint", "back_left_joint"), ("front_right_joint", "back_right_joint")),
+}
+"""Kind of a drive → what its parameters for the joints of each side mean."""
+
+
+@record(eq=False)
+class Wheel:
+    """A joint that a drive turns.
+
+    Attributes:
+        joint: the joint; the one with the nearest name where the drive's parameter names none.
+        element: where the drive names it; None where its default does.
+        place: the middle of the joint in the root link [m].
+        axis: its axis in the root link.
+        radius: of the cylinder or sphere its link is [m]; None where it is something else.
+        middles: the middle of the joint and of every shape of its link, in the root link [m].
+    """
+
+    joint: Joint
+    element: Element | None
+    place: Vector
+    axis: Vector
+    radii: tuple[float, ...]
+    middles: tuple[Vector, ...]
+
+
+@record(eq=False)
+class TwoSided:
+    """A drive with wheels on two sides."""
+
+    plugin: Plugin
+    spec: PluginSpec
+    left: tuple[Wheel, ...]
+    right: tuple[Wheel, ...]
+
+
+def drives(model: Model) -> Iterator[TwoSided]:
+    """Yield every drive of the robot that turns wheels on two sides, all of which are there."""
+    for plugin, _, _ in plugins(model.robot):
+        spec = spec_of(plugin, model.target)
+        if spec is None or spec.kind not in _SIDES:
+            continue
+        left, right = (
+            [wheel for meaning in side for wheel in _wheels(model, plugin, spec, meaning)] for side in _SIDES[spec.kind]
+        )
+        if left and right and len(left) == len(right):
+            yield TwoSided(plugin, spec, tuple(left), tuple(right))
+
+
+def written(model: Model, drive: TwoSided, meaning: str) -> tuple[float, Element, str] | None:
+    """Return the number written for a parameter, its element and its tag; the default at the plugin where none is."""
+    from urdfkit.description.numbers import number
+    from urdfkit.description.plugins import values
+
+    parameter = drive.spec.by_meaning(meaning)
+    if parameter is None:
+        return None
+    for text, element in values(drive.plugin, parameter):
+        value = number(text)
+        return None if value is None or model.is_unresolved(element) else (value, element, parameter.tag)
+    if parameter.default is None:
+        return None
+    return float(parameter.default), drive.plugin.element, parameter.tag
+
+
+def _wheels(model: Model, plugin: Plugin, spec: PluginSpec, meaning: str) -> Iterator[Wheel]:
+    from urdfkit.description.plugins import values
+
+    parameter = spec.by_meaning(meaning)
+    if parameter is None:
+        return
+    named: list[tuple[str, Element | None]] = [(text, element) for text, element in values(plugin, parameter) if text]
+    if not named and parameter.default is not None:
+        named = [(parameter.default, None)]
+    joints = model.robot.joint_by_name
+    for text, element in named:
+        name = text if text in joints else nearest(text.strip("\"'"), joints)
+        wheel = _wheel(model, joints[name], element) if name is not None else None
+        if wheel is not None:
+            yield wheel
+
+
+def _wheel(model: Model, joint: Joint, element: Element | None) -> Wheel | None:
+    parent = model.frames.get(joint.parent or "")
+    if parent is None:
+        return None
+    frame = parent.moved(joint.origin)
+    link = model.robot.link_by_name.get(joint.child or "")
+    shapes = shapes_of(link) if link is not None else ()
+    round_ones = tuple(shape.geometry.radius for shape in shapes if isinstance(shape.geometry, (Cylinder, Sphere)))
+    middles = tuple(frame.moved(shape.origin).translation for shape in shapes)
+    return Wheel(
+        joint,
+        element,
+        frame.translation,
+        turned(frame.rotation, joint.axis),
+        round_ones if len(round_ones) == len(shapes) else (),
+        (frame.translation, *middles),
+    )
+
+
+def same_turn(first: Vector, second: Vector) -> float:
+    """Return the largest difference between the rotation matrices of two triples of angles."""
+    return max(
+        abs(a - b) for rows in zip(rotation(first), rotation(second), strict=True) for a, b in zip(*rows, strict=True)
+    )
+
+
+__all__ = ["Frame", "TwoSided", "Wheel", "drives", "same_turn", "written"]
