@@ -127,12 +127,27 @@ def test_p3d_tells_where_a_link_is_and_how_it_moves(brick, plugin: str, topic: s
     assert (message.header.frame_id, message.child_frame_id) == ("world", "corner")
 
 
+def test_p3d_tells_poses_as_another_link_sees_them(brick) -> None:
+    plugin = "<bodyName>base</bodyName><topicName>seen</topicName><frameName>corner</frameName>"
+    start = Spawn(x=1.0, y=2.0, z=50.0, yaw=0.5, twist=(0.3, 0, 0, 0, 0, 2.0))
+    simulator = brick("", more=f'<plugin name="p" filename="libgazebo_ros_p3d.so">{plugin}</plugin>', spawn=start)
+    message = heard(simulator, "/seen", 0.1)[-1]
+    assert message.header.frame_id == "corner"
+    assert three(message.pose.pose.position) == pytest.approx((0, 0.3, 0), abs=1e-9)  # they are fixed to each other
+    assert three(message.twist.twist.linear) == pytest.approx((0, 0, 0), abs=1e-9)
+    assert three(message.twist.twist.angular) == pytest.approx((0, 0, 0), abs=1e-9)
+    assert four(message.pose.pose.orientation) == pytest.approx((0, 0, -np.sqrt(0.5), np.sqrt(0.5)), abs=1e-9)
+
+
 @pytest.mark.parametrize(
     ("plugin", "said"),
     [
         ("<bodyName>cornr</bodyName><topicName>t</topicName>", "`cornr`, which is no link; did you mean `corner`?"),
         ("<bodyName>base</bodyName>", "gazebo_ros_p3d lacks its <topicName>"),
-        ("<bodyName>base</bodyName><topicName>t</topicName><frameName>base</frameName>", "relative to `base`"),
+        (
+            "<bodyName>base</bodyName><topicName>t</topicName><frameName>bse</frameName>",
+            "is `bse`; did you mean `base`?",
+        ),
     ],
 )
 def test_a_pose_that_cannot_be_told_is_left_out_by_name(tmp_path: Path, brick, plugin: str, said: str) -> None:

@@ -1,4 +1,7 @@
-"""True poses: gazebo_ros_p3d of ROS 1 and ROS 2, an Odometry with the twist along the world's axes."""
+"""True poses: gazebo_ros_p3d of ROS 1 and ROS 2, an Odometry with the twist along the axes of the frame it names.
+
+That frame is the world, or another link: then pose and twist are relative to it, as they are seen from there.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,7 @@ from urdfkit.messages import ODOMETRY, header, message_type, twist
 from urdfkit.sim.parameters import Parameters
 from urdfkit.sim.plugin import Sensor, Setup
 from urdfkit.sim.rotation import from_rpy, product
-from urdfkit.sim.sensors.motion import Moment
+from urdfkit.sim.sensors.motion import Moment, Motion
 from urdfkit.sim.topics import Topics
 
 if TYPE_CHECKING:
@@ -42,9 +45,10 @@ class P3d(Sensor):
                 position=read.place("body"),
             )
         self._frame = read.text("frame").lstrip("/")
-        if self._frame not in WORLD:
+        if self._frame not in (*WORLD, *links):
             raise SimulationError(
-                f"poses relative to `{self._frame}` are not simulated yet: <{read.tag('frame')}> must be world",
+                f"<{read.tag('frame')}> is `{self._frame}`{did_you_mean(self._frame, (*WORLD, *links))}; "
+                "it must be world or a link",
                 position=read.place("frame"),
             )
         name = read.text("topic") if self.spec.generation == "ros1" else "odom"
@@ -64,10 +68,20 @@ class P3d(Sensor):
         """Publish."""
         self.topics[0].offer(partial(self._message, Moment(self._kinematics, state), self.done), count=count)
 
+    def _seen_from_there(self, now: Moment, motion: Motion) -> Motion:
+        """Return a motion relative to the frame that poses are told in."""
+        if self._frame in WORLD:
+            return motion
+        there = now.motion(self._frame, np.eye(4))
+        back, arm = there.rotation.T, motion.position - there.position
+        # Of a point that moves, for somebody who turns along.
+        linear = motion.linear - there.linear - np.cross(there.angular, arm)
+        return Motion(back @ motion.rotation, back @ arm, back @ linear, back @ (motion.angular - there.angular))
+
     def _message(self, now: Moment, turn: int) -> Any:
         import pinocchio as pin
 
-        motion = now.motion(self._link, np.eye(4))
+        motion = self._seen_from_there(now, now.motion(self._link, np.eye(4)))
         random = np.random.Generator(np.random.Philox(key=[self._key, turn]))
         shaken = self._noise * random.standard_normal((2, 3))
         x, y, z = (motion.position + self._offset).tolist()
