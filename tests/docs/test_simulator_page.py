@@ -20,7 +20,8 @@ def blocks() -> list[str]:
     return re.findall(r"^```python\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
 
 
-def test_every_block_runs(capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_block_runs(capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)  # one of them writes a file
     names: dict[str, Any] = {}
     assert len(blocks()) >= 8
     for block in blocks():
