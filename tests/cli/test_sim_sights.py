@@ -115,6 +115,23 @@ def test_there_is_time_between_two_looks(shown) -> None:
     assert 9 <= len(page.sensed) <= 11
 
 
+def test_what_one_camera_publishes_comes_of_one_look() -> None:
+    page, looks = Page(), []
+    simulator = Simulator("seven_dof_arm_with_rgbd", note=lambda _: None)
+    sights = Sights(simulator, page, lambda: 0.0)  # type: ignore[arg-type]
+    assert sights.find()
+    names = [each["topic"] for each in page.declared[0]["sensors"]]
+    assert len(names) > 1
+    for sensor in simulator.robots[simulator.name].plugins.sensors:
+        if hasattr(sensor, "_look"):
+            look = sensor._look
+            sensor._look = lambda *given, look=look: looks.append(1) or look(*given)
+    simulator.run(0.2)
+    sights.show()
+    assert [names[index] for index, *_ in page.sensed] == names[:2]
+    assert len(looks) == 1
+
+
 def test_frames_tell_sensor_kind_and_time() -> None:
     frame = protocol.pack_sensed(3, 1.5, PICTURE, b"jpeg")
     assert protocol.POSE_HEADER.unpack(frame[:16]) == (0x02, 1, 3, 0, 1.5)

@@ -95,14 +95,16 @@ class Sights:
         ]
         if not waiting:
             return 0.0
-        index, sight = min(waiting, key=lambda pair: pair[1].due)
-        sight.shown = sight.topic.count
-        message = sight.topic.latest
-        if message is not None:
-            found = picture(message) if sight.kind == PICTURE else points(message, sight.sensor.viewpoint)
-            self._server.sense(index, self._simulator.t, sight.kind, found)
+        first = min(waiting, key=lambda pair: pair[1].due)[1]
+        together = [(k, each) for k, each in waiting if each.sensor is first.sensor]  # they share one look
+        for index, sight in together:
+            sight.shown = sight.topic.count
+            if (message := sight.topic.latest) is not None:
+                found = picture(message) if sight.kind == PICTURE else points(message, sight.sensor.viewpoint)
+                self._server.sense(index, self._simulator.t, sight.kind, found)
         cost = self._clock() - now
-        sight.due = now + max(PERIOD, cost / SHARE)
+        for _, sight in together:
+            sight.due = now + max(PERIOD, cost / SHARE)
         self._free = now + cost / SHARE
         return cost
 
