@@ -1,6 +1,6 @@
 """Definitions of control_msgs and controller_manager_msgs as of Humble, which rosbags lacks.
 
-Actions are the messages that actionlib makes of them, services their requests by the names of ROS 2.
+Actions are the messages that actionlib and ROS 2 make of them, services their requests by the names of ROS 2.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ _ROLES = ("reference", "feedback", "error", "output", "desired", "actual")
 
 
 def _action(name: str, goal: str, feedback: str, result: str) -> dict[str, str]:
-    """Return the messages of an action by type: its three parts, and each in its envelope."""
+    """Return the messages of an action by type: its three parts, and each in its envelopes (actionlib, ROS 2)."""
     parts = {"Goal": goal, "Feedback": feedback, "Result": result}
     found = {f"control_msgs/msg/{name}{part}": text for part, text in parts.items()}
     for part in parts:
@@ -26,6 +26,10 @@ def _action(name: str, goal: str, feedback: str, result: str) -> dict[str, str]:
         found[f"control_msgs/msg/{name}Action{part}"] = (
             f"std_msgs/Header header\n{label}\ncontrol_msgs/{name}{part} {part.lower()}"
         )
+    uuid = "unique_identifier_msgs/UUID goal_id"
+    found[f"control_msgs/action/{name}_SendGoal_Request"] = f"{uuid}\ncontrol_msgs/{name}Goal goal"
+    found[f"control_msgs/action/{name}_FeedbackMessage"] = f"{uuid}\ncontrol_msgs/{name}Feedback feedback"
+    found[f"control_msgs/action/{name}_GetResult_Response"] = f"int8 status\ncontrol_msgs/{name}Result result"
     return found
 
 
@@ -68,6 +72,7 @@ CONTROL_MESSAGES = {
         feedback=f"std_msgs/Header header\nstring[] joint_names\n{_POINT} desired\n{_POINT} actual\n{_POINT} error",
         result="int32 error_code\nstring error_string",
     ),
+    "action_msgs/srv/CancelGoal_Request": "action_msgs/GoalInfo goal_info",
     LOAD: "string name",
     CONFIGURE: "string name",
     UNLOAD: "string name",

@@ -284,3 +284,79 @@ def test_the_controller_manager_takes_requests(make: Make) -> None:
         message = from_fields(kind, {field: ["arm_controller"], "strictness": 2})
         simulator.bus.publish("/left/controller_manager/switch_controller", kind, message)
         assert [s.state for s in simulator.controllers.list() if s.name == "arm_controller"] == [state]
+
+
+FOLLOW = "control_msgs/action/FollowJointTrajectory"
+EXECUTING, SUCCEEDED, CANCELED, ABORTED = 2, 4, 5, 6
+
+
+class Goals:
+    """Sends goals as ROS 2 does and keeps what comes back."""
+
+    def __init__(self, simulator: Any) -> None:
+        self.base, self.bus = "/arm_controller/follow_joint_trajectory/_action", simulator.bus
+        self.results: list[Any] = []
+        self.feedback: list[Any] = []
+        self.states: list[tuple[int, int]] = []
+        simulator.subscribe(f"{self.base}/get_result", f"{FOLLOW}_GetResult_Response", self.results.append)
+        simulator.subscribe(f"{self.base}/feedback", f"{FOLLOW}_FeedbackMessage", self.feedback.append)
+        simulator.subscribe(f"{self.base}/status", "action_msgs/msg/GoalStatusArray", self._state)
+
+    def _state(self, message: Any) -> None:
+        self.states += [(int(each.goal_info.goal_id.uuid[-1]), each.status) for each in message.status_list]
+
+    def send(self, *points: tuple[float, list[float]], number: int = 7, **more: Any) -> None:
+        kind = f"{FOLLOW}_SendGoal_Request"
+        message = from_fields(kind, {"goal_id": {"uuid": [0] * 15 + [number]}, "goal": more})
+        message.goal.trajectory = trajectory(*points)
+        self.bus.publish(f"{self.base}/send_goal", kind, message)
+
+    def cancel(self, number: int = 0) -> None:
+        kind = "action_msgs/srv/CancelGoal_Request"
+        message = from_fields(kind, {"goal_info": {"goal_id": {"uuid": [0] * 15 + [number]}}})
+        self.bus.publish(f"{self.base}/cancel_goal", kind, message)
+
+
+def test_a_goal_has_the_names_and_states_of_ros_2(make: Make) -> None:
+    simulator = make(TRAJECTORIES, CLASSIC)
+    goals = Goals(simulator)
+    goals.send((1.0, [0.5, -0.5]))
+    assert goals.states == [(7, EXECUTING)]
+    simulator.run(1.5)
+    assert goals.states == [(7, EXECUTING), (7, SUCCEEDED)]
+    assert [(each.status, each.result.error_code) for each in goals.results] == [(SUCCEEDED, 0)]
+    assert positions(simulator) == pytest.approx((0.5, -0.5), abs=1e-3)
+    assert len(goals.feedback) == 20  # action_monitor_rate
+    assert goals.feedback[9].goal_id.uuid[-1] == 7
+    assert goals.feedback[9].feedback.desired.positions == pytest.approx([0.25, -0.25], abs=1e-9)
+    names = [topic.name for topic in simulator.bus.topics if "follow_joint_trajectory" in topic.name]
+    assert {name.rpartition("/_action/")[2] for name in names} == {
+        "send_goal", "cancel_goal", "get_result", "status", "feedback"
+    }  # fmt: skip
+
+
+def test_goals_are_cancelled_replaced_aborted_and_refused(make: Make) -> None:
+    notes: list[str] = []
+    simulator = make(TRAJECTORIES, CLASSIC, note=notes.append)
+    goals = Goals(simulator)
+    goals.send((1.0, [1.0, 0.0]), number=1)
+    simulator.run(0.5)
+    goals.cancel(2)
+    assert goals.results == []
+    goals.cancel(1)
+    assert goals.states[-1] == (1, CANCELED)
+    simulator.run(0.5)
+    assert positions(simulator)[0] == pytest.approx(0.5, abs=0.02)
+    goals.send((1.0, [0.4, 0.0]), number=0)  # nobody names it: the count does
+    goals.send((1.0, [0.3, 0.0]), number=3)
+    assert goals.states[-3:] == [(2, EXECUTING), (2, CANCELED), (3, EXECUTING)]
+    goals.cancel()
+    assert goals.states[-1] == (3, CANCELED)
+    goals.send((0.2, [2.5, 0.0]), number=4, path_tolerance=[{"name": "shoulder", "position": 0.01}])
+    simulator.run(1.0)
+    assert goals.states[-1] == (4, ABORTED)
+    assert goals.results[-1].result.error_code == -4
+    told = len(goals.states), len(goals.results)
+    goals.send((1.0, [float("nan"), 0.0]), number=5)
+    assert (len(goals.states), len(goals.results)) == told
+    assert any("refused a goal" in note for note in notes)

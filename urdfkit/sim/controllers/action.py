@@ -1,16 +1,19 @@
-"""Action: a goal that a controller pursues, on the topics that actionlib makes of an action.
-
-Source: actionlib (ROS 1): ``goal`` and ``cancel`` are listened to, ``feedback``, ``result`` and ``status`` published.
-In ROS 2 the same exchange goes by services that only a connection to ROS has; the topics here are the same for both.
-"""
+"""Action: a goal that a controller pursues, see `action_topics` for how it comes."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.control_messages import GOAL_ID, GOAL_STATUSES
-from urdfkit.messages import from_fields, header, message_type, stamp
+from urdfkit.sim.controllers.action_topics import (
+    ABORTED,
+    PREEMPTED,
+    REJECTED,
+    SUCCEEDED,
+    Actionlib,
+    Goal,
+    RclAction,
+)
 from urdfkit.sim.controllers.law import Report
 
 if TYPE_CHECKING:
@@ -19,26 +22,10 @@ if TYPE_CHECKING:
     from urdfkit.sim.controllers.law import Law
     from urdfkit.sim.state import State
 
-ACTIVE, PREEMPTED, SUCCEEDED, ABORTED, REJECTED = 1, 2, 3, 4, 5
-"""States of a goal (actionlib_msgs/GoalStatus)."""
+__all__ = ["ABORTED", "SUCCEEDED", "Action", "RefusalError"]
 
 STATUS_RATE = 5.0
-"""How often the states are published [Hz] (actionlib's ``status_frequency``)."""
-
-
-@dataclass
-class Goal:
-    """A goal that was sent.
-
-    Attributes:
-        id: as the sender named it, or as we did.
-        state: `ACTIVE`, …
-        text: why.
-    """
-
-    id: Any
-    state: int = ACTIVE
-    text: str = ""
+"""How often actionlib publishes the states [Hz] (its ``status_frequency``)."""
 
 
 class RefusalError(Exception):
@@ -83,21 +70,16 @@ class Action:
         rate: float,
         clock: Callable[[], float],
     ) -> None:
-        self._clock = clock
-        self._law, self._kind = law, kind
+        self._clock, self._law = clock, law
         self._pursue, self._stop, self._feedback = pursue, stop, feedback
         self.goal: Goal | None = None
         self._last: Goal | None = None
-        self._count = 0
-        bus, base = law.hardware.setup.bus, law.topic(name)
-        law.listen(f"{base}/goal", f"{kind}ActionGoal", self._take)
-        law.listen(f"{base}/cancel", GOAL_ID, self._cancel)
-        self._results = bus.advertise(f"{base}/result", f"{kind}ActionResult")
-        self._states = bus.advertise(f"{base}/status", GOAL_STATUSES)
-        feedbacks = bus.advertise(f"{base}/feedback", f"{kind}ActionFeedback")
-        dt = law.hardware.setup.dt
-        law.publications.append(Report(feedbacks, rate, dt, lambda: law.running and self.goal is not None, self._tell))
-        law.report(self._states, STATUS_RATE, self._list)
+        topics = Actionlib if law.hardware.ros == 1 else RclAction
+        self._topics = topics(law, name, kind, take=self._take, cancel=self._cancel, clock=clock)
+        told, dt = self._topics.feedback, law.hardware.setup.dt
+        law.publications.append(Report(told, rate, dt, lambda: law.running and self.goal is not None, self._tell))
+        if self._topics.repeats:
+            law.report(self._topics.states, STATUS_RATE, self._list)
 
     def end(self, state: int, text: str = "", **result: Any) -> None:
         """Tell that the goal was reached or will not be; does nothing without one."""
@@ -109,29 +91,21 @@ class Action:
         """Tell that something else has taken the goal's place."""
         self.end(PREEMPTED, text)
 
-    def _take(self, message: Any) -> None:
-        self._count += 1
-        name = message.goal_id.id or f"{self._law.name}-{self._count}"
-        sent = message.goal_id.stamp
-        goal = Goal(message_type(GOAL_ID)(sent if sent.sec or sent.nanosec else stamp(self._clock()), name))
+    def _take(self, goal: Goal, wanted: Any) -> None:
         try:
-            self._pursue(message.goal)
+            self._pursue(wanted)
         except RefusalError as refusal:
             self._law.note(f"refused a goal: {refusal}")
             self._close(goal, REJECTED, str(refusal), refusal.result, last=self.goal is None)
             return
         self.give_up("another goal has taken its place")
         self.goal = self._last = goal
-        self._states.publish(self._status(self._clock(), goal))
+        self._topics.states.publish(self._topics.status(self._clock(), goal))
 
-    def _cancel(self, message: Any) -> None:
+    def _cancel(self, name: str, until: float) -> None:
+        # Without a name all goals are meant, or those sent up to a time (action_server_base.h, CancelGoal.srv).
         goal = self.goal
-        # Without a name all goals are meant, or those sent up to a time (actionlib, action_server_base.h).
-        until = message.stamp.sec + 1e-9 * message.stamp.nanosec
-        if goal is None:
-            return
-        sent = goal.id.stamp.sec + 1e-9 * goal.id.stamp.nanosec
-        if message.id == goal.id.id or (not message.id and not until) or (until and sent <= until):
+        if goal is not None and (name == goal.name or (not name and not until) or (until and goal.sent <= until)):
             self._stop()
             self.give_up("cancelled")
 
@@ -139,30 +113,16 @@ class Action:
         goal.state, goal.text = state, text
         if last:
             self._last = goal
-        message = from_fields(f"{self._kind}ActionResult", {"result": result})
-        message.header, message.status = header(self._clock(), ""), self._about(goal)
-        self._results.publish(message)
-        self._states.publish(self._status(self._clock(), goal))
-
-    def _about(self, goal: Goal) -> Any:
-        return message_type("actionlib_msgs/msg/GoalStatus")(goal.id, goal.state, goal.text)
-
-    def _status(self, t: float, goal: Goal | None) -> Any:
-        return message_type(GOAL_STATUSES)(header(t, ""), [] if goal is None else [self._about(goal)])
+        topics = self._topics
+        if (message := topics.result(goal, result)) is not None:
+            topics.results.publish(message)
+            topics.states.publish(topics.status(self._clock(), goal))
 
     def _list(self, state: State) -> Callable[[], Any]:
-        message = self._status(state.t, self._last)
+        message = self._topics.status(state.t, self._last)
         return lambda: message
 
     def _tell(self, state: State) -> Callable[[], Any]:
-        t, fields = state.t, self._feedback(state)
-        about = None if self.goal is None else self._about(self.goal)
-
-        def build() -> Any:
-            message = from_fields(f"{self._kind}ActionFeedback", None)
-            message.header, message.status = header(t, ""), about
-            for name, value in fields().items():
-                setattr(message.feedback, name, value)
-            return message
-
-        return build
+        assert self.goal is not None  # it is only told while there is one
+        t, fields, goal = state.t, self._feedback(state), replace(self.goal)
+        return lambda: self._topics.progress(t, goal, fields())
