@@ -55,7 +55,14 @@ class Painter:
         self._paint, self._cover = paint_of(table), cover_of(table)
 
     def take(
-        self, lens: Lens, frame: ArrayLike, *, near: float = 0.0, far: float = np.inf, samples: int = 1
+        self,
+        lens: Lens,
+        frame: ArrayLike,
+        *,
+        near: float = 0.0,
+        far: float = np.inf,
+        samples: int = 1,
+        deep: bool = True,
     ) -> Picture:
         """Return a picture.
 
@@ -65,14 +72,15 @@ class Painter:
             near: what is nearer is not seen [m].
             far: what is farther is not seen [m].
             samples: rays for the colour of each pixel in which something ends; depths and shapes are of one ray.
+            deep: whether depths and shapes are wanted; here they come anyway.
         """
         rgb, depths, hits = self._look(lens.directions, frame, near, far)
         if samples > 1:
             self._smooth(lens, rgb, hits, samples, lambda rays: self._look(rays, frame, near, far)[0])
         shape = (lens.height, lens.width)
-        seen, deep, known = np.empty_like(rgb), np.empty(len(rgb), dtype=np.float32), np.empty_like(hits)
-        seen[lens.order], deep[lens.order], known[lens.order] = rgb, depths, hits
-        return Picture(seen.reshape(*shape, 3), deep.reshape(shape), known.reshape(shape))
+        seen, depth, known = np.empty_like(rgb), np.empty(len(rgb), dtype=np.float32), np.empty_like(hits)
+        seen[lens.order], depth[lens.order], known[lens.order] = rgb, depths, hits
+        return Picture(seen.reshape(*shape, 3), depth.reshape(shape), known.reshape(shape))
 
     def _look(
         self, directions: Array, frame: ArrayLike, near: float, far: float

@@ -59,6 +59,7 @@ class Simulator(Population):
         ros_distro: the ROS distribution whose behaviour plugins are to have, such as ``kinetic``; the newest when None.
         controllers: parameter files of controllers, in place of those the robot's packages load.
         package_path: folders to look for packages in, when `robot` is a file or a name.
+        renderer: who takes the cameras' pictures: ``ray`` casts rays, ``gl`` draws by OpenGL, ``auto`` where it works.
         note: receives remarks for the user, once each; the log ``urdfkit.sim`` when None.
 
     Raises:
@@ -92,6 +93,7 @@ class Simulator(Population):
         ros_distro: str | None = None,
         controllers: Sequence[str | Path] = (),
         package_path: Sequence[str | Path] = (),
+        renderer: str = "ray",
         note: Callable[[str], None] | None = None,
     ) -> None:
         distro = Distro(ros_distro)
@@ -127,7 +129,7 @@ class Simulator(Population):
         message_type(TWIST)  # loads the types now, or says that they are missing
         self._setup = Setup(
             self.bus, self.kinematics, self.name, found.name, dt, np.random.default_rng(seed), self.note, distro,
-            tuple(Path(file) for file in controllers), surroundings=Surroundings(self, self.note),
+            tuple(Path(file) for file in controllers), surroundings=Surroundings(self, self.note, renderer),
         )  # fmt: skip
         self._seed = seed
         for each in self.robots.values():

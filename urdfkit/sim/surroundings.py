@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from urdfkit.description.world import World
 from urdfkit.description.world.poses import compose
 from urdfkit.scene import MeshLoader, Role, Scene, Shape
-from urdfkit.scene.image import Painter
 from urdfkit.scene.labels import label_of
 from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.placement import pose_matrices, pose_matrix
 from urdfkit.scene.rays import RayTable, warmup
+from urdfkit.scene.renderer import TakesPictures, check, painter_of
 from urdfkit.scene.world import shapes_of_link
 from urdfkit.sim.placing import seven
 from urdfkit.sim.things import parts_of
@@ -119,9 +119,10 @@ class View:
     Args:
         layout: what there is.
         note: tells the user something.
+        renderer: who takes pictures.
     """
 
-    def __init__(self, layout: Layout, note: Callable[[str], None]) -> None:
+    def __init__(self, layout: Layout, note: Callable[[str], None], renderer: str = "ray") -> None:
         world, self._start = world_scene(layout.world)
         self._names = [name.removeprefix(BODY) for name in world.bodies]
         bodies: list[str] = []
@@ -133,7 +134,8 @@ class View:
         self._lighting = lighting_of(layout.world)
         self._note = note
         self._tables: dict[Role, RayTable] = {}
-        self._painter: Painter | None = None
+        self._renderer = renderer
+        self._painter: TakesPictures | None = None
 
     def poses(self, layout: Layout) -> Array:
         """Return where everything was; shape (len(scene.bodies), 7)."""
@@ -150,14 +152,14 @@ class View:
         table.place(self.poses(layout))
         return table
 
-    def painter(self, layout: Layout) -> Painter:
+    def painter(self, layout: Layout) -> TakesPictures:
         """Return what takes pictures of the visuals where they were, by the lights of the world."""
         table = self.table("visual", layout)
         if self._painter is None:
             for shape in self.scene.with_role("visual"):
                 for name in shape.mesh.missing if shape.mesh is not None and not shape.has_color else ():
                     self._note(f"`{shape.name}` is seen without its texture: `{name}` is not there, or no picture")
-            self._painter = Painter(table, self._lighting)
+            self._painter = painter_of(table, self._lighting, self._renderer, self._note)
         return self._painter
 
 
@@ -167,9 +169,15 @@ class Surroundings:
     Args:
         population: the world and what is in it.
         note: tells the user something.
+        renderer: who takes pictures, one of `RENDERERS`.
+
+    Raises:
+        SimulationError: there is no such renderer here.
     """
 
-    def __init__(self, population: Populated, note: Callable[[str], None]) -> None:
+    def __init__(self, population: Populated, note: Callable[[str], None], renderer: str = "ray") -> None:
+        check(renderer)
+        self._renderer = renderer
         self._population = population
         self._note = note
         self._view: tuple[int, View] | None = None
@@ -202,7 +210,7 @@ class Surroundings:
     def view(self, layout: Layout) -> View:
         """Return the scene of a layout."""
         if self._view is None or self._view[0] != layout.revision:
-            self._view = layout.revision, View(layout, self._note)
+            self._view = layout.revision, View(layout, self._note, self._renderer)
         return self._view[1]
 
 

@@ -15,6 +15,7 @@ from urdfkit.cli.sim import values
 from urdfkit.cli.sim.controllers import add_controllers
 from urdfkit.cli.sim.distro import add_distro
 from urdfkit.cli.sim.recording import LOOK, add_record, recording
+from urdfkit.cli.sim.renderer import add_renderer
 from urdfkit.cli.unused import note_unused
 from urdfkit.errors import SimulationError, UsageError, did_you_mean
 
@@ -102,6 +103,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add_distro(parser)
     add_controllers(parser)
+    add_renderer(parser)
     add("--json", action="store_true", help="print one JSON value")
     parser.epilog = (
         "examples:\n"
@@ -166,6 +168,7 @@ def load(arguments: argparse.Namespace) -> Simulator:
         engine=arguments.engine,
         ros_distro=arguments.ros_distro,
         controllers=arguments.controllers,
+        renderer=arguments.renderer,
         note=(lambda text: None) if arguments.quiet else (lambda text: print(f"urdfkit: {text}", file=sys.stderr)),
     )
 
@@ -255,8 +258,10 @@ def nearest_topic(name: str, heard: Sequence[str]) -> str:
     if hint := did_you_mean(name, heard):
         return hint
     by_end = {topic.rpartition("/")[2]: topic for topic in reversed(heard)}
-    end = did_you_mean(name.rpartition("/")[2], by_end)
-    return f"; did you mean `{by_end[end.split('`')[1]]}`?" if end else f" (heard are {', '.join(sorted(heard))})"
+    if end := did_you_mean(name.rpartition("/")[2], by_end):
+        return f"; did you mean `{by_end[end.split('`')[1]]}`?"
+    own = sorted(topic for topic in heard if not topic.startswith(("/gazebo/", "/world/")))
+    return f" (heard are {', '.join(own)})" if own else ""
 
 
 def advance(simulator: Simulator, seconds: float, until: str | None) -> Effort:

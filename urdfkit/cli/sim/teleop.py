@@ -13,6 +13,7 @@ from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim.controllers import add_controllers
 from urdfkit.cli.sim.distro import add_distro
 from urdfkit.cli.sim.recording import add_record, recording
+from urdfkit.cli.sim.renderer import add_renderer
 from urdfkit.cli.unused import note_unused
 from urdfkit.errors import SimulationError
 
@@ -46,6 +47,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add_distro(parser)
     add_controllers(parser)
+    add_renderer(parser)
     add_record(parser)
     add_page_options(parser)
     parser.epilog = "examples:\n  urdfkit sim teleop simpleton\n  urdfkit sim teleop simpleton --port 8080 --no-browser"
@@ -72,6 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
                 world=arguments.world,
                 ros_distro=arguments.ros_distro,
                 controllers=arguments.controllers,
+                renderer=arguments.renderer,
                 note=lambda text: note(f"urdfkit: {text}"),
             )
             ride = Ride(simulator, server)

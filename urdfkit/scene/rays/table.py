@@ -117,6 +117,28 @@ class RayTable:
         self._mesh_bounds, self._mesh_links, self._corners = bounds.ravel(), joined.ravel(), corners.ravel()
 
     @property
+    def sizes(self) -> Array:
+        """Size of each shape, as the kernels take it [m]; shape (shapes, 3)."""
+        found: Array = self._local.reshape(-1, solids.STRIDE)[:, 12:15]
+        return found
+
+    @property
+    def frames(self) -> Array:
+        """Where each shape is: rotation by rows and position, as placed; shape (shapes, 12)."""
+        found: Array = self._world.reshape(-1, solids.STRIDE)[:, :12]
+        return found
+
+    @property
+    def boxes(self) -> Array:
+        """Lowest and highest corner of each shape that is not endless, as placed [m]; shape (shapes, 6)."""
+        return self._boxes
+
+    def triangles_of(self, shape: int) -> tuple[int, NDArray[np.int64]]:
+        """Return where the triangles of a shape's mesh begin among all, and which of the mesh's own they are."""
+        mesh = self.shapes[shape].mesh
+        return next((first, faces) for first, faces, each in self.meshes if mesh is not None and each.hash == mesh.hash)
+
+    @property
     def triangle_count(self) -> int:
         """Triangles of all meshes."""
         return len(self._faces)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.scene import Shape
-from urdfkit.scene.image import Painter, Picture
+from urdfkit.scene.image import Picture
 from urdfkit.scene.lens import Distortion
 from urdfkit.sim.sensors.mounted import Mounted
 from urdfkit.sim.sensors.noise import Noise, noise_of
@@ -26,6 +26,7 @@ from urdfkit.sim.sensors.values import pose_of
 if TYPE_CHECKING:
     from urdfkit.description.element import Element
     from urdfkit.description.robot import SensorTag
+    from urdfkit.scene.renderer import TakesPictures
     from urdfkit.sim.parameters import Parameters
     from urdfkit.sim.plugin import Setup
     from urdfkit.sim.surroundings import Layout
@@ -82,10 +83,10 @@ class Eye:
         """Return the CameraInfo, which nothing has to be looked at for."""
         return camera_info(t, frame, self.optics.lens, focal=self.focal, cx=self.cx, cy=self.cy, baseline=self.baseline)
 
-    def look(self, t: float, view: Painter, frame: Array, random: np.random.Generator) -> Sight:
-        """Return what is seen from where the sensor is."""
+    def look(self, t: float, view: TakesPictures, frame: Array, random: np.random.Generator, *, deep: bool) -> Sight:
+        """Return what is seen from where the sensor is; `deep` with depths and shapes."""
         optics, placed = self.optics, frame @ self.pose
-        picture = view.take(optics.lens, placed, near=optics.near, far=optics.far, samples=optics.samples)
+        picture = view.take(optics.lens, placed, near=optics.near, far=optics.far, samples=optics.samples, deep=deep)
         if self.noise:
             noisy = self.noise.on(picture.rgb / 255.0, random)
             picture = replace(picture, rgb=np.rint(255.0 * np.clip(noisy, 0.0, 1.0)).astype(np.uint8))
@@ -93,9 +94,15 @@ class Eye:
 
 
 class Camera(Mounted):
-    """A sensor of one or more cameras; what it publishes is its subclass's to say."""
+    """A sensor of one or more cameras; what it publishes is its subclass's to say.
+
+    Attributes:
+        eyes: its cameras.
+        deep: whether it tells depths, or which shapes it sees.
+    """
 
     namespace = "{model}"
+    deep = True
 
     def _prepare(self, setup: Setup, sensor: SensorTag, read: Parameters, topics: Topics) -> None:
         several = cameras_of(sensor)
@@ -129,7 +136,8 @@ class Camera(Mounted):
         """Read what is the plugin's own and fill `topics`."""
 
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
-        return self.eyes[0].look(t, self._surroundings.view(layout).painter(layout), frame, random)
+        painter = self._surroundings.view(layout).painter(layout)
+        return self.eyes[0].look(t, painter, frame, random, deep=self.deep)
 
     def _image(self, sight: Sight) -> Any:
         return image(sight.t, self.frame, sight.picture.rgb, self.optics.encoding)
@@ -147,6 +155,7 @@ class GzCamera(Camera):
     """A camera of the new Gazebo, which publishes by itself."""
 
     kind = "gz_camera"
+    deep = False
 
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
         picture = topics.resolve(read.text("image_topic"))

@@ -64,7 +64,7 @@ class MultiCamera(Camera):
             # Each draws its noise from a stream of its own: who else is listened to changes nothing.
             own = np.random.Generator(random.bit_generator.jumped(number))  # type: ignore[attr-defined]
             painter = self._surroundings.view(layout).painter(layout)
-            return self.eyes[number].look(t, painter, frame, own)
+            return self.eyes[number].look(t, painter, frame, own, deep=False)
 
         return look
 

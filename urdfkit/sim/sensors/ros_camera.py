@@ -38,7 +38,7 @@ class RosCamera(MultiCamera):
         if self._several:
             super()._advertise(setup, read, topics)
             return
-        self._deep = self.spec.generation == "ros2" and sensor_type(setup) == "depth"
+        self.deep = self.spec.generation == "ros2" and sensor_type(setup) == "depth"
         self._min_depth, self._max_depth = read.number("min_depth", 0.4), read.number("max_depth", np.inf)
 
         def topic(type: str, name: str, meaning: str = "") -> Any:
@@ -46,7 +46,7 @@ class RosCamera(MultiCamera):
 
         looked = [topic(IMAGE, "image_raw", "image_topic")]
         plain = [topic(CAMERA_INFO, "camera_info", "info_topic")]
-        if self._deep:
+        if self.deep:
             looked += [topic(IMAGE, "depth/image_raw"), topic(POINT_CLOUD_2, "points")]
             plain.append(topic(CAMERA_INFO, "depth/camera_info"))
         self.topics = (*looked, *plain)
@@ -55,13 +55,13 @@ class RosCamera(MultiCamera):
         """Return what makes the messages of the first of `topics`."""
         if self._several:
             return super().messages()
-        return (self._image, self._depth, self._points) if self._deep else (self._image,)
+        return (self._image, self._depth, self._points) if self.deep else (self._image,)
 
     def remarks(self) -> tuple[Callable[[float], Any], ...]:
         """Return what makes the messages of the others."""
         if self._several:
             return super().remarks()
-        return (self.info, self.info) if self._deep else (self.info,)
+        return (self.info, self.info) if self.deep else (self.info,)
 
     def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
         look = super()._look if self._several else partial(Camera._look, self)

@@ -1,0 +1,68 @@
+"""Trying a driver: what works, what crashes, hangs or lies, and who takes pictures then."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+
+from tests.scene.gl.test_same_picture import table_of, zoo
+from tests.scene.test_image import lit
+from urdfkit.errors import SimulationError
+from urdfkit.scene.gl.probe import Found, ask
+from urdfkit.scene.image import Painter
+from urdfkit.scene.renderer import check, painter_of
+
+
+@pytest.mark.parametrize(
+    ("program", "said"),
+    [
+        ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "the driver crashed (signal 11)"),
+        ("import time; time.sleep(60)", "the driver did not draw a triangle in 0.5 s"),
+        ("print('hello')", "the driver was tried without an answer (exit status 0)"),
+        ("raise SystemExit(3)", "the driver was tried without an answer (exit status 3)"),
+        ("print('[1]')", "the driver was tried without an answer (exit status 0)"),
+    ],
+)
+def test_a_broken_driver_takes_only_its_own_process_down(program: str, said: str) -> None:
+    assert ask([sys.executable, "-c", program], seconds=0.5 if "sleep" in program else 30.0) == Found(False, "", said)
+
+
+def test_what_works_is_told_with_its_name() -> None:
+    line = '{"works": true, "backend": "egl", "name": "a card"}'
+    assert ask([sys.executable, "-c", f"print('chatter'); print('{line}')"]) == Found(True, "egl", "a card")
+
+
+def test_a_program_that_is_not_there() -> None:
+    found = ask(["/no/such/program"])
+    assert not found.works
+    assert "no process could be started" in found.name
+
+
+BROKEN = Found(False, "", "the driver crashed (signal 11)")
+MISSING = Found(False, "", "moderngl is not installed: pip install 'urdfkit[gl]'")
+
+
+@pytest.mark.parametrize(
+    ("found", "notes"),
+    [
+        (BROKEN, ["OpenGL does not work here (the driver crashed (signal 11)): pictures are taken by casting rays"]),
+        (MISSING, []),
+        (Found(True, "no such backend", "a card"), ["OpenGL does not work here"]),
+    ],
+)
+def test_rays_take_pictures_where_opengl_does_not(found: Found, notes: list[str]) -> None:
+    said: list[str] = []
+    painter = painter_of(table_of(*zoo()), lit(), "auto", said.append, lambda: found)
+    assert isinstance(painter, Painter)
+    assert len(said) == len(notes)
+    assert all(line.startswith(note) for line, note in zip(said, notes, strict=True))
+
+
+def test_a_renderer_that_is_forced_and_does_not_work_is_refused() -> None:
+    with pytest.raises(SimulationError, match="renderer `gl` does not work here: the driver crashed"):
+        check("gl", lambda: BROKEN)
+    with pytest.raises(SimulationError, match="no renderer `rays`; did you mean `ray`"):
+        check("rays")
+    check("auto", lambda: BROKEN)
+    check("ray", lambda: BROKEN)

@@ -1,0 +1,16 @@
+"""The option `--renderer`, of every command that simulates."""
+
+from __future__ import annotations
+
+import argparse
+
+
+def add_renderer(parser: argparse.ArgumentParser) -> None:
+    """Add the option."""
+    parser.add_argument(
+        "--renderer",
+        choices=("auto", "ray", "gl"),
+        default="auto",
+        help="who takes the cameras' pictures: ray casts rays, gl draws by OpenGL, auto by OpenGL where it works "
+        "(default: auto)",
+    )

@@ -1,0 +1,187 @@
+"""Triangles of shapes, as OpenGL draws them: round solids in facets, meshes as they are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.scene.mesh import TriMesh
+from urdfkit.scene.rays import solids
+from urdfkit.scene.rays.skin import HUE, OPACITY, OWN, SMOOTH, TEXTURE, UV
+from urdfkit.scene.rays.table import RayTable
+
+Array = NDArray[np.float64]
+
+AROUND = 64
+"""Facets around a cylinder or a sphere."""
+
+VERTEX = 12
+"""Numbers per vertex: position, normal, place on the texture, colour and opacity."""
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Triangles that are drawn together, as often as there are shapes of them.
+
+    Attributes:
+        vertices: three in a row per triangle, counter-clockwise seen from outside; shape (n, `VERTEX`), float32.
+        shapes: numbers of the shapes in the table.
+        scale: of the model in each shape; shape (shapes, 3).
+        texture: number of the texture, -1 for none.
+        flat: whether the normals are those of the triangles.
+        casts: whether it casts shadows; a plane does not, for nothing is below.
+    """
+
+    vertices: NDArray[np.float32]
+    shapes: NDArray[np.int64]
+    scale: NDArray[np.float32]
+    texture: int
+    flat: bool
+    casts: bool = True
+
+    @cached_property
+    def plain(self) -> bool:
+        """Whether its triangles have one colour each."""
+        colors = self.vertices[:, 8:].reshape(-1, 3, 4)
+        return bool((colors == colors[:, :1]).all())
+
+
+def models_of(table: RayTable, paint: tuple[Any, ...]) -> list[Model]:
+    """Return what is to be drawn of a table.
+
+    Args:
+        table: the shapes.
+        paint: what they look like, see `paint_of`.
+    """
+    kinds, local = table.kernel_scene[1], table.sizes
+    groups: dict[Any, list[int]] = {}
+    for k, kind in enumerate(kinds.tolist()):
+        key: Any = kind
+        if kind == solids.MESH:
+            mesh = table.shapes[k].mesh
+            key = (kind, mesh.hash if mesh is not None else "", int(paint[1][k]))
+        elif kind == solids.CAPSULE:
+            key = (kind, *local[k, :2].tolist())
+        groups.setdefault(key, []).append(k)
+    found: list[Model] = []
+    for key, members in groups.items():
+        shapes = np.array(members)
+        if isinstance(key, tuple) and key[0] == solids.MESH:
+            first, faces = table.triangles_of(members[0])
+            found += _of_mesh(
+                table.shapes[members[0]].mesh, key[2], paint[2][first : first + len(faces)], faces, shapes
+            )
+            continue
+        points, normals, flat = _solid(key)
+        vertices = np.zeros((len(points), VERTEX), dtype=np.float32)
+        vertices[:, :3], vertices[:, 3:6], vertices[:, 8:] = points, normals, 1.0
+        found.append(
+            Model(vertices, shapes, _scales(key, local[shapes]).astype(np.float32), -1, flat, key != solids.PLANE)
+        )
+    return found
+
+
+def _scales(key: Any, sizes: Array) -> Array:
+    if isinstance(key, tuple):
+        return np.ones_like(sizes)
+    if key == solids.SPHERE:
+        return np.repeat(sizes[:, :1], 3, axis=1)
+    if key in (solids.CYLINDER, solids.CONE):
+        return sizes[:, [0, 0, 1]]
+    return np.column_stack([sizes[:, :2], np.ones(len(sizes))]) if key == solids.PLANE else sizes
+
+
+def _of_mesh(mesh: TriMesh | None, worn: int, skins: Any, faces: Any, shapes: NDArray[np.int64]) -> list[Model]:
+    """Return the models of a mesh, one per texture.
+
+    Args:
+        mesh: the triangles.
+        worn: what the shapes take from the skins.
+        skins: in the order of the trees.
+        faces: which of the mesh's triangles these are.
+        shapes: numbers in the table.
+    """
+    assert mesh is not None
+    corners = mesh.vertices[mesh.faces[faces]].astype(float)
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = np.repeat(across[:, None], 3, axis=1)
+    if worn & SMOOTH:
+        normals = skins[:, :HUE].reshape(-1, 3, 3).astype(float)
+        normals = normals * np.where((normals * across[:, None]).sum(-1, keepdims=True) < 0.0, -1.0, 1.0)
+    vertices = np.zeros((len(faces), 3, VERTEX), dtype=np.float32)
+    length = np.linalg.norm(normals, axis=-1, keepdims=True)
+    vertices[..., :3], vertices[..., 3:6] = corners, normals / np.where(length > 0.0, length, 1.0)
+    vertices[..., 8:] = 1.0
+    textures = np.full(len(faces), -1)
+    if worn & OWN:
+        textures = skins[:, TEXTURE].astype(np.int64)
+        vertices[..., 6:8] = skins[:, UV:TEXTURE].reshape(-1, 3, 2)
+        vertices[..., 8:11] = np.where(textures[:, None, None] >= 0, 1.0, skins[:, HUE:UV].reshape(-1, 3, 3))
+        vertices[..., 11] = skins[:, OPACITY][:, None]
+    ones = np.ones((len(shapes), 3), dtype=np.float32)
+    return [
+        Model(vertices[textures == texture].reshape(-1, VERTEX), shapes, ones, texture, not worn & SMOOTH)
+        for texture in np.unique(textures).tolist()
+    ]
+
+
+def _solid(key: Any) -> tuple[Array, Array, bool]:
+    """Return vertices and normals of a solid of size 1, three per triangle, and whether it is flat."""
+    turn = np.linspace(0.0, 2.0 * np.pi, AROUND + 1)
+    if key == solids.BOX:
+        square = np.array([[-1, -1], [1, -1], [1, 1], [-1, -1], [1, 1], [-1, 1]], dtype=float)
+        faces, normals = [], []
+        for axis in range(3):
+            for side in (1.0, -1.0):
+                face = np.empty((6, 3))
+                face[:, axis], face[:, (axis + 1) % 3], face[:, (axis + 2) % 3] = (
+                    side,
+                    square[:, 0],
+                    side * square[:, 1],
+                )
+                faces.append(face)
+                normals.append(np.tile(np.eye(3)[axis] * side, (6, 1)))
+        return np.vstack(faces), np.vstack(normals), True
+    if key == solids.PLANE:
+        square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, -1, 0], [1, 1, 0], [-1, 1, 0]], dtype=float)
+        return square, np.tile([0.0, 0.0, 1.0], (6, 1)), True
+    if key in (solids.SPHERE, solids.ELLIPSOID):
+        height = np.linspace(-np.pi / 2, np.pi / 2, AROUND // 2 + 1)
+        return *_turned(np.cos(height), np.sin(height), np.cos(height), np.sin(height), turn), False
+    if key == solids.CYLINDER:
+        rim = np.array([0.0, 1.0, 1.0, 1.0, 1.0, 0.0])
+        z = np.array([-1.0, -1.0, -1.0, 1.0, 1.0, 1.0])
+        return *_turned(rim, z, np.array([0, 0, 1.0, 1, 0, 0]), np.array([-1.0, -1, 0, 0, 1, 1]), turn), False
+    if key == solids.CONE:
+        # The side's normal in the frame of size 1, where the apex is at +1 and the rim at -1.
+        rim, z = np.array([0.0, 1.0, 1.0, 0.0]), np.array([-1.0, -1.0, -1.0, 1.0])
+        return *_turned(rim, z, np.array([0, 0, 1.0, 1.0]), np.array([-1.0, -1, 0.5, 0.5]), turn), False
+    _, radius, half = key
+    angle = np.linspace(-np.pi / 2, np.pi / 2, AROUND // 2 + 2)
+    angle = np.sort(np.append(angle, 0.0))
+    lift = np.where(np.arange(len(angle)) < len(angle) // 2, -half, half)
+    rim, z = radius * np.cos(angle), radius * np.sin(angle) + lift
+    return *_turned(rim, z, np.cos(angle), np.sin(angle), turn), False
+
+
+def _turned(rim: Array, z: Array, out: Array, up: Array, turn: Array) -> tuple[Array, Array]:
+    """Return the triangles of a line turned about z, and their normals, which lean out and up."""
+
+    def around(radial: Array, axial: Array) -> Array:
+        return np.stack(
+            [radial[:, None] * np.cos(turn), radial[:, None] * np.sin(turn), np.repeat(axial[:, None], len(turn), 1)],
+            -1,
+        )
+
+    def triangles(grid: Array) -> Array:
+        a, b, c, d = grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]
+        return np.stack([a, b, c, a, c, d], axis=2).reshape(-1, 3, 3)
+
+    points, normals = triangles(around(rim, z)), triangles(around(out, up))
+    area = np.linalg.norm(np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]), axis=1)
+    kept = area > 1e-12
+    return points[kept].reshape(-1, 3), normals[kept].reshape(-1, 3)

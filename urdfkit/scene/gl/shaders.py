@@ -1,0 +1,220 @@
+"""The shaders: the light of `scene.rays.picture`, per face where that is exact, else per pixel.
+
+All coordinates are in the camera's frame: x forward, y left, z up.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from urdfkit.scene.rays.picture import DIRECTIONAL, SPOT
+
+STILL = ("s",)
+BOTH = ("s", "m")
+"""Names of shadow maps: of what stands still, of what moves."""
+
+Lamps = tuple[tuple[int, bool], ...]
+"""Kind of each light, and whether it casts shadows."""
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a pair of shaders has to do.
+
+    Attributes:
+        lamps: the lights.
+        flat: the surface has one normal per triangle.
+        plain: it has one colour per triangle.
+        textured: a texture gives the colour.
+        deep: depth and number of the shape are wanted; else colours are.
+        exact: what is nearer or farther than the camera sees is left out by its distance, as rays are cut.
+        maps: of shadows, per light that casts any: of what stands still, and of what moves.
+    """
+
+    lamps: Lamps
+    flat: bool
+    plain: bool
+    textured: bool
+    deep: bool
+    exact: bool
+    maps: tuple[str, ...] = STILL
+
+    @property
+    def early(self) -> bool:
+        """Whether the light is the same all over a triangle, but for shadows."""
+        return self.flat and all(kind == DIRECTIONAL for kind, _ in self.lamps)
+
+    @property
+    def ready(self) -> bool:
+        """Whether the colour, too, so that nothing but shadows is left to a pixel."""
+        return self.early and self.plain and not self.textured and not self.deep
+
+
+_GAIN = """
+float gain{k}(vec3 n, vec3 p) {{ {body} }}"""
+
+_SUN = "return max(dot(n, u_lamp{k}), 0.0);"
+
+_LAMP = """
+    vec3 to = u_lamp{k} - p;
+    float r = length(to);
+    if (r > u_fall{k}.x || r <= 0.0) return 0.0;
+    to /= r;
+    float fall = 1.0 / max(u_fall{k}.y + r * (u_fall{k}.z + r * u_fall{k}.w), 1e-9);
+    {spot}
+    return fall * max(dot(n, to), 0.0);
+"""
+
+_SPOT = """
+    float along = -dot(to, u_towards{k});
+    if (along <= u_cone{k}.y) return 0.0;
+    fall *= pow(clamp((along - u_cone{k}.y) / max(u_cone{k}.x - u_cone{k}.y, 1e-9), 0.0, 1.0), u_cone{k}.z);
+"""
+
+
+def _lights(lamps: Lamps, maps: tuple[str, ...]) -> str:
+    """Return uniforms and one function per light: what of it gets to a point."""
+    lines = ["uniform vec3 u_air;"]
+    for k, (kind, shadows) in enumerate(lamps):
+        lines.append(f"uniform vec3 u_lamp{k}; uniform vec3 u_glow{k};")
+        body = _SUN.format(k=k)
+        if kind != DIRECTIONAL:
+            lines.append(f"uniform vec4 u_fall{k}; uniform vec3 u_towards{k}; uniform vec3 u_cone{k};")
+            body = _LAMP.format(k=k, spot=_SPOT.format(k=k) if kind == SPOT else "")
+        lines.append(_GAIN.format(k=k, body=body))
+        if shadows:
+            lines += [f"uniform mat4 u_shade{k}{m}; uniform float u_lift{k}{m};" for m in maps]
+    return "\n".join(lines)
+
+
+def vertex_shader(kind: Kind) -> str:
+    """Return the vertex shader."""
+    colors = not kind.deep
+    shaded = [k for k, (_, shadows) in enumerate(kind.lamps) if shadows] if colors else []
+    out, body = [], []
+    if colors and kind.early:
+        body.append("if (dot(n, q) > 0.0) n = -n;")
+        for k in range(len(kind.lamps)):
+            out.append("" if kind.ready else f"flat out float v_gain{k};")
+            body.append(f"{'float ' if kind.ready else ''}v_gain{k} = gain{k}(n, q);")
+        for k in shaded:
+            for m in kind.maps:
+                out.append(f"out vec3 v_shade{k}{m};")
+                body.append(f"v_shade{k}{m} = (u_shade{k}{m} * vec4(q + u_lift{k}{m} * n, 1.0)).xyz;")
+    elif colors:
+        out.append("out vec3 v_normal;")
+        body.append("v_normal = n;")
+    if kind.exact or kind.deep or (colors and not kind.early):
+        out.append("out vec3 v_point;")
+        body.append("v_point = q;")
+    if kind.deep:
+        out.append("flat out float v_shape;")
+        body.append("v_shape = in_shape;")
+    out.append("flat out vec4 v_color;" if kind.plain else "out vec4 v_color;")
+    body.append("v_color = in_color * in_rgba;")
+    if kind.ready:
+        body.append("vec3 color = v_color.rgb; v_color.rgb *= u_air;")
+        for k, (_, shadows) in enumerate(kind.lamps):
+            if shadows:
+                out.append(f"flat out vec3 v_lit{k};")
+                body.append(f"v_lit{k} = color * v_gain{k} * u_glow{k};")
+            else:
+                body.append(f"v_color.rgb += color * v_gain{k} * u_glow{k};")
+    if kind.textured:
+        out.append("out vec2 v_uv;")
+        body.append("v_uv = vec2(in_uv.x, 1.0 - in_uv.y);")
+    lines = "\n".join(out), "\n    ".join(body)
+    return f"""#version 330
+in vec3 in_position; in vec3 in_normal; in vec2 in_uv; in vec4 in_color;
+in vec4 in_x; in vec4 in_y; in vec4 in_z; in vec3 in_scale; in vec4 in_rgba; in float in_shape;
+uniform vec4 u_lens;
+{_lights(kind.lamps, kind.maps) if colors and kind.early else ""}
+{lines[0]}
+void main() {{
+    vec4 p = vec4(in_position * in_scale, 1.0);
+    vec3 q = vec3(dot(in_x, p), dot(in_y, p), dot(in_z, p));
+    gl_Position = vec4(-q.y * u_lens.x, -q.z * u_lens.y, u_lens.z * q.x + u_lens.w, q.x);
+    vec3 m = in_normal / in_scale;
+    vec3 n = normalize(vec3(dot(in_x.xyz, m), dot(in_y.xyz, m), dot(in_z.xyz, m)));
+    {lines[1]}
+}}
+"""
+
+
+def fragment_shader(kind: Kind) -> str:
+    """Return the fragment shader."""
+    head, body = ["flat in vec4 v_color;" if kind.plain else "in vec4 v_color;"], ["vec4 color = v_color;"]
+    if kind.textured:
+        head.append("in vec2 v_uv; uniform sampler2D u_texture;")
+        body.append("color *= texture(u_texture, v_uv);")
+    if kind.exact:
+        head.append("uniform vec2 u_reach;")
+        body.append("float far = length(v_point); if (far < u_reach.x || far > u_reach.y) discard;")
+    if kind.exact or kind.deep or not kind.early:
+        head.append("in vec3 v_point;")
+    if kind.deep:
+        head.append("flat in float v_shape; out vec2 o_deep;")
+        body.append("if (color.a <= 0.0) discard;\n    o_deep = vec2(v_point.x, v_shape);")
+        return _fragment(head, body)
+    head.append("out vec4 o_color;")
+    if kind.ready:
+        for k, (_, shadows) in enumerate(kind.lamps):
+            if shadows:
+                head.append(f"flat in vec3 v_lit{k};")
+                body.append(f"float g{k} = 1.0;")
+                _shade(kind, k, head, body)
+                body.append(f"color.rgb += g{k} * v_lit{k};")
+        body.append("o_color = vec4(min(color.rgb, 1.0), color.a);")
+        return _fragment(head, body)
+    head.append(_lights(kind.lamps, kind.maps) if not kind.early else "uniform vec3 u_air;")
+    body.append("vec3 light = u_air;")
+    if not kind.early:
+        head.append("in vec3 v_normal;")
+        body.append("vec3 n = normalize(v_normal); if (!gl_FrontFacing) n = -n;")
+    for k, (_, shadows) in enumerate(kind.lamps):
+        if kind.early:
+            head.append(f"flat in float v_gain{k}; uniform vec3 u_glow{k};")
+            body.append(f"float g{k} = v_gain{k};")
+        else:
+            body.append(f"float g{k} = gain{k}(n, v_point);")
+        if shadows:
+            _shade(kind, k, head, body)
+        body.append(f"light += g{k} * u_glow{k};")
+    body.append("o_color = vec4(min(color.rgb * light, 1.0), color.a);")
+    return _fragment(head, body)
+
+
+def _shade(kind: Kind, k: int, head: list[str], body: list[str]) -> None:
+    """Add what takes away a light where something stands between."""
+    for m in kind.maps:
+        name = f"{k}{m}"
+        head.append(f"uniform sampler2DShadow u_map{name};")
+        if kind.early:
+            head.append(f"in vec3 v_shade{name};")
+            body.append(f"vec3 s{name} = v_shade{name};")
+        else:
+            body.append(f"vec3 s{name} = (u_shade{name} * vec4(v_point + u_lift{name} * n, 1.0)).xyz;")
+        body.append(
+            f"if (g{k} > 0.0 && all(lessThan(abs(s{name}.xy - 0.5), vec2(0.5)))) "
+            f"g{k} *= texture(u_map{name}, vec3(s{name}.xy, min(s{name}.z, 1.0)));"
+        )
+
+
+def _fragment(head: list[str], body: list[str]) -> str:
+    lines = "\n".join(head), "\n    ".join(body)
+    return f"#version 330\n{lines[0]}\nvoid main() {{\n    {lines[1]}\n}}\n"
+
+
+SHADOW_VERTEX = """#version 330
+in vec3 in_position;
+in vec4 in_x; in vec4 in_y; in vec4 in_z; in vec3 in_scale;
+uniform mat4 u_light;
+void main() {
+    vec4 p = vec4(in_position * in_scale, 1.0);
+    gl_Position = u_light * vec4(dot(in_x, p), dot(in_y, p), dot(in_z, p), 1.0);
+}
+"""
+
+SHADOW_FRAGMENT = """#version 330
+void main() {}
+"""

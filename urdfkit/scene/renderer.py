@@ -1,0 +1,86 @@
+"""Who takes pictures: rays, which work everywhere, or OpenGL, where a driver works."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Literal, Protocol, get_args
+
+from numpy.typing import ArrayLike
+
+from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.scene.gl.probe import Found, probe
+from urdfkit.scene.image import Painter, Picture
+from urdfkit.scene.lens import Lens
+from urdfkit.scene.lights import Lighting
+from urdfkit.scene.rays.table import RayTable
+
+Renderer = Literal["auto", "ray", "gl"]
+RENDERERS: tuple[str, ...] = get_args(Renderer)
+"""OpenGL where it works, else rays; rays; OpenGL."""
+
+
+class TakesPictures(Protocol):
+    """A `Painter`, by whatever means."""
+
+    table: RayTable
+
+    def take(
+        self, lens: Lens, frame: ArrayLike, *, near: float = 0.0, far: float = ..., samples: int = 1, deep: bool = True
+    ) -> Picture:
+        """Return a picture, see `Painter.take`."""
+        ...
+
+
+def check(renderer: str, device: Callable[[], Found] = probe) -> None:
+    """Refuse a renderer that there is not.
+
+    Args:
+        renderer: one of `RENDERERS`.
+        device: tries whether OpenGL works.
+
+    Raises:
+        SimulationError: there is no such renderer, or OpenGL is asked for and does not work here.
+    """
+    if renderer not in RENDERERS:
+        raise SimulationError(
+            f"no renderer `{renderer}`{did_you_mean(renderer, RENDERERS)} (there are {', '.join(RENDERERS)})"
+        )
+    if renderer == "gl" and not (found := device()).works:
+        raise SimulationError(f"renderer `gl` does not work here: {found.name}; `ray` does everywhere")
+
+
+def painter_of(
+    table: RayTable,
+    lighting: Lighting,
+    renderer: str,
+    note: Callable[[str], None],
+    device: Callable[[], Found] = probe,
+) -> TakesPictures:
+    """Return what takes pictures of a table's shapes.
+
+    Args:
+        table: the shapes.
+        lighting: what shines.
+        renderer: one of `RENDERERS`.
+        note: tells the user that OpenGL is there and does not work.
+        device: tries whether OpenGL works.
+    """
+    if renderer == "ray":
+        return Painter(table, lighting)
+    found = device()
+    if not found.works:
+        if "not installed" not in found.name:
+            note(f"OpenGL does not work here ({found.name}): pictures are taken by casting rays")
+        return Painter(table, lighting)
+    from urdfkit.scene.gl.painter import GlPainter
+
+    try:
+        return GlPainter(table, lighting, found.backend, note)
+    except Exception as error:  # whatever the driver raises
+        note(f"OpenGL does not work here ({_first_line(error)}): pictures are taken by casting rays")
+        return Painter(table, lighting)
+
+
+def _first_line(error: Exception) -> str:
+    lines = str(error).strip().splitlines()
+    return lines[0] if lines else type(error).__name__
