@@ -170,3 +170,31 @@ def test_what_makes_no_sense_is_left_out_by_name(crate, wrong: str, said: str) -
     assert said in note
     assert "crate.urdf:1:" in note
     assert note.endswith("sensor `s` is left out")
+
+
+def test_a_models_own_bumper_in_a_world_goes_by_the_names_of_its_file(crate, tmp_path: Path) -> None:
+    (tmp_path / "mat.sdf").write_text(
+        '<sdf version="1.9"><model name="mat"><link name="l"><pose>0 0 0.05 0 0 0</pose><inertial><mass>3</mass>'
+        '</inertial><collision name="felt"><geometry><box><size>1 1 0.1</size></box></geometry></collision>'
+        '<sensor name="s" type="contact"><contact><collision>felt</collision><topic>mat</topic></contact></sensor>'
+        "</link></model></sdf>"
+    )
+    simulator = crate("", spawn=Spawn(z=0.21))
+    simulator.spawn(tmp_path / "mat.sdf")
+    simulator.run(0.5)
+    contacts = {each.collision2.name: each for each in heard(simulator, "/mat", 0.01)[-1].contacts}
+    on_it = contacts["crate::base::base_collision"]
+    assert on_it.collision1.name == "mat::l::felt"
+    down = sum(each.body_1_wrench.force.z for each in on_it.wrenches)
+    assert down == pytest.approx(MASS * simulator.world.gravity[2], rel=1e-4)
+
+
+def test_who_listens_changes_nothing(crate) -> None:
+    def last(listen: bool) -> Any:
+        simulator = crate(bumper(ROS_1.format("")), spawn=Spawn(z=0.3))
+        if listen:
+            return heard(simulator, "/bump", 0.5)[-1]
+        simulator.run(0.5)
+        return simulator.bus.latest("/bump")
+
+    assert repr(last(True)) == repr(last(False))
