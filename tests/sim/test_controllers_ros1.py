@@ -363,6 +363,70 @@ def test_an_effort_makes_no_joint_faster_than_it_may_be(make: Make) -> None:
     assert simulator.state.velocity("elbow") == pytest.approx(2.0, abs=0.03)
 
 
+PID_LAWS = {
+    "position": "{type: effort_controllers/JointPositionController, joint: JOINT, pid: {p: 40.0, d: 4.0}}",
+    "integral": "{type: effort_controllers/JointPositionController, joint: JOINT, "
+    "pid: {p: 40.0, d: 4.0, i: 20.0, i_clamp: 2.0, antiwindup: true}}",
+    "group": "{type: effort_controllers/JointGroupPositionController, joints: [JOINT], "
+    "JOINT: {pid: {p: 40.0, d: 4.0}}}",
+    "trajectory": "{type: effort_controllers/JointTrajectoryController, joints: [JOINT], "
+    "gains: {JOINT: {p: 40.0, d: 4.0}}}",
+}
+
+
+def pid_law(kind: str, joint: str) -> str:
+    return f"arm:\n  a: {PID_LAWS[kind].replace('JOINT', joint)}\n"
+
+
+def want(simulator: Any, kind: str, joint: str, value: float) -> None:
+    """Command a position, whatever the controller takes it by."""
+    if kind == "group":
+        simulator.bus.publish("/arm/a/command", FLOATS, from_fields(FLOATS, {"data": [value]}))
+    elif kind == "trajectory":
+        point = {"positions": [value], "time_from_start": {"nanosec": 1_000_000}}
+        fields = {"joint_names": [joint], "points": [point]}
+        simulator.bus.publish("/arm/a/command", TRAJECTORY, from_fields(TRAJECTORY, fields))
+    else:
+        send(simulator, "/arm/a/command", value)
+
+
+@pytest.mark.parametrize("kind", PID_LAWS)
+def test_soft_limits_hold_the_effort_of_a_pid_back(make: Make, kind: str) -> None:
+    simulator = make(pid_law(kind, "shoulder"), ("Effort", "Position"), arm={"safety": SAFETY}, gravity=(0, 0, 0))
+    want(simulator, kind, "shoulder", 2.0)
+    furthest = 0.0
+    for _ in range(600):
+        simulator.run(0.01)
+        furthest = max(furthest, simulator.state.position("shoulder"))
+    assert furthest < 0.5 + 1e-3
+    assert simulator.state.position("shoulder") == pytest.approx(0.5, abs=1e-3)
+    want(simulator, kind, "shoulder", 0.2)  # and the servo takes over again
+    simulator.run(4.0)
+    assert simulator.state.position("shoulder") == pytest.approx(0.2, abs=0.02)
+
+
+@pytest.mark.parametrize("kind", PID_LAWS)
+def test_the_effort_of_a_pid_makes_no_joint_faster_than_it_may_be(make: Make, kind: str) -> None:
+    simulator = make(pid_law(kind, "elbow"), ("Position", "Effort"), arm={"velocity": 2.0}, gravity=(0, 0, 0))
+    want(simulator, kind, "elbow", 1.5)
+    fastest = 0.0
+    for _ in range(2000):
+        simulator.step()
+        fastest = max(fastest, simulator.state.velocity("elbow"))
+    # An effort is taken away when the joint is too fast, so it gets as much faster as one control period lets it.
+    assert 1.9 < fastest < 2.8
+    simulator.run(3.0)
+    assert simulator.state.position("elbow") == pytest.approx(1.5, abs=0.05)
+
+
+def test_a_velocity_pid_is_cut_too(make: Make) -> None:
+    yaml = "arm:\n  a: {type: effort_controllers/JointVelocityController, joint: elbow, pid: {p: 2.0}}\n"
+    simulator = make(yaml, ("Position", "Effort"), arm={"elbow": "continuous", "velocity": 1.0}, gravity=(0, 0, 0))
+    send(simulator, "/arm/a/command", 3.0)
+    simulator.run(2.0)
+    assert simulator.state.velocity("elbow") == pytest.approx(1.0, abs=0.05)
+
+
 def test_limits_among_the_parameters_come_first(make: Make) -> None:
     yaml = law("position_controllers/JointPositionController") + (
         "  joint_limits: {shoulder: {has_position_limits: true, min_position: -0.2, max_position: 0.4, "

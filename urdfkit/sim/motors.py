@@ -186,6 +186,10 @@ class Motors:
         if anew or integral is None:
             servos.integral[index] = 0.0
 
+    def integral(self, joint: str) -> float:
+        """Return the integral of the error of a joint's servo up to now [rad·s], [m·s], [rad] or [m]."""
+        return float(self._servos.integral[self._checked(joint)])
+
     def move_base(self, linear: Sequence[float], angular: Sequence[float]) -> None:
         """Give the floating base a velocity, once, in its own axes [m/s, rad/s]; the step that follows may change it.
 

@@ -51,7 +51,7 @@ class Gripper(Law):
                 raise DescriptionError(
                     f"`{self.name}` has no `gains/{self._name}`, which it needs", position=read.place
                 )
-            self._follower = Follower(output.handle, gains)
+            self._follower = Follower(output.handle, gains, output.limits)
             if self._usual == 0.0:
                 self.note("`max_effort` is 0 when left out: without a goal the gripper is limp")
         self._near = abs(read.number("goal_tolerance", 0.01))

@@ -14,12 +14,19 @@ from urdfkit.sim.controllers.pid import Gains, Integral
 if TYPE_CHECKING:
     from urdfkit.description.robot import Joint
     from urdfkit.kinematics import Kinematics
+    from urdfkit.sim.controllers.joint_limits import JointLimits
     from urdfkit.sim.motors import Motors
     from urdfkit.sim.state import State
 
 FASTEST = 20.0
 """How fast a joint without ``<limit velocity>`` is brought to a commanded position [rad/s] or [m/s]."""
 
+
+LOOK = 0.01
+"""How often an effort is looked after that may make a joint too fast [s], while it is well below."""
+
+STANDING = 1e-3
+"""A joint slower than this [rad/s] or [m/s] stands, as far as a PID's effort has to be looked after."""
 
 NEAR = 1e-9
 """A joint this near to where it should be [rad] or [m], and this slow [rad/s] or [m/s], is there."""
@@ -178,13 +185,23 @@ class JointHandle:
 
 
 class Follower:
-    """A handle with gains and their integral: what PID controllers hold for each joint."""
+    """A handle with gains and their integral: what PID controllers hold for each joint.
 
-    def __init__(self, handle: JointHandle, gains: Gains) -> None:
+    Args:
+        handle: the joint.
+        gains: of the law.
+        limits: of the efforts it commands, where they are enforced (ROS 1): what they take away is taken away for a
+            control period at a time, in which a constant effort takes the servo's place.
+    """
+
+    def __init__(self, handle: JointHandle, gains: Gains, limits: JointLimits | None = None) -> None:
         self.handle = handle
         self.gains = gains
+        self.limits = limits if limits is not None and limits.cut_efforts else None
         self.integral = Integral(gains)
         self._of_velocity = False
+        self._look = inf
+        self._seen: tuple[float, float] | None = None
 
     def follow(
         self,
@@ -197,6 +214,11 @@ class Follower:
     ) -> None:
         """Servo towards a position [rad] or [m] and velocity [rad/s] or [m/s]."""
         self._of_velocity = False
+        if self.limits is not None:
+            now, speed, gains = state.position(self.handle.name), state.velocity(self.handle.name), self.gains
+            effort = gains.p * (position - now) + gains.d * (velocity - speed) + feedforward
+            if self._cut(motors, effort, now, speed, limit, target=position):
+                return
         self.handle.servo(
             motors, self.gains, position=position, velocity=velocity, feedforward=feedforward, limit=limit,
             anew=self.integral.begins(),
@@ -205,6 +227,10 @@ class Follower:
     def chase(self, state: State, motors: Motors, velocity: float, period: float, limit: float = inf) -> None:
         """Servo towards a velocity [rad/s] or [m/s]."""
         now = state.velocity(self.handle.name)
+        if self.limits is not None:
+            effort = self.gains.p * (velocity - now)
+            if self._cut(motors, effort, state.position(self.handle.name), now, limit, target=velocity):
+                return
         anew, self._of_velocity = self.integral.begins(), True
         integral = (
             self.integral.update(state.t, velocity - now) if self.gains.integrates and not self._by_engine else 0.0
@@ -215,7 +241,34 @@ class Follower:
 
     def rest(self) -> float:
         """Return how long the joint needs no attention [s]."""
-        return inf if self._by_engine or not self.gains.integrates else 0.0
+        return self._look if self._by_engine or not self.gains.integrates else 0.0
+
+    def _cut(
+        self, motors: Motors, effort: float, position: float, speed: float, limit: float, *, target: float
+    ) -> bool:
+        """Exert what the limits grant of an effort, where that is less; return whether it is.
+
+        Args:
+            motors: what to write to.
+            effort: of the law but for its integral [N·m] or [N].
+            position: of the joint [rad] or [m].
+            speed: [rad/s] or [m/s].
+            limit: of the effort, besides the joint's own.
+            target: what the law is after.
+        """
+        limits, most = self.limits, min(self.handle.limit, limit)
+        assert limits is not None
+        if self.gains.integrates:
+            effort += min(self.gains.i_max, max(self.gains.i_min, self.gains.i * motors.integral(self.handle.name)))
+        wanted = min(most, max(-most, effort))
+        granted = min(most, max(-most, limits.exerting(wanted, position, speed)))
+        # Only what stands, and was seen before with the same command, may be left alone for a while.
+        stands = limits.soft is None and abs(speed) < STANDING and self._seen == (target, limit)
+        self._look, self._seen = LOOK if stands else 0.0, (target, limit)
+        if granted == wanted:
+            return False
+        self.handle.exert(motors, granted)
+        return True
 
     @property
     def _by_engine(self) -> bool:

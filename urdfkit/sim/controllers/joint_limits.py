@@ -54,6 +54,11 @@ class JointLimits:
     effort: float = inf
     soft: Soft | None = None
 
+    @property
+    def cut_efforts(self) -> bool:
+        """Whether efforts may be granted less than ``<limit effort>``."""
+        return self.soft is not None or self.velocity < inf
+
     def position(self, wanted: float, before: float, period: float) -> float:
         """Return the position command granted after `before`, a control period [s] later."""
         least, most = self._velocities(before)

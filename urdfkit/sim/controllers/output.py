@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from math import inf
 from typing import TYPE_CHECKING, ClassVar
 
-from urdfkit.sim.controllers.joint import NEAR, Follower, JointHandle
+from urdfkit.sim.controllers.joint import LOOK, NEAR, Follower, JointHandle
 
 if TYPE_CHECKING:
     from urdfkit.sim.controllers.joint_limits import JointLimits
@@ -21,11 +21,9 @@ if TYPE_CHECKING:
 INTERFACES = ("position", "velocity", "effort")
 """What a joint may be commanded by."""
 
-LOOK = 0.01
-"""How often an effort is looked after that may make a joint too fast [s], while it is well below."""
 
 BRISK = 0.5
-"""From this part of the fastest on it is looked after in every control period."""
+"""From this part of the fastest on an effort is looked after in every control period."""
 
 
 class Output(ABC):

@@ -48,7 +48,8 @@ class PidPosition(Law):
         gains = read_gains(self.settings, "pid", self.hardware.setup.note)
         if gains is None:
             raise DescriptionError(f"`{self.name}` has no `pid`, which it needs", position=self.settings.place)
-        self.follower = Follower(output.handle, gains)
+        limits = output.limits if output.interface == "effort" else None
+        self.follower = Follower(output.handle, gains, limits)
         self._wanted = 0.0
         self.listen(self.topic("command"), FLOAT, self._take)
         state = self.hardware.setup.bus.advertise(self.topic("state"), JOINT_CONTROLLER_STATE)
@@ -144,7 +145,7 @@ class PidGroup(Law):
                 raise DescriptionError(
                     f"`{self.name}` has no `{entry.value}/pid`, which it needs", position=entry.position
                 )
-            self._followers.append(Follower(output.handle, gains))
+            self._followers.append(Follower(output.handle, gains, output.limits))
         self.listen(self.topic("command"), FLOATS, self._take)
 
     def start(self, state: State) -> None:

@@ -117,7 +117,7 @@ class TrajectoryFollower(Law):
                     f"`{self.name}` has no `gains/{name}`, which it needs", position=self.settings.place
                 )
             gains = Gains(0.0)
-        return Follower(output.handle, gains)
+        return Follower(output.handle, gains, output.limits if self._interface == "effort" else None)
 
     def start(self, state: State) -> None:
         """Hold where the robot is."""
