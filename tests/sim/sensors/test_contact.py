@@ -12,6 +12,7 @@ import pytest
 from tests.sim.sensors.conftest import heard
 from tests.sim.sensors.test_motion import three
 from urdfkit.description import load
+from urdfkit.messages import message_type
 from urdfkit.sim import Simulator, Spawn
 
 ROS_1 = '<plugin name="b" filename="libgazebo_ros_bumper.so"><bumperTopicName>bump</bumperTopicName>{}</plugin>'
@@ -36,11 +37,11 @@ BOX = '<collision{}><origin xyz="{} 0 0"/><geometry><box size="{} 0.4 0.2"/></ge
 def crate(tmp_path: Path) -> Callable[..., Any]:
     """Return what makes a simulator of a crate of 2 kg, 0.4 m wide and 0.2 m high."""
 
-    def make(sensors: str, *, collisions: str = BOX.format("", 0, 0.4), **options: Any) -> Simulator:
+    def make(sensors: str, *, collisions: str = BOX.format("", 0, 0.4), plugin: str = "", **options: Any) -> Simulator:
         (tmp_path / "crate.urdf").write_text(
             f'<robot name="crate"><link name="base"><inertial><mass value="{MASS}"/><inertia ixx="0.1" iyy="0.1" '
             f'izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>{collisions}</link>'
-            f'<gazebo reference="base">{sensors}</gazebo></robot>'
+            f'<gazebo reference="base">{sensors}</gazebo><gazebo>{plugin}</gazebo></robot>'
         )
         options.setdefault("note", lambda _: None)
         return Simulator(load(tmp_path / "crate.urdf"), **options)
@@ -198,3 +199,30 @@ def test_who_listens_changes_nothing(crate) -> None:
         return simulator.bus.latest("/bump")
 
     assert repr(last(True)) == repr(last(False))
+
+
+TOUCH = (
+    '<plugin filename="gz-sim-touchplugin-system" name="gz::sim::systems::TouchPlugin"><target>{target}</target>'
+    "<time>0.2</time><namespace>goal</namespace>{more}</plugin>"
+)
+
+
+def test_the_touch_plugin_says_so_once_and_when_it_is_asked_again(crate) -> None:
+    plugin = TOUCH.format(target="ground_plane", more="<enabled>true</enabled>")
+    simulator = crate(bumper(), plugin=plugin, spawn=Spawn(z=0.2))
+    when: list[float] = []
+    simulator.subscribe("/goal/touched", "std_msgs/msg/Bool", lambda message: when.append(simulator.t))
+    simulator.run(1.0)
+    falls = np.sqrt(2 * 0.1 / -simulator.world.gravity[2])
+    assert when == [pytest.approx(falls + 0.2, abs=0.005)]
+    simulator.bus.publish("/goal/enable", "std_msgs/msg/Bool", message_type("std_msgs/msg/Bool")(True))
+    simulator.run(0.5)
+    assert when[1:] == [pytest.approx(1.2, abs=0.005)]
+
+
+@pytest.mark.parametrize(
+    ("target", "more"), [("ground_plane", ""), ("wall", "<enabled>true</enabled>")], ids=["not enabled", "elsewhere"]
+)
+def test_the_touch_plugin_is_silent_otherwise(crate, target: str, more: str) -> None:
+    simulator = crate(bumper(), plugin=TOUCH.format(target=target, more=more))
+    assert not heard(simulator, "/goal/touched", 0.5)

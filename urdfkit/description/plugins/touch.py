@@ -90,5 +90,20 @@ FORCE_TORQUE_GZ = PluginSpec(
 )
 """Read from the ``<sensor>`` itself."""
 
-TOUCH = (BUMPER_ROS_1, BUMPER_ROS_2, FORCE_TORQUE_ROS_1, FORCE_TORQUE_ROS_2)
+TOUCH_GZ = PluginSpec(
+    kind="gz_touch",
+    generation="gz",
+    filenames=("gz-sim-touchplugin-system", "ignition-gazebo-touchplugin-system"),
+    class_names=("gz::sim::systems::TouchPlugin", "ignition::gazebo::systems::TouchPlugin"),
+    parameters=(
+        Parameter("target", "target"),
+        Parameter("namespace", "namespace"),
+        Parameter("time", "time", unit="[s]"),
+        Parameter("enabled", "enabled", "false"),
+    ),
+    source="gz-sim main, src/systems/touch_plugin/TouchPlugin.cc",
+)
+"""A plugin of the model; it goes by the model's contact sensors."""
+
+TOUCH = (BUMPER_ROS_1, BUMPER_ROS_2, FORCE_TORQUE_ROS_1, FORCE_TORQUE_ROS_2, TOUCH_GZ)
 """Every plugin that senses touch or load."""

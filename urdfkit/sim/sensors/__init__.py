@@ -5,7 +5,7 @@ from __future__ import annotations
 from urdfkit.sim.plugin import Sensor
 from urdfkit.sim.sensors.air import GzAirPressure, GzAltimeter, HectorBaro
 from urdfkit.sim.sensors.annotating import GzBoundingBoxCamera, GzSegmentationCamera
-from urdfkit.sim.sensors.bumper import Bumper, GzContact
+from urdfkit.sim.sensors.bumper import Bumper, GzContact, GzTouch
 from urdfkit.sim.sensors.camera import GzCamera
 from urdfkit.sim.sensors.depth_camera import DepthCamera, GzDepthCamera, GzRgbdCamera, OpenniKinect
 from urdfkit.sim.sensors.force_torque import GzForceTorque, JointForceTorque
@@ -52,6 +52,7 @@ SENSORS: tuple[type[Sensor], ...] = (
     GzLogicalCamera,
     Bumper,
     GzContact,
+    GzTouch,
     JointForceTorque,
     GzForceTorque,
 )

@@ -9,68 +9,30 @@ at every step, so that a touch between two messages is told in the later one, wi
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.errors import SimulationError, did_you_mean
-from urdfkit.messages import header, message_type, vector
+from urdfkit.errors import SimulationError
+from urdfkit.messages import BOOL, header, message_type, vector
 from urdfkit.sensor_messages import CONTACT_STATE, CONTACTS_STATE, GZ_CONTACT, GZ_CONTACTS, GZ_JOINT_WRENCH
 from urdfkit.sim.parameters import Parameters
 from urdfkit.sim.plugin import Sensor, Setup
 from urdfkit.sim.schedule import NEVER
 from urdfkit.sim.sensors.carried import carrier
-from urdfkit.sim.sensors.collisions import Collision, collisions_of, find, nearest, scoped_name
+from urdfkit.sim.sensors.touching import Point, Seen, Touch, Watch
 from urdfkit.sim.sensors.values import rate_of
 from urdfkit.sim.topics import Topics
 from urdfkit.world_messages import ENTITY
 
 if TYPE_CHECKING:
     from urdfkit.description.element import Element
-    from urdfkit.sim.engine import Contact
     from urdfkit.sim.state import State
     from urdfkit.sim.surroundings import Layout
 
 Array = NDArray[np.float64]
-Seen = dict[tuple[str, str], "list[Contact]"]
-"""What touched what, by the names that contacts have."""
-
-
-@dataclass(frozen=True, eq=False)
-class Touch:
-    """Two collisions that touch.
-
-    Attributes:
-        mine: the sensor's collision, as Gazebo calls it.
-        other: what it touches.
-        points: where, and how; at least one.
-    """
-
-    mine: str
-    other: str
-    points: list[Point] = field(default_factory=list)
-
-
-@dataclass(frozen=True, eq=False)
-class Point:
-    """A point of contact, in the world's axes.
-
-    Attributes:
-        position: [m]; shape (3,).
-        normal: towards the sensor's side; shape (3,).
-        depth: [m].
-        force: on the sensor's side [N]; shape (3,).
-        arm: from the centre of mass of the sensor's link [m]; shape (3,).
-    """
-
-    position: Array
-    normal: Array
-    depth: float
-    force: Array
-    arm: Array
 
 
 class Contacts(Sensor):
@@ -93,20 +55,8 @@ class Contacts(Sensor):
         read = Parameters(self.plugin, self.spec, {**setup.names, "link": link, "sensor": self.name})
         self.frame = read.text("frame").lstrip("/")
         self.rate = rate_of(sensor.element, read)
-        self._model, self._kinematics = setup.model, setup.kinematics
-        self._prefix = f"{setup.model}::" if setup.namespace else ""
         self._surroundings = setup.surroundings
-        scene = next(each.scene for name, each in setup.surroundings.robots.items() if name == setup.model)
-        collisions = collisions_of(setup.kinematics.robot, scene)
-        self._watched = _watched(sensor.element, collisions, link)
-        self._of_link: dict[str, tuple[Collision, ...]] = {}
-        for each in collisions:
-            self._of_link[each.link] = (*self._of_link.get(each.link, ()), each)
-        self._centres = {
-            each.name: np.array(each.inertial.origin.xyz if each.inertial else (0.0, 0.0, 0.0))
-            for each in setup.kinematics.robot.links
-        }
-        self._links = {each.link for each in self._watched}
+        self._watch = Watch(setup, [(sensor.element, link)])
         self._seen: Seen = {}
         self._advertise(setup, sensor.element, read)
 
@@ -120,15 +70,7 @@ class Contacts(Sensor):
 
     def catch_up(self, state: State) -> None:
         """Take note of what touches, and measure what has fallen due."""
-        fresh: Seen = {}
-        for contact in state.contacts:
-            if contact.depth >= 0.0 or any(contact.force):
-                for mine, other in ((contact.a, contact.b), (contact.b, contact.a)):
-                    link = mine.removeprefix(self._prefix)
-                    if mine.startswith(self._prefix) and link in self._links:
-                        fresh.setdefault((mine, other), []).append(contact)
-                        break
-        self._seen.update(fresh)
+        self._seen.update(self._watch.look(state))
         super().catch_up(state)
 
     def reset(self) -> None:
@@ -145,31 +87,6 @@ class Contacts(Sensor):
     def _offer(self, t: float, seen: Seen, layout: Layout, count: int) -> None:
         """Publish what was seen."""
 
-    def _touches(self, seen: Seen, layout: Layout) -> list[Touch]:
-        """Return what touches the collisions that are watched."""
-        found: dict[tuple[str, str], Touch] = {}
-        for (mine, other), contacts in seen.items():
-            link = mine.removeprefix(self._prefix)
-            placement = layout.placement(self._model, self._kinematics.link_names.index(link))
-            R, origin = placement[:3, :3], placement[:3, 3]
-            for contact in contacts:
-                position, sign = np.array(contact.position), 1.0 if contact.a == mine else -1.0
-                collision = nearest(self._of_link[link], R.T @ (position - origin))
-                if collision not in self._watched:
-                    continue
-                names = f"{self._model}::{link}::{collision.name}", scoped_name(other, layout, position)
-                arm = position - (origin + R @ self._centres[link])
-                found.setdefault(names, Touch(*names)).points.append(
-                    Point(
-                        position,
-                        sign * np.array(contact.normal),
-                        max(contact.depth, 0.0),
-                        sign * np.array(contact.force),
-                        arm,
-                    )
-                )
-        return list(found.values())
-
 
 class Bumper(Contacts):
     """gazebo_ros_bumper of ROS 1 and ROS 2: a ContactsState, empty where nothing touches."""
@@ -184,7 +101,7 @@ class Bumper(Contacts):
         self.topics[0].offer(partial(self._message, t, seen, layout), count=count)
 
     def _message(self, t: float, seen: Seen, layout: Layout) -> Any:
-        touches = self._touches(seen, layout)
+        touches = self._watch.touches(seen, layout)
         states = [_state(touch, k, len(touches), t) for k, touch in enumerate(touches)]
         return message_type(CONTACTS_STATE)(header(t, self.frame), states)
 
@@ -202,7 +119,7 @@ class GzContact(Contacts):
         self.topics = (setup.bus.advertise(Topics(self.plugin, self.spec).resolve(name), GZ_CONTACTS),)
 
     def _offer(self, t: float, seen: Seen, layout: Layout, count: int) -> None:
-        if touches := self._touches(seen, layout):
+        if touches := self._watch.touches(seen, layout):
             self.topics[0].offer(partial(self._message, t, touches))
 
     def _message(self, t: float, touches: list[Touch]) -> Any:
@@ -217,29 +134,6 @@ class GzContact(Contacts):
             for touch in touches
         ]  # fmt: skip
         return message_type(GZ_CONTACTS)(header(t, ""), contacts)
-
-
-def _watched(element: Element, collisions: tuple[Collision, ...], link: str) -> tuple[Collision, ...]:
-    """Return the collisions that a sensor's ``<contact>`` names.
-
-    Raises:
-        SimulationError: it names none, or one that is not there, with its place.
-    """
-    contact = element.find("contact")
-    wanted = [] if contact is None else contact.find_all("collision")
-    if not wanted:
-        raise SimulationError(
-            "a contact sensor lacks the <collision> in its <contact>", position=(contact or element).origin.position
-        )
-    found: list[Collision] = []
-    for each in wanted:
-        means = find(each.text, collisions, link)
-        if not means:
-            known = [collision.name for collision in sorted(collisions, key=lambda one: one.link != link)]
-            hint = did_you_mean(each.text, known) or (f" (it has {', '.join(known[:4])})" if known else "")
-            raise SimulationError(f"the robot has no collision `{each.text}`{hint}", position=each.origin.position)
-        found.extend(means)
-    return tuple(found)
 
 
 def _wrench(force: Array, torque: Array) -> Any:
@@ -272,3 +166,70 @@ def _joint_wrench(touch: Touch, point: Point, t: float) -> Any:
         header(t, ""), text(touch.mine), number(0), text(touch.other), number(0),
         _wrench(point.force, np.cross(point.arm, point.force)), _wrench(-point.force, np.zeros(3)),
     )  # fmt: skip
+
+
+class GzTouch(Sensor):
+    """The new Gazebo's TouchPlugin: true once what the model's contact sensors watch has touched a target for a time.
+
+    Afterwards it is silent until it is enabled again on ``NAMESPACE/enable``.
+    """
+
+    kind = "gz_touch"
+
+    def configure(self, setup: Setup) -> None:
+        """Read target, time and namespace, and advertise.
+
+        Raises:
+            SimulationError: one of them is missing, or the model has no contact sensor, with the place.
+        """
+        read = Parameters(self.plugin, self.spec, setup.names)
+        for meaning in ("target", "namespace", "time"):
+            if not read.text(meaning):
+                raise SimulationError(
+                    f"the touch plugin lacks its <{read.tag(meaning)}>", position=self.plugin.element.origin.position
+                )
+        assert setup.surroundings is not None
+        sensors = [
+            (sensor.element, block.reference or "")
+            for block in setup.kinematics.robot.gazebo
+            for sensor in block.sensors
+            if sensor.type == "contact"
+        ]
+        if not sensors:
+            raise SimulationError(
+                "the touch plugin needs a <sensor> of type contact in its model",
+                position=self.plugin.element.origin.position,
+            )
+        self.name = self.plugin.name or "touch"
+        self._target, self._time = read.text("target"), read.number("time", unsigned=True)
+        self._starts_enabled = self._enabled = read.flag("enabled")
+        self._since: float | None = None
+        self._surroundings, self._watch = setup.surroundings, Watch(setup, sensors)
+        namespace = read.text("namespace")
+        self.topics = (setup.bus.advertise(f"{namespace}/touched", BOOL),)
+        setup.bus.subscribe(f"{namespace}/enable", BOOL, self._enable)
+
+    def _enable(self, message: Any) -> None:
+        self._enabled, self._since = bool(message.data), None
+
+    def reset(self) -> None:
+        """Start again at step 0."""
+        super().reset()
+        self._enabled, self._since = self._starts_enabled, None
+
+    def next_stop(self, step: int) -> int:
+        """Return the next step while somebody waits for it."""
+        return super().next_stop(step) if self._enabled else NEVER
+
+    def measure(self, state: State, count: int) -> None:
+        """Publish, once, when it has touched for long enough."""
+        if not self._enabled:
+            return
+        touches = self._watch.touches(self._watch.look(state), self._surroundings.layout())
+        if not any(self._target in name for touch in touches for name in (touch.mine, touch.other)):
+            self._since = None
+        elif self._since is None:
+            self._since = state.t
+        elif state.t - self._since > self._time:
+            self._enabled = False
+            self.topics[0].publish(message_type(BOOL)(True))
