@@ -62,16 +62,3 @@ SENSOR_TYPES = tuple(
     )
 )
 """What the ``type`` of a ``<sensor>`` may be (sdformat main, src/Sensor.cc), simulated here or not."""
-
-SENSOR_TYPES = tuple(
-    dict.fromkeys(
-        (
-            *BARE,
-            *("air_flow", "air_speed", "bounding_box_camera", "boundingbox", "boundingbox_camera", "custom", "dvl"),
-            *("multicamera", "rfid", "rfidtag", "segmentation", "segmentation_camera", "sonar", "thermal"),
-            *("thermal_camera", "transceiver", "wideanglecamera", "wide_angle_camera", "wireless_receiver"),
-            *("wireless_transmitter",),
-        )
-    )
-)
-"""What the ``type`` of a ``<sensor>`` may be (sdformat main, src/Sensor.cc), simulated here or not."""

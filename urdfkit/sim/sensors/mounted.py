@@ -36,6 +36,8 @@ class Mounted(Sensor):
     """Where ROS 1 puts the plugin whose ``<robotNamespace>`` is empty; ``{model}`` is the robot's name."""
 
     frame: str = ""
+    viewpoint: Array
+    """Where it was when it looked last; shape (4, 4)."""
 
     def configure(self, setup: Setup) -> None:
         """Read the sensor, its rate and the plugin's parameters, and advertise.
@@ -89,7 +91,7 @@ class Mounted(Sensor):
 
         @cache
         def seen() -> Any:
-            frame = layout.placement(self._robot, self._link) @ self._pose
+            frame = self.viewpoint = layout.placement(self._robot, self._link) @ self._pose
             return self._look(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, turn])))
 
         def offer(topic: Any, message: Callable[[Any], Any]) -> None:
