@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.page import Page, add_page_options, note, require_page, until_interrupted
 from urdfkit.cli.parser import add_model
+from urdfkit.cli.sim.compiling import compile_kernel, compile_rays
 from urdfkit.cli.sim.controllers import add_controllers
 from urdfkit.cli.sim.distro import add_distro
 from urdfkit.cli.sim.recording import add_record, recording
@@ -32,8 +33,6 @@ STATUS = 0.1
 KEYS = """\
 Drive with W A S D, the arrows, i j k l u o m , . or the pad; let go and the robot stops.
 Shift strafes; q/z change both speeds by 10 %, e/c the turning speed. Ctrl-C ends."""
-
-COMPILING = "compiling the physics kernel, some 20 s, once per machine …"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -102,40 +101,6 @@ def wheel(simulator: Simulator) -> dict[str, Any]:
         "speed": start.speed,
         "turn": start.turn,
     }
-
-
-def compile_kernel(server: Server, first: Callable[[], None]) -> None:
-    """Compile the physics kernel if it has not been, saying so in the terminal and on the page.
-
-    Args:
-        server: the page.
-        first: called before a compilation begins, not when there is none.
-    """
-    from urdfkit.sim.engine import warmup
-
-    def say(functions: int) -> None:
-        if functions == 0:
-            first()
-            note(COMPILING)
-        server.declare("progress", label=f"{COMPILING} {functions} functions" if functions else COMPILING)
-
-    warmup(say)
-    server.declare("progress", label=None)
-
-
-def compile_rays(server: Server, first: Callable[[], None]) -> None:
-    """Compile what sensors see by if it has not been, saying so in the terminal and on the page."""
-    from urdfkit.cli.sim.kernel import SECONDS_RAYS
-    from urdfkit.scene.rays import warmup
-
-    def say(functions: int) -> None:
-        if functions == 0:
-            first()
-            note(f"compiling the ray kernels, once, about {SECONDS_RAYS} s …")
-            server.declare("progress", label="compiling the ray kernels, once …")
-
-    warmup(say)
-    server.declare("progress", label=None)
 
 
 class Ride:
