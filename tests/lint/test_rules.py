@@ -111,5 +111,5 @@ def test_every_class_in_the_folder_is_registered():
 def test_codes_and_names_are_unique_and_well_formed():
     assert len({rule.code for rule in RULES}) == len({rule.name for rule in RULES}) == len(RULES)
     assert all(re.fullmatch(r"[A-Z]\d{3}", rule.code) for rule in RULES)
-    assert all(re.fullmatch(r"[a-z]+(-[a-z]+)*", rule.name) for rule in RULES)
+    assert all(re.fullmatch(r"[a-z][a-z0-9]*(-[a-z0-9]+)*", rule.name) for rule in RULES)
     assert [rule.code for rule in RULES] == sorted(rule.code for rule in RULES)

@@ -12,6 +12,8 @@ from urdfkit.lint.finding import Edit, Fix
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from urdfkit.description.element import Element
     from urdfkit.lint.finding import Safety
     from urdfkit.lint.model import Model
@@ -128,15 +130,23 @@ def more_children(model: Model, element: Element, written: str, safety: Safety, 
     return Fix(safety, title, (Edit(source.span(last.close_end, last.close_end), text),))
 
 
-def nearest(name: str, candidates: object) -> str | None:
-    """Return the candidate that is nearest to a name, None where none is near."""
-    from urdfkit.errors import did_you_mean
+def nearest(name: str, candidates: Iterable[str], *, likeness: float = 0.6) -> str | None:
+    """Return the candidate that is nearest to a name, None where none is near.
 
-    hint = did_you_mean(name, candidates)  # type: ignore[arg-type]
-    return hint.split("`")[1] if hint else None
+    Args:
+        name: what was written.
+        candidates: what would have been right.
+        likeness: how near it has to be, 1 for the same (`difflib.SequenceMatcher.ratio`).
+    """
+    from difflib import get_close_matches
+
+    pool = list(dict.fromkeys(candidates))
+    by_case = {candidate.lower(): candidate for candidate in pool}
+    near = get_close_matches(name, pool, n=1, cutoff=likeness)
+    return by_case.get(name.lower()) or (near[0] if near else None)
 
 
-def meant(name: str, candidates: object) -> tuple[str | None, str]:
-    """Return the candidate nearest to a name, None where none is, and ``; did you mean …`` or an empty string."""
-    near = nearest(name, candidates)
+def meant(name: str, candidates: Iterable[str]) -> tuple[str | None, str]:
+    """Return the candidate that a name must have meant, None where none is, and ``; did you mean …`` or nothing."""
+    near = nearest(name, candidates, likeness=0.7)
     return near, f"; did you mean `{near}`?" if near else ""

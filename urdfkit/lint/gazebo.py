@@ -74,3 +74,34 @@ def is_simulated(model: Model) -> bool:
     if model.target is not None and model.target not in ("ros1", "ros2", "moveit"):
         return True
     return any(block.plugins or block.sensors for block in model.robot.gazebo)
+
+
+def is_frame(text: str, robot: Robot) -> bool:
+    """Whether a frame is a link of the robot, perhaps with the name space of a robot before it, or none of a robot."""
+    return text in OUTSIDE_FRAMES or text in robot.link_by_name or text.rpartition("/")[2] in robot.link_by_name
+
+
+def lumped(robot: Robot) -> set[str]:
+    """Return the links that Gazebo makes part of their parents, as fixed joints lead to them that nothing preserves."""
+    kept = set()
+    for block in robot.gazebo:
+        for child in block.element.children:
+            says = (child.text or child.get("value") or "").strip().lower()
+            if child.tag in ("preserveFixedJoint", "disableFixedJointLumping") and says in ("true", "1"):
+                kept.add(block.reference)
+    return {
+        joint.child
+        for joint in robot.joints
+        if joint.type == "fixed" and joint.child and joint.name not in kept and joint.parent != "world"
+    }
+
+
+READ_TOO = {
+    "gazebo_ros_camera": ("P_cx", "P_cy", "P_fx", "P_fy", "Tx", "Ty", "rectification_matrix", "trigger_topic_name"),
+    "gazebo_ros_depth_camera": ("reflectanceTopicName", "normalsTopicName", "reduceNormals"),
+    "gazebo_ros_p3d": ("xyz_offsets", "rpy_offsets"),
+}
+"""Stem of a library → what it reads besides what our tables of parameters have: nothing here simulates it."""
+
+HARMLESS = frozenset(("alwaysOn", "always_on", "ros", "plugin", "xacro", "robotParam", "rosDebugLevel"))
+"""What is written into plugins by habit and read by none, or by all."""

@@ -30,6 +30,7 @@ def robot_rules() -> tuple[type[RobotRule], ...]:
     from urdfkit.lint.rules.document.bad_number import BadNumber
     from urdfkit.lint.rules.document.duplicate_singleton_element import DuplicateSingletonElement
     from urdfkit.lint.rules.document.nan_or_inf import NanOrInf
+    from urdfkit.lint.rules.document.plugin_outside_gazebo import PluginOutsideGazebo
     from urdfkit.lint.rules.document.required_missing import RequiredMissing
     from urdfkit.lint.rules.document.robot_name_missing import RobotNameMissing
     from urdfkit.lint.rules.document.rpy_in_degrees import RpyInDegrees
@@ -51,6 +52,7 @@ def robot_rules() -> tuple[type[RobotRule], ...]:
         RequiredMissing,
         StrayQuote,
         RpyInDegrees,
+        PluginOutsideGazebo,
     )
 
 

@@ -1,0 +1,76 @@
+"""Z816 deprecated-gazebo-tag."""
+
+from __future__ import annotations
+
+from urdfkit.lint.edits import new_tag
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class DeprecatedGazeboTag(RobotRule):
+    """An extension for Gazebo has another name today.
+
+    ## What it does
+    Looks for ``<cfmDamping>``, the only one that sdformat calls deprecated.
+
+    ## Why is this bad?
+    sdformat still reads it, with a note at each start.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="wheel"/>
+      <joint name="axle" type="fixed"><parent link="base"/><child link="wheel"/></joint>
+      <gazebo reference="axle">
+        <cfmDamping>true</cfmDamping>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <link name="wheel"/>
+      <joint name="axle" type="fixed"><parent link="base"/><child link="wheel"/></joint>
+      <gazebo reference="axle">
+        <implicitSpringDamper>true</implicitSpringDamper>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Fix safety
+    Safe: sdformat reads both alike.
+    """
+
+    code = "Z816"
+    name = "deprecated-gazebo-tag"
+    severity = "warning"
+    fix = "safe"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each old name."""
+        for block in model.robot.gazebo:
+            for child in block.element.children:
+                if child.tag == "cfmDamping":
+                    yield self.at(
+                        model,
+                        child,
+                        "<cfmDamping> is deprecated: it is <implicitSpringDamper> today",
+                        fix=new_tag(model, child, "implicitSpringDamper", "safe", "Write <implicitSpringDamper>"),
+                    )

@@ -1,0 +1,91 @@
+"""Z820 duplicate-sensor-or-plugin-name."""
+
+from __future__ import annotations
+
+from urdfkit.lint.gazebo import plugins
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.element import Element
+    from urdfkit.lint.finding import Finding, Severity
+    from urdfkit.lint.model import Model
+
+
+class DuplicateSensorOrPlugin(RobotRule):
+    """Two sensors on one link, or two plugins, have the same name.
+
+    ## What it does
+    Compares the names of sensors on one link (an error), of plugins beside each other (a warning), and of plugins
+    in different sensors (a note: each has its own scope).
+
+    ## Why is this bad?
+    SDF wants names that differ; Gazebo refuses the model, or both publish on the same topic.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="mast"/>
+      <gazebo reference="mast">
+        <sensor name="eye" type="camera"/>
+        <sensor name="eye" type="depth"/>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="mast"/>
+      <gazebo reference="mast">
+        <sensor name="eye" type="camera"/>
+        <sensor name="depth_eye" type="depth"/>
+      </gazebo>
+    </robot>
+    ```
+    """
+
+    code = "Z820"
+    name = "duplicate-sensor-or-plugin-name"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each second of a name."""
+        sensors: dict[tuple[str, str], Element] = {}
+        for block in model.robot.gazebo:
+            for sensor in block.sensors:
+                if sensor.name and "$" not in sensor.name:
+                    first = sensors.setdefault((block.reference or "", sensor.name), sensor.element)
+                    if first is not sensor.element:
+                        yield self._second(
+                            model, sensor.element, f"a sensor `{sensor.name}` is on this link already", first
+                        )
+        beside: dict[tuple[int, str], Element] = {}
+        anywhere: dict[str, Element] = {}
+        for plugin, _, within in plugins(model.robot):
+            if not plugin.name or "$" in plugin.name or "::" in plugin.name:
+                continue
+            scope = (id(within) if within is not None else 0, plugin.name)
+            first, other = beside.setdefault(scope, plugin.element), anywhere.setdefault(plugin.name, plugin.element)
+            if first is not plugin.element:
+                yield self._second(
+                    model, plugin.element, f"a plugin `{plugin.name}` is there already", first, "warning"
+                )
+            elif other is not plugin.element:
+                message = f"a plugin in another sensor is called `{plugin.name}` too"
+                yield self._second(model, plugin.element, message, other, "info")
+
+    def _second(
+        self, model: Model, element: Element, message: str, first: Element, severity: Severity | None = None
+    ) -> Finding:
+        help = f"the first is at {model.shown(first.origin.position)}"
+        return self.at(model, element, message, attribute="name", help=help, severity=severity)

@@ -1,0 +1,65 @@
+"""Z821 gazebo-material-in-gz."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class GazeboMaterial(RobotRule):
+    """A material script of Gazebo classic is used with the new Gazebo.
+
+    ## What it does
+    With ``--target gz`` it looks for ``<material>Gazebo/…</material>``.
+
+    ## Why is this bad?
+    The new Gazebo has no such scripts: the part is white.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <gazebo reference="base">
+        <material>Gazebo/Orange</material>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <gazebo reference="base">
+        <visual>
+          <material>
+            <diffuse>1 0.5 0 1</diffuse>
+          </material>
+        </visual>
+      </gazebo>
+    </robot>
+    ```
+    """
+
+    code = "Z821"
+    name = "gazebo-material-in-gz"
+    severity = "warning"
+    only_for = ("gz",)
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each script."""
+        for block in model.robot.gazebo:
+            for child in block.element.find_all("material"):
+                if (child.text or child.get("value") or "").startswith("Gazebo/"):
+                    yield self.at(
+                        model,
+                        child,
+                        f"the new Gazebo has no script `{child.text or child.get('value')}`: the link is white",
+                        link=block.reference,
+                        help="write <visual><material><diffuse>…, or a <color> in the URDF",
+                    )

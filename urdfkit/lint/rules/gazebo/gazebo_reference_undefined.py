@@ -1,0 +1,78 @@
+"""Z801 gazebo-reference-undefined."""
+
+from __future__ import annotations
+
+from urdfkit.lint.edits import meant, new_value
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class GazeboReferenceUndefined(RobotRule):
+    """A ``<gazebo reference="…">`` names neither a link nor a joint.
+
+    ## What it does
+    Compares the reference with the links and joints of the robot.
+
+    ## Why is this bad?
+    The block is dropped without a word: no friction, no colour, no sensor.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="left_finger"/>
+      <gazebo reference="leftfinger">
+        <mu1>0.8</mu1>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="left_finger"/>
+      <gazebo reference="left_finger">
+        <mu1>0.8</mu1>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Fix safety
+    Unsafe: the link or joint with the nearest name is taken.
+    """
+
+    code = "Z801"
+    name = "gazebo-reference-undefined"
+    fix = "unsafe"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each block that refers to nothing."""
+        robot = model.robot
+        if model.is_incomplete:
+            return
+        for block in robot.gazebo:
+            name = block.reference
+            if not name or name in robot.link_by_name or name in robot.joint_by_name or "$" in name:
+                continue
+            near, hint = meant(name, [*robot.link_by_name, *robot.joint_by_name])
+            yield self.at(
+                model,
+                block.element,
+                f"`{name}` is neither a link nor a joint{hint}",
+                attribute="reference",
+                help=None if near else "Gazebo drops the whole block",
+                fix=new_value(model, block.element, "reference", near, "unsafe", f"Write `{near}`") if near else None,
+            )

@@ -1,0 +1,140 @@
+"""Z811 gazebo-unknown-link-tag."""
+
+from __future__ import annotations
+
+from urdfkit.lint.edits import nearest, new_tag
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+KEYS = (
+    "material",
+    "turnGravityOff",
+    "dampingFactor",
+    "maxVel",
+    "minDepth",
+    "mu1",
+    "mu2",
+    "fdir1",
+    "kp",
+    "kd",
+    "selfCollide",
+    "maxContacts",
+    "laserRetro",
+    "stopCfm",
+    "stopErp",
+    "stopKp",
+    "stopKd",
+    "initial_joint_position",
+    "fudgeFactor",
+    "provideFeedback",
+    "implicitSpringDamper",
+    "cfmDamping",
+    "springStiffness",
+    "springReference",
+    "preserveFixedJoint",
+    "disableFixedJointLumping",
+)
+"""What parser_urdf.cc of sdformat (12.3) reads in ``<gazebo reference>``."""
+
+_MEANT = {"mu": "mu1", "mul": "mu1"}
+_SDF = frozenset(
+    (
+        "sensor",
+        "plugin",
+        "visual",
+        "collision",
+        "projector",
+        "gripper",
+        "gravity",
+        "self_collide",
+        "kinematic",
+        "velocity_decay",
+        "enable_wind",
+        "must_be_base_link",
+        "audio_sink",
+        "audio_source",
+        "battery",
+        "light",
+        "particle_emitter",
+        "inertial",
+        "pose",
+        "static",
+        "physics",
+        "axis",
+        "max_contacts",
+        "laser_retro",
+        "surface",
+        "frame",
+    )
+)
+
+
+class GazeboUnknownTag(RobotRule):
+    """An extension in ``<gazebo reference="…">`` is misspelt.
+
+    ## What it does
+    Compares what is in the block with the names that sdformat turns into friction, stiffness, colour …, and says
+    the nearest one. Names that are near to none pass: they may be SDF.
+
+    ## Why is this bad?
+    What sdformat does not know it copies as it is, and Gazebo skips it: ``<mu>`` is no friction, ``<selfcollide>``
+    nothing.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <gazebo reference="base">
+        <selfcollide>true</selfcollide>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <gazebo reference="base">
+        <selfCollide>true</selfCollide>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Fix safety
+    Unsafe: the nearest name is taken.
+    """
+
+    code = "Z811"
+    name = "gazebo-unknown-link-tag"
+    severity = "warning"
+    fix = "unsafe"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each name that is nearly one of sdformat's."""
+        for block in model.robot.gazebo:
+            for child in block.element.children if block.reference else ():
+                if child.tag in KEYS or child.tag in _SDF or ":" in child.tag:
+                    continue
+                meant = _MEANT.get(child.tag) or nearest(child.tag, KEYS)
+                if meant is not None:
+                    yield self.at(
+                        model,
+                        child,
+                        f"sdformat knows no <{child.tag}>",
+                        help=f"did you mean <{meant}>?",
+                        fix=new_tag(model, child, meant, "unsafe", f"Write <{meant}>"),
+                    )

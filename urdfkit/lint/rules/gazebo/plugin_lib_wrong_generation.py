@@ -1,0 +1,90 @@
+"""Z807 plugin-lib-wrong-generation."""
+
+from __future__ import annotations
+
+from urdfkit.lint.gazebo import plugins, specs
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class PluginLibWrongGeneration(RobotRule):
+    """A plugin's library does not exist for the target.
+
+    ## What it does
+    With ``--target gz`` it looks for libraries of Gazebo classic (``libgazebo_ros_….so``), with ``classic`` and
+    ``ros1`` for systems of the new Gazebo (``gz-sim-…-system``), and with ``ros1`` or ``ros2`` for those that only
+    the other has.
+
+    ## Why is this bad?
+    "Failed to load plugin": the robot stands there without drive or sensor.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base_footprint"/>
+      <gazebo>
+        <plugin name="move" filename="libgazebo_ros_planar_move.so">
+          <robotBaseFrame>base_footprint</robotBaseFrame>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base_footprint"/>
+      <gazebo>
+        <plugin name="gz::sim::systems::VelocityControl" filename="gz-sim-velocity-control-system">
+          <topic>cmd_vel</topic>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+    """
+
+    code = "Z807"
+    name = "plugin-lib-wrong-generation"
+    only_for = (
+        "gz",
+        "classic",
+        "ros1",
+        "ros2",
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each library of another generation."""
+        from urdfkit.description.plugins import ALL_SPECS
+        from urdfkit.description.plugins.lookup import stem
+
+        for plugin, _, _ in plugins(model.robot):
+            name = stem("".join((plugin.filename or "").split()))
+            generations = {spec.generation for spec in specs(plugin)}
+            if name.startswith("gazebo_ros") and not generations:
+                generations = {"ros1", "ros2"}
+            elif name.startswith(("gz-sim", "ignition-gazebo", "gz_ros2_control", "ign_ros2_control")):
+                generations = {"gz"}
+            wanted = {"gz": {"gz"}, "classic": {"ros1", "ros2"}, "ros1": {"ros1"}, "ros2": {"ros2", "gz"}}
+            allowed = wanted[model.target or "gz"]
+            if not generations or not generations.isdisjoint(allowed):
+                continue
+            kinds = {spec.kind for spec in specs(plugin)}
+            instead = {
+                file
+                for spec in ALL_SPECS
+                if spec.kind in kinds and spec.generation in allowed
+                for file in spec.filenames
+            }
+            yield self.at(
+                model,
+                plugin.element,
+                f"`{(plugin.filename or '').strip()}` does not exist for {model.target}",
+                attribute="filename",
+                help=f"there it is {min(instead)}" if instead else None,
+            )

@@ -1,0 +1,80 @@
+"""Z803 plugin-link-undefined."""
+
+from __future__ import annotations
+
+from urdfkit.lint.edits import meant, new_text
+from urdfkit.lint.gazebo import is_frame, references
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class PluginLinkUndefined(RobotRule):
+    """A plugin names a link that is not there.
+
+    ## What it does
+    Looks at those parameters of the plugins it knows that name links: base frames of drives, bodies of sensors.
+
+    ## Why is this bad?
+    The plugin stops, or publishes transforms of a frame that nobody has.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base_link"/>
+      <gazebo>
+        <plugin name="move" filename="libgazebo_ros_planar_move.so">
+          <robotBaseFrame>baselink</robotBaseFrame>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base_link"/>
+      <gazebo>
+        <plugin name="move" filename="libgazebo_ros_planar_move.so">
+          <robotBaseFrame>base_link</robotBaseFrame>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Fix safety
+    Unsafe: the link with the nearest name is taken.
+    """
+
+    code = "Z803"
+    name = "plugin-link-undefined"
+    fix = "unsafe"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each link that a plugin names and the robot lacks."""
+        if model.is_incomplete:
+            return
+        for text, element, parameter, _ in references(model, ("link",)):
+            if is_frame(text, model.robot):
+                continue
+            near, hint = meant(text.strip("\"'"), model.robot.link_by_name)
+            yield self.at(
+                model,
+                element,
+                f"<{parameter.tag}> names `{text}`, which is no link{hint}",
+                link=text,
+                fix=new_text(model, element, near, "unsafe", f"Write `{near}`") if near else None,
+            )

@@ -1,0 +1,70 @@
+"""Z817 sensor-type-deprecated."""
+
+from __future__ import annotations
+
+from urdfkit.lint.edits import new_value
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+_TODAY = {"ray": "gpu_lidar", "gpu_ray": "gpu_lidar", "depth": "depth_camera", "openni_kinect": "rgbd_camera"}
+
+
+class SensorTypeDeprecated(RobotRule):
+    """A sensor is of a type that the new Gazebo does not simulate.
+
+    ## What it does
+    With ``--target gz`` it looks for ``ray``, ``gpu_ray``, ``depth`` and ``openni_kinect``.
+
+    ## Why is this bad?
+    "Sensor type not supported yet": nothing is published.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="laser"/>
+      <gazebo reference="laser">
+        <sensor name="laser" type="ray"/>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="laser"/>
+      <gazebo reference="laser">
+        <sensor name="laser" type="gpu_lidar"/>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Fix safety
+    Safe: the new type reads the same elements.
+    """
+
+    code = "Z817"
+    name = "sensor-type-deprecated"
+    severity = "warning"
+    fix = "safe"
+    only_for = ("gz",)
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each sensor of an old type."""
+        for block in model.robot.gazebo:
+            for sensor in block.sensors:
+                new = _TODAY.get((sensor.type or "").strip())
+                if new is not None:
+                    yield self.at(
+                        model,
+                        sensor.element,
+                        f"the new Gazebo does not simulate sensors of type `{sensor.type}`",
+                        attribute="type",
+                        help=f'write type="{new}"',
+                        fix=new_value(model, sensor.element, "type", new, "safe", f"Write `{new}`"),
+                    )

@@ -1,0 +1,101 @@
+"""Z812 value-attr-in-sdf-context."""
+
+from __future__ import annotations
+
+from urdfkit.lint.finding import Edit, Fix
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.element import Element
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class ValueAttributeInSdf(RobotRule):
+    """A value stands in an attribute where SDF wants it as text.
+
+    ## What it does
+    Looks inside ``<sensor>``, ``<visual>``, ``<collision>`` and ``<surface>`` of ``<gazebo>`` for elements that
+    have only an attribute ``value``. Directly in ``<gazebo reference="…">`` both ways are read: ``<mu1
+    value="1"/>`` is fine.
+
+    ## Why is this bad?
+    SDF reads the text of an element, which is empty here: the default is taken.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="laser"/>
+      <gazebo reference="laser">
+        <sensor name="laser" type="ray">
+          <update_rate value="20"/>
+        </sensor>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="laser"/>
+      <gazebo reference="laser">
+        <mu1 value="1"/>
+        <sensor name="laser" type="ray">
+          <update_rate>20</update_rate>
+        </sensor>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Fix safety
+    Safe: the value becomes the text.
+    """
+
+    code = "Z812"
+    name = "value-attr-in-sdf-context"
+    severity = "warning"
+    fix = "safe"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each value that SDF does not see."""
+        for block in model.robot.gazebo:
+            for child in block.element.children:
+                if child.tag in ("sensor", "visual", "collision", "surface"):
+                    yield from self._look(model, child)
+
+    def _look(self, model: Model, element: Element) -> Iterator[Finding]:
+        for child in element.children:
+            if child.tag == "plugin":
+                continue
+            if list(child.attributes) == ["value"] and not child.text and not child.children:
+                yield self.at(
+                    model,
+                    child,
+                    f"SDF reads the text of <{child.tag}>, which is empty",
+                    attribute="value",
+                    help=f"write <{child.tag}>{child.get('value')}</{child.tag}>",
+                    fix=_as_text(model, child),
+                )
+            yield from self._look(model, child)
+
+
+def _as_text(model: Model, element: Element) -> Fix | None:
+    position = element.origin.position
+    tag = model.tag(position)
+    written = tag.attributes.get("value") if tag is not None else None
+    if tag is None or written is None:
+        return None
+    text = f"<{tag.name}>{written.value}</{tag.name}>"
+    source = model.document(position.file).source
+    return Fix("safe", "Write the value as text", (Edit(source.span(tag.start, tag.close_end), text),))
