@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from pathlib import Path
 from typing import Any
 
@@ -89,6 +90,24 @@ def test_an_error_keeps_what_was_recorded(tmp_path: Path) -> None:
     with pytest.raises(ZeroDivisionError):
         fail()
     assert len(read(tmp_path / "a.mcap")) == 1
+
+
+def test_ctrl_c_waits_until_a_message_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    bus = Bus()
+    bus.advertise("/x", FLOAT)
+    recorder = Recorder(bus, tmp_path / "a.mcap", lambda: 0.0)
+    write = recorder._writer.write
+
+    def interrupted(*words: Any) -> None:
+        signal.raise_signal(signal.SIGINT)
+        write(*words)
+
+    monkeypatch.setattr(recorder._writer, "write", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        bus.publish("/x", FLOAT, number(1.0))
+    recorder.close()
+    assert [message.data for _, _, message in read(tmp_path / "a.mcap")] == [1.0]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 def test_a_run_is_recorded_and_the_same_run_gives_the_same_bytes(
