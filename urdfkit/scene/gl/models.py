@@ -34,6 +34,7 @@ class Model:
         texture: number of the texture, -1 for none.
         flat: whether the normals are those of the triangles.
         casts: whether it casts shadows; a plane does not, for nothing is below.
+        closed: whether it has an inside, so that from outside no face is seen from behind.
     """
 
     vertices: NDArray[np.float32]
@@ -42,6 +43,7 @@ class Model:
     texture: int
     flat: bool
     casts: bool = True
+    closed: bool = False
 
     @cached_property
     def plain(self) -> bool:

@@ -1,0 +1,199 @@
+"""What draws the shapes of a table: buffers on the device, and the order in which they are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.scene.gl.models import Model, models_of
+from urdfkit.scene.gl.shaders import Kind, Lamps, fragment_shader, vertex_shader
+from urdfkit.scene.rays.table import RayTable
+
+Array = NDArray[np.float64]
+Rows = NDArray[np.float32]
+Numbers = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+VERTEX = ("3f 3f 2f 4f", "in_position", "in_normal", "in_uv", "in_color")
+INSTANCE = ("4f 4f 4f 3f 4f 1f/i", "in_x", "in_y", "in_z", "in_scale", "in_rgba", "in_shape")
+ROW = 20
+"""Numbers per instance."""
+
+
+@dataclass(eq=False)
+class Batch:
+    """Triangles on the device, and the shapes that they are drawn for.
+
+    Attributes:
+        model: what they are.
+        holed: whether light comes through some of them, whatever the shape's opacity.
+        vertices: their buffer.
+        instances: the buffer of where they are, written before they are drawn.
+        arrays: what ties the buffers to programs.
+    """
+
+    model: Model
+    holed: bool
+    vertices: Any
+    instances: Any
+    arrays: dict[Any, Any] = field(default_factory=dict)
+
+    def members(self, wanted: Mask) -> Numbers:
+        """Return which of the wanted shapes it draws."""
+        found: Numbers = self.model.shapes[wanted[self.model.shapes]]
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class Shot:
+    """One picture's worth of drawing.
+
+    Attributes:
+        rows: `ROW` numbers of each shape, in the camera's frame; shape (shapes, `ROW`).
+        nearest: distance at least of each shape [m]; shape (shapes,).
+        outside: which shapes the camera, and what it is too near to see, is outside of; shape (shapes,).
+        exact: whether something is cut by its distance.
+        uniforms: of the shaders.
+    """
+
+    rows: Rows
+    nearest: Array
+    outside: Mask
+    exact: bool
+    uniforms: dict[str, Any]
+
+
+class Drawing:
+    """Draws the shapes of a table.
+
+    Args:
+        context: of moderngl, current.
+        table: the shapes.
+        paint: what they look like, see `paint_of`.
+        lamps: the lights.
+
+    Attributes:
+        batches: what is drawn together.
+        clear: which shapes are transparent as a whole; shape (shapes,).
+        maps: which shadow maps there are to look at.
+    """
+
+    def __init__(self, context: Any, table: RayTable, paint: tuple[Any, ...], lamps: Lamps) -> None:
+        self._ctx = context
+        self._lamps = lamps
+        self._programs: dict[Kind, Any] = {}
+        colors, _, _, textures, texels = paint
+        self.clear: Mask = colors[:, 3] < 1.0
+        self.maps: tuple[str, ...] = ()
+        self._textures, holed = [], []
+        for start, width, height in textures.tolist():
+            content = texels[start : start + 4 * width * height]
+            texture = context.texture((width, height), 4, content.tobytes())
+            texture.filter = context.LINEAR, context.LINEAR
+            self._textures.append(texture)
+            holed.append(bool((content[3::4] < 255).any()))
+        self.batches = [
+            Batch(
+                model,
+                bool((model.vertices[:, 11] < 1.0).any()) or (model.texture >= 0 and holed[model.texture]),
+                context.buffer(model.vertices.tobytes()),
+                context.buffer(reserve=4 * ROW * len(model.shapes)),
+            )
+            for model in models_of(table, paint)
+        ]
+        self._still = np.ones((len(table.shapes), ROW), dtype=np.float32)
+        self._still[:, 15:19] = colors
+        for batch in self.batches:
+            self._still[batch.model.shapes, 12:15] = batch.model.scale
+
+    @property
+    def has_clear(self) -> bool:
+        """Whether anything is transparent."""
+        return bool(self.clear.any()) or any(batch.holed for batch in self.batches)
+
+    def rows(self, frames: Array, turn: Array, origin: Array, first: float) -> Rows:
+        """Return what instances are drawn by.
+
+        Args:
+            frames: of the shapes in the world; shape (shapes, 12).
+            turn: of the camera; shape (3, 3).
+            origin: of the camera [m].
+            first: number of the first shape.
+        """
+        rows: Rows = self._still.copy()
+        placed = rows[:, :12].reshape(-1, 3, 4)
+        placed[:, :, :3] = turn.T @ frames[:, :9].reshape(-1, 3, 3)
+        placed[:, :, 3] = (frames[:, 9:] - origin) @ turn
+        rows[:, :12] = placed.reshape(-1, 12)
+        rows[:, 19] = np.arange(len(frames)) + first
+        return rows
+
+    def fill(self, drawn: Sequence[tuple[Batch, Numbers]], rows: Rows) -> Iterator[tuple[Batch, int]]:
+        """Write where shapes are, batch by batch; yield each with how often it is to be drawn."""
+        for batch, shapes in drawn:
+            if len(shapes):
+                batch.instances.write(rows[shapes].tobytes())
+                yield batch, len(shapes)
+
+    def draw(self, shot: Shot, *, deep: bool, clear: bool = False) -> None:
+        """Draw what is opaque, or else what is transparent; the nearest first."""
+        todo: list[tuple[float, bool, Batch, Numbers]] = []
+        for batch in self.batches:
+            wanted = self.clear | batch.holed
+            shapes = batch.members(wanted if clear else ~wanted)
+            hidden = shot.outside[shapes] & batch.model.closed  # what looks away is behind what is seen
+            for some, cull in ((shapes[~hidden], False), (shapes[hidden], True)):
+                if len(some):
+                    some = some[np.argsort(shot.nearest[some], kind="stable")]
+                    todo.append((float(shot.nearest[some[0]]), cull, batch, some))
+        for _, cull, batch, shapes in sorted(todo, key=lambda each: each[0]):
+            self._ctx.enable_only(self._ctx.DEPTH_TEST | (self._ctx.CULL_FACE if cull else 0))
+            batch.instances.write(shot.rows[shapes].tobytes())
+            self._array(batch, shot, deep=deep).render(instances=len(shapes))
+
+    def blend(self, shot: Shot) -> None:
+        """Draw what is transparent over the rest, the farthest first; of each shape first what looks away."""
+        ctx = self._ctx
+        ctx.enable_only(ctx.DEPTH_TEST | ctx.BLEND | ctx.CULL_FACE)
+        ctx.blend_func = ctx.SRC_ALPHA, ctx.ONE_MINUS_SRC_ALPHA
+        ctx.fbo.depth_mask = False
+        try:
+            todo = [
+                (float(shot.nearest[shape]), batch, int(shape))
+                for batch in self.batches
+                for shape in batch.members(self.clear | batch.holed)
+            ]
+            for _, batch, shape in sorted(todo, key=lambda each: -each[0]):
+                batch.instances.write(shot.rows[shape : shape + 1].tobytes())
+                array = self._array(batch, shot, deep=False)
+                for side in ("front", "back"):
+                    ctx.cull_face = side
+                    array.render(instances=1)
+        finally:
+            ctx.fbo.depth_mask = True
+            ctx.cull_face = "back"
+
+    def _array(self, batch: Batch, shot: Shot, *, deep: bool) -> Any:
+        """Return what draws a batch, its program's uniforms set."""
+        model = batch.model
+        kind = Kind(self._lamps, model.flat, model.plain, model.texture >= 0, deep, shot.exact, self.maps)
+        program = self._programs.get(kind)
+        if program is None:
+            program = self._programs[kind] = self._ctx.program(vertex_shader(kind), fragment_shader(kind))
+        array = batch.arrays.get(kind)
+        if array is None:
+            array = batch.arrays[kind] = self._ctx.vertex_array(
+                program, [(batch.vertices, *VERTEX), (batch.instances, *INSTANCE)], skip_errors=True
+            )
+        if program.extra is not shot.uniforms:
+            for name, value in shot.uniforms.items():
+                if name in program:
+                    program[name] = value
+            program.extra = shot.uniforms
+        if model.texture >= 0:
+            self._textures[model.texture].use(location=0)
+        return array
