@@ -10,6 +10,7 @@ from urdfkit.description.robot import Robot
 from urdfkit.description.world import World, WorldModel, WorldRobot, add_model, remove_model
 from urdfkit.description.world.poses import IDENTITY
 from urdfkit.errors import SimulationError, UnknownNameError
+from urdfkit.scene import Scene
 from urdfkit.sim.carry import Made, carry_over
 from urdfkit.sim.engine import Body, Engine, Ground, Loose
 from urdfkit.sim.engine.engine import Provider
@@ -87,6 +88,11 @@ class Assembly:
     def everybody(self) -> Sequence[SimulatedRobot]:
         """The robots, the first one first."""
         return self._robots
+
+    @property
+    def statues(self) -> tuple[tuple[str, Scene], ...]:
+        """Name and scene of each robot that does not move; its links are bodies called ``NAME::LINK``."""
+        return tuple((name, entry.statue) for name, entry in self._entries.items() if entry.statue is not None)
 
     @property
     def names(self) -> tuple[str, ...]:

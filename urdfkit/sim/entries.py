@@ -10,7 +10,7 @@ from urdfkit.description.robot import Pose, Robot
 from urdfkit.description.world import WorldModel, WorldRobot
 from urdfkit.description.world.poses import IDENTITY, compose
 from urdfkit.description.world.tree import groups_of
-from urdfkit.scene import MeshLoader
+from urdfkit.scene import MeshLoader, Scene
 from urdfkit.sim.engine import Body, Piece
 from urdfkit.sim.loading import load_robot
 from urdfkit.sim.placing import pose_from, seven
@@ -28,12 +28,14 @@ class Entry:
         robots: what of it is simulated as robots are.
         offsets: body or robot → pose of its frame in the model.
         still: shapes of a robot that does not move, as bodies.
+        statue: the scene of a robot that does not move.
     """
 
     thing: WorldModel | WorldRobot | None
     robots: tuple[SimulatedRobot, ...] = ()
     offsets: dict[str, Pose] = field(default_factory=dict)
     still: tuple[Body, ...] = ()
+    statue: Scene | None = None
 
 
 class Entries:
@@ -124,7 +126,7 @@ class Entries:
             )
             pose = compose(thing.pose, pose_from(poses[link]))
             bodies.append(Body(f"{thing.name}::{link}", seven(pose), pieces, static=True))
-        return Entry(thing, (), {}, tuple(bodies))
+        return Entry(thing, (), {}, tuple(bodies), made.scene)
 
     def _remark_still(self, model: WorldModel) -> None:
         if any(has_plugins(model, group) for group in groups_of(model)):

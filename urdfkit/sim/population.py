@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from urdfkit.description.robot import Pose, Robot
 from urdfkit.description.world import World, WorldModel
 from urdfkit.errors import SimulationError, UnknownNameError
-from urdfkit.scene import Shape
+from urdfkit.scene import Scene, Shape
 from urdfkit.sim.arrivals import Arrival, arrival
 from urdfkit.sim.given import Named, nearest
 from urdfkit.sim.placing import pose_of, seven
@@ -82,12 +82,18 @@ class Population:
 
         return build
 
+    @property
+    def statues(self) -> tuple[tuple[str, Scene], ...]:
+        """Name and scene of each robot of the world that does not move."""
+        return self._stage.statues
+
     def looks(self) -> tuple[Shape, ...]:
         """Return what everything looks like that `body_poses` names, each shape on the body of that name."""
         found = list(looks_of(self.world))
-        for robot in self._stage.everybody[1:]:
-            for shape in robot.scene.shapes:
-                found.append(replace(shape, body=f"{robot.name}::{shape.body}", name=f"{robot.name}::{shape.name}"))
+        scenes = [*((robot.name, robot.scene) for robot in self._stage.everybody[1:]), *self.statues]
+        for name, scene in scenes:
+            for shape in scene.shapes:
+                found.append(replace(shape, body=f"{name}::{shape.body}", name=f"{name}::{shape.name}"))
         return tuple(found)
 
     # Coming and going

@@ -50,6 +50,11 @@ class Populated(Protocol):
         """By name."""
         ...
 
+    @property
+    def statues(self) -> tuple[tuple[str, Scene], ...]:
+        """Name and scene of the robots that do not move."""
+        ...
+
     def keep_body_poses(self) -> Callable[[], dict[str, tuple[float, ...]]]:
         """Return what tells where bodies are now, by name, also later."""
         ...
@@ -68,12 +73,14 @@ class Layout:
         world: its bodies.
         robots: name, scene and configuration of each robot.
         kept: returns where the world's bodies were.
+        statues: name and scene of robots that do not move; their links are among the bodies, as ``NAME::LINK``.
     """
 
     revision: int
     world: World
     robots: tuple[tuple[str, Scene, Snapshot], ...]
     kept: Callable[[], Mapping[str, Sequence[float]]]
+    statues: tuple[tuple[str, Scene], ...] = ()
 
     @cached_property
     def bodies(self) -> Mapping[str, Sequence[float]]:
@@ -130,7 +137,12 @@ class View:
         for robot, scene, _ in layout.robots:
             bodies += [f"{robot}::{link}" for link in scene.bodies]
             shapes += [_of(robot, shape) for shape in scene.shapes]
-        self.scene = Scene((*bodies, *world.bodies), (*shapes, *world.shapes))
+        links = [f"{name}::{link}" for name, scene in layout.statues for link in scene.bodies]
+        self._names += links
+        self._start = np.vstack([self._start, np.tile([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], (len(links), 1))])
+        shapes += [_of(BODY + name, shape) for name, scene in layout.statues for shape in scene.shapes]
+        still = (BODY + link for link in links)
+        self.scene = Scene((*bodies, *world.bodies, *still), (*shapes, *world.shapes))
         self._lighting = lighting_of(layout.world)
         self._note = note
         self._tables: dict[Role, RayTable] = {}
@@ -205,7 +217,7 @@ class Surroundings:
         """Return what there is now, and where."""
         here = self._population
         robots = tuple((name, each.scene, each.state.snapshot()) for name, each in here.robots.items())
-        return Layout(here.revision, here.world, robots, here.keep_body_poses())
+        return Layout(here.revision, here.world, robots, here.keep_body_poses(), here.statues)
 
     def view(self, layout: Layout) -> View:
         """Return the scene of a layout."""

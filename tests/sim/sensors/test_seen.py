@@ -91,3 +91,29 @@ def test_a_lidar_of_a_model_in_the_world_is_simulated(post) -> None:
     {wall("w", 7.05, 0, 0.1, 20, role="visual")}"""
     simulator = post(sensor(LASER, inside=scan(1, 0, 0)), room=room, spawn=Spawn(x=-3.0, z=0.0))
     assert heard(simulator, "/tower", 0.1)[-1].ranges[0] == pytest.approx(7.0, abs=1e-3)
+
+
+TOWER = """<robot name="tower"><link name="base">{inertial}</link><link name="arm">{shape}</link>
+<joint name="turn" type="revolute"><parent link="base"/><child link="arm"/><origin xyz="0 0 0.5"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>"""
+
+
+@pytest.mark.parametrize("static", [True, False])
+def test_a_robot_that_the_world_includes_is_seen(post, tmp_path, static: bool) -> None:
+    box = '<geometry><box size="0.4 0.4 0.4"/></geometry>'
+    inertial = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
+    shape = f"{inertial}<visual>{box}</visual><collision>{box}</collision>"
+    file = tmp_path / "tower.urdf"
+    file.write_text(TOWER.format(shape=shape, inertial=inertial))
+    included = f"<include><uri>{file}</uri><static>{str(static).lower()}</static><pose>3 0 0 0 0 0</pose></include>"
+    visual = sensor(inside=scan(1, 0, 0).replace("ray>", "lidar>"), type="gpu_lidar", more="<topic>seen</topic>")
+    lidars = sensor(LASER, inside=scan(1, 0, 0)) + visual.replace('"lidar"', '"other"')
+    simulator = post(lidars, room=f"</model>{included}<model name='rest'><static>true</static><link name='l'/>")
+    assert heard(simulator, "/scan")[-1].ranges[0] == pytest.approx(2.8, abs=0.02)
+    assert heard(simulator, "/seen")[-1].ranges[0] == pytest.approx(2.8, abs=0.02)
+    assert {shape.body for shape in simulator.looks()} >= {"tower::arm"}
+    if static:
+        simulator.place("tower", (5.0, 0.0, 0.0))
+        assert heard(simulator, "/scan")[-1].ranges[0] == pytest.approx(4.8, abs=1e-3)
+        simulator.remove("tower")
+        assert np.isinf(heard(simulator, "/seen")[-1].ranges[0])
