@@ -16,7 +16,7 @@ from urdfkit.description.plugins.lookup import stem
 from urdfkit.description.plugins.sensors import BARE, SENSOR_TYPES
 from urdfkit.description.robot import Plugin, Robot, SensorTag
 from urdfkit.description.world.systems import NEEDLESS
-from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.errors import SimulationError, UsageError, did_you_mean
 from urdfkit.sim.controllers import CONTROLLERS
 from urdfkit.sim.controllers.joint_state import JointStatePublisher
 from urdfkit.sim.drives import DRIVES
@@ -68,10 +68,12 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
             made, works = found
             try:
                 made.configure(own)
-            except SimulationError as error:
+            except (SimulationError, UsageError) as error:
                 if not isinstance(made, Sensor):
                     raise
-                setup.note(f"{error}; sensor `{sensor.name if sensor is not None else plugin.name}` is left out")
+                place = "" if error.position is not None else f"{plugin.element.origin.position}: "
+                left_out = sensor.name if sensor is not None else plugin.name
+                setup.note(f"{place}{error}; sensor `{left_out}` is left out")
                 continue
             works.append(made)
         elif stem(plugin.filename or "") not in NEEDLESS:

@@ -58,6 +58,10 @@ WRONG = [
         "noise of type `gausian`; did you mean `gaussian`?",
     ),
     (
+        BLOCK.format(sensor(LASER.replace("ros_laser", "ros_block_laser"))),
+        "topic `/scan` carries sensor_msgs/msg/LaserScan, not sensor_msgs/msg/PointCloud; sensor `lidar` is left out",
+    ),
+    (
         BLOCK.format(sensor(LASER.replace("ros_laser", "ros_lazer"))),
         "no plugin `libgazebo_ros_lazer.so`; did you mean `libgazebo_ros_laser.so`?",
     ),
