@@ -65,9 +65,13 @@ class Recorder:
         # rosbags writes a folder with the file in it; only the file is kept.
         folder = self._files.enter_context(staging(self.path.absolute().parent)) / self.path.stem
         self._written = folder / f"{self.path.stem}{SUFFIX}"
-        self._writer = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)
-        self._writer.open()
-        self.look()
+        try:
+            self._writer = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)
+            self._writer.open()
+            self.look()
+        except BaseException:
+            self._files.close()
+            raise
 
     def look(self) -> None:
         """Listen to topics that have come up since the last look; what they published last is recorded now."""

@@ -81,8 +81,8 @@ def run(arguments: argparse.Namespace) -> int:
             if ride.sights.find():
                 compile_rays(server, page.open)
             page.open()
-            note(KEYS if simulator.command_topics else "this robot has no drive that takes velocity commands")
             with recording(simulator, arguments.record) as ride.look:
+                note(KEYS if simulator.command_topics else "this robot has no drive that takes velocity commands")
                 ride.run()
         finally:
             server.stop()
