@@ -76,12 +76,13 @@ class Scene:
         return tuple(shape for shape in self.shapes if shape.role == role)
 
 
-def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = None) -> Scene:
+def scene_of(robot: Robot, *, strict: bool | Role = True, meshes: MeshLoader | None = None) -> Scene:
     """Return the scene of one robot; its bodies are the links in document order.
 
     Args:
         robot: a loaded robot; its `packages` resolve the URIs of meshes.
-        strict: raise on the first mesh that cannot be had; otherwise leave the shape out and note it in `problems`.
+        strict: raise on the first mesh that cannot be had, or the first of this role; leave other shapes out and note
+            them in `problems`.
         meshes: reads the mesh files; pass the same one again to read only what has changed.
 
     Raises:
@@ -103,7 +104,7 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
                 try:
                     mesh = _load(robot, item, item.geometry, meshes)
                 except ResourceError as error:
-                    if strict:
+                    if strict is True or strict == role:
                         raise
                     problems.append(error)
                     continue

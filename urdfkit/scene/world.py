@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from urdfkit.description.robot import Mesh
 from urdfkit.description.world import WorldLink, WorldShape
 from urdfkit.description.world.shape import plugins_of
+from urdfkit.errors import ResourceError
 from urdfkit.scene.colors import DEFAULT, GAZEBO, Rgba
 from urdfkit.scene.labels import label_of
 from urdfkit.scene.mesh import MeshLoader
@@ -19,7 +20,14 @@ from urdfkit.scene.scene import Role, Shape
 
 
 def shapes_of_link(
-    link: WorldLink, body: str, placement: NDArray[np.float64], *, meshes: MeshLoader, prefix: str = "", label: int = 0
+    link: WorldLink,
+    body: str,
+    placement: NDArray[np.float64],
+    *,
+    meshes: MeshLoader,
+    prefix: str = "",
+    label: int = 0,
+    note: Callable[[str], None] | None = None,
 ) -> Iterator[Shape]:
     """Yield the visuals and collisions of a link.
 
@@ -32,6 +40,7 @@ def shapes_of_link(
         meshes: reads the mesh files.
         prefix: goes before the names of the shapes where a body has several links.
         label: of the model, for visuals that have none of their own.
+        note: tells the user of visuals whose mesh is broken, which are left out then.
 
     Raises:
         ResourceError: a mesh is broken.
@@ -41,7 +50,13 @@ def shapes_of_link(
         if isinstance(shape.geometry, Mesh):
             if not shape.file:
                 continue
-            mesh = meshes.load(Path(shape.file), shape.geometry.scale)
+            try:
+                mesh = meshes.load(Path(shape.file), shape.geometry.scale)
+            except ResourceError as error:
+                if note is None or role == "collision":
+                    raise
+                note(f"{shape.position or body}: visual `{shape.name}` is not seen: {error}")
+                continue
         rgba = color_of(shape) if role == "visual" else None
         placed = placement @ pose_matrix(shape.pose)
         placed.flags.writeable = False

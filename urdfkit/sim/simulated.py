@@ -93,7 +93,9 @@ class SimulatedRobot:
         self._setup: Setup | None = None
         on_world = robot.roots()[0].name == "world"
         self.kinematics = Kinematics(robot, floating_base=not (bolted or on_world))
-        self.scene = scene_of(robot) if scene is None else scene
+        self.scene = scene_of(robot, strict="collision") if scene is None else scene
+        for problem in self.scene.problems:  # only eyes miss what cannot be touched
+            note(f"{problem}: what it would look like is not seen")
         self.spawn = spawn or Spawn(z=0.0 if on_world else None)
         self.base = self.spawn.place(self.kinematics, self.scene, ground)
         require_masses(self.kinematics, self.spawn.configuration(self.kinematics, self.base)[0], note)

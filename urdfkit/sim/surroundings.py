@@ -94,11 +94,12 @@ class Layout:
         return found
 
 
-def world_scene(world: World) -> tuple[Scene, Array]:
+def world_scene(world: World, note: Callable[[str], None] | None = None) -> tuple[Scene, Array]:
     """Return the scene of a world's bodies, and the poses at which they start; shape (bodies, 7).
 
     Args:
         world: as read; its bodies are called as `bodies_of` calls them, after `BODY`.
+        note: tells the user of visuals whose mesh is broken, which are left out then.
 
     Raises:
         ResourceError: a mesh is broken.
@@ -116,7 +117,7 @@ def world_scene(world: World) -> tuple[Scene, Array]:
                 prefix = f"{link_name}/" if len(links) > 1 else ""
                 placed = into @ pose_matrix(pose)
                 label = label_of(model.plugins)
-                shapes.extend(shapes_of_link(link, body, placed, meshes=meshes, prefix=prefix, label=label))
+                shapes += shapes_of_link(link, body, placed, meshes=meshes, prefix=prefix, label=label, note=note)
     return Scene(tuple(names), tuple(shapes)), np.array(poses, dtype=float).reshape(-1, 7)
 
 
@@ -130,7 +131,7 @@ class View:
     """
 
     def __init__(self, layout: Layout, note: Callable[[str], None], renderer: str = "ray") -> None:
-        world, self._start = world_scene(layout.world)
+        world, self._start = world_scene(layout.world, note)
         self._names = [name.removeprefix(BODY) for name in world.bodies]
         bodies: list[str] = []
         shapes: list[Shape] = []

@@ -9,6 +9,7 @@ import pytest
 from tests.sim.sensors.conftest import ROBOTS, heard, noise, sensor, wall
 from tests.sim.sensors.test_clouds import layout, rows
 from urdfkit.description import load
+from urdfkit.errors import ResourceError
 from urdfkit.sim import Simulator
 
 ROOM = wall("east", 3.05, 0, 0.1, 500, role="visual") + wall("north", 0, 2.05, 500, 0.1, role="visual")
@@ -272,3 +273,34 @@ def test_cameras_of_robots_see_the_house(robot: str, topic: str) -> None:
     else:
         assert len(np.unique(seen.reshape(-1, 3), axis=0)) > 5
     assert not [note for note in notes if "camera" in note]
+
+
+def test_a_visual_of_the_world_that_is_broken_is_missed_by_eyes_alone(post, tmp_path) -> None:
+    (tmp_path / "broken.stl").write_bytes(b"no mesh")
+    uri = f"<mesh><uri>file://{tmp_path / 'broken.stl'}</uri></mesh>"
+    room = ROOM + f'<link name="l"><visual name="v"><geometry>{uri}</geometry></visual></link>'
+    notes: list[str] = []
+    (picture,) = heard(post(eye(ros1()), room=room, note=notes.append), "/cam/image_raw")
+    assert len(np.unique(pixels(picture).reshape(-1, 3), axis=0)) > 1
+    (note,) = [each for each in notes if "broken.stl" in each]
+    assert "visual `v` is not seen: mesh broken.stl is cut off" in note
+
+
+@pytest.mark.parametrize("role", ["visual", "collision"])
+def test_a_mesh_that_is_not_there_is_missed_by_eyes_alone(tmp_path, role: str) -> None:
+    shape = f'<{role}><geometry><mesh filename="gone.stl"/></geometry></{role}>'
+    inertial = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    (tmp_path / "r.urdf").write_text(
+        f'<robot name="r"><link name="base">{shape}{inertial}</link><gazebo reference="base">{eye(ros1())}</gazebo>'
+        "</robot>"
+    )
+    notes: list[str] = []
+    if role == "collision":
+        with pytest.raises(ResourceError, match="gone"):
+            Simulator(tmp_path / "r.urdf", note=notes.append)
+        return
+    simulator = Simulator(tmp_path / "r.urdf", fixed_base=True, note=notes.append)
+    assert heard(simulator, "/cam/image_raw")
+    (note,) = [each for each in notes if "gone.stl" in each]
+    assert note.endswith("what it would look like is not seen")
+    assert "r.urdf:1:" in note
