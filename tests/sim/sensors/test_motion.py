@@ -58,6 +58,15 @@ def test_at_rest_it_feels_the_ground_push_against_gravity(brick) -> None:
     assert message.header.frame_id == "corner"
 
 
+@pytest.mark.parametrize(
+    ("inside", "frame"),
+    [("", "corner"), ("<bodyName>base</bodyName>", "base"), ("<bodyName>base</bodyName><frameName>f</frameName>", "f")],
+)
+def test_it_names_its_frame_as_it_is_told(brick, inside: str, frame: str) -> None:
+    message = heard(brick(imu(ROS_1.format(inside)), spawn=Spawn(z=9.0)), "/brick/imu_data", 0.1)[-1]
+    assert message.header.frame_id == frame
+
+
 def test_in_free_fall_it_feels_nothing(brick) -> None:
     message = heard(brick(imu(ROS_2), gravity=(0, 0, -9.81), spawn=Spawn(z=50.0)), "/n/imu/out", 0.2)[-1]
     assert three(message.linear_acceleration) == pytest.approx((0, 0, 0), abs=1e-6)

@@ -83,8 +83,8 @@ class Carried(Sensor):
                 )
             self._mount = np.eye(4)
         self.rate = rate_of(None if sensor is None else sensor.element, read)
-        frame = read.text("frame") or read.text("old_frame") or read.text("default_frame") or self.link
-        self.frame = frame.lstrip("/")
+        frame = read.text("frame") or read.text("old_frame") or read.text("default_frame")
+        self.frame = (frame or read.text("body") or self.link).lstrip("/")
         self._kinematics = setup.kinematics
         self._key = int(setup.random.integers(1 << 62))
         self._before: Moment | None = None
