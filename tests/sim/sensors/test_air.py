@@ -200,6 +200,13 @@ def test_hectors_imu_feels_gravity_and_errs_as_told(drone) -> None:
     assert messages[0].angular_velocity_covariance[[0, 4, 8]] == pytest.approx([0.01, 0.04, 0.09])
 
 
+def test_hectors_offset_of_roll_pitch_and_yaw_is_felt_as_a_tilt(drone) -> None:
+    plugin = hector("imu", "<updateRate>100</updateRate><rpyOffset>0.01 0.02 0.3</rpyOffset>")
+    message = heard(drone(plugins=plugin), "/imu", 0.1)[-1]
+    assert three(message.linear_acceleration) == pytest.approx((0.02 * 9.8065, -0.01 * 9.8065, 0), abs=1e-9)
+    assert four(message.orientation) == pytest.approx((0, 0, sin(0.15), cos(0.15)), abs=1e-9)
+
+
 def test_gazebo_ros_imu_feels_no_gravity(drone) -> None:
     plugin = (
         '<plugin name="i" filename="libgazebo_ros_imu.so"><bodyName>eye</bodyName><topicName>imu</topicName>'

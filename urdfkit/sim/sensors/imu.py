@@ -32,6 +32,9 @@ if TYPE_CHECKING:
 
 IMU = "sensor_msgs/msg/Imu"
 
+G = 9.8065
+"""By which hector's ``rpyOffset`` becomes an offset of the acceleration [m/s²]."""
+
 Array = NDArray[np.float64]
 
 
@@ -196,6 +199,13 @@ class HectorImu(Imu):
         self._gyro = drifting(read, "rate_", 3, **several)  # type: ignore[arg-type]
         yaw = "yaw_" if any(read.has(f"yaw_{each}") for each in ("offset", "drift", "gaussian_noise")) else "heading_"
         self._heading = drifting(read, yaw, 1, **several)  # type: ignore[arg-type]
+        roll, pitch, yaw_offset = read.vector("rpy_offset", 3)
+        self._offset = np.eye(3)  # not a rotation here, but what an IMU that is tilted so much would feel
+        for error, offset in (
+            (self._accelerometer, np.array([pitch * G, -roll * G, 0.0])),
+            (self._heading, np.array([yaw_offset])),
+        ):
+            error.offset = np.where(error.offset == 0.0, offset, error.offset)
         if old := read.number("gaussian_noise", unsigned=True):
             self._accelerometer.noise = self._gyro.noise = np.full(3, old)
         level = self._accelerometer.noise**2 / max(float(self._gravity @ self._gravity), 1e-12)
