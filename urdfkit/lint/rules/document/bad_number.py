@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from urdfkit.description.numbers import number
+from urdfkit.lint.expressions import is_unexpanded
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import RobotRule
 
@@ -67,6 +68,9 @@ class BadNumber(RobotRule):
         for problem in model.robot.problems:
             if problem.kind != "bad-number" or model.is_unresolved(problem.element, problem.attribute):
                 continue
+            written = problem.element.get(problem.attribute) if problem.attribute else problem.element.text
+            if is_unexpanded(written or ""):
+                continue  # X110 says why.
             fix = self._without_commas(problem, model)
             yield self.at(
                 model,

@@ -9,12 +9,24 @@ if TYPE_CHECKING:
 
 def source_rules() -> tuple[type[SourceRule], ...]:
     """Return the rules on the text of each file."""
+    from urdfkit.lint.rules.xacro.deprecated_call import DeprecatedCall
+    from urdfkit.lint.rules.xacro.include_with_parameters import IncludeWithParameters
+    from urdfkit.lint.rules.xacro.inertia_arguments import InertiaArguments
+    from urdfkit.lint.rules.xacro.inertia_formula import InertiaFormula
+    from urdfkit.lint.rules.xacro.rounded_pi import RoundedPi
     from urdfkit.lint.rules.xacro.unprefixed_directive import UnprefixedDirective
     from urdfkit.lint.rules.xacro.unprefixed_macro_call import UnprefixedMacroCall
+    from urdfkit.lint.rules.xacro.xacro_in_plain_urdf import XacroInPlainUrdf
 
     return (
         UnprefixedDirective,
         UnprefixedMacroCall,
+        RoundedPi,
+        DeprecatedCall,
+        IncludeWithParameters,
+        InertiaFormula,
+        InertiaArguments,
+        XacroInPlainUrdf,
     )
 
 
@@ -47,4 +59,6 @@ def fault_rules() -> tuple[type[FaultRule], ...]:
 
 def robot_rules() -> tuple[type[RobotRule], ...]:
     """Return the rules on the expanded robot."""
-    return ()
+    from urdfkit.lint.rules.xacro.unexpanded_expression import UnexpandedExpression
+
+    return (UnexpandedExpression,)

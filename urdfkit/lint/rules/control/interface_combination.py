@@ -1,0 +1,87 @@
+"""C710 interface-combination-invalid."""
+
+from __future__ import annotations
+
+from urdfkit.lint.edits import nearest
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+_STANDARD = ("position", "velocity", "acceleration", "effort")
+
+
+class InterfaceCombination(RobotRule):
+    """A joint of ``<ros2_control>`` has an interface twice, or a misspelt one.
+
+    ## What it does
+    Looks at ``<command_interface>`` and ``<state_interface>`` of each joint: the same name twice, and names that
+    are nearly ``position``, ``velocity``, ``acceleration`` or ``effort``. Other names belong to the hardware.
+
+    ## Why is this bad?
+    The controller manager stops, or the controller finds no interface to claim.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <ros2_control name="arm" type="system">
+        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+        <joint name="elbow">
+          <command_interface name="postion"/>
+          <state_interface name="position"/>
+        </joint>
+      </ros2_control>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <ros2_control name="arm" type="system">
+        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+        <joint name="elbow">
+          <command_interface name="position"/>
+          <state_interface name="position"/>
+        </joint>
+      </ros2_control>
+    </robot>
+    ```
+    """
+
+    code = "C710"
+    name = "interface-combination-invalid"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each interface that is there twice or misspelt."""
+        for block in model.robot.ros2_control:
+            for joint in block.element.find_all("joint"):
+                for kind in ("command_interface", "state_interface"):
+                    seen: set[str] = set()
+                    for element in joint.find_all(kind):
+                        name = element.get("name") or ""
+                        near = nearest(name, _STANDARD, likeness=0.85) if name not in _STANDARD else None
+                        if name in seen:
+                            message = f"joint `{joint.get('name')}` has the {kind.replace('_', ' ')} `{name}` twice"
+                            yield self.at(model, element, message, attribute="name", joint=joint.get("name"))
+                        elif near is not None:
+                            message = f"there is no standard interface `{name}`; did you mean `{near}`?"
+                            yield self.at(model, element, message, attribute="name", joint=joint.get("name"))
+                        seen.add(name)

@@ -1,0 +1,80 @@
+"""C706 old-transmission-syntax."""
+
+from __future__ import annotations
+
+from urdfkit.lint.interfaces import is_old
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class OldTransmissionSyntax(RobotRule):
+    """A transmission is written as those of the PR2 were.
+
+    ## What it does
+    Looks for ``<transmission type="…">`` without ``<type>`` inside.
+
+    ## Why is this bad?
+    ros_control and gazebo_ros_control skip it: they read ``<type>``.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <transmission name="elbow_transmission" type="pr2_mechanism_model/SimpleTransmission">
+        <actuator name="elbow_motor"/>
+        <joint name="elbow"/>
+        <mechanicalReduction>10</mechanicalReduction>
+      </transmission>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <transmission name="elbow_transmission">
+        <type>transmission_interface/SimpleTransmission</type>
+        <joint name="elbow">
+          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+        </joint>
+        <actuator name="elbow_motor">
+          <mechanicalReduction>10</mechanicalReduction>
+        </actuator>
+      </transmission>
+    </robot>
+    ```
+    """
+
+    code = "C706"
+    name = "old-transmission-syntax"
+    severity = "warning"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each transmission in the old form."""
+        for transmission in model.robot.transmissions:
+            if is_old(transmission):
+                yield self.at(
+                    model,
+                    transmission.element,
+                    f"transmission `{transmission.name}` is in the old form: ros_control reads <type>, not type=",
+                    attribute="type",
+                    help="write <type>transmission_interface/SimpleTransmission</type> inside",
+                )

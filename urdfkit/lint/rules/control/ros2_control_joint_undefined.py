@@ -1,0 +1,91 @@
+"""C707 ros2-control-joint-undefined."""
+
+from __future__ import annotations
+
+from urdfkit.lint.edits import meant, new_value
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class Ros2ControlJointUndefined(RobotRule):
+    """``<ros2_control>`` names a joint that is not there.
+
+    ## What it does
+    Compares the joints of ``<ros2_control>`` with those of the robot.
+
+    ## Why is this bad?
+    The controller manager stops: "Joint … not found in URDF".
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <ros2_control name="arm" type="system">
+        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+        <joint name="ellbow">
+          <command_interface name="position"/>
+          <state_interface name="position"/>
+        </joint>
+      </ros2_control>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <ros2_control name="arm" type="system">
+        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+        <joint name="elbow">
+          <command_interface name="position"/>
+          <state_interface name="position"/>
+        </joint>
+      </ros2_control>
+    </robot>
+    ```
+
+    ## Fix safety
+    Unsafe: the joint with the nearest name is taken.
+    """
+
+    code = "C707"
+    name = "ros2-control-joint-undefined"
+    fix = "unsafe"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each joint that the block names and the robot lacks."""
+        joints = model.robot.joint_by_name
+        if model.is_incomplete:
+            return
+        for block in model.robot.ros2_control:
+            for element in block.element.find_all("joint"):
+                name = element.get("name")
+                if not name or name in joints or "$" in name:
+                    continue
+                near, hint = meant(name, joints)
+                yield self.at(
+                    model,
+                    element,
+                    f"<ros2_control> `{block.name}` has the joint `{name}`, which the robot does not have{hint}",
+                    attribute="name",
+                    joint=name,
+                    fix=new_value(model, element, "name", near, "unsafe", f"Write `{near}`") if near else None,
+                )

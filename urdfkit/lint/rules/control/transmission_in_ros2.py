@@ -1,0 +1,77 @@
+"""C705 transmission-in-ros2."""
+
+from __future__ import annotations
+
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class TransmissionInRos2(RobotRule):
+    """Transmissions are not read in ROS 2.
+
+    ## What it does
+    With ``--target ros2`` or ``gz`` it looks for ``<transmission>`` in robots without ``<ros2_control>``.
+
+    ## Why is this bad?
+    ROS 2 reads ``<ros2_control>`` and nothing else: no joint can be controlled.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <transmission name="elbow_transmission">
+        <type>transmission_interface/SimpleTransmission</type>
+        <joint name="elbow">
+          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+        </joint>
+        <actuator name="elbow_motor"/>
+      </transmission>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <ros2_control name="arm" type="system">
+        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+        <joint name="elbow">
+          <command_interface name="effort"/>
+          <state_interface name="position"/>
+        </joint>
+      </ros2_control>
+    </robot>
+    ```
+    """
+
+    code = "C705"
+    name = "transmission-in-ros2"
+    severity = "warning"
+    only_for = (
+        "ros2",
+        "gz",
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding at the first transmission of a robot without ``<ros2_control>``."""
+        robot = model.robot
+        if robot.transmissions and not robot.ros2_control and not model.is_incomplete:
+            first = robot.transmissions[0]
+            number = len(robot.transmissions)
+            others = f" and {number - 1} others" if number > 1 else ""
+            yield self.at(
+                model,
+                first.element,
+                f"ROS 2 does not read transmissions (`{first.name}`{others}): it reads <ros2_control>",
+                attribute="name",
+            )

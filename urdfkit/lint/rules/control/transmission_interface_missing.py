@@ -1,0 +1,89 @@
+"""C702 transmission-hwif-missing."""
+
+from __future__ import annotations
+
+from urdfkit.lint.interfaces import has_gazebo_ros_control, is_old
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding, Severity
+    from urdfkit.lint.model import Model
+
+
+class TransmissionInterfaceMissing(RobotRule):
+    """A transmission does not say by which interface its joint is driven.
+
+    ## What it does
+    Looks for ``<joint>`` of a transmission without ``<hardwareInterface>``. It is an error where the robot brings
+    gazebo_ros_control. Transmissions in the old form, with their type in an attribute, have none.
+
+    ## Why is this bad?
+    gazebo_ros_control skips the joint since ROS Indigo; in ``<actuator>`` the interface counts no more.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <transmission name="elbow_transmission">
+        <type>transmission_interface/SimpleTransmission</type>
+        <joint name="elbow"/>
+        <actuator name="elbow_motor">
+          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+        </actuator>
+      </transmission>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <transmission name="elbow_transmission">
+        <type>transmission_interface/SimpleTransmission</type>
+        <joint name="elbow">
+          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+        </joint>
+        <actuator name="elbow_motor"/>
+      </transmission>
+    </robot>
+    ```
+    """
+
+    code = "C702"
+    name = "transmission-hwif-missing"
+    severity = "warning"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+            "ros2",
+            "gz",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each joint of a transmission without interface."""
+        if not model.robot.transmissions or model.robot.ros2_control:
+            return
+        severity: Severity | None = "error" if has_gazebo_ros_control(model.robot) else None
+        for transmission in model.robot.transmissions:
+            for part in transmission.joints if not is_old(transmission) else ():
+                if not part.hardware_interfaces:
+                    yield self.at(
+                        model,
+                        part.element,
+                        f"transmission `{transmission.name}` names no hardware interface for joint `{part.name}`",
+                        attribute="name",
+                        joint=part.name,
+                        help="add <hardwareInterface>hardware_interface/…JointInterface</hardwareInterface>",
+                        severity=severity,
+                    )

@@ -1,0 +1,90 @@
+"""C701 transmission-joint-undefined."""
+
+from __future__ import annotations
+
+from urdfkit.lint.edits import meant, new_value
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class TransmissionJointUndefined(RobotRule):
+    """A transmission is for a joint that is not there.
+
+    ## What it does
+    Compares the joints of ``<transmission>`` with those of the robot.
+
+    ## Why is this bad?
+    The transmission is skipped with a line in the log, and controllers for the joint do not start.
+
+    ## Example
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <transmission name="elbow_transmission">
+        <type>transmission_interface/SimpleTransmission</type>
+        <joint name="elbo">
+          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+        </joint>
+        <actuator name="elbow_motor"/>
+      </transmission>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm">
+      <link name="base"/>
+      <link name="arm"/>
+      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <transmission name="elbow_transmission">
+        <type>transmission_interface/SimpleTransmission</type>
+        <joint name="elbow">
+          <hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface>
+        </joint>
+        <actuator name="elbow_motor"/>
+      </transmission>
+    </robot>
+    ```
+
+    ## Fix safety
+    Unsafe: the joint with the nearest name is taken.
+    """
+
+    code = "C701"
+    name = "transmission-joint-undefined"
+    fix = "unsafe"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each joint that a transmission names and the robot lacks."""
+        joints = model.robot.joint_by_name
+        if model.is_incomplete:
+            return
+        for transmission in model.robot.transmissions:
+            for part in transmission.joints:
+                if not part.name or part.name in joints or "$" in part.name:
+                    continue
+                near, hint = meant(part.name, joints)
+                yield self.at(
+                    model,
+                    part.element,
+                    f"transmission `{transmission.name}` is for `{part.name}`, which is no joint{hint}",
+                    attribute="name",
+                    joint=part.name,
+                    fix=new_value(model, part.element, "name", near, "unsafe", f"Write `{near}`") if near else None,
+                )

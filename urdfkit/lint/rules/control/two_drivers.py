@@ -1,0 +1,143 @@
+"""C713 two-drivers-one-joint."""
+
+from __future__ import annotations
+
+from urdfkit.lint.gazebo import plugins, spec_of
+from urdfkit.lint.interfaces import has_gazebo_ros_control
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.robot import Robot
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class TwoDrivers(RobotRule):
+    """A joint is driven by gazebo_ros_control and by another plugin.
+
+    ## What it does
+    Looks for joints that have a transmission, in robots with gazebo_ros_control, and that a drive turns as well.
+    The same with ``<ros2_control>`` and its plugins for Gazebo, where the joint has a command interface.
+
+    ## Why is this bad?
+    Both set the joint in each step: it jerks, or does what the one that comes last says.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base_footprint"/>
+      <link name="left"/>
+      <link name="right"/>
+      <joint name="left_joint" type="fixed">
+        <parent link="base_footprint"/>
+        <child link="left"/>
+        <origin xyz="0 0.15 0"/>
+      </joint>
+      <joint name="right_joint" type="fixed">
+        <parent link="base_footprint"/>
+        <child link="right"/>
+        <origin xyz="0 -0.15 0"/>
+      </joint>
+      <transmission name="left_transmission">
+        <type>transmission_interface/SimpleTransmission</type>
+        <joint name="left_joint">
+          <hardwareInterface>hardware_interface/VelocityJointInterface</hardwareInterface>
+        </joint>
+        <actuator name="left_motor"/>
+      </transmission>
+      <gazebo>
+        <plugin name="control" filename="libgazebo_ros_control.so"/>
+        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+          <leftJoint>left_joint</leftJoint>
+          <rightJoint>right_joint</rightJoint>
+          <wheelSeparation>0.3</wheelSeparation>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base_footprint"/>
+      <link name="left"/>
+      <link name="right"/>
+      <joint name="left_joint" type="fixed">
+        <parent link="base_footprint"/>
+        <child link="left"/>
+        <origin xyz="0 0.15 0"/>
+      </joint>
+      <joint name="right_joint" type="fixed">
+        <parent link="base_footprint"/>
+        <child link="right"/>
+        <origin xyz="0 -0.15 0"/>
+      </joint>
+      <gazebo>
+        <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+          <leftJoint>left_joint</leftJoint>
+          <rightJoint>right_joint</rightJoint>
+          <wheelSeparation>0.3</wheelSeparation>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+    """
+
+    code = "C713"
+    name = "two-drivers-one-joint"
+    severity = "warning"
+    not_for = frozenset(
+        (
+            "mujoco",
+            "isaac",
+            "drake",
+            "moveit",
+        )
+    )
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each drive, or controller, whose joints have another driver."""
+        from urdfkit.description.plugins import values
+
+        driven = _driven(model.robot)
+        if not driven:
+            return
+        for plugin, _, _ in plugins(model.robot):
+            spec = spec_of(plugin, model.target)
+            if spec is None or spec.kind == "joint_state_publisher":
+                continue
+            both = [
+                text
+                for parameter in spec.parameters
+                if parameter.names == "joint"
+                for text, _ in values(plugin, parameter)
+                if text in driven
+            ]
+            if both:
+                yield self.at(
+                    model,
+                    plugin.element,
+                    f"`{', '.join(dict.fromkeys(both))}` is driven by {driven[both[0]]} as well",
+                    attribute="name",
+                    joint=both[0],
+                    help="take one of them away",
+                )
+
+
+def _driven(robot: Robot) -> dict[str, str]:
+    """Return the joints that controllers drive in Gazebo, and by what."""
+    found: dict[str, str] = {}
+    if robot.transmissions and has_gazebo_ros_control(robot):
+        for transmission in robot.transmissions:
+            found.update({part.name: "gazebo_ros_control" for part in transmission.joints if part.name})
+    for block in robot.ros2_control:
+        hardware = block.element.find("hardware")
+        element = hardware.find("plugin") if hardware is not None else None
+        if element is not None and element.text.startswith(("gazebo_ros2", "gz_ros2", "ign_ros2")):
+            for joint in block.element.find_all("joint"):
+                if joint.find("command_interface") is not None:
+                    found[joint.get("name") or ""] = "ros2_control"
+    return found
