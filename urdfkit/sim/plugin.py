@@ -151,6 +151,8 @@ class Sensor(ABC):
         name: what the description calls it; empty where it does not.
         topics: where it publishes. The simulation stops for it while somebody listens there, always if there is none.
         done: publications so far.
+        due: the step of the next publication; before it there is nothing to catch up with, but for classes that have a
+            `catch_up` of their own.
     """
 
     kind: ClassVar[str]
@@ -159,6 +161,7 @@ class Sensor(ABC):
     name: str = ""
     topics: tuple[Topic, ...] = ()
     done: int = 0
+    due: int = 0
 
     def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
         self.plugin = plugin
@@ -176,7 +179,7 @@ class Sensor(ABC):
         """Take note of the simulation's step [s], after `configure`, and of how many there have been."""
         self._ticks = Ticks(self.rate, dt)
         self.done = self._ticks.until(step)
-        self._due = self._ticks.after(step)
+        self.due = self._ticks.after(step)
 
     def next_stop(self, step: int) -> int:
         """Return the step at which the simulation has to stop for it; `NEVER` while nobody listens."""
@@ -187,17 +190,17 @@ class Sensor(ABC):
 
     def catch_up(self, state: State) -> None:
         """Measure what has fallen due."""
-        if state.step < self._due:
+        if state.step < self.due:
             return
         fallen = self._ticks.until(state.step) - self.done
         self.done += fallen
-        self._due = self._ticks.after(state.step)
+        self.due = self._ticks.after(state.step)
         self.measure(state, fallen)
 
     def reset(self) -> None:
         """Start again at step 0."""
         self.done = 0
-        self._due = self._ticks.after(0)
+        self.due = self._ticks.after(0)
 
     @abstractmethod
     def measure(self, state: State, count: int) -> None:

@@ -20,7 +20,7 @@ from urdfkit.sim.engine.part import Part
 from urdfkit.sim.installed import Installed, install
 from urdfkit.sim.loading import require_masses
 from urdfkit.sim.motors import Motors, Servos
-from urdfkit.sim.plugin import Setup
+from urdfkit.sim.plugin import Sensor, Setup
 from urdfkit.sim.publications import Publication, Transforms, publish_fixed
 from urdfkit.sim.schedule import NEVER, Ticks
 from urdfkit.sim.spawn import Spawn
@@ -106,6 +106,7 @@ class SimulatedRobot:
         self._bus: _OwnBus | None = None
         self._publications: list[Publication] = []
         self._drives: list[tuple[Any, Ticks, Ticks]] = []
+        self._sensors: list[tuple[Sensor, bool]] = []
 
     @property
     def has_plugins(self) -> bool:
@@ -168,6 +169,7 @@ class SimulatedRobot:
         self._drives = [(d, Ticks(d.write_rate, setup.dt), Ticks(d.read_rate, setup.dt)) for d in self.plugins.drives]
         for sensor in self.plugins.sensors:
             sensor.schedule(setup.dt, self.state.step)
+        self._sensors = [(sensor, type(sensor).catch_up is Sensor.catch_up) for sensor in self.plugins.sensors]
         self.controllers = Controllers([c.loop for c in self.plugins.controllers if c.loop is not None])
         for controller in self.plugins.controllers:
             controller.schedule(setup.dt)
@@ -235,8 +237,9 @@ class SimulatedRobot:
         for controller in self.plugins.controllers:
             if controller.due(step):
                 controller.read(self.state)
-        for sensor in self.plugins.sensors:
-            sensor.catch_up(self.state)
+        for sensor, waits in self._sensors:
+            if not waits or sensor.due <= step:
+                sensor.catch_up(self.state)
         for publications in (self._publications, *self.controllers.each_publications):
             for publication in tuple(publications):  # whoever hears of one may load or unload a controller
                 if publication.due <= step:
