@@ -187,5 +187,5 @@ def test_rule_pages_and_catalogue(capsys):
     assert main(["rule"]) == 0
     catalogue = capsys.readouterr().out.splitlines()
     assert any(line.split()[:3] == ["X101", "error", "[*]"] for line in catalogue)
-    assert main(["rule", "I5O3"]) == 2
+    assert main(["rule", "I5033"]) == 2
     assert "did you mean `I503`" in capsys.readouterr().err

@@ -12,9 +12,12 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
+    Formula = Callable[[Mapping[str, float]], float]
+
 _ALLOWED = (ast.Expression, ast.BinOp, ast.UnaryOp, ast.Constant, ast.Name, ast.Load)
 _OPERATORS = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.Pow, ast.USub, ast.UAdd)
 _SAMPLES = ((1.3, 0.7, 2.9, 1.9, 0.4, 2.2), (0.9, 3.1, 1.7, 0.6, 2.4, 1.1), (2.1, 1.2, 0.8, 3.3, 1.5, 0.5))
+_MOMENTS = ("ixx", "iyy", "izz")
 _TOLERANCE = 2e-3
 """Relative; constants such as 0.083 for 1/12 are let be."""
 
@@ -41,7 +44,7 @@ def slip(formulas: Mapping[str, str]) -> Slip | None:
         formulas: ixx, iyy and izz as written, each one ``${…}``.
     """
     functions, names = {}, set()
-    for component in ("ixx", "iyy", "izz"):
+    for component in _MOMENTS:
         parsed = _parsed(formulas.get(component, ""))
         if parsed is None:
             return None
@@ -51,36 +54,47 @@ def slip(formulas: Mapping[str, str]) -> Slip | None:
         return None
     wrong: Slip | None = None
     for shape, moments in _candidates(sorted(names)):
-        matches = [
-            component for component in functions if _agree(functions[component], _must(moments[component]), names)
-        ]
+        matches = [name for name in _MOMENTS if _agree(functions[name], moments[name][0], names)]
         if len(matches) == 3:
             return None
         if len(matches) == 2 and wrong is None:
             (component,) = set(functions) - set(matches)
-            wrong = Slip(shape, component, moments[component])
+            wrong = Slip(shape, component, moments[component][1])
     return wrong
 
 
-def _candidates(names: Sequence[str]) -> Iterator[tuple[str, dict[str, str]]]:
-    """Yield shape and right expressions for each way in which the names may be mass and sizes."""
+def _candidates(names: Sequence[str]) -> Iterator[tuple[str, dict[str, tuple[Formula, str]]]]:
+    """Yield each way in which the names may be mass and sizes: the shape, and its moments with how they are written."""
     for m, a, b, c in permutations(names, 4):
-        yield "box", {name: f"{m}*({p}*{p}+{q}*{q})/12" for name, p, q in (("ixx", b, c), ("iyy", a, c), ("izz", a, b))}
+        yield "box", {"ixx": _box(m, b, c), "iyy": _box(m, a, c), "izz": _box(m, a, b)}
     for m, r, h in permutations(names, 3):
-        across, along = f"{m}*(3*{r}*{r}+{h}*{h})/12", f"{m}*{r}*{r}/2"
-        for axis in ("ixx", "iyy", "izz"):
-            yield "cylinder", {name: along if name == axis else across for name in ("ixx", "iyy", "izz")}
+        across, along = _across(m, r, h), _round(m, r, 2, 1)
+        for axis in _MOMENTS:
+            yield "cylinder", {name: along if name == axis else across for name in _MOMENTS}
     for m, r in permutations(names, 2):
-        yield "sphere", dict.fromkeys(("ixx", "iyy", "izz"), f"2*{m}*{r}*{r}/5")
+        yield "sphere", dict.fromkeys(_MOMENTS, _round(m, r, 5, 2))
 
 
-def _parsed(text: str) -> tuple[Callable[[Mapping[str, float]], float], set[str]] | None:
+def _box(m: str, a: str, b: str) -> tuple[Formula, str]:
+    return lambda v: v[m] * (v[a] ** 2 + v[b] ** 2) / 12.0, f"{m}*({a}*{a}+{b}*{b})/12"
+
+
+def _across(m: str, r: str, h: str) -> tuple[Formula, str]:
+    return lambda v: v[m] * (3.0 * v[r] ** 2 + v[h] ** 2) / 12.0, f"{m}*(3*{r}*{r}+{h}*{h})/12"
+
+
+def _round(m: str, r: str, divisor: int, factor: int) -> tuple[Formula, str]:
+    written = f"{f'{factor}*' if factor > 1 else ''}{m}*{r}*{r}/{divisor}"
+    return lambda v: factor * v[m] * v[r] ** 2 / divisor, written
+
+
+def _parsed(text: str) -> tuple[Formula, set[str]] | None:
     """Return what computes a formula from its names, and the names; None where it is more than arithmetic."""
     written = re.fullmatch(r"\s*\$\{([^{}]*)\}\s*", text)
     return _compiled(written[1].strip()) if written else None
 
 
-def _compiled(text: str) -> tuple[Callable[[Mapping[str, float]], float], set[str]] | None:
+def _compiled(text: str) -> tuple[Formula, set[str]] | None:
     try:
         tree = ast.parse(text, mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -95,12 +109,6 @@ def _compiled(text: str) -> tuple[Callable[[Mapping[str, float]], float], set[st
         elif not isinstance(node, (*_ALLOWED, *_OPERATORS)):
             return None
     return (lambda values: _value(tree.body, values)), names
-
-
-def _must(text: str) -> Callable[[Mapping[str, float]], float]:
-    compiled = _compiled(text)
-    assert compiled is not None, text
-    return compiled[0]
 
 
 def _value(node: ast.expr, values: Mapping[str, float]) -> float:
@@ -122,9 +130,7 @@ def _value(node: ast.expr, values: Mapping[str, float]) -> float:
     return left / right if isinstance(node.op, ast.Div) else float(left**right)
 
 
-def _agree(
-    first: Callable[[Mapping[str, float]], float], second: Callable[[Mapping[str, float]], float], names: set[str]
-) -> bool:
+def _agree(first: Formula, second: Formula, names: set[str]) -> bool:
     for sample in _SAMPLES:
         values = dict(zip(sorted(names), sample, strict=False))
         try:

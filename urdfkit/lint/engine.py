@@ -141,7 +141,8 @@ class _Checker:
             findings += self._ask_source_rules(file, model)
         findings += self._ask_fault_rules(model, entry)
         if model.expanded.root is not None and not entry.is_library:
-            for rule in (*robot_rules(model.robot), *(rule for rule in self.foreign if issubclass(rule, RobotRule))):
+            foreign = [rule for rule in self.foreign if issubclass(rule, RobotRule)]
+            for rule in (*robot_rules(model.robot, self.options.target), *foreign):
                 if self._applies(rule):
                     findings += rule().check(model)
         if any("urdfkit:" in source.text for source in model.expanded.sources.values()):

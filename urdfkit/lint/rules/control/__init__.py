@@ -9,28 +9,45 @@ if TYPE_CHECKING:
 
 def robot_rules() -> tuple[type[RobotRule], ...]:
     """Return the rules on the expanded robot."""
+    from urdfkit.lint.rules.control.two_drivers import TwoDrivers
+
+    return (TwoDrivers,)
+
+
+def transmission_rules() -> tuple[type[RobotRule], ...]:
+    """Return the rules on transmissions."""
     from urdfkit.lint.rules.control.hardware_interface_unknown import HardwareInterfaceUnknown
     from urdfkit.lint.rules.control.hardware_interface_unprefixed import HardwareInterfaceUnprefixed
-    from urdfkit.lint.rules.control.interface_combination import InterfaceCombination
     from urdfkit.lint.rules.control.old_transmission_syntax import OldTransmissionSyntax
-    from urdfkit.lint.rules.control.ros2_control_hardware import HardwareMismatch
-    from urdfkit.lint.rules.control.ros2_control_in_gazebo import Ros2ControlInGazebo
-    from urdfkit.lint.rules.control.ros2_control_joint_undefined import Ros2ControlJointUndefined
-    from urdfkit.lint.rules.control.transmission_in_ros2 import TransmissionInRos2
     from urdfkit.lint.rules.control.transmission_interface_missing import TransmissionInterfaceMissing
     from urdfkit.lint.rules.control.transmission_joint_undefined import TransmissionJointUndefined
-    from urdfkit.lint.rules.control.two_drivers import TwoDrivers
 
     return (
         TransmissionJointUndefined,
         TransmissionInterfaceMissing,
         HardwareInterfaceUnknown,
         HardwareInterfaceUnprefixed,
-        TransmissionInRos2,
         OldTransmissionSyntax,
+    )
+
+
+def ros2_control_rules() -> tuple[type[RobotRule], ...]:
+    """Return the rules on ``<ros2_control>``."""
+    from urdfkit.lint.rules.control.interface_combination import InterfaceCombination
+    from urdfkit.lint.rules.control.ros2_control_hardware import HardwareMismatch
+    from urdfkit.lint.rules.control.ros2_control_in_gazebo import Ros2ControlInGazebo
+    from urdfkit.lint.rules.control.ros2_control_joint_undefined import Ros2ControlJointUndefined
+
+    return (
         Ros2ControlJointUndefined,
         Ros2ControlInGazebo,
         HardwareMismatch,
         InterfaceCombination,
-        TwoDrivers,
     )
+
+
+def targeted_rules() -> tuple[type[RobotRule], ...]:
+    """Return the rules that are asked for some targets only."""
+    from urdfkit.lint.rules.control.transmission_in_ros2 import TransmissionInRos2
+
+    return (TransmissionInRos2,)

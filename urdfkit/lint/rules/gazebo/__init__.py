@@ -14,18 +14,15 @@ def robot_rules() -> tuple[type[RobotRule], ...]:
     from urdfkit.lint.rules.gazebo.duplicate_sensor_or_plugin import DuplicateSensorOrPlugin
     from urdfkit.lint.rules.gazebo.fixed_joint_lumping import FixedJointLumping
     from urdfkit.lint.rules.gazebo.friction_direction_zero import FrictionDirectionZero
-    from urdfkit.lint.rules.gazebo.gazebo_material import GazeboMaterial
     from urdfkit.lint.rules.gazebo.gazebo_reference_undefined import GazeboReferenceUndefined
     from urdfkit.lint.rules.gazebo.gazebo_unknown_tag import GazeboUnknownTag
     from urdfkit.lint.rules.gazebo.plugin_filename_malformed import PluginFilenameMalformed
     from urdfkit.lint.rules.gazebo.plugin_joint_undefined import PluginJointUndefined
-    from urdfkit.lint.rules.gazebo.plugin_lib_wrong_generation import PluginLibWrongGeneration
     from urdfkit.lint.rules.gazebo.plugin_link_undefined import PluginLinkUndefined
     from urdfkit.lint.rules.gazebo.plugin_name_case import PluginNameCase
     from urdfkit.lint.rules.gazebo.plugin_param_unknown import PluginParamUnknown
     from urdfkit.lint.rules.gazebo.plugin_param_wrong_generation import PluginParamWrongGeneration
     from urdfkit.lint.rules.gazebo.sensor_frame_undefined import SensorFrameUndefined
-    from urdfkit.lint.rules.gazebo.sensor_type_deprecated import SensorTypeDeprecated
     from urdfkit.lint.rules.gazebo.value_attribute_in_sdf import ValueAttributeInSdf
 
     return (
@@ -35,16 +32,26 @@ def robot_rules() -> tuple[type[RobotRule], ...]:
         SensorFrameUndefined,
         PluginParamUnknown,
         PluginParamWrongGeneration,
-        PluginLibWrongGeneration,
         PluginNameCase,
         PluginFilenameMalformed,
         GazeboUnknownTag,
         ValueAttributeInSdf,
         FrictionDirectionZero,
         DeprecatedGazeboTag,
-        SensorTypeDeprecated,
         FixedJointLumping,
         DuplicateSensorOrPlugin,
-        GazeboMaterial,
         ConflictingBlocks,
+    )
+
+
+def targeted_rules() -> tuple[type[RobotRule], ...]:
+    """Return the rules that are asked for some targets only."""
+    from urdfkit.lint.rules.gazebo.gazebo_material import GazeboMaterial
+    from urdfkit.lint.rules.gazebo.plugin_lib_wrong_generation import PluginLibWrongGeneration
+    from urdfkit.lint.rules.gazebo.sensor_type_deprecated import SensorTypeDeprecated
+
+    return (
+        PluginLibWrongGeneration,
+        SensorTypeDeprecated,
+        GazeboMaterial,
     )

@@ -16,7 +16,6 @@ def robot_rules() -> tuple[type[RobotRule], ...]:
     from urdfkit.lint.rules.tree.multiple_roots import MultipleRoots
     from urdfkit.lint.rules.tree.no_root_or_cycle import NoRootOrCycle
     from urdfkit.lint.rules.tree.parent_link_undefined import ParentLinkUndefined
-    from urdfkit.lint.rules.tree.root_link_has_inertia import RootLinkHasInertia
 
     return (
         ParentLinkUndefined,
@@ -26,5 +25,11 @@ def robot_rules() -> tuple[type[RobotRule], ...]:
         MultipleParents,
         DuplicateLink,
         DuplicateJoint,
-        RootLinkHasInertia,
     )
+
+
+def targeted_rules() -> tuple[type[RobotRule], ...]:
+    """Return the rules that are asked for some targets only."""
+    from urdfkit.lint.rules.tree.root_link_has_inertia import RootLinkHasInertia
+
+    return (RootLinkHasInertia,)
