@@ -22,17 +22,7 @@ def agreement() -> Any:
     return importlib.import_module("agreement")
 
 
-UNDETERMINED = pytest.mark.xfail(
-    strict=False,
-    reason="how four wheels share the load is determined to 1e-7 only, and friction turns a free wheel by it",
-)
-"""artoo: 3 of these 50 states are 7e-6 apart at most, gem_e2: 2 are 8e-8."""
-
-
-@pytest.mark.parametrize(
-    "robot",
-    [pytest.param(name, marks=[UNDETERMINED] if name in ("artoo", "gem_e2") else []) for name in robot_names()],
-)
+@pytest.mark.parametrize("robot", robot_names())
 def test_a_step_is_the_same_in_both_engines(robot: str) -> None:
     found = agreement().compare(robot, states=50)
     assert found.states == 50

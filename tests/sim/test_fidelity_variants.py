@@ -129,7 +129,7 @@ def test_whatever_stands_on_an_incline_sticks_or_slides(start: Start, name: str,
         simulator.run(1.0)
         expected = max(0.0, G * (math.sin(angle) - mu * math.cos(angle)))
         speed = math.hypot(*simulator.state.base_velocity[:2])
-        assert speed == pytest.approx(expected, rel=2e-3, abs=1e-8)
+        assert speed == pytest.approx(expected, rel=2e-3, abs=1e-9)
         assert math.hypot(*simulator.state.base_pose[:2]) == pytest.approx(expected / 2, rel=5e-3, abs=1e-7)
 
 

@@ -30,7 +30,8 @@ from urdfkit.sim.engine.guess import (
     revise_guess,
     turn_slips,
 )
-from urdfkit.sim.engine.linear import eliminate_and_solve, factor_and_solve
+from urdfkit.sim.engine.linear import factor_and_solve
+from urdfkit.sim.engine.slide import CONTRADICTION, slide, slide_softly
 
 SOFTNESS = 1e-9
 """Diagonal added to A, relative to it: it shares a load among redundant contacts."""
@@ -40,6 +41,10 @@ ROUNDS = 6
 """Most solutions for a softness that each starts from the one before, so that none of it is left in the law."""
 MEMORY = 0.999
 """How much of the last step's impulse the softness is measured from: a load that stays lets nothing creep."""
+POLISHES = 6
+"""Most steps of Newton's method from the result of softer problems to what redundant contacts share their load as."""
+EXACTLY = -2
+"""What `try_guess` returns for contacts that slide without softness."""
 ATTEMPTS = 12
 """Most guesses for one softness."""
 SOFTEST = 1e-2
@@ -65,7 +70,7 @@ def try_guess(floats: Any, integers: Any, rows: int, rest: Any, softness: float)
     """Find the impulses at which all rows do what ``state`` says, the softness measured from the impulses `rest`.
 
     Returns:
-        1, or -1 where contacts slide, and 0 if there are no such impulses.
+        1, or -1 where contacts slide, `EXACTLY` where they do without softness, and 0 if there are no such impulses.
     """
     A = field(floats, integers, At.A)
     B = field(floats, integers, At.B)
@@ -99,8 +104,10 @@ def try_guess(floats: Any, integers: Any, rows: int, rest: Any, softness: float)
             x[k] = high[k]
         k += 1
     if sliding:
+        if softness == SOFTNESS and slide(floats, integers, rows, n, rest):
+            return EXACTLY
         soft = max(softness, SLIDING_SOFTNESS)
-        return -1 if try_sliding(floats, integers, rows, n, rest, soft) else 0
+        return -1 if slide_softly(floats, integers, rows, n, rest, soft) else 0
     for a in range(n):
         i = index[a]
         total = -g[i] + softness * A[i * rows + i] * rest[i]
@@ -116,59 +123,6 @@ def try_guess(floats: Any, integers: Any, rows: int, rest: Any, softness: float)
     for a in range(n):
         x[index[a]] = y[a]
     return 1
-
-
-@compiled
-def try_sliding(floats: Any, integers: Any, rows: int, n: int, rest: Any, softness: float) -> bool:
-    """Find the impulses, where contacts slide, of a step of Newton's method; return whether there are any.
-
-    The unknowns of a sliding contact are the impulse along its normal, with which friction grows, and the one across
-    its friction, which turns it.
-    """
-    A = field(floats, integers, At.A)
-    B = field(floats, integers, At.B)
-    g = field(floats, integers, At.g)
-    mu = field(floats, integers, At.mu)
-    slip = field(floats, integers, At.slip)
-    x = field(floats, integers, At.x)
-    y = field(floats, integers, At.y)
-    state = field(integers, integers, At.state)
-    index = field(integers, integers, At.index)
-    row = rows * (rows - 1)  # beyond what n unknowns need, as there are fewer than rows
-    for a in range(n):
-        i = index[a]
-        diagonal = softness * A[i * rows + i]
-        if state[i] == SLIDES and mu[i] == 0.0:
-            # Across: from the direction of slip a quarter turn back, so that what pushes there turns friction on.
-            first, second = slip[i + 1], -slip[i]
-            for j in range(rows):
-                B[row + j] = first * A[i * rows + j] + second * A[(i + 1) * rows + j]
-            total = -first * g[i] - second * g[i + 1]
-            diagonal += slip[i - 1]
-        else:
-            for j in range(rows):
-                B[row + j] = A[i * rows + j]
-            total = diagonal * rest[i] - g[i]
-        for j in range(rows):
-            total -= B[row + j] * x[j]
-        y[a] = total
-        b = 0
-        while b < n:
-            j = index[b]
-            if state[j] == SLIDES:
-                first, second = slip[j + 1], slip[j + 2]
-                B[a * n + b] = B[row + j] - mu[j] * (B[row + j + 1] * first + B[row + j + 2] * second)
-                B[a * n + b + 1] = B[row + j + 1] * second - B[row + j + 2] * first
-                b += 2
-            else:
-                B[a * n + b] = B[row + j]
-                b += 1
-        B[a * n + a] += diagonal
-    if not eliminate_and_solve(n, B, y):
-        return False
-    for a in range(n):
-        x[index[a]] = y[a]
-    return True
 
 
 @inlined
@@ -293,19 +247,40 @@ def approach(floats: Any, integers: Any, rows: int, tiny: float) -> int:
 
 
 @inlined
-def softened(floats: Any, integers: Any, rows: int, rest: Any) -> float:
+def left_over(floats: Any, integers: Any, rows: int) -> float:
     """Return how much velocity the softness of sliding guesses lets through [m/s or rad/s], 0 where nothing slides."""
     A = field(floats, integers, At.A)
+    g = field(floats, integers, At.g)
     x = field(floats, integers, At.x)
     mu = field(floats, integers, At.mu)
     state = field(integers, integers, At.state)
     sliding = False
     off = 0.0
     for k in range(rows):
-        if state[k] == HOLDS or (state[k] == SLIDES and mu[k] > 0.0):
-            sliding = sliding or state[k] == SLIDES
-            off = max(off, A[k * rows + k] * abs(x[k] - rest[k]))
-    return SLIDING_SOFTNESS * off if sliding else 0.0
+        sliding = sliding or state[k] == SLIDES
+    if sliding:
+        for k in range(rows):
+            if state[k] == HOLDS or (state[k] == SLIDES and mu[k] > 0.0):
+                off = max(off, abs(result(rows, A, g, x, k)))
+    return off
+
+
+@inlined
+def determine(floats: Any, integers: Any, rows: int, tiny: float) -> None:
+    """Share the load of redundant contacts that slide, after softer problems, as without them."""
+    x = field(floats, integers, At.x)
+    near = field(floats, integers, At.near_x)
+    before = field(floats, integers, At.before)
+    for k in range(rows):
+        near[k] = x[k]
+    for _ in range(POLISHES):
+        if try_guess(floats, integers, rows, before, SOFTNESS) != EXACTLY:
+            break
+        there = turn_slips(floats, integers, rows, x, tiny)
+        if revise_guess(floats, integers, rows, x, tiny) and there:
+            return
+    for k in range(rows):
+        x[k] = near[k]
 
 
 @inlined
@@ -349,8 +324,10 @@ def solve(floats: Any, integers: Any, rows: int) -> int:
         tried += wrong + 1
         if wrong == ATTEMPTS:
             tried = approach(floats, integers, rows, tiny)
+            if tried != 0:
+                determine(floats, integers, rows, tiny)
             break
-        if softened(floats, integers, rows, rest) <= tiny:
+        if left_over(floats, integers, rows) <= CONTRADICTION + tiny:
             break
         rest = near
         for k in range(rows):

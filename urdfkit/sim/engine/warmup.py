@@ -22,6 +22,7 @@ KERNEL_MODULES = (
     "linear",
     "rows",
     "servo",
+    "slide",
     "solve",
     "spatial",
     "step",
