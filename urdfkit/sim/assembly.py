@@ -210,7 +210,7 @@ class Assembly:
                 is_ground = ground is not None and entry.thing.name == ground.name
                 bodies += bodies_of_model(entry.thing, self._make.meshes, is_ground=is_ground)
         first = robots[0]
-        together = bool(bodies or robots[1:])
+        together = bool(bodies or robots[1:] or first.self_collide)
         if self._provider == "compiled":
             about = announcement(world=together)
             warmup(lambda count: None if count else self._note(about), world=together)
@@ -224,6 +224,7 @@ class Assembly:
             base=first.base.tolist(),
             provider=self._provider,
             self_collide=first.self_collide,
+            weightless=first.weightless,
             others=[robot.member for robot in robots[1:]],
             bodies=bodies,
             sleep=self._sleep,

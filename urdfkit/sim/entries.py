@@ -93,6 +93,7 @@ class Entries:
                     scene=scene_of_tree(tree, self.meshes),
                     surfaces=surfaces_of_tree(tree, self._note),
                     self_collide=tree.self_collide,
+                    weightless=tree.weightless,
                     is_robot=bool(tree.robot.gazebo),
                 )
             )

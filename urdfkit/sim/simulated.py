@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -18,6 +18,7 @@ from urdfkit.sim.engine import Engine, Ground, Member, Surface
 from urdfkit.sim.engine.arrays import FOUND_CONTACTS
 from urdfkit.sim.engine.part import Part
 from urdfkit.sim.installed import Installed, install
+from urdfkit.sim.link_options import self_colliding, weightless_links
 from urdfkit.sim.loading import require_masses
 from urdfkit.sim.motors import Motors, Servos
 from urdfkit.sim.plugin import Sensor, Setup
@@ -52,7 +53,8 @@ class SimulatedRobot:
         bolted: its root link is bolted to the world. A root link called ``world`` always is.
         scene: its shapes; those written when None.
         surfaces: how its links rub; as written when None.
-        self_collide: whether its links touch each other.
+        self_collide: names of its links that touch its others; as written when None.
+        weightless: names of its links that gravity does not pull; as written when None.
         is_robot: whether it publishes joint states and transforms; a door does not.
 
     Raises:
@@ -85,7 +87,8 @@ class SimulatedRobot:
         bolted: bool = False,
         scene: Scene | None = None,
         surfaces: Mapping[str, Surface] | None = None,
-        self_collide: bool = False,
+        self_collide: Collection[str] | None = None,
+        weightless: Collection[str] | None = None,
         is_robot: bool = True,
     ) -> None:
         self.robot, self.name = robot, name
@@ -100,7 +103,8 @@ class SimulatedRobot:
         self.base = self.spawn.place(self.kinematics, self.scene, ground)
         require_masses(self.kinematics, self.spawn.configuration(self.kinematics, self.base)[0], note)
         self.surfaces = surfaces_of(robot) if surfaces is None else surfaces
-        self.self_collide = self_collide
+        self.self_collide = self_colliding(robot) if self_collide is None else self_collide
+        self.weightless = weightless_links(robot) if weightless is None else weightless
         self.plugins = Installed()
         self.controllers = Controllers([])
         self._bus: _OwnBus | None = None
@@ -127,7 +131,7 @@ class SimulatedRobot:
     def member(self) -> Member:
         """What the engine makes one of its robots of."""
         base = self.base.tolist()
-        return Member(self.kinematics, self.shapes, self.surfaces, base, self.self_collide, self.name)
+        return Member(self.kinematics, self.shapes, self.surfaces, base, self.self_collide, self.name, self.weightless)
 
     def attach(self, engine: Engine, part: Part) -> None:
         """Be one of an engine's robots from now on."""

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from urdfkit.sim.engine.part import Part
 
 Array = NDArray[np.float64]
+NONE = np.zeros(0), np.zeros((0, 3))
+"""No weightless bodies."""
 Placement = tuple[tuple[float, float, float], tuple[float, float, float, float]]
 
 
@@ -131,7 +133,8 @@ class State:
         """Kinetic and potential energy of the robot [J], the latter zero at the world's origin."""
         if self._part is self._engine:
             return self._engine.energy()
-        return energy_of(self._kinematics, self._part.q, self._part.v, self._base, self._engine._arrays["gravity"])
+        part, gravity = self._part, self._engine._arrays["gravity"]
+        return energy_of(self._kinematics, part.q, part.v, self._base, gravity, part.weightless)
 
     def position(self, joint: str) -> float:
         """Return a joint's position [rad] or [m]; that of a continuous joint counts its turns.
@@ -231,7 +234,14 @@ def in_the_world(pose: tuple[float, ...], twist: tuple[float, ...]) -> tuple[flo
     return (*rotate(pose[3:], twist[:3]), *rotate(pose[3:], twist[3:]))
 
 
-def energy_of(kinematics: Kinematics, q: Array, v: Array, base: Array | None, gravity: Array) -> tuple[float, float]:
+def energy_of(
+    kinematics: Kinematics,
+    q: Array,
+    v: Array,
+    base: Array | None,
+    gravity: Array,
+    weightless: tuple[Array, Array] = NONE,
+) -> tuple[float, float]:
     """Return kinetic and potential energy of a robot [J], the latter zero at the world's origin.
 
     Args:
@@ -240,13 +250,18 @@ def energy_of(kinematics: Kinematics, q: Array, v: Array, base: Array | None, gr
         v: velocity; shape (nv,).
         base: pose of the root link of a robot that is bolted down; None for one that floats.
         gravity: [m/s²]; shape (3,).
+        weightless: see `Part.weightless`.
     """
     import pinocchio
 
     pin: Any = pinocchio
     model, data = kinematics.model, kinematics.data
     kinetic = pin.computeKineticEnergy(model, data, q, v)
-    centre = pin.centerOfMass(model, data, q)
+    moment = data.mass[0] * pin.centerOfMass(model, data, q)
+    mass = data.mass[0]
+    for k, (light, at) in enumerate(zip(*weightless, strict=True), 1):
+        moment = moment - light * data.oMi[k].act(at)
+        mass -= light
     if base is not None:
-        centre = base[:3] + rotate(base[3:], centre)
-    return float(kinetic), float(-data.mass[0] * (gravity @ centre))
+        moment = mass * base[:3] + rotate(base[3:], moment)
+    return float(kinetic), float(-gravity @ moment)

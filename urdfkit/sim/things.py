@@ -212,7 +212,18 @@ def _merged(name: str, around: Pose, links: Sequence[Placed], meshes: MeshLoader
         off = c - centre
         inertia += tensor + m * (off @ off * np.eye(3) - np.outer(off, off))
     where = seven(compose(around, links[0][1]))
-    return Body(name, where, tuple(pieces), mass=mass, centre=tuple(centre.tolist()), inertia=inertia.tolist())
+    light = [0.0 if link.gravity else m for (_, _, link), m in zip(links, masses, strict=True)]
+    light_centre = np.array(light) @ np.array(centres) / sum(light) if any(light) else np.zeros(3)
+    return Body(
+        name,
+        where,
+        tuple(pieces),
+        mass=mass,
+        centre=tuple(centre.tolist()),
+        inertia=inertia.tolist(),
+        weightless=float(sum(light)),
+        weightless_centre=tuple(light_centre.tolist()),
+    )
 
 
 def _require_ordinary(link: WorldLink, name: str) -> None:
@@ -220,10 +231,10 @@ def _require_ordinary(link: WorldLink, name: str) -> None:
         raise SimulationError(
             f"the inertia of link `{link.name}` of `{name}` is impossible: {why}", position=link.position
         )
-    if not link.gravity or link.kinematic:
-        wish = "to float without gravity" if not link.gravity else "to be moved by command only"
+    if link.kinematic:
         raise SimulationError(
-            f"link `{link.name}` of `{name}` asks {wish}, which cannot be simulated yet", position=link.position
+            f"link `{link.name}` of `{name}` asks to be moved by command only, which cannot be simulated yet",
+            position=link.position,
         )
 
 

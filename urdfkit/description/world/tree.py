@@ -7,7 +7,7 @@ that every link keeps the frame that its file gives it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import isinf
 
 from urdfkit.description.element import Element
@@ -51,7 +51,8 @@ class Tree:
         bolted: whether it hangs on the world.
         links: name in `robot` → link as written, with its shapes.
         poses: name in `robot` → pose in the model with every joint at zero.
-        self_collide: whether its links touch each other.
+        self_collide: names in `robot` of the links that touch the others.
+        weightless: names in `robot` of the links that gravity does not pull.
     """
 
     name: str
@@ -61,7 +62,8 @@ class Tree:
     bolted: bool
     links: dict[str, WorldLink]
     poses: dict[str, Pose]
-    self_collide: bool
+    self_collide: frozenset[str]
+    weightless: frozenset[str]
 
 
 @record(eq=False)
@@ -159,8 +161,13 @@ def tree_of(model: WorldModel, group: Group) -> Tree:
         group.bolted,
         {name[len(prefix) :]: link for name, _, link in group.links},
         {name[len(prefix) :]: pose for name, pose, _ in group.links},
-        model.self_collide,
+        _named(group, prefix, lambda link: model.self_collide if link.self_collide is None else link.self_collide),
+        _named(group, prefix, lambda link: not link.gravity),
     )
+
+
+def _named(group: Group, prefix: str, holds: Callable[[WorldLink], bool]) -> frozenset[str]:
+    return frozenset(name[len(prefix) :] for name, _, link in group.links if holds(link))
 
 
 class _Builder:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -43,6 +43,8 @@ class Body:
         mass: [kg]; of one that moves.
         centre: of mass, in the body [m].
         inertia: about the centre of mass, along the body's axes [kg·m²]; shape (3, 3).
+        weightless: mass of it that gravity does not pull [kg].
+        weightless_centre: centre of that mass, in the body [m].
     """
 
     name: str
@@ -52,6 +54,8 @@ class Body:
     mass: float = 1.0
     centre: Sequence[float] = (0.0, 0.0, 0.0)
     inertia: Sequence[Sequence[float]] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    weightless: float = 0.0
+    weightless_centre: Sequence[float] = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,13 +67,19 @@ class Member:
         shapes: its shapes; those that are no collisions are ignored.
         surfaces: link name → `Surface`; a link that is not named has mu 1.
         base: pose of a bolted root link, x y z [m] and quaternion x y z w.
-        self_collide: whether its links touch each other; those with a joint between them never do.
+        self_collide: the links that touch its others, or True for all; those with a joint between them never do.
         name: put before its links' names in contacts, with ``::``, unless empty.
+        weightless: links that gravity does not pull.
     """
 
     kinematics: Kinematics
     shapes: Sequence[Shape] = ()
     surfaces: Mapping[str, Surface] = field(default_factory=dict)
     base: Sequence[float] = AT_ORIGIN
-    self_collide: bool = False
+    self_collide: bool | Collection[str] = False
     name: str = ""
+    weightless: Collection[str] = ()
+
+    def meets(self, link: str) -> bool:
+        """Return whether a link touches the robot's others."""
+        return self.self_collide if isinstance(self.self_collide, bool) else link in self.self_collide

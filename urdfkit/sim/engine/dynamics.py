@@ -111,6 +111,8 @@ def forward_sweep(floats: Any, integers: Any, tree: int) -> None:
     mass = field(floats, integers, At.mass)
     centre = field(floats, integers, At.centre)
     tensor = field(floats, integers, At.tensor)
+    weightless = field(floats, integers, At.weightless)
+    weightless_centre = field(floats, integers, At.weightless_centre)
     gravity = field(floats, integers, At.gravity)
     v = field(floats, integers, At.v)
     R = field(floats, integers, At.R)
@@ -161,7 +163,12 @@ def forward_sweep(floats: Any, integers: Any, tree: int) -> None:
         store_tensor(composite_T, i, T)
         needed = spatial_add(momentum(m, h, T, acceleration), force_cross(velocity, momentum(m, h, T, velocity)))
         weight = scale(m, g)
-        store_spatial(force, i, (sub(needed[0], weight), sub(needed[1], cross(c, weight))))
+        needed = (sub(needed[0], weight), sub(needed[1], cross(c, weight)))
+        if weightless[i] != 0.0:
+            lift = scale(weightless[i], g)
+            at = add(r0, rotate(R0, load_vector(weightless_centre, i)))
+            needed = spatial_add(needed, (lift, cross(at, lift)))
+        store_spatial(force, i, needed)
 
 
 @inlined

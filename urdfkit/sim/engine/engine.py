@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Literal
 
 import numpy as np
@@ -45,7 +45,8 @@ class Engine(Part):
         surfaces: link name → `Surface`; a link that is not named has mu 1.
         base: pose of the root link of a robot without floating base, x y z [m] and quaternion x y z w.
         provider: who computes mass matrix, bias and Jacobians: the compiled kernel, or Pinocchio (the reference, slow).
-        self_collide: whether the robot's links touch each other; those with a joint between them never do.
+        self_collide: the robot's links that touch its others, True for all; those with a joint between them never do.
+        weightless: the robot's links that gravity does not pull.
         others: more robots.
         bodies: what else is there, free or not.
         sleep: whether what is at rest may sleep, see `world.sleep`: it costs nothing then. One robot alone never does,
@@ -73,7 +74,8 @@ class Engine(Part):
         surfaces: Mapping[str, Surface] | None = None,
         base: Sequence[float] | None = None,
         provider: Provider = "compiled",
-        self_collide: bool = False,
+        self_collide: bool | Collection[str] = False,
+        weightless: Collection[str] = (),
         others: Sequence[Member] = (),
         bodies: Sequence[Body] = (),
         sleep: bool = True,
@@ -84,7 +86,8 @@ class Engine(Part):
         self.dt = float(dt)
         self.t = 0.0
         self.steps = 0
-        own = Member(kinematics, shapes, surfaces or {}, AT_ORIGIN if base is None else base, self_collide)
+        bolted_at = AT_ORIGIN if base is None else base
+        own = Member(kinematics, shapes, surfaces or {}, bolted_at, self_collide, weightless=weightless)
         self._members = (own, *others)
         self._free = tuple(body for body in bodies if not body.static)
         if len({body.name for body in self._free}) < len(self._free):
@@ -170,8 +173,12 @@ class Engine(Part):
         M = self.mass_matrix()
         a = self._arrays
         n = self.kinematics.model.njoints - 1
-        centres = a["P"][0] + a["r"][:n] + np.einsum("bij,bj->bi", a["R"][:n].reshape(-1, 3, 3), a["centre"][:n])
-        return float(0.5 * self.v @ M @ self.v), float(-(a["mass"][:n, None] * centres).sum(0) @ a["gravity"])
+        places, axes = a["P"][0] + a["r"][:n], a["R"][:n].reshape(-1, 3, 3)
+        moment = sum(
+            sign * a[mass][:n] @ (places + np.einsum("bij,bj->bi", axes, a[centre][:n]))
+            for sign, mass, centre in ((1.0, "mass", "centre"), (-1.0, "weightless", "weightless_centre"))
+        )
+        return float(0.5 * self.v @ M @ self.v), float(-moment @ a["gravity"])
 
     def mass_matrix(self) -> Array:
         """Return M(q) of the robot [kg, kg·m or kg·m²]; shape (nv, nv)."""

@@ -41,6 +41,7 @@ class Touching:
         link: what contacts call it.
         body: number of the body it is on; -1 when it does not move, and then it is placed in the world.
         owner: number of the robot or body it belongs to.
+        meets: whether it touches others of its owner.
         kind: of shape.
         size: [m], see `collide`.
         R: axes in the body.
@@ -57,6 +58,7 @@ class Touching:
     link: str
     body: int
     owner: int
+    meets: bool
     kind: int
     size: tuple[float, float, float]
     R: Array
@@ -87,6 +89,7 @@ def touching(members: Sequence[Member], bodies: Sequence[Body]) -> list[Touching
             bolted = frame.parentJoint == 0
             at = -1 if bolted else first + frame.parentJoint - 1
             touch = _touch(shape, surface, link, at, owner, base @ placement if bolted else placement)
+            touch = replace(touch, meets=member.meets(shape.body))
             if surface.frame:
                 other = model.frames[member.kinematics.frame(surface.frame)]
                 axes = (base if other.parentJoint == 0 else np.eye(4))[:3, :3] @ other.placement.rotation
@@ -123,7 +126,7 @@ def _touch(shape: Shape, surface: Surface, link: str, body: int, owner: int, pla
     R, p = placement[:3, :3], placement[:3, 3]
     along = R @ np.array(surface.fdir1 or (0.0, 0.0, 0.0))
     return Touching(
-        link, body, owner, kind, size, R, p, radius, surface.mu1, surface.mu2, along, body, vertices, triangles
+        link, body, owner, False, kind, size, R, p, radius, surface.mu1, surface.mu2, along, body, vertices, triangles
     )
 
 
@@ -179,7 +182,7 @@ def fill(
     moving = [touch for touch in touches if touch.body >= 0]
     mimics = [len(member.kinematics.mimic_names) for member in members] + [0] * len(free)
     owners = {touch.owner for touch in touches}
-    meets = len(owners) > 1 or any(member.self_collide for member in members)
+    meets = len(owners) > 1 or any(touch.meets for touch in touches)
     places = [_add(geometry, touch) if meets else 0 for touch in touches]
     pairs = min(MOST_PAIRS, len(moving) * len(touches)) if meets else 0
     contacts = sum(
@@ -256,6 +259,7 @@ def _fill_shapes(arrays: Arrays, touches: Sequence[Touching], features: Sequence
         arrays["shape_kind"][k] = touch.kind
         arrays["shape_body"][k] = touch.body
         arrays["shape_owner"][k] = touch.owner
+        arrays["shape_meets"][k] = touch.meets
         arrays["shape_feature"][k] = feature
         arrays["shape_vertex"][k] = vertex
         arrays["shape_R"][k] = touch.R.ravel()
@@ -271,6 +275,9 @@ def _fill_shapes(arrays: Arrays, touches: Sequence[Touching], features: Sequence
         feature += features[k]
         vertex += len(touch.vertices)
     arrays["shape_vertex"][len(touches)] = vertex
+    for touch in touches:
+        if touch.meets and touch.owner < len(arrays["tree_meets"]):
+            arrays["tree_meets"][touch.owner] = 1
     trees = [int(arrays["body_tree"][touch.body]) for touch in touches if touch.body >= 0]
     arrays["tree_shape"][:] = np.searchsorted(trees, np.arange(len(arrays["tree_shape"])))
     for k in range(len(trees), len(touches)):

@@ -73,6 +73,12 @@ class Part:
         return positions(self._arrays, self._tree)
 
     @property
+    def weightless(self) -> tuple[Array, Array]:
+        """Mass [kg] of each body that gravity does not pull, and its centre in the body [m]; shapes (n,), (n, 3)."""
+        bodies = slice(*self._arrays["tree_body"][self._tree : self._tree + 2].tolist())
+        return self._arrays["weightless"][bodies], self._arrays["weightless_centre"][bodies]
+
+    @property
     def asleep(self) -> bool:
         """Whether it is at rest and left alone until something happens to it or is asked of it."""
         return bool(self._arrays["asleep"][self._tree])

@@ -168,6 +168,7 @@ class Reference:
             own = np.triu(pin.crba(tree.model, tree.data, q))
             M[tree.dofs, tree.dofs] = own + np.triu(own, 1).T
             bias[tree.dofs] = pin.nonLinearEffects(tree.model, tree.data, q, v[tree.dofs])
+            bias[tree.dofs] -= pin.computeGeneralizedGravity(tree.weightless, tree.weightless_data, q)
         return M, bias - M @ turning(self.a, v)
 
     def _place(self, v: Array) -> None:

@@ -19,6 +19,13 @@ class Tree:
         self.model = model
         self.data = model.createData()
         self.model.gravity.linear = arrays["gravity"]
+        # A model of what gravity does not pull: its weight is taken off again.
+        self.weightless = pin.Model(self.model)
+        first = int(arrays["tree_body"][number])
+        for k in range(1, model.njoints):
+            mass, centre = arrays["weightless"][first + k - 1], arrays["weightless_centre"][first + k - 1]
+            self.weightless.inertias[k] = pin.Inertia(mass, centre, np.zeros((3, 3)))
+        self.weightless_data = self.weightless.createData()
         self.number = number
         self.first_body = int(arrays["tree_body"][number])
         first, beyond = arrays["tree_dof"][number : number + 2].tolist()

@@ -59,7 +59,6 @@ def fill_member(arrays: Arrays, tree: int, member: Member) -> None:
     at = int(arrays["tree_s"][tree])
     arrays["base"][tree] = base[:3, 3]
     arrays["tree_floats"][tree] = kinematics.floating_base
-    arrays["tree_meets"][tree] = member.self_collide
     for k in range(model.njoints - 1):
         b = first_body + k
         joint, inertia = model.joints[k + 1], model.inertias[k + 1]
@@ -81,6 +80,7 @@ def fill_member(arrays: Arrays, tree: int, member: Member) -> None:
         if joint.nq == joint.nv == 1:
             arrays["lower"][d] = model.lowerPositionLimit[joint.idx_q]
             arrays["upper"][d] = model.upperPositionLimit[joint.idx_q]
+    _fill_weightless(arrays, first_body, member)
     beyond = first_dof + model.nv
     arrays["damping"][first_dof:beyond] = model.damping
     arrays["friction"][first_dof:beyond] = model.upperDryFrictionLimit
@@ -90,6 +90,23 @@ def fill_member(arrays: Arrays, tree: int, member: Member) -> None:
         master = -1 if coupling.master is None else first_dof + kinematics.velocity_index(coupling.master)
         arrays["mimic_master"][k] = master
         arrays["mimic_factor"][k], arrays["mimic_offset"][k] = coupling.multiplier, coupling.offset
+
+
+def _fill_weightless(arrays: Arrays, first_body: int, member: Member) -> None:
+    """Write the mass and centre of what gravity does not pull, of each body the links that are fixed to it."""
+    kinematics = member.kinematics
+    masses = arrays["weightless"]
+    for name in member.weightless:
+        frame = kinematics.model.frames[kinematics.frame(name)]
+        inertial = kinematics.robot.link_by_name[name].inertial
+        if inertial is None or frame.parentJoint == 0:
+            continue
+        b = first_body + frame.parentJoint - 1
+        centre = frame.placement.act(np.array(inertial.origin.xyz, dtype=float))
+        arrays["weightless_centre"][b] *= masses[b]
+        arrays["weightless_centre"][b] += inertial.mass * centre
+        masses[b] += inertial.mass
+        arrays["weightless_centre"][b] /= max(masses[b], np.finfo(float).tiny)
 
 
 def fill_free(arrays: Arrays, tree: int, body: Body) -> None:
@@ -111,6 +128,7 @@ def fill_free(arrays: Arrays, tree: int, body: Body) -> None:
     arrays["kind"][b], arrays["parent"][b] = FREE, -1
     arrays["place_R"][b] = np.eye(3).ravel()
     arrays["mass"][b], arrays["centre"][b], arrays["tensor"][b] = body.mass, body.centre, tensor[UPPER]
+    arrays["weightless"][b], arrays["weightless_centre"][b] = body.weightless, body.weightless_centre
     _fill_joint(arrays, b, int(arrays["tree_dof"][tree]), at, np.eye(6), -1)
     place_free(arrays, tree, body.pose)
 

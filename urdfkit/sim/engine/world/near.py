@@ -204,6 +204,7 @@ def find_pairs(floats: Any, integers: Any, trees: int, shapes: int, room: int) -
     asleep = field(integers, integers, At.asleep)
     shape_body = field(integers, integers, At.shape_body)
     shape_owner = field(integers, integers, At.shape_owner)
+    meets = field(integers, integers, At.shape_meets)
     parent = field(integers, integers, At.parent)
     near = field(integers, integers, At.near)
     pair_a = field(integers, integers, At.pair_a)
@@ -224,6 +225,8 @@ def find_pairs(floats: Any, integers: Any, trees: int, shapes: int, room: int) -
                     other = shape_body[b]
                     if one == other or parent[one] == other or parent[other] == one:
                         continue
+                    if meets[a] == 0 and meets[b] == 0:
+                        continue
                     if overlap(floats, integers, a, b):
                         if count >= room:
                             return -1
@@ -233,7 +236,7 @@ def find_pairs(floats: Any, integers: Any, trees: int, shapes: int, room: int) -
             for k in range(tree_meet[i], tree_meet[i + 1]):
                 j = meet_tree[k]
                 for b in range(tree_shape[j], tree_shape[j + 1]):
-                    if owner == shape_owner[b] and alone:
+                    if owner == shape_owner[b] and meets[a] == 0 and meets[b] == 0:
                         continue
                     if overlap(floats, integers, a, b):
                         if count >= room:
@@ -244,7 +247,7 @@ def find_pairs(floats: Any, integers: Any, trees: int, shapes: int, room: int) -
             for k in range(around):
                 b = still_near[k]
                 # What is bolted to the world and carries a joint does not meet what hangs on it.
-                if owner == shape_owner[b] and (alone or parent[one] < 0):
+                if owner == shape_owner[b] and ((meets[a] == 0 and meets[b] == 0) or parent[one] < 0):
                     continue
                 if overlap(floats, integers, a, b):
                     if count >= room:
