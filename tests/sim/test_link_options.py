@@ -165,18 +165,20 @@ def test_a_model_of_the_world_says_it_in_sdf(tmp_path: Path) -> None:
     inertial = "<inertial><mass>{}</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial>"
     cube = '<collision name="c"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision>'
     slide = (
-        '<joint name="{0}_joint" type="prismatic"><parent>world</parent><child>{0}</child>'
+        '<joint name="{0}_joint" type="prismatic"><parent>base</parent><child>{0}</child>'
         "<axis><xyz>1 0 0</xyz></axis></joint>"
     )
     arms = "".join(
         f'<link name="{name}"><pose>{x} 0 0 0 0 0</pose>{inertial.format(mass)}{cube}{more}</link>{slide.format(name)}'
         for name, x, mass, more in (("left", 0.0, 1.0, "<self_collide>true</self_collide>"), ("right", 0.5, 3.0, ""))
     )
+    base = f'<link name="base">{inertial.format(1.0)}</link>'
+    base += '<joint name="bolt" type="fixed"><parent>world</parent><child>base</child></joint>'
     balloon = f'<link name="l">{inertial.format(1.0)}<gravity>0</gravity></link>'
     world = tmp_path / "probe.world"
     world.write_text(
         '<sdf version="1.9"><world name="probe"><gravity>0 0 -9.81</gravity>'
-        f'<model name="arms"><pose>0 0 2 0 0 0</pose>{arms}</model>'
+        f'<model name="arms"><pose>0 0 2 0 0 0</pose>{base}{arms}</model>'
         f'<model name="balloon"><pose>5 0 3 0 0 0</pose>{balloon}</model></world></sdf>'
     )
     simulator = Simulator("simpleton", world=world, spawn=Spawn(x=-5.0, z=0.0), note=lambda text: None)
