@@ -213,3 +213,28 @@ def test_the_engine_takes_names_or_all(tmp_path: Path) -> None:
         engine.reset(kinematics.neutral(), np.array([1.0, 0.0]))
         engine.step(500)
         assert engine.v[0] == pytest.approx(expected, abs=1e-9)
+
+
+def test_energy_of_a_robot_of_the_world_leaves_out_what_gravity_does_not_pull(tmp_path: Path) -> None:
+    inertial = "<inertial><pose>{} 0 0 0 0 0</pose><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz>"
+    inertial += "</inertia></inertial>"
+    links = "".join(
+        f'<link name="{name}"><pose>{x} 0 0 0 0 0</pose>{inertial.format(at)}<gravity>{pulled}</gravity></link>'
+        for name, x, at, pulled in (("rod", 0.0, 0.5, 0), ("bob", 1.0, 0.0, 1))
+    )
+    joints = (
+        '<joint name="hinge" type="revolute"><parent>world</parent><child>rod</child><axis><xyz>0 1 0</xyz></axis>'
+        '</joint><joint name="weld" type="fixed"><parent>rod</parent><child>bob</child></joint>'
+    )
+    world = tmp_path / "probe.world"
+    world.write_text(
+        '<sdf version="1.9"><world name="probe"><gravity>0 0 -9.81</gravity>'
+        f'<model name="arm"><pose>0 0 3 0 0 0</pose>{links}{joints}</model></world></sdf>'
+    )
+    simulator = Simulator("simpleton", world=world, spawn=Spawn(x=-5.0, z=0.0), note=lambda text: None)
+    arm = simulator.robots["arm"]
+    assert arm.state.energy == pytest.approx((0.0, 2.0 * G * 3.0), abs=1e-9)
+    simulator.run(0.3)
+    assert sum(arm.state.energy) == pytest.approx(2.0 * G * 3.0, abs=1e-4)
+    # It turns about its hinge as all its mass does under the weight of the bob: 2·g·1 / (0.2 + 2·0.25 + 2·1).
+    assert arm.state.velocity("hinge") == pytest.approx(0.3 * 2.0 * G / 2.7, rel=0.1)

@@ -257,8 +257,9 @@ def energy_of(
     pin: Any = pinocchio
     model, data = kinematics.model, kinematics.data
     kinetic = pin.computeKineticEnergy(model, data, q, v)
-    moment = data.mass[0] * pin.centerOfMass(model, data, q)
+    centre = pin.centerOfMass(model, data, q)
     mass = data.mass[0]
+    moment = mass * centre
     for k, (light, at) in enumerate(zip(*weightless, strict=True), 1):
         moment = moment - light * data.oMi[k].act(at)
         mass -= light
