@@ -18,6 +18,7 @@ from urdfkit.lint.rule import Rule
 
 HERE = Path(__file__).parent / "rules"
 FOLDER = Path(__file__).parents[2] / "urdfkit" / "lint" / "rules"
+FIXTURES = ("bad.*", "good.*", "fixed.*")
 MARK = re.compile(r"<!--\s*expect:\s*([A-Z0-9, ]+?)\s*-->")
 BY_NAME = {rule.name: rule for rule in RULES}
 
@@ -79,9 +80,8 @@ def test_the_examples_of_a_page_are_true(rule: type[Rule], tmp_path, monkeypatch
         is_xacro = "xacro" in example[1] and any((HERE / rule.name).glob("*.xacro"))
         file = tmp_path / ("example.urdf.xacro" if is_xacro else "example.urdf")
         file.write_text(example[1])
-        # Meshes that examples need lie beside the files of the rule.
-        for folder in (path for path in (HERE / rule.name).iterdir() if path.is_dir()):
-            shutil.copytree(folder, tmp_path / folder.name, dirs_exist_ok=True)
+        # Meshes and manifests that examples need lie beside the files of the rule.
+        shutil.copytree(HERE / rule.name, tmp_path, dirs_exist_ok=True, ignore=shutil.ignore_patterns(*FIXTURES))
         codes = {finding.code for finding in lint(file, target=target(rule))}
         assert (rule.code in codes) is is_bad
         assert codes <= {rule.code}

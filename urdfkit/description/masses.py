@@ -15,7 +15,8 @@ def massless(robot: Robot, *, floating: bool) -> list[tuple[Link, Joint | None]]
         floating: whether the root link is free to move; its joint is None then.
 
     Returns:
-        The topmost link of each body without mass or inertia, in document order of the tree.
+        The topmost link of each body without mass or inertia, in document order of the tree. Links that joints name
+        and that are not there are left out.
     """
     body_of: dict[str, str] = {}
     tops: dict[str, Joint | None] = {}
@@ -42,4 +43,5 @@ def massless(robot: Robot, *, floating: bool) -> list[tuple[Link, Joint | None]]
         if tensor is not None and any((tensor.ixx, tensor.iyy, tensor.izz)):
             turning.add(body_of.get(link.name))
     fit = heavy & turning
-    return [(robot.link_by_name[top], joint) for top, joint in tops.items() if top not in fit]
+    known = robot.link_by_name
+    return [(known[top], joint) for top, joint in tops.items() if top not in fit and top in known]

@@ -69,7 +69,7 @@ def _candidates(names: Sequence[str]) -> Iterator[tuple[str, dict[str, tuple[For
         yield "box", {"ixx": _box(m, b, c), "iyy": _box(m, a, c), "izz": _box(m, a, b)}
     for m, r, h in permutations(names, 3):
         across, along = _across(m, r, h), _round(m, r, 2, 1)
-        for axis in _MOMENTS:
+        for axis in reversed(_MOMENTS):
             yield "cylinder", {name: along if name == axis else across for name in _MOMENTS}
     for m, r in permutations(names, 2):
         yield "sphere", dict.fromkeys(_MOMENTS, _round(m, r, 5, 2))

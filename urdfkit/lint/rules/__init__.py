@@ -37,11 +37,12 @@ def robot_rules(robot: Robot | None = None, target: str | None = None) -> tuple[
         robot: leave out the rules that have nothing to look at in this one; without it all are returned.
         target: leave out those for other targets, where a robot is given.
     """
-    from urdfkit.lint.rules import document, names, tree, xacro
+    from urdfkit.lint.rules import document, names, packaging, tree, xacro
 
     every = robot is None
     targeted = every or target is not None
     found = [*document.robot_rules(), *xacro.robot_rules(), *tree.robot_rules(), *names.robot_rules()]
+    found += packaging.robot_rules()
     if targeted:
         found += tree.targeted_rules()
     if robot is None or robot.joints:

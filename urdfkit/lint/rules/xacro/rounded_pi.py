@@ -106,7 +106,7 @@ class RoundedPi(SourceRule):
 def _exact(word: str, is_xacro: bool) -> str | None:
     """Return a better way to write an angle; None where it is as good as exact, or no part of π."""
     value = number(word)
-    if value is None or abs(value) < 0.5:
+    if value is None or not 0.5 <= abs(value) < 100.0:
         return None
     for divisor in (1, 2, 4):
         turns = round(value * divisor / pi)

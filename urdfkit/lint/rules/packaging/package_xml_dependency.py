@@ -1,0 +1,80 @@
+"""K956 package-xml-dependency."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.model import Model
+
+_TESTS = frozenset(("test", "tests"))
+"""Folders whose files need nothing to be installed."""
+
+
+class PackageXmlDependency(RobotRule):
+    """A package is used that package.xml does not name.
+
+    ## What it does
+    Looks in the files of the robot's package for ``$(find …)`` and ``package://…`` of other packages, and compares
+    with the dependencies in its package.xml. Each package is reported once; folders of tests are left out.
+
+    ## Why is this bad?
+    It works on machines that happen to have the package. rosdep and the build farm do not install it.
+
+    ## Example
+    ```xml
+    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+      <xacro:property name="meshes" value="$(find simpleton_description)/meshes"/>
+      <link name="base"/>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+      <xacro:property name="meshes" value="$(find mybot_description)/meshes"/>
+      <link name="base"/>
+    </robot>
+    ```
+
+    ## References
+    The package.xml beside the example has ``<exec_depend>mybot_description</exec_depend>``.
+    """
+
+    code = "K956"
+    name = "package-xml-dependency"
+    severity = "warning"
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each package that is used and not named, at its first use."""
+        package = next((f for f in model.expanded.path.absolute().parents if (f / "package.xml").is_file()), None)
+        if package is None:
+            return
+        manifest = re.sub(r"(?s)<!--.*?-->", "", (package / "package.xml").read_text("utf-8", "replace"))
+        named = set(re.findall(r"<(?:\w*depend|name)\b[^>]*>\s*([\w.-]+)\s*<", manifest))
+        for file, source in model.expanded.sources.items():
+            uses = "$(find" in source.text or "package://" in source.text
+            path = Path(file).absolute()
+            if not uses or package not in path.parents or not _TESTS.isdisjoint(path.relative_to(package).parts):
+                continue
+            comments = model.document(file).comments
+            for at in re.finditer(r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)|package://([\w-]+)/", source.text):
+                name = at[1] or at[2]
+                if name in named or any(start <= at.start() < end for start, end, _ in comments):
+                    continue
+                named.add(name)
+                yield Finding(
+                    self.code,
+                    self.name,
+                    self.severity,
+                    f"package.xml names no dependency on `{name}`",
+                    source.span(at.start(), at.end()),
+                    help=f"add <exec_depend>{name}</exec_depend>",
+                )
