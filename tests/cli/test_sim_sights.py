@@ -17,6 +17,7 @@ from PIL import Image
 from urdfkit.cli.sim.sights import MOST_POINTS, PICTURE, POINTS, Sights, picture, points
 from urdfkit.description import load
 from urdfkit.sim import Simulator
+from urdfkit.sim.sensors.camera import Eye
 from urdfkit.sim.sensors.clouds import GZ, cloud, old_cloud
 from urdfkit.sim.sensors.optics import depth_image, image
 from urdfkit.view import protocol
@@ -115,21 +116,23 @@ def test_there_is_time_between_two_looks(shown) -> None:
     assert 9 <= len(page.sensed) <= 11
 
 
-def test_what_one_camera_publishes_comes_of_one_look() -> None:
+def test_what_one_camera_publishes_comes_of_one_small_look(monkeypatch: pytest.MonkeyPatch) -> None:
     page, looks = Page(), []
     simulator = Simulator("seven_dof_arm_with_rgbd", note=lambda _: None)
     sights = Sights(simulator, page, lambda: 0.0)  # type: ignore[arg-type]
     assert sights.find()
     names = [each["topic"] for each in page.declared[0]["sensors"]]
-    assert len(names) > 1
-    for sensor in simulator.robots[simulator.name].plugins.sensors:
-        if hasattr(sensor, "_look"):
-            look = sensor._look
-            sensor._look = lambda *given, look=look: looks.append(1) or look(*given)
+    look = Eye.look
+    monkeypatch.setattr(Eye, "look", lambda self, *g, **k: looks.append(self.optics.lens.width) or look(self, *g, **k))
     simulator.run(0.2)
     sights.show()
     assert [names[index] for index, *_ in page.sensed] == names[:2]
-    assert len(looks) == 1
+    assert looks == [320]
+    for *_, jpeg in page.sensed:
+        with Image.open(io.BytesIO(jpeg)) as found:
+            assert found.size == (320, 240)
+    whole = simulator.bus.latest(names[0])
+    assert (whole.width, whole.height) == (800, 600)  # who subscribes gets it as it is written
 
 
 def test_frames_tell_sensor_kind_and_time() -> None:

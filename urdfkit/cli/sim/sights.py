@@ -1,19 +1,22 @@
 """What lidars and cameras see, on the page of ``sim teleop``: points in the scene, and small pictures.
 
 They are looked at only while somebody watches, the one that waited longest first, and no oftener than leaves the
-simulation most of the time: what a sensor's rate is does not matter to the page.
+simulation most of the time: what a sensor's rate is does not matter to the page. Cameras take a small picture for it,
+so that whoever drives never waits for a large one.
 """
 
 from __future__ import annotations
 
 import io
 from collections.abc import Callable
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.sim.sensors.camera import Camera
 from urdfkit.sim.sensors.lidar import LASER_SCAN, Lidar
 from urdfkit.sim.sensors.mounted import Mounted
 from urdfkit.sim.sensors.optics import IMAGE
@@ -78,7 +81,8 @@ class Sights:
         for robot in self._simulator.robots.values():
             for sensor in robot.plugins.sensors:
                 if isinstance(sensor, Mounted):
-                    self._sights += [Sight(topic, sensor, kind) for topic, kind in _shown(sensor)]
+                    shown = smaller(sensor) if isinstance(sensor, Camera) else sensor
+                    self._sights += [Sight(topic, shown, kind) for topic, kind in _shown(sensor)]
         names = [{"topic": sight.topic.name, "picture": sight.kind == PICTURE} for sight in self._sights]
         self._server.declare("sensors", sensors=names)
         return bool(self._sights)
@@ -97,9 +101,14 @@ class Sights:
             return 0.0
         first = min(waiting, key=lambda pair: pair[1].due)[1]
         together = [(k, each) for k, each in waiting if each.sensor is first.sensor]  # they share one look
+        messages: dict[str, Callable[[], Any]] = {}
+        if isinstance(first.sensor, Camera):
+            names = (topic.name for topic in first.sensor.topics)
+            messages = dict(zip(names, first.sensor.glimpse(self._simulator.t), strict=False))
         for index, sight in together:
             sight.shown = sight.topic.count
-            if (message := sight.topic.latest) is not None:
+            message = messages[sight.topic.name]() if messages else sight.topic.latest
+            if message is not None:
                 found = picture(message) if sight.kind == PICTURE else points(message, sight.sensor.viewpoint)
                 self._server.sense(index, self._simulator.t, sight.kind, found)
         cost = self._clock() - now
@@ -107,6 +116,19 @@ class Sights:
             sight.due = now + max(PERIOD, cost / SHARE)
         self._free = now + cost / SHARE
         return cost
+
+
+def smaller(camera: Camera) -> Camera:
+    """Return a camera in the same place that takes pictures of the size that the page shows."""
+    found = copy(camera)
+    found.eyes = []
+    for eye in camera.eyes:
+        lens = eye.optics.lens
+        part = min(1.0, WIDTH / lens.width)
+        small = replace(lens, width=round(part * lens.width), height=max(1, round(part * lens.height)))
+        found.eyes.append(replace(eye, optics=replace(eye.optics, lens=small)))
+    found.optics = found.eyes[0].optics
+    return found
 
 
 def _shown(sensor: Mounted) -> list[tuple[Topic, int]]:

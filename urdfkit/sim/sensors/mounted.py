@@ -82,6 +82,17 @@ class Mounted(Sensor):
         """Return what makes the messages of the others from the time alone [s]; nobody has to look for them."""
         return ()
 
+    def glimpse(self, t: float) -> tuple[Callable[[], Any], ...]:
+        """Look now, whatever its rate and whoever listens, and return what makes the messages of the first of `topics`.
+
+        Args:
+            t: now [s].
+        """
+        layout = self._surroundings.layout()
+        frame = layout.placement(self._robot, self._link) @ self._pose
+        seen = self._look(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, 0])))
+        return tuple(partial(message, seen) for message in self.messages())
+
     def measure(self, state: State, count: int) -> None:
         """Publish what is seen from here; nothing is computed before somebody wants it.
 
