@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.interfaces import has_gazebo_ros_control, is_old
 from urdfkit.lint.rule import RobotRule
 
@@ -9,6 +10,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from urdfkit.description.element import Element
+    from urdfkit.description.robot import Transmission
     from urdfkit.lint.finding import Finding, Severity
     from urdfkit.lint.model import Model
 
@@ -54,11 +57,15 @@ class TransmissionInterfaceMissing(RobotRule):
       </transmission>
     </robot>
     ```
+
+    ## Fix safety
+    Unsafe: the interface of the transmission's actuator is taken, where it names one.
     """
 
     code = "C702"
     name = "transmission-hwif-missing"
     severity = "warning"
+    fix = "unsafe"
     not_for = frozenset(
         (
             "mujoco",
@@ -86,4 +93,19 @@ class TransmissionInterfaceMissing(RobotRule):
                         joint=part.name,
                         help="add <hardwareInterface>hardware_interface/…JointInterface</hardwareInterface>",
                         severity=severity,
+                        fix=_from_actuator(model, transmission, part.element),
                     )
+
+
+def _from_actuator(model: Model, transmission: Transmission, joint: Element) -> Fix | None:
+    names = [name for actuator in transmission.actuators for name in actuator.hardware_interfaces]
+    position = joint.origin.position
+    tag = model.tag(position)
+    if not names or "$" in names[0] or tag is None or tag.name != "joint" or tag.children:
+        return None
+    source = model.document(position.file).source
+    text = f"<hardwareInterface>{names[0]}</hardwareInterface>"
+    if tag.close is not None:
+        return Fix("unsafe", "Take that of the actuator", (Edit(source.span(tag.end, tag.close), text),))
+    end = len(source.text[: tag.end - 2].rstrip())
+    return Fix("unsafe", "Take that of the actuator", (Edit(source.span(end, tag.end), f">{text}</joint>"),))

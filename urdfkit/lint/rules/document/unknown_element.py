@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.prefix import URDF_CHILDREN
+from urdfkit.lint.edits import nearest, new_tag
+from urdfkit.lint.prefix import URDF_ATTRIBUTES, URDF_CHILDREN
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -10,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.description.element import Element
-    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.finding import Finding, Fix
     from urdfkit.lint.model import Model
 
 _BETTER = {"joint_properties": "dynamics"}
@@ -53,20 +54,27 @@ class UnknownElement(RobotRule):
       </joint>
     </robot>
     ```
+
+    ## Fix safety
+    Unsafe: the element is called what its name is nearest to, or what it is called today; calls of macros are left to
+    you.
     """
 
     code = "E008"
     name = "unknown-element"
     severity = "warning"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each element that has no meaning where it stands."""
         for link in model.robot.links:
             for parent, child in _unknown(link.element):
-                yield self.at(model, child, _message(parent, child), link=link.name, help=_hint(parent, child))
+                hint, fix = _hint(parent, child), _renamed(model, parent, child)
+                yield self.at(model, child, _message(parent, child), link=link.name, help=hint, fix=fix)
         for joint in model.robot.joints:
             for parent, child in _unknown(joint.element):
-                yield self.at(model, child, _message(parent, child), joint=joint.name, help=_hint(parent, child))
+                hint, fix = _hint(parent, child), _renamed(model, parent, child)
+                yield self.at(model, child, _message(parent, child), joint=joint.name, help=hint, fix=fix)
 
 
 def _unknown(element: Element) -> Iterator[tuple[Element, Element]]:
@@ -92,3 +100,12 @@ def _hint(parent: Element, child: Element) -> str | None:
     if nearest or not child.attributes:
         return nearest or None
     return "a call of a macro needs the prefix `xacro:`, and a file that is run through xacro"
+
+
+def _renamed(model: Model, parent: Element, child: Element) -> Fix | None:
+    meant = _BETTER.get(child.tag) or nearest(child.tag, URDF_CHILDREN[parent.tag], likeness=0.75)
+    if meant is None or (meant != "visual" and meant != "collision" and parent.find(meant) is not None):
+        return None
+    if not child.attributes.keys() <= set(URDF_ATTRIBUTES.get(meant, ())):
+        return None  # A call of a macro, rather.
+    return new_tag(model, child, meant, "unsafe", f"Call it <{meant}>")

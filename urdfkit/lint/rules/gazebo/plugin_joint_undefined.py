@@ -57,10 +57,14 @@ class PluginJointUndefined(RobotRule):
       </gazebo>
     </robot>
     ```
+
+    ## Fix safety
+    Unsafe: the joint with the nearest name is taken.
     """
 
     code = "Z802"
     name = "plugin-joint-undefined"
+    fix = "unsafe"
     not_for = frozenset(("mujoco", "isaac", "drake", "moveit"))
 
     def check(self, model: Model) -> Iterator[Finding]:
@@ -80,6 +84,7 @@ class PluginJointUndefined(RobotRule):
     def _check(self, model: Model, plugin: Plugin, parameter: Parameter) -> Iterator[Finding]:
         from urdfkit.description.plugins import values
         from urdfkit.errors import did_you_mean
+        from urdfkit.lint.edits import meant, new_text
 
         joints = model.as_written.joint_by_name
         written = [(text, element) for text, element in values(plugin, parameter) if text]
@@ -87,12 +92,15 @@ class PluginJointUndefined(RobotRule):
             if text in joints or "::" in text or "$" in text or model.is_unresolved(element):
                 continue
             message = f"<{parameter.tag}> names `{text}`, which is no joint"
+            fix = None
             if text in model.robot.joint_by_name:
                 help = f"{_lost(model, text)} would make it, but lacks its `xacro:` prefix"
             else:
-                nearest = did_you_mean(text.strip("\"'"), joints).removeprefix("; ")
-                help = nearest or f"joints: {', '.join(joints) or 'none'}"
-            yield self.at(model, element, message, joint=text, help=help)
+                single = not parameter.separator or parameter.separator not in element.text
+                near, hint = meant(text.strip("\"'"), joints)
+                help = hint.removeprefix("; ") or f"joints: {', '.join(joints) or 'none'}"
+                fix = new_text(model, element, near, "unsafe", f"Write `{near}`") if near and single else None
+            yield self.at(model, element, message, joint=text, help=help, fix=fix)
         default = parameter.default
         if not written and default is not None and default not in joints:
             yield self.at(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -11,6 +12,22 @@ if TYPE_CHECKING:
     from urdfkit.description.robot import Material
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
+
+_COLOURS = {
+    "black": "0 0 0 1",
+    "white": "1 1 1 1",
+    "gray": "0.5 0.5 0.5 1",
+    "darkgray": "0.3 0.3 0.3 1",
+    "lightgray": "0.8 0.8 0.8 1",
+    "red": "0.8 0 0 1",
+    "green": "0 0.8 0 1",
+    "blue": "0 0 0.8 1",
+    "yellow": "1 1 0 1",
+    "orange": "1 0.5 0 1",
+    "brown": "0.5 0.3 0.1 1",
+    "silver": "0.75 0.75 0.75 1",
+}
+"""Usual names (blanks and underscores left out) and what they look like."""
 
 
 class MaterialUndefined(RobotRule):
@@ -48,11 +65,15 @@ class MaterialUndefined(RobotRule):
       </link>
     </robot>
     ```
+
+    ## Fix safety
+    Unsafe: a material called as a usual colour gets that colour where it is used first; others are left to you.
     """
 
     code = "G612"
     name = "material-undefined"
     severity = "warning"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each use of a material that is defined nowhere."""
@@ -73,9 +94,24 @@ class MaterialUndefined(RobotRule):
                 material.element,
                 f"the material `{name}` is defined nowhere",
                 attribute="name",
+                fix=_coloured(model, material),
                 help=nearest or f'add <material name="{name}"><color rgba="…"/></material> to the robot',
             )
 
 
 def _is_definition(material: Material) -> bool:
     return any(child.tag in ("color", "texture") for child in material.element.children)
+
+
+def _coloured(model: Model, material: Material) -> Fix | None:
+    name = (material.name or "").lower().replace("_", "").replace(" ", "").replace("grey", "gray")
+    rgba, position = _COLOURS.get(name), material.element.origin.position
+    tag = model.tag(position)
+    if rgba is None or tag is None or tag.name != "material" or tag.children:
+        return None
+    source = model.document(position.file).source
+    color = f'<color rgba="{rgba}"/>'
+    if tag.close is not None:
+        return Fix("unsafe", f"Make it {name}", (Edit(source.span(tag.end, tag.close), color),))
+    end = len(source.text[: tag.end - 2].rstrip())
+    return Fix("unsafe", f"Make it {name}", (Edit(source.span(end, tag.end), f">{color}</material>"),))

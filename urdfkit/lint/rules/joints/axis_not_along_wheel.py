@@ -88,7 +88,7 @@ class AxisNotAlongWheel(RobotRule):
                     model,
                     joint.element.find("axis") or joint.element,
                     f"joint `{joint.name}` does not turn the wheel `{wheel.name}` about its own axis: that is "
-                    f"{' '.join(f'{part:.2g}' for part in discs[0])} in the joint's frame",
+                    f"{' '.join(f'{round(part, 3) + 0.0:g}' for part in discs[0])} in the joint's frame",
                     attribute="xyz",
                     joint=joint.name,
                     help="a cylinder lies along its z",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.edits import more_attributes
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -47,21 +48,27 @@ class JointTypeMissing(RobotRule):
       </joint>
     </robot>
     ```
+
+    ## Fix safety
+    Unsafe: a joint without axis becomes fixed, one with limits revolute, any other continuous.
     """
 
     code = "J401"
     name = "joint-type-missing"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint without type."""
         for joint in model.robot.joints:
             if joint.type is None:
+                kind = _likely_type(joint)
                 yield self.at(
                     model,
                     joint.element,
                     f"joint `{joint.name}` has no type",
                     joint=joint.name,
-                    help=f'write type="{_likely_type(joint)}", or whichever of the six types it is',
+                    help=f'write type="{kind}", or whichever of the six types it is',
+                    fix=more_attributes(model, joint.element, f'type="{kind}"', "unsafe", f"Make it {kind}"),
                 )
 
 

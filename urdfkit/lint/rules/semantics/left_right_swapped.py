@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.edits import new_text
+from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.wheels import drives
+from urdfkit.lint.wheels import TwoSided, drives
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -79,11 +81,15 @@ class LeftRightSwapped(RobotRule):
       </gazebo>
     </robot>
     ```
+
+    ## Fix safety
+    Unsafe: the two names are swapped, but it may be the joints that are misplaced.
     """
 
     code = "S903"
     name = "left-right-swapped"
     severity = "warning"
+    fix = "unsafe"
     not_for = frozenset(
         (
             "mujoco",
@@ -110,6 +116,7 @@ class LeftRightSwapped(RobotRule):
                     f"`{left.joint.name}` is the left wheel, but lies at y = {left.place[1]:g} m, on the right side",
                     joint=left.joint.name,
                     help="right for ROS Indigo and Kinetic's legacyMode only, which swap the sides" if swaps else None,
+                    fix=_swapped(model, drive),
                 )
             wheels = (*drive.left, *drive.right)
             if all(wheel.axis[1] < -0.7 for wheel in wheels) and all(
@@ -122,3 +129,14 @@ class LeftRightSwapped(RobotRule):
                     joint=left.joint.name,
                     help="turn the axes round: y is left",
                 )
+
+
+def _swapped(model: Model, drive: TwoSided) -> Fix | None:
+    """Return the fix that gives each side the joint of the other; None where one is not written out."""
+    edits: list[Edit] = []
+    for wheel, other in zip((*drive.left, *drive.right), (*drive.right, *drive.left), strict=True):
+        fix = new_text(model, wheel.element, other.joint.name, "unsafe", "") if wheel.element is not None else None
+        if fix is None:
+            return None
+        edits += fix.edits
+    return Fix("unsafe", "Swap the sides", tuple(edits))
