@@ -87,6 +87,12 @@ class Sights:
         self._server.declare("sensors", sensors=names)
         return bool(self._sights)
 
+    def prepare(self) -> None:
+        """Look once through each camera, so that nobody who drives waits for what the first look takes."""
+        for sensor in {id(sight.sensor): sight.sensor for sight in self._sights}.values():
+            if isinstance(sensor, Camera):
+                sensor.glimpse(self._simulator.t)
+
     def show(self) -> float:
         """Show what one sensor sees, if one is due and there is time; return how long that took [s]."""
         if self._simulator.revision != self._revision:

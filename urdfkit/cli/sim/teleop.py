@@ -77,9 +77,10 @@ def run(arguments: argparse.Namespace) -> int:
                 note=lambda text: note(f"urdfkit: {text}"),
             )
             ride = Ride(simulator, server)
-            ride.show()
             if ride.sights.find():
                 compile_rays(server, page.open)
+                ride.sights.prepare()
+            ride.show()
             page.open()
             with recording(simulator, arguments.record) as ride.look:
                 note(KEYS if simulator.command_topics else "this robot has no drive that takes velocity commands")
