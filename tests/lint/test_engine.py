@@ -76,6 +76,18 @@ def test_what_a_fault_makes_up_is_not_reported(write):
     assert codes(lint(bad)) == ["X104"]
 
 
+def test_a_part_of_a_robot_may_name_what_its_users_bring(write):
+    text = """<robot name="part"><gazebo reference="base"><material>Gazebo/Red</material></gazebo>
+<gazebo><plugin name="p" filename="libgazebo_ros_planar_move.so">
+<robotBaseFrame>base</robotBaseFrame></plugin></gazebo>
+<transmission name="t"><type>transmission_interface/SimpleTransmission</type>
+<joint name="j"><hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface></joint>
+</transmission></robot>"""
+    assert codes(lint(write("part.xacro", text))) == []
+    whole = '<link name="trunk"/><xacro:include filename="part.xacro"/>'
+    assert sorted(codes(lint(write("r.xacro", whole)))) == ["C701", "Z801", "Z803"]
+
+
 def test_unprefixed_macros_are_looked_into_and_their_loss_is_named(write):
     path = write(
         "r.xacro",

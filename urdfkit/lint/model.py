@@ -61,7 +61,13 @@ class Model:
 
     @cached_property
     def is_incomplete(self) -> bool:
-        """Whether elements were dropped, or kept, because of a fault: what is not there may be in them."""
+        """Whether what is not there may be elsewhere.
+
+        That is so where elements were dropped, or kept, because of a fault, and in files without a link: they are a
+        part of a robot that somebody includes.
+        """
+        if not self.robot.links:
+            return True
         faults = self.expanded.faults
         return any(fault.kind in _DROPPING and not fault.message.startswith("unbound prefix") for fault in faults)
 
