@@ -11,6 +11,7 @@ from PIL import Image
 
 from urdfkit.cli import main
 from urdfkit.cli.sim.pictures import png
+from urdfkit.scene.gl.probe import Found, probe
 from urdfkit.sim.sensors.optics import depth_image, image
 
 Capture = pytest.CaptureFixture[str]
@@ -26,15 +27,35 @@ def test_the_last_picture_is_saved(tmp_path: Path, capsys: Capture) -> None:
         assert len(np.unique(np.asarray(found).reshape(-1, 3), axis=0)) > 5
 
 
-@pytest.mark.parametrize("encoding", ["rgb8", "bgr8", "mono8", "bayer_rggb8"])
+@pytest.mark.skipif(not probe().works, reason="no OpenGL")
+def test_both_renderers_save_the_same_picture(tmp_path: Path) -> None:
+    found = []
+    for renderer in ("ray", "gl"):
+        file = tmp_path / f"{renderer}.png"
+        where = ("--world", "house", "--for", "0.1", "--renderer", renderer)
+        assert main(["sim", "run", "simpleton", *where, "--save-image", f"{TOPIC}={file}"]) == 0
+        with Image.open(file) as picture:
+            found.append(np.asarray(picture).astype(int))
+    assert (np.abs(found[0] - found[1]).max(axis=2) <= 3).mean() > 0.99
+
+
+def test_a_renderer_that_does_not_work_is_refused_in_one_line(tmp_path: Path, capsys: Capture, monkeypatch) -> None:
+    broken = Found(False, "", "the driver crashed (signal 11)")
+    monkeypatch.setattr("urdfkit.scene.renderer.check.__defaults__", (lambda: broken,))
+    assert main(["sim", "run", "simpleton", "--for", "0", "--renderer", "gl"]) == 2
+    assert "renderer `gl` does not work here: the driver crashed (signal 11)" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("encoding", ["rgb8", "bgr8", "mono8", "mono16", "rgb16", "bayer_rggb8"])
 def test_pictures_of_every_encoding(tmp_path: Path, encoding: str) -> None:
     rgb = np.random.default_rng(1).integers(0, 256, (6, 10, 3), dtype=np.uint8)
     message = image(0.0, "eye", rgb, encoding)
     found = opened(tmp_path, message)
-    if encoding in ("rgb8", "bgr8"):
+    if encoding in ("rgb8", "bgr8", "rgb16"):
         assert np.array_equal(found, rgb)
     else:
-        assert np.array_equal(found, message.data.reshape(6, 10))
+        kind = "<u2" if encoding == "mono16" else "u1"
+        assert np.array_equal(found, message.data.view(kind).reshape(6, 10))
 
 
 @pytest.mark.parametrize("millimetres", [True, False])

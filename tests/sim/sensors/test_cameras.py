@@ -34,7 +34,7 @@ def eye(plugin: str = "", type: str = "camera", inside: str | None = None, more:
 
 
 def pixels(message) -> np.ndarray:
-    kind = {"32FC1": "<f4", "16UC1": "<u2"}.get(message.encoding, "u1")
+    kind = {"32FC1": "<f4", "16UC1": "<u2", "mono16": "<u2", "rgb16": "<u2"}.get(message.encoding, "u1")
     found = np.frombuffer(message.data.tobytes(), kind).reshape(message.height, message.width, -1)
     assert message.step == len(message.data) // message.height
     return found[..., 0] if found.shape[-1] == 1 else found
@@ -68,7 +68,7 @@ def test_nobody_looks_for_camera_info(post) -> None:
     assert not simulator._setup.surroundings.was_looked_at
 
 
-@pytest.mark.parametrize("form", ["L8", "B8G8R8", "BAYER_RGGB8", "BAYER_GRBG8"])
+@pytest.mark.parametrize("form", ["L8", "L16", "R16G16B16", "B8G8R8", "BAYER_RGGB8", "BAYER_GRBG8"])
 def test_formats_hold_the_same_picture(post, form: str) -> None:
     room = ROOM.replace("</geometry>", "</geometry><material><diffuse>1 0.5 0.25 1</diffuse></material>")
     (colored,) = heard(post(eye(ros1()), room=room), "/cam/image_raw")
@@ -77,6 +77,10 @@ def test_formats_hold_the_same_picture(post, form: str) -> None:
     if form == "B8G8R8":
         assert other.encoding == "bgr8"
         assert np.array_equal(found[..., ::-1], rgb)
+    elif form.endswith("16"):
+        assert other.encoding == {"L16": "mono16", "R16G16B16": "rgb16"}[form]
+        grey = rgb if form == "R16G16B16" else rgb @ (0.299, 0.587, 0.114)
+        assert np.abs(found / 257.0 - grey).max() <= 0.002
     elif form == "L8":
         assert other.encoding == "mono8"
         assert np.abs(found - rgb @ (0.299, 0.587, 0.114)).max() <= 0.51
