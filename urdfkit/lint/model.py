@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 
 from urdfkit.description.source import Position, Source, Span
-from urdfkit.lint.prefix import signatures
+from urdfkit.lint.prefix import URDF_CHILDREN, signatures
 from urdfkit.lint.syntax import Document
 from urdfkit.record import field, record
 
@@ -92,6 +92,18 @@ class Model:
     def parts(self) -> tuple[Link | Joint, ...]:
         """The links, then the joints."""
         return (*self.robot.links, *self.robot.joints)
+
+    @cached_property
+    def elements(self) -> list[Element]:
+        """The links, joints and materials and what is in them, as far as URDF has such elements there."""
+        found: list[Element] = []
+        pending = [part for part in self.robot.element.children if part.tag in ("link", "joint", "material")]
+        for element in pending:  # It grows while it is walked through.
+            found.append(element)
+            allowed = URDF_CHILDREN.get(element.tag)
+            if allowed is not None and element.children:
+                pending += [child for child in element.children if child.tag in allowed]
+        return found
 
     @cached_property
     def frames(self) -> dict[str, Frame]:

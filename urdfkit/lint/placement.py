@@ -137,10 +137,13 @@ def extent(link: Link, box_of: Callable[[Mesh], tuple[Vector, Vector] | None]) -
             volumes.append(volume)
     if not shapes:
         return None
+    if len(shapes) == 1 or all(other == shapes[0] for other in shapes):
+        low, high = _box(*shapes[0])
+        return Extent(low, high, tuple(shapes), tuple(volumes))
     corners = [_box(geometry, pose) for geometry, pose in shapes]
-    low = tuple(min(corner[0][i] for corner in corners) for i in range(3))
-    high = tuple(max(corner[1][i] for corner in corners) for i in range(3))
-    return Extent((low[0], low[1], low[2]), (high[0], high[1], high[2]), tuple(shapes), tuple(volumes))
+    a, b, c = (min(corner[0][i] for corner in corners) for i in range(3))
+    d, e, f = (max(corner[1][i] for corner in corners) for i in range(3))
+    return Extent((a, b, c), (d, e, f), tuple(shapes), tuple(volumes))
 
 
 def _volume(shape: Geometry) -> float:
@@ -158,6 +161,9 @@ def _volume(shape: Geometry) -> float:
 def _box(shape: Geometry, pose: Pose) -> tuple[Vector, Vector]:
     rows = rotation(pose.rpy)
     half: list[float] = []
+    if rows is IDENTITY and isinstance(shape, Box):
+        half = [abs(size) / 2.0 for size in shape.size]
+        rows = ()  # type: ignore[assignment]
     for row in rows:
         if isinstance(shape, Box):
             half.append(sum(abs(a * size) / 2.0 for a, size in zip(row, shape.size, strict=True)))
@@ -174,7 +180,9 @@ def _box(shape: Geometry, pose: Pose) -> tuple[Vector, Vector]:
 def _farthest(shape: Geometry, pose: Pose, point: Vector) -> float:
     rows = rotation(pose.rpy)
     offset = (point[0] - pose.xyz[0], point[1] - pose.xyz[1], point[2] - pose.xyz[2])
-    x, y, z = (sum(rows[i][k] * offset[i] for i in range(3)) for k in range(3))
+    x, y, z = offset
+    if rows is not IDENTITY:
+        x, y, z = (sum(rows[i][k] * offset[i] for i in range(3)) for k in range(3))
     if isinstance(shape, Box):
         return sqrt(sum((abs(a) + abs(size) / 2.0) ** 2 for a, size in zip((x, y, z), shape.size, strict=True)))
     if isinstance(shape, Cylinder):

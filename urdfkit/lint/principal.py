@@ -45,6 +45,9 @@ def eigenvalues(xx: float, xy: float, xz: float, yy: float, yz: float, zz: float
         yz: another.
         zz: another.
     """
+    if xy == xz == yz == 0.0:
+        first, second, third = sorted((xx, yy, zz))
+        return first, second, third
     scale = max(abs(xx), abs(xy), abs(xz), abs(yy), abs(yz), abs(zz))
     if scale == 0.0:
         return 0.0, 0.0, 0.0

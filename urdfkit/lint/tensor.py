@@ -30,6 +30,9 @@ def tensor_of(link: Link, extent: Extent, mass: float) -> tuple[float, ...] | No
     volumes = [_volume(shape) for shape, _ in shapes]
     if sum(volumes) <= 0.0:
         return None
+    if len(shapes) == 1 and shapes[0][1].rpy == (0.0, 0.0, 0.0) and not _is_turned(link):
+        xx, yy, zz = _diagonal(shapes[0][0], mass)
+        return xx, 0.0, 0.0, yy, 0.0, zz
     masses = [mass * volume / sum(volumes) for volume in volumes]
     poses = [pose for _, pose in shapes]
     centre = [sum(m * pose.xyz[i] for m, pose in zip(masses, poses, strict=True)) / mass for i in range(3)]
@@ -48,6 +51,10 @@ def tensor_of(link: Link, extent: Extent, mass: float) -> tuple[float, ...] | No
         for i in range(3)
     ]
     return turned[0][0], turned[0][1], turned[0][2], turned[1][1], turned[1][2], turned[2][2]
+
+
+def _is_turned(link: Link) -> bool:
+    return link.inertial is not None and link.inertial.origin.rpy != (0.0, 0.0, 0.0)
 
 
 def computed(model: Model, link: Link, element: Element) -> Fix | None:

@@ -65,17 +65,12 @@ class NanOrInf(RobotRule):
         for problem in model.robot.problems:
             if problem.kind == "not-finite":
                 yield self.at(model, problem.element, problem.message, attribute=problem.attribute)
-        for part in model.parts:
-            for element in part.element.walk():
-                for attribute in _ATTRIBUTES.get(element.tag, ()):
-                    text = element.get(attribute)
-                    # Only what has an exponent or eleven digits can be so large.
-                    if text is None or (len(text) < 11 and "e" not in text.lower()):
-                        continue
-                    if any(LARGEST < abs(value) < float("inf") for value in numbers(text) or ()):
-                        yield self.at(
-                            model,
-                            element,
-                            f'{attribute}="{text}" of <{element.tag}> stands for infinity',
-                            attribute=attribute,
-                        )
+        for element in model.elements:
+            for attribute in _ATTRIBUTES.get(element.tag, ()):
+                text = element.get(attribute)
+                # Only what has an exponent or eleven digits can be so large.
+                if text is None or (len(text) < 11 and "e" not in text.lower()):
+                    continue
+                if any(LARGEST < abs(value) < float("inf") for value in numbers(text) or ()):
+                    message = f'{attribute}="{text}" of <{element.tag}> stands for infinity'
+                    yield self.at(model, element, message, attribute=attribute)

@@ -60,23 +60,21 @@ class RpyInDegrees(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each origin whose angles look like degrees."""
-        for part in model.parts:
-            for holder in (part.element, *part.element.children):
-                origin = holder.find("origin")
-                text = origin.get("rpy") if origin is not None else None
-                angles = numbers(text) if text else None
-                if origin is None or angles is None or not any(map(_is_degrees, angles)):
-                    continue
-                first = next(filter(_is_degrees, angles))
-                value = " ".join(f"{radians(angle):.7g}" for angle in angles)
-                yield self.at(
-                    model,
-                    origin,
-                    f'rpy="{text}": {first:g} rad turn the part by {degrees(first) % 360:.0f} degrees',
-                    attribute="rpy",
-                    help=f"angles are in rad: {first:g} degrees are {radians(first):.6g}",
-                    fix=new_value(model, origin, "rpy", value, "unsafe", "Convert degrees to radians"),
-                )
+        for origin in model.elements:
+            text = origin.get("rpy") if origin.tag == "origin" else None
+            angles = numbers(text) if text else None
+            if angles is None or not any(map(_is_degrees, angles)):
+                continue
+            first = next(filter(_is_degrees, angles))
+            value = " ".join(f"{radians(angle):.7g}" for angle in angles)
+            yield self.at(
+                model,
+                origin,
+                f'rpy="{text}": {first:g} rad turn the part by {degrees(first) % 360:.0f} degrees',
+                attribute="rpy",
+                help=f"angles are in rad: {first:g} degrees are {radians(first):.6g}",
+                fix=new_value(model, origin, "rpy", value, "unsafe", "Convert degrees to radians"),
+            )
 
 
 def _is_degrees(angle: float) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from urdfkit.lint.finding import Edit, Finding, Fix
-from urdfkit.lint.prefix import URDF_CHILDREN, URDF_ELEMENTS
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -67,16 +66,12 @@ class UnexpectedText(RobotRule):
             for document in map(model.document, model.expanded.sources):
                 for tag in document.roots[:1]:
                     yield from self._pieces(model, document, tag, root.text, root)
-        for part in root.children:
-            if part.tag in ("link", "joint", "material"):
-                for element in _urdf(part):
-                    if element.text and not model.is_unresolved(element):
-                        position = element.origin.position
-                        written = model.tag(position)
-                        if written is not None:
-                            yield from self._pieces(
-                                model, model.document(position.file), written, element.text, element
-                            )
+        for element in model.elements:
+            if element.text and not model.is_unresolved(element):
+                position = element.origin.position
+                written = model.tag(position)
+                if written is not None:
+                    yield from self._pieces(model, model.document(position.file), written, element.text, element)
 
     def _pieces(self, model: Model, document: Document, tag: Tag, expanded: str, element: Element) -> Iterator[Finding]:
         text, source = document.source.text, document.source
@@ -103,10 +98,3 @@ class UnexpectedText(RobotRule):
                     chains=(element.origin.expansions,) if element.origin.expansions else (),
                 )
             at = end
-
-
-def _urdf(element: Element) -> Iterator[Element]:
-    yield element
-    for child in element.children:
-        if child.tag in URDF_CHILDREN.get(element.tag, ()) and child.tag in URDF_ELEMENTS:
-            yield from _urdf(child)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import nearest, new_name, without_attribute
-from urdfkit.lint.prefix import URDF_ATTRIBUTES, URDF_CHILDREN
+from urdfkit.lint.prefix import URDF_ATTRIBUTES
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
+_KEYS = {tag: frozenset(names) for tag, names in URDF_ATTRIBUTES.items()}
 _ALL = frozenset(name for names in URDF_ATTRIBUTES.values() for name in names)
 
 
@@ -64,14 +65,12 @@ class UnknownAttribute(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each attribute that has no meaning where it stands."""
-        for part in model.robot.element.children:
-            if part.tag in ("link", "joint", "material"):
-                yield from self._look(model, part)
+        for element in model.elements:
+            known = URDF_ATTRIBUTES.get(element.tag)
+            if known is not None and not element.attributes.keys() <= _KEYS[element.tag]:
+                yield from self._look(model, element, known)
 
-    def _look(self, model: Model, element: Element) -> Iterator[Finding]:
-        known = URDF_ATTRIBUTES.get(element.tag)
-        if known is None:
-            return
+    def _look(self, model: Model, element: Element, known: tuple[str, ...]) -> Iterator[Finding]:
         for attribute in element.attributes:
             if attribute not in known and ":" not in attribute and attribute != "xmlns":
                 meant = nearest(attribute, known)
@@ -90,6 +89,3 @@ class UnknownAttribute(RobotRule):
                     fix=fix,
                     severity=None if meant or attribute in _ALL else "info",
                 )
-        for child in element.children:
-            if child.tag in URDF_CHILDREN.get(element.tag, ()):
-                yield from self._look(model, child)

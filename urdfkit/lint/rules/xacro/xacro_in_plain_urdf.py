@@ -51,7 +51,7 @@ class XacroInPlainUrdf(SourceRule):
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
         """Yield a finding for a plain URDF that is none."""
         text, source = document.source.text, document.source
-        if not source.file.endswith(".urdf") or not document.roots or ("xacro" not in text and "${" not in text):
+        if not source.file.endswith(".urdf") or ("xacro" not in text and "${" not in text) or not document.roots:
             return
         root = document.roots[0]
         binds = "xmlns:xacro" in root.attributes
