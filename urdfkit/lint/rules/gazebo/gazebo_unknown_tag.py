@@ -129,7 +129,7 @@ class GazeboUnknownTag(RobotRule):
             for child in block.element.children if block.reference else ():
                 if child.tag in KEYS or child.tag in _SDF or ":" in child.tag:
                     continue
-                meant = _MEANT.get(child.tag) or nearest(child.tag, KEYS)
+                meant = _MEANT.get(child.tag) or nearest(child.tag, KEYS, likeness=0.7)
                 if meant is not None:
                     yield self.at(
                         model,

@@ -96,7 +96,7 @@ class PluginParamUnknown(RobotRule):
                     message = f"<{tag}> is shown in examples of the plugin, but not read"
                     yield self.at(model, child, message, severity="info")
                     continue
-                meant = _KNOWN.get((spec.kind, spec.generation, tag)) or nearest(tag, known)
+                meant = _KNOWN.get((spec.kind, spec.generation, tag)) or nearest(tag, known, likeness=0.8)
                 is_there = meant is not None and plugin.element.find(meant) is not None
                 yield self.at(
                     model,
