@@ -9,6 +9,10 @@ if TYPE_CHECKING:
 
 def robot_rules() -> tuple[type[RobotRule], ...]:
     """Return the rules on the expanded robot."""
+    from urdfkit.lint.rules.packaging.not_installed import NotInstalled
     from urdfkit.lint.rules.packaging.package_xml_dependency import PackageXmlDependency
 
-    return (PackageXmlDependency,)
+    return (
+        PackageXmlDependency,
+        NotInstalled,
+    )
