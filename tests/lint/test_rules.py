@@ -48,6 +48,14 @@ def test_bad_files_are_found_out_exactly_where_marked(path):
     assert BY_NAME[path.parent.name].code in {finding.code for finding in found}
 
 
+@pytest.mark.parametrize("rule", [rule for rule in RULES if rule.only_for or rule.not_for], ids=lambda rule: rule.name)
+def test_targets_that_do_not_mind_are_spared(rule):
+    path = next((HERE / rule.name).glob("bad.*"))
+    spared = [None, *rule.not_for] if rule.only_for else sorted(rule.not_for)
+    for other in spared:
+        assert rule.code not in {finding.code for finding in lint(path, target=other)}
+
+
 @pytest.mark.parametrize("path", files("good"))
 def test_good_files_are_silent(path):
     assert lint(path, target=target(BY_NAME[path.parent.name])) == []

@@ -92,13 +92,11 @@ def _message(parent: Element, child: Element) -> str:
 
 
 def _hint(parent: Element, child: Element) -> str | None:
-    from urdfkit.errors import did_you_mean
-
     if child.tag in _BETTER:
         return f"it is called <{_BETTER[child.tag]}> today"
-    nearest = did_you_mean(child.tag, URDF_CHILDREN[parent.tag]).removeprefix("; ")
-    if nearest or not child.attributes:
-        return nearest or None
+    near = nearest(child.tag, URDF_CHILDREN[parent.tag], likeness=0.7)
+    if near or not child.attributes:
+        return f"did you mean `{near}`?" if near else None
     return "a call of a macro needs the prefix `xacro:`, and a file that is run through xacro"
 
 
