@@ -55,8 +55,6 @@ class LinkJointSameName(RobotRule):
             "mujoco",
             "isaac",
             "moveit",
-            "ros1",
-            "ros2",
         )
     )
 
