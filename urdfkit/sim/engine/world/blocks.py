@@ -11,7 +11,7 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import WIDTH, At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
-from urdfkit.sim.engine.guess import HOLDS
+from urdfkit.sim.engine.guess import HOLDS, SLIDES
 
 MOST_TREES = 62
 """Most trees of an island: as many as a number has bits."""
@@ -108,18 +108,43 @@ def add_block(K: Any, n: int, i: int, j: int, ni: int, nj: int, Y: Any, at: int,
                 K[(i + k) * n + j + m] += c * Y[to + m]
 
 
+@inlined
+def add_row(floats: Any, integers: Any, k: int, n: int, Y: Any, at: int, d: float) -> None:
+    """Add d·aᵀ·a to K, a written at a place of Y, of the trees of row k."""
+    tree_dof = field(integers, integers, At.tree_dof)
+    tree_block = field(integers, integers, At.tree_block)
+    block_first = field(integers, integers, At.block_first)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    K = field(floats, integers, At.B)
+    a, b = row_a[k], row_b[k]
+    i, ni = block_first[tree_block[a]], tree_dof[a + 1] - tree_dof[a]
+    add_block(K, n, i, i, ni, ni, Y, at, at, d)
+    if b >= 0:
+        j, nj = block_first[tree_block[b]], tree_dof[b + 1] - tree_dof[b]
+        add_block(K, n, j, j, nj, nj, Y, at + ni, at + ni, d)
+        if i < j:
+            add_block(K, n, i, j, ni, nj, Y, at, at + ni, d)
+        else:
+            add_block(K, n, j, i, nj, ni, Y, at + ni, at, d)
+
+
 @compiled
-def assemble(floats: Any, integers: Any, root: int, rows: int, n: int) -> None:
-    """Write M, of each tree from its factor, and add what the rows that hold do to it: the upper triangle of K in B."""
+def assemble(floats: Any, integers: Any, root: int, rows: int, n: int, coned: bool) -> None:
+    """Write M, of each tree from its factor, and add what rows do to it: the upper triangle of K in B.
+
+    Where a contact slides, the row along its cone, if `coned`, or else that of its normal, and the one across its slip.
+    """
     width = integers[WIDTH]
     tree_dof = field(integers, integers, At.tree_dof)
     island_next = field(integers, integers, At.island_next)
     dof_row = field(integers, integers, At.dof_row)
     tree_block = field(integers, integers, At.tree_block)
     block_first = field(integers, integers, At.block_first)
-    row_a = field(integers, integers, At.row_a)
-    row_b = field(integers, integers, At.row_b)
     state = field(integers, integers, At.state)
+    mu = field(floats, integers, At.mu)
+    near = field(floats, integers, At.near_x)
+    made = field(floats, integers, At.A)
     Y = field(floats, integers, At.Y)
     K = field(floats, integers, At.B)
     L = field(floats, integers, At.L)
@@ -141,21 +166,25 @@ def assemble(floats: Any, integers: Any, root: int, rows: int, n: int) -> None:
                 K[(at + i) * n + at + k] += c * diagonal
             K[(at + k) * n + at + k] += L[row + k]
         tree = island_next[tree]
-    for k in range(rows):
-        if state[k] != HOLDS:
+    k = 0
+    while k < rows:
+        if state[k] == SLIDES:
+            # Two rows that its slip makes of three: see `slip` and `cones`.
+            a, b = near[k + 1], near[k + 2]
+            c, share = (mu[k], 1.0 / math.sqrt(1.0 + mu[k] * mu[k])) if coned else (0.0, 1.0)
+            at = k * width
+            for d in range(width):
+                first, second = Y[at + width + d], Y[at + 2 * width + d]
+                made[d] = share * (Y[at + d] - c * (a * first + b * second))
+                made[width + d] = a * second - b * first
+            add_row(floats, integers, k, n, made, 0, stiffness[k])
+            if near[k] > 0.0:
+                add_row(floats, integers, k, n, made, width, near[k])
+            k += 3
             continue
-        d = stiffness[k]
-        a, b = row_a[k], row_b[k]
-        i, ni = block_first[tree_block[a]], tree_dof[a + 1] - tree_dof[a]
-        at = k * width
-        add_block(K, n, i, i, ni, ni, Y, at, at, d)
-        if b >= 0:
-            j, nj = block_first[tree_block[b]], tree_dof[b + 1] - tree_dof[b]
-            add_block(K, n, j, j, nj, nj, Y, at + ni, at + ni, d)
-            if i < j:
-                add_block(K, n, i, j, ni, nj, Y, at, at + ni, d)
-            else:
-                add_block(K, n, j, i, nj, ni, Y, at + ni, at, d)
+        if state[k] == HOLDS:
+            add_row(floats, integers, k, n, Y, k * width, stiffness[k])
+        k += 1
 
 
 @inlined

@@ -29,7 +29,7 @@ from urdfkit.sim.engine.world.islands import contacts_of
 from urdfkit.sim.engine.world.trees import evaluate
 
 FEW = 8
-"""Rows more than dofs up to which the matrix of the rows is the faster one."""
+"""Rows more than dofs up to which the matrix of the rows is the faster one for a single tree."""
 
 
 @compiled
@@ -96,11 +96,12 @@ def settle(floats: Any, integers: Any, root: int) -> int:
         for k in range(rows):
             before[k] = last[slot[k]]
         held = False
-        if rows > island_dofs + FEW:
+        if rows > 0 and (single < 0 or rows > island_dofs + FEW):
             guesses = hold(floats, integers, root, rows)
-            held = guesses > 0
+            held = guesses != 0
             if held:
                 counts[GUESSES] = guesses
+                counts[ITERATED] += guesses <= 0
         if rows > 0 and not held:
             whiten(floats, integers, rows, single, width, False)
             guesses = solve(floats, integers, rows)
