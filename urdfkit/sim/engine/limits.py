@@ -9,6 +9,8 @@ from urdfkit.sim.engine.compilation import field, inlined
 
 PASSING = 1e-9
 """How far beyond a limit a joint has passed it [rad or m]."""
+WHIRLING = 0.05
+"""How far a joint turns in a step from which on its speed is looked at in the middle of it [rad or m]."""
 
 
 @inlined
@@ -32,3 +34,13 @@ def passes_limits(floats: Any, integers: Any, first: int, beyond: int, dt: float
             pressed[d] = -1 if end < lower[d] else 1
             found = True
     return found
+
+
+@inlined
+def whirls(floats: Any, integers: Any, first: int, beyond: int, dt: float) -> bool:
+    """Return whether a joint turns so far in a step that what its speed brings about is to be looked at twice."""
+    v = field(floats, integers, At.v_start)
+    for d in range(first, beyond):  # noqa: SIM110
+        if dt * abs(v[d]) > WHIRLING:
+            return True
+    return False

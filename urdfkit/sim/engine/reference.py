@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS, Arrays
 from urdfkit.sim.engine.body import Body, Member
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
-from urdfkit.sim.engine.limits import PASSING
+from urdfkit.sim.engine.limits import PASSING, WHIRLING
 from urdfkit.sim.engine.parts import find_candidates, find_contacts, find_impulses
 from urdfkit.sim.engine.reference_motion import go, inward, move, outward
 from urdfkit.sim.engine.reference_servo import grow_integrals, servo_effort, servos, set_integral_parts
@@ -103,7 +103,8 @@ class Reference:
         joint_rows = self._joint_rows(start, dofs)
         limited = any(n <= row.slot < 2 * n for row in joint_rows)
         rows = joint_rows + contact_rows
-        if not contact_rows and not has_servo and not limited:
+        whirls = bool((self.dt * np.abs(start[dofs]) > WHIRLING).any())
+        if not contact_rows and not has_servo and (whirls or not limited):
             if not joint_rows and not (np.abs(a["damping"]) + np.abs(a["applied"]))[dofs].any():
                 a["v"][dofs] = self._fly(start, dofs)
                 return

@@ -33,7 +33,7 @@ from urdfkit.sim.engine.dynamics import place, solve_forward, terms
 from urdfkit.sim.engine.flight import flies, fly
 from urdfkit.sim.engine.friction import rub
 from urdfkit.sim.engine.integrate import move
-from urdfkit.sim.engine.limits import passes_limits
+from urdfkit.sim.engine.limits import passes_limits, whirls
 from urdfkit.sim.engine.rows import contact_rows, joint_rows, push, whiten
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, account, limited, overloaded, smooth_motion
 from urdfkit.sim.engine.solve import solve
@@ -81,9 +81,9 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
             v_start[d] = v[d]
             saturated[d] = pressed[d] = 0
         contacts = rows = 0
-        # What touches nothing and has no servo is done twice, the second time with the velocity half a step on, and
-        # what nothing holds at all flies; where servos turn out too weak, or limits near, the second part is done
-        # again.
+        # What touches nothing and has no servo is done twice, the second time with the velocity half a step on, unless
+        # a limit is near and all is slow; what nothing holds at all flies. Where servos turn out too weak, or limits
+        # near, the second part is done again.
         halfway = False
         attempt = 0
         while True:
@@ -111,7 +111,9 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                     rub(floats, integers, contacts, first_contact_slot, 0, memory, dt)
             has_servo = smooth_motion(floats, integers, 0, dofs, dt)
             rows = joint_rows(floats, integers, 0, 0, dofs, dofs, dt, ALONE)
-            free = not halfway and contacts == 0 and not has_servo and not limited(floats, integers, rows, dofs)
+            free = not halfway and contacts == 0 and not has_servo
+            if free and limited(floats, integers, rows, dofs):
+                free = whirls(floats, integers, 0, dofs, dt)
             if free and flies(floats, integers, 0, dofs, rows):
                 fly(floats, integers, 0, dt)
                 break

@@ -20,7 +20,7 @@ from urdfkit.sim.engine.arrays import (
 from urdfkit.sim.engine.compilation import compiled, field
 from urdfkit.sim.engine.dynamics import solve_forward
 from urdfkit.sim.engine.flight import flies, fly
-from urdfkit.sim.engine.limits import passes_limits
+from urdfkit.sim.engine.limits import passes_limits, whirls
 from urdfkit.sim.engine.rows import contact_rows, joint_rows, push, whiten
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, limited, overloaded, smooth_motion
 from urdfkit.sim.engine.solve import solve
@@ -67,8 +67,9 @@ def settle(floats: Any, integers: Any, root: int) -> int:
     first_contact_slot, first_pair_slot = 2 * dofs + mimics, slots - 3 * most_contacts
     single = root if island_next[root] < 0 else -1
     rows = 0
-    # What touches nothing and has no servo is done twice, the second time with the velocity half a step on, and what
-    # nothing holds at all flies; where servos turn out too weak, or limits near, the second part is done again.
+    # What touches nothing and has no servo is done twice, the second time with the velocity half a step on, unless a
+    # limit is near and all is slow; what nothing holds at all flies. Where servos turn out too weak, or limits near,
+    # the second part is done again.
     halfway = False
     attempt = 0
     while True:
@@ -83,7 +84,9 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             rows = joint_rows(floats, integers, rows, tree, dofs, width, dt, False)
             tree = island_next[tree]
         # What touches nothing is one tree.
-        free = not halfway and island_contact[root] < 0 and not has_servo and not limited(floats, integers, rows, dofs)
+        free = not halfway and island_contact[root] < 0 and not has_servo
+        if free and limited(floats, integers, rows, dofs):
+            free = whirls(floats, integers, tree_dof[root], tree_dof[root + 1], dt)
         if free and flies(floats, integers, tree_dof[root], tree_dof[root + 1], rows):
             fly(floats, integers, root, dt)
             break
