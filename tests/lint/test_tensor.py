@@ -76,25 +76,3 @@ def test_only_one_order_may_explain_a_tensor(write):
     assert codes("0.02 0.001 0.03 0.002 0.0005 0.04") == {"I505"}  # By columns.
     assert codes("0.02 0 0 0.03 0 0.04") == set()
     assert codes("0.02 0.5 0.4 0.3 0.2 0.1") == {"I502"}
-
-
-def test_meshes_count_by_the_box_around_them(write):
-    from pathlib import Path
-
-    from urdfkit.lint import lint
-
-    block = Path(__file__).parent / "rules" / "not-installed" / "meshes" / "block.stl"
-    write("block.stl", block.read_bytes())  # A cube of 0.1 m.
-    mesh = '<visual><geometry><mesh filename="block.stl" scale="2 1 1"/></geometry></visual>'
-
-    def found(moment: float) -> list[tuple[str, str]]:
-        inertia = f'<inertia ixx="{moment}" ixy="0" ixz="0" iyy="{moment}" iyz="0" izz="{moment}"/>'
-        link = f'<link name="a"><inertial><mass value="1"/>{inertia}</inertial>{mesh}</link>'
-        path = write("r.xacro", link)
-        return [(finding.code, finding.message) for finding in lint(path)]
-
-    assert found(0.003) == []
-    ((code, message),) = found(0.4)
-    assert code == "I507"
-    assert "its shapes reach 0.122 m" in message
-    assert [code for code, _ in found(1e-6)] == ["I508"]

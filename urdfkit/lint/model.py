@@ -114,22 +114,11 @@ class Model:
 
     @cached_property
     def extents(self) -> dict[str, Extent]:
-        """Link name → what its shapes fill.
+        """Link name → what its shapes fill; links without shapes, or with one that cannot be known, are left out."""
+        from urdfkit.lint.placement import extent
 
-        Links without shapes, or with one that cannot be known, are left out; meshes are read for links with an inertia
-        only, which are what they are compared with.
-        """
-        from urdfkit.description.robot import Mesh
-        from urdfkit.lint.placement import extent, shapes_of
-
-        found: dict[str, Extent] = {}
-        for link in self.robot.links:
-            if link.inertial is None and any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
-                continue
-            filled = extent(link, self.box_of)
-            if filled is not None:
-                found[link.name] = filled
-        return found
+        found = ((link.name, extent(link, self.box_of)) for link in self.robot.links)
+        return {name: filled for name, filled in found if filled is not None}
 
     def box_of(self, mesh: Mesh) -> tuple[Vector, Vector] | None:
         """Return centre and size of the box around a mesh [m], scale included; None where it cannot be read."""

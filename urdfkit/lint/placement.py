@@ -160,23 +160,21 @@ def _volume(shape: Geometry) -> float:
 
 def _box(shape: Geometry, pose: Pose) -> tuple[Vector, Vector]:
     rows = rotation(pose.rpy)
-    if isinstance(shape, Box) and rows is IDENTITY:
+    half: list[float] = []
+    if rows is IDENTITY and isinstance(shape, Box):
         half = [abs(size) / 2.0 for size in shape.size]
-    else:
-        half = [_half(shape, row) for row in rows]
+        rows = ()  # type: ignore[assignment]
+    for row in rows:
+        if isinstance(shape, Box):
+            half.append(sum(abs(a * size) / 2.0 for a, size in zip(row, shape.size, strict=True)))
+        elif isinstance(shape, Cylinder):
+            half.append(abs(row[2]) * shape.length / 2.0 + shape.radius * sqrt(max(0.0, 1.0 - row[2] ** 2)))
+        elif isinstance(shape, Capsule):
+            half.append(abs(row[2]) * shape.length / 2.0 + shape.radius)
+        else:
+            half.append(shape.radius if isinstance(shape, Sphere) else 0.0)
     x, y, z = pose.xyz
     return (x - half[0], y - half[1], z - half[2]), (x + half[0], y + half[1], z + half[2])
-
-
-def _half(shape: Geometry, row: Vector) -> float:
-    """Return how far a shape reaches along an axis, whose parts in the shape's frame are a row of its rotation."""
-    if isinstance(shape, Box):
-        return sum(abs(a * size) / 2.0 for a, size in zip(row, shape.size, strict=True))
-    if isinstance(shape, Cylinder):
-        return abs(row[2]) * shape.length / 2.0 + shape.radius * sqrt(max(0.0, 1.0 - row[2] ** 2))
-    if isinstance(shape, Capsule):
-        return abs(row[2]) * shape.length / 2.0 + shape.radius
-    return shape.radius if isinstance(shape, Sphere) else 0.0
 
 
 def _farthest(shape: Geometry, pose: Pose, point: Vector) -> float:

@@ -114,6 +114,7 @@ class Engine(Part):
             from urdfkit.sim.engine.reference import Reference
 
             self._advance = Reference(self._members, self._free, self._arrays).advance
+        self._floats, self._integers = self._arrays.floats, self._arrays.integers
         super().__init__(kinematics, self._arrays, 0)
         others_parts = [Part(each.kinematics, self._arrays, k) for k, each in enumerate(others, 1)]
         self.robots: tuple[Part, ...] = (self, *others_parts)
@@ -152,9 +153,9 @@ class Engine(Part):
             SimulationError: the state stopped being finite; names the joint and the time. Or more touches at once than
                 there is room for.
         """
-        done = self._advance(self._arrays.floats, self._arrays.integers, n, False)
-        self.steps += done
-        self.t = self.steps * self.dt
+        done = self._advance(self._floats, self._integers, n, False)
+        self.steps = steps = self.steps + done
+        self.t = steps * self.dt
         if done < n:
             raise SimulationError(self._divergence())
 

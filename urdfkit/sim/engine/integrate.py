@@ -10,15 +10,24 @@ from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
 from urdfkit.sim.engine.spatial import rotate, scale, turn_of
 
+SMALL = 2.5e-3
+"""Square of half an angle [rad²] below which these series, of sin(x)/x and cos(x), are exact to rounding."""
+SINE = (-1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362880.0)
+COSINE = (-0.5, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40320.0)
+
 
 @inlined
 def turned_by(x: float, y: float, z: float, w: float, turn: Any) -> Any:
     """Return a unit quaternion turned on by a rotation vector in its own axes [rad]."""
     turn = scale(0.5, turn)
-    half = math.sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2])
-    # sin(half)/half by series where that is exact to rounding; it avoids 0/0.
-    share = 1.0 - half * half / 6.0 if half < 1e-4 else math.sin(half) / half
-    a, b, c, e = share * turn[0], share * turn[1], share * turn[2], math.cos(half)
+    square = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2]
+    if square < SMALL:
+        share = 1.0 + square * (SINE[0] + square * (SINE[1] + square * (SINE[2] + square * SINE[3])))
+        e = 1.0 + square * (COSINE[0] + square * (COSINE[1] + square * (COSINE[2] + square * COSINE[3])))
+    else:
+        half = math.sqrt(square)
+        share, e = math.sin(half) / half, math.cos(half)
+    a, b, c = share * turn[0], share * turn[1], share * turn[2]
     x, y, z, w = (
         w * a + x * e + y * c - z * b,
         w * b - x * c + y * e + z * a,

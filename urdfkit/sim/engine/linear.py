@@ -1,8 +1,7 @@
-"""Small linear systems, solved in place; matrices are written row by row without gaps."""
+"""Small matrices, written row by row without gaps: products of rows, and linear systems solved in place."""
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from urdfkit.sim.engine.compilation import inlined
@@ -10,28 +9,26 @@ from urdfkit.sim.engine.compilation import inlined
 
 @inlined
 def factor_and_solve(n: int, B: Any, x: Any) -> bool:
-    """Solve B·x = x in place, B symmetric and positive; return whether it was (Cholesky)."""
-    for i in range(n):
-        for j in range(i + 1):
-            total = B[i * n + j]
-            for k in range(j):
-                total -= B[i * n + k] * B[j * n + k]
-            if i == j:
-                if not total > 0.0:
-                    return False
-                B[i * n + i] = 1.0 / math.sqrt(total)
-            else:
-                B[i * n + j] = total * B[j * n + j]
-    for i in range(n):
-        total = x[i]
-        for k in range(i):
-            total -= B[i * n + k] * x[k]
-        x[i] = total * B[i * n + i]
-    for i in range(n - 1, -1, -1):
-        total = x[i]
-        for k in range(i + 1, n):
-            total -= B[k * n + i] * x[k]
-        x[i] = total * B[i * n + i]
+    """Solve B·x = x in place, B symmetric and positive, its upper triangle given; return whether it was (LDLᵀ).
+
+    What a column changes is subtracted from all that follow at once: nothing waits for a sum, and no root is taken.
+    """
+    for k in range(n):
+        pivot = B[k * n + k]
+        if not pivot > 0.0:
+            return False
+        inverse = 1.0 / pivot
+        B[k * n + k] = inverse
+        for i in range(k + 1, n):
+            factor = B[k * n + i] * inverse
+            x[i] -= factor * x[k]
+            for j in range(i, n):
+                B[i * n + j] -= factor * B[k * n + j]
+    for k in range(n - 1, -1, -1):
+        xk = x[k] * B[k * n + k]
+        x[k] = xk
+        for i in range(k):
+            x[i] -= B[i * n + k] * xk
     return True
 
 
@@ -62,3 +59,33 @@ def eliminate_and_solve(n: int, B: Any, x: Any) -> bool:
             total -= B[i * n + j] * x[j]
         x[i] = total / B[i * n + i]
     return True
+
+
+@inlined
+def gram_row(rows: int, k: int, n: int, width: int, Y: Any, A: Any) -> None:
+    """Write the products of the first n entries of row k with those of the rows up to it into A and its mirror."""
+    at = k * width
+    j = 0
+    while j <= k:
+        to = j * width
+        if j + 3 <= k:
+            # Four at a time, so that no sum has to wait for the one before.
+            p = q = r = s = 0.0
+            for d in range(n):
+                y = Y[at + d]
+                p += y * Y[to + d]
+                q += y * Y[to + width + d]
+                r += y * Y[to + 2 * width + d]
+                s += y * Y[to + 3 * width + d]
+            to = k * rows + j
+            A[to], A[to + 1], A[to + 2], A[to + 3] = p, q, r, s
+            to = j * rows + k
+            A[to], A[to + rows], A[to + 2 * rows], A[to + 3 * rows] = p, q, r, s
+            j += 4
+        else:
+            p = 0.0
+            for d in range(n):
+                p += Y[at + d] * Y[to + d]
+            A[k * rows + j] = p
+            A[j * rows + k] = p
+            j += 1

@@ -11,7 +11,8 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
-from urdfkit.sim.engine.dynamics import solve_transposed
+from urdfkit.sim.engine.dynamics import solve_transposed, solve_transposed_by_four
+from urdfkit.sim.engine.linear import gram_row
 from urdfkit.sim.engine.spatial import add, cross, dot, load_spatial, load_vector, sub
 
 RECOVERY = 0.2
@@ -280,36 +281,6 @@ def row_product(floats: Any, integers: Any, i: int, j: int, width: int) -> float
 
 
 @inlined
-def gram_row(rows: int, k: int, n: int, width: int, Y: Any, A: Any) -> None:
-    """Write the products of the first n entries of row k with those of the rows up to it into A and its mirror."""
-    at = k * width
-    j = 0
-    while j <= k:
-        to = j * width
-        if j + 3 <= k:
-            # Four at a time, so that no sum has to wait for the one before.
-            p = q = r = s = 0.0
-            for d in range(n):
-                y = Y[at + d]
-                p += y * Y[to + d]
-                q += y * Y[to + width + d]
-                r += y * Y[to + 2 * width + d]
-                s += y * Y[to + 3 * width + d]
-            to = k * rows + j
-            A[to], A[to + 1], A[to + 2], A[to + 3] = p, q, r, s
-            to = j * rows + k
-            A[to], A[to + rows], A[to + 2 * rows], A[to + 3 * rows] = p, q, r, s
-            j += 4
-        else:
-            p = 0.0
-            for d in range(n):
-                p += Y[at + d] * Y[to + d]
-            A[k * rows + j] = p
-            A[j * rows + k] = p
-            j += 1
-
-
-@inlined
 def whiten(floats: Any, integers: Any, rows: int, single: int, width: int, alone: bool) -> None:
     """Turn rows J into Y = J·L⁻¹, their biases into velocities g with no impulse, and get A = J·M⁻¹·Jᵀ.
 
@@ -330,12 +301,21 @@ def whiten(floats: Any, integers: Any, rows: int, single: int, width: int, alone
         if alone:
             first, beyond = 0, width
         for k in range(rows):
-            at = k * width
-            start = at - first
+            start = k * width - first
             free = bias[k]
             for d in range(first, beyond):
                 free += Y[start + d] * v[d]
-            solve_transposed(floats, integers, first, beyond, Y, start)
+            g[k] = free
+        k = 0
+        while k + 4 <= rows:
+            solve_transposed_by_four(floats, integers, first, beyond, Y, k * width - first, width)
+            k += 4
+        while k < rows:
+            solve_transposed(floats, integers, first, beyond, Y, k * width - first)
+            k += 1
+        for k in range(rows):
+            start = k * width - first
+            free = g[k]
             for d in range(first, beyond):
                 free += Y[start + d] * u[d]
             g[k] = free

@@ -124,9 +124,11 @@ def smooth_motion(floats: Any, integers: Any, first: int, beyond: int, dt: float
         row = dof_row[d]
         for e in range(first, d + 1):
             L[row + e] = M[row + e]
-        effort = applied[d] - bias[d] - damping[d] * v[d]
-        effort += friction_beside_motor(floats, integers, d, v)
-        softness = damping[d] * late_share(dt * damping[d] / M[row + d])
+        effort = applied[d] - bias[d] + friction_beside_motor(floats, integers, d, v)
+        softness = 0.0
+        if damping[d] != 0.0:
+            effort -= damping[d] * v[d]
+            softness = damping[d] * late_share(dt * damping[d] / M[row + d])
         if is_servo(floats, integers, d):
             has_servo = True
             set_integral_part(floats, integers, d, dt)

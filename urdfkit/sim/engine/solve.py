@@ -83,7 +83,7 @@ def try_guess(floats: Any, integers: Any, rows: int, rest: Any, softness: float)
     state = field(integers, integers, At.state)
     index = field(integers, integers, At.index)
     n = 0
-    sliding = False
+    sliding = pushed = False
     k = 0
     while k < rows:
         x[k] = 0.0
@@ -98,10 +98,9 @@ def try_guess(floats: Any, integers: Any, rows: int, rest: Any, softness: float)
                 n += 2
             k += 3
             continue
-        elif state[k] == AT_LOW:
-            x[k] = low[k]
         else:
-            x[k] = high[k]
+            x[k] = low[k] if state[k] == AT_LOW else high[k]
+            pushed = True
         k += 1
     if sliding:
         if softness == SOFTNESS and slide(floats, integers, rows, n, rest):
@@ -111,11 +110,12 @@ def try_guess(floats: Any, integers: Any, rows: int, rest: Any, softness: float)
     for a in range(n):
         i = index[a]
         total = -g[i] + softness * A[i * rows + i] * rest[i]
-        for j in range(rows):
-            if x[j] != 0.0:
-                total -= A[i * rows + j] * x[j]
+        if pushed:
+            for j in range(rows):
+                if x[j] != 0.0:
+                    total -= A[i * rows + j] * x[j]
         y[a] = total
-        for b in range(a + 1):
+        for b in range(a, n):
             B[a * n + b] = A[i * rows + index[b]]
         B[a * n + a] += softness * A[i * rows + i]
     if not factor_and_solve(n, B, y):

@@ -55,6 +55,8 @@ class LinkJointSameName(RobotRule):
             "mujoco",
             "isaac",
             "moveit",
+            "ros1",
+            "ros2",
         )
     )
 
