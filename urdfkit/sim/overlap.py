@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
 
@@ -12,6 +14,8 @@ if TYPE_CHECKING:
 
 DEEP = 0.005
 """How deep a link may be in something without a word [m]; models that are put down by hand are a little."""
+PART = 1 << 15
+"""Entries of a block that are looked at together."""
 
 
 def note_overlaps(engine: Engine, links: Collection[str], note: Callable[[str], None]) -> None:
@@ -36,7 +40,7 @@ def note_overlaps(engine: Engine, links: Collection[str], note: Callable[[str], 
 def touching(engine: Engine) -> tuple[Contact, ...]:
     """Return what touches at present, which a step finds out; what the step did is undone."""
     blocks = engine._arrays.floats, engine._arrays.integers
-    kept, t, steps = [block.copy() for block in blocks], engine.t, engine.steps
+    kept, t, steps = [_in_use(block) for block in blocks], engine.t, engine.steps
     try:
         engine.step()
         return engine.contacts()
@@ -44,5 +48,20 @@ def touching(engine: Engine) -> tuple[Contact, ...]:
         return ()  # whoever steps on is told
     finally:
         for block, before in zip(blocks, kept, strict=True):
-            block[:] = before
+            _restore(block, before)
         engine.t, engine.steps = t, steps
+
+
+def _in_use(block: NDArray[Any]) -> dict[int, NDArray[Any]]:
+    """Return copies of the parts of a block that are not zero: most of it never is, and takes no memory until then."""
+    parts = {start: block[start : start + PART] for start in range(0, len(block), PART)}
+    return {start: part.copy() for start, part in parts.items() if part.any()}
+
+
+def _restore(block: NDArray[Any], before: dict[int, NDArray[Any]]) -> None:
+    for start in range(0, len(block), PART):
+        part = block[start : start + PART]
+        if start in before:
+            part[:] = before[start]
+        elif part.any():
+            part[:] = 0
