@@ -51,6 +51,16 @@ def test_bodies_fall_are_placed_pushed_and_put_back(world) -> None:
     assert simulator.bodies["box"].pose[:3] == (2.0, 0.0, 1.0)
 
 
+def test_the_only_link_of_a_model_is_pushed_by_its_scoped_name(world) -> None:
+    simulator = Simulator("simpleton", world=world(box("box", "2 0 0.1 0 0 0")), spawn=Spawn(x=-2.0))
+    (link,) = [link.name for model in simulator.world.models for link in model.links if model.name == "box"]
+    simulator.push(f"box::{link}", force=(0.0, 0.0, 30.0))
+    simulator.run(0.1)
+    assert simulator.bodies["box"].twist[2] > 0.5
+    with pytest.raises(SimulationError, match="no body or link `box::lnk`"):
+        simulator.push("box::lnk", force=(0.0, 0.0, 30.0))
+
+
 def test_furniture_stays_where_it_stands() -> None:
     simulator = Simulator("simpleton", world="house")
     before = simulator.body_poses()

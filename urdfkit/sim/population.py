@@ -24,7 +24,7 @@ from urdfkit.sim.simulated import SimulatedRobot
 from urdfkit.sim.spawn import Spawn
 from urdfkit.sim.stage import AT_REST, Stage
 from urdfkit.sim.thing import Thing
-from urdfkit.sim.things import looks_of
+from urdfkit.sim.things import looks_of, parts_of
 
 Array = NDArray[np.float64]
 ZERO = (0.0, 0.0, 0.0)
@@ -267,8 +267,21 @@ class Population:
             link = name.removeprefix(f"{robot.name}::")
             if link != name and link in robot.kinematics.link_names:
                 return robot, link
-        if name in stage.still:
+        body = self._body_of(name)
+        if body in stage.loose:
+            return None, body
+        if name in stage.still or body in stage.still:
             raise SimulationError(f"body `{name}` does not move; nothing can push it")
         known = [*stage.loose, *first.kinematics.link_names]
         known += [f"{each.name}::{link}" for each in robots.values() for link in each.kinematics.link_names]
         raise UnknownNameError(f"no body or link `{name}` in the simulation{nearest(name, known)}")
+
+    def _body_of(self, scoped: str) -> str:
+        """Return the body that a link of a model in the world, ``MODEL::LINK``, is part of; "" if there is none."""
+        name, _, link = scoped.partition("::")
+        for model in self._stage.world.models:
+            if link and model.name == name:
+                for body, _, links in parts_of(model):
+                    if any(link == each[0] for each in links):
+                        return body
+        return ""
