@@ -227,6 +227,25 @@ def test_nothing_catches_on_the_edges_inside_a_floor() -> None:
             assert found.gaps == pytest.approx(np.full(len(found), -1e-4), abs=1e-8)
 
 
+def test_a_wheel_is_held_off_an_edge_that_meets_its_rim_beside_the_middle() -> None:
+    """The middle of the rim stands for its lower edge, but not for what is anywhere else on the rim."""
+    random = np.random.default_rng(3)
+    corner = placed(BOX, (-0.2, -0.3, 0.0))
+    radius, half, _ = SIZES[WHEEL]
+    for _ in range(100):
+        # Upright, its rim overlapping the upright edge at the origin, somewhere along its width.
+        outward = random.uniform(0.1, 0.5 * math.pi - 0.1)
+        yaw = outward + 0.5 * math.pi + random.uniform(-0.04, 0.04)
+        axis = np.array([math.cos(yaw), math.sin(yaw), 0.0])
+        away = np.array([math.cos(outward), math.sin(outward), 0.0])
+        p = (radius - random.uniform(0.002, 0.008)) * away + random.uniform(-0.9, 0.9) * half * axis
+        R = np.column_stack([(0.0, 0.0, 1.0), np.cross(axis, (0.0, 0.0, 1.0)), axis])
+        wheel, drum = (touch(Placed(kind, SIZES[WHEEL], R, p), corner) for kind in (WHEEL, CYLINDER))
+        k = int(drum.gaps.argmin())
+        assert drum.gaps[k] < -1e-3
+        assert wheel.gaps.min() <= drum.gaps[k] + half * abs(float(axis @ drum.normals[k])) + 1e-6
+
+
 def test_a_wheel_on_a_floor_of_triangles_touches_once() -> None:
     floor = Placed(
         MESH, data=GEOMETRY.add_mesh(trimesh.creation.box((4.0, 4.0, 1.0)).triangles), p=np.array([0, 0, -0.5])

@@ -13,7 +13,7 @@ import numpy as np
 
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.pairs.candidates import keep_widest, note
-from urdfkit.sim.engine.pairs.faces import touching_face
+from urdfkit.sim.engine.pairs.faces import column, touching_face
 from urdfkit.sim.engine.pairs.gjk import put
 from urdfkit.sim.engine.pairs.memory import (
     CLIPPED,
@@ -131,6 +131,14 @@ def are_parallel(work: Any) -> bool:
     return bool(dot(normal, normal) < PARALLEL * PARALLEL * dot(a, a) * dot(b, b) and dot(a, a) * dot(b, b) > 0.0)
 
 
+@inlined
+def leaning(shape: Any, corners: int, normal: Vector) -> float:
+    """Return how much nearer the lower edge of a wheel may be than the middle of its rim, which stands for it [m]."""
+    if shape[0] == WHEEL and corners == 1:
+        return float(shape[1][1] * abs(dot(column(shape[2], 2), normal)))
+    return 0.0
+
+
 @compiled
 def spread(
     count: int,
@@ -208,8 +216,7 @@ def spread(
                 number = feature + work_indices[CLIPPED_ID + k] + (0 if clips_a else B_IS_CLIPPED)
                 count = note(count, middle, normal, here - radius_a - radius_b, number, work, work_indices)
     # The lower edge of a leaning wheel is left out for the middle of its rim.
-    on_rim = (a[0] == WHEEL and corners_a == 1) or (b[0] == WHEEL and corners_b == 1)
-    reached = least < math.inf if on_rim else least <= gap + REACHED
+    reached = least <= gap + REACHED + leaning(a, corners_a, normal) + leaning(b, corners_b, normal)
     if has_nearest and gap < limit and not reached and count < MOST_CANDIDATES:
         count = note(
             count, add(between, shift), normal, gap - radius_a - radius_b, feature + NEAREST, work, work_indices

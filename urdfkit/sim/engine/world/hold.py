@@ -133,11 +133,32 @@ def correct(floats: Any, integers: Any, root: int, rows: int, n: int, sliding: i
     return NOT_MET
 
 
+@inlined
+def ease(floats: Any, integers: Any, rows: int, tiny: float) -> bool:
+    """Let rows that hold take back less of what they are off, or close less of a gap, so that none contradicts another.
+
+    Returns:
+        Whether that is enough. It is not where motors or friction are among them: these have to give in instead.
+    """
+    high = field(floats, integers, At.high)
+    bias = field(floats, integers, At.row_bias)
+    g = field(floats, integers, At.slip)
+    speed = field(floats, integers, At.block_v)
+    state = field(integers, integers, At.state)
+    for k in range(rows):
+        if state[k] == HOLDS:
+            error = abs(row_speed(floats, integers, k, speed) + g[k])
+            if error > tiny and (high[k] < math.inf or error > abs(bias[k])):
+                return False
+    for k in range(rows):
+        if state[k] == HOLDS:
+            g[k] -= row_speed(floats, integers, k, speed) + g[k]
+    return True
+
+
 @compiled
 def try_states(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: float) -> int:
     """Find what rows do, beginning with what ``state`` says; return how many sets were tried, 0 if in vain."""
-    speed = field(floats, integers, At.block_v)
-    g = field(floats, integers, At.slip)
     state = field(integers, integers, At.state)
     one_before = two_before = -1
     changed = True
@@ -151,11 +172,10 @@ def try_states(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: f
         there = correct(floats, integers, root, rows, n, sliding, tiny)
         if there == CONTRADICT:
             # As of a table on four feet: they are met as nearly as can be, and no impulses grow of what is left.
-            for k in range(rows):
-                if state[k] == HOLDS:
-                    g[k] -= row_speed(floats, integers, k, speed) + g[k]
-            start_over(floats, integers, rows, n)
-            there = correct(floats, integers, root, rows, n, sliding, tiny)
+            there = NOT_MET
+            if ease(floats, integers, rows, tiny):
+                start_over(floats, integers, rows, n)
+                there = correct(floats, integers, root, rows, n, sliding, tiny)
         changed = revise(floats, integers, rows, tiny)
         if changed:
             # Where what rows do comes round again, it will for ever.
