@@ -61,6 +61,8 @@ STRAYING = 10.0
 """Ratio of a row's velocity after the impulses to the largest before that is taken for a mistake."""
 MANY = 6
 """Guesses beyond which their result is looked at twice."""
+NEARLY = 100.0
+"""Ratio of what the last sweep changed to what counts as nothing, up to which sweeps have met the law."""
 LARGE = 60
 """Rows beyond which sweeps cost less than softer problems, each a matrix to eliminate several times."""
 
@@ -140,13 +142,18 @@ def attempts(floats: Any, integers: Any, rows: int, rest: Any, softness: float, 
 
 
 @inlined
-def sweep(floats: Any, integers: Any, rows: int, x: Any, sweeps: int, tiny: float) -> None:
-    """Improve x by projected Gauss-Seidel sweeps with circular friction cones, until nothing moves."""
+def sweep(floats: Any, integers: Any, rows: int, x: Any, sweeps: int, tiny: float) -> float:
+    """Improve x by projected Gauss-Seidel sweeps with circular friction cones, until nothing moves.
+
+    Returns:
+        The greatest change of velocity that the last sweep still made.
+    """
     A = field(floats, integers, At.A)
     g = field(floats, integers, At.g)
     low = field(floats, integers, At.low)
     high = field(floats, integers, At.high)
     mu = field(floats, integers, At.mu)
+    moved = math.inf
     for _ in range(sweeps):
         moved = 0.0
         k = 0
@@ -170,6 +177,7 @@ def sweep(floats: Any, integers: Any, rows: int, x: Any, sweeps: int, tiny: floa
                 k += 1
         if moved < tiny:
             break
+    return moved
 
 
 @inlined
@@ -213,9 +221,10 @@ def approach(floats: Any, integers: Any, rows: int, tiny: float) -> int:
         near[k] = before[k]
     tried = 0
     sweeps = 0
+    moved = math.inf
     if rows > LARGE:
         sweeps = SWEEPS + 1
-        sweep(floats, integers, rows, near, sweeps, tiny)
+        moved = sweep(floats, integers, rows, near, sweeps, tiny)
     while sweeps <= SWEEPS:
         softness, failed = SOFTEST, 0
         guess_from(floats, integers, rows, near)
@@ -235,15 +244,15 @@ def approach(floats: Any, integers: Any, rows: int, tiny: float) -> int:
                 return tried if sweeps == 0 else -tried
             softness = max(SLIDING_SOFTNESS, HARDENING * softness)
         sweeps = max(10, 3 * sweeps)
-        sweep(floats, integers, rows, near, sweeps, tiny)
+        moved = sweep(floats, integers, rows, near, sweeps, tiny)
     if gains_energy(floats, integers, rows, near):
         # From nothing, sweeps only ever take energy away.
         for k in range(rows):
             near[k] = 0.0
-        sweep(floats, integers, rows, near, SWEEPS, tiny)
+        moved = sweep(floats, integers, rows, near, SWEEPS, tiny)
     for k in range(rows):
         x[k] = near[k]
-    return 0
+    return -max(1, tried) if moved <= NEARLY * tiny else 0
 
 
 @inlined
