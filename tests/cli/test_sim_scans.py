@@ -45,6 +45,11 @@ def test_a_cloud_is_saved_point_by_point(tmp_path: Path) -> None:
     assert (names, len(rows)) == ("x,y,z,intensity", len(found["x"]))
 
 
+def test_the_only_cloud_needs_no_topic(tmp_path: Path) -> None:
+    assert run("gem_e2", str(tmp_path / "cloud.json")) == 0
+    assert json.loads((tmp_path / "cloud.json").read_text())["topic"] == "/velodyne_points"
+
+
 @pytest.mark.parametrize(
     ("robot", "option", "seconds", "said"),
     [

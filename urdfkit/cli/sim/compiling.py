@@ -11,7 +11,6 @@ from urdfkit.cli.sim.kernel import SECONDS_RAYS
 if TYPE_CHECKING:
     from urdfkit.view.server import Server
 
-KERNEL = "compiling the physics kernel, some 20 s, once per machine …"
 RAYS = f"compiling the ray kernels, some {SECONDS_RAYS} s, once per machine …"
 
 
@@ -22,9 +21,9 @@ def compile_kernel(server: Server, first: Callable[[], None]) -> None:
         server: the page.
         first: called before a compilation begins, not when there is none.
     """
-    from urdfkit.sim.engine import warmup
+    from urdfkit.sim.engine.warmup import announcement, warmup
 
-    _compile(warmup, KERNEL, server, first)
+    _compile(warmup, announcement(), server, first)
 
 
 def compile_rays(server: Server, first: Callable[[], None]) -> None:

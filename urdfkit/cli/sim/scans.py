@@ -20,14 +20,17 @@ CLOUD = "sensor_msgs/msg/PointCloud2"
 
 
 def find_topics(simulator: Simulator, wanted: Sequence[TopicFile]) -> list[tuple[str, Path]]:
-    """Return the topic and the file of each ``--save-scan``.
+    """Return the topic and the file of each ``--save-scan``; without a topic it is a scan, a cloud where there is none.
 
     Raises:
         UsageError: there is no such topic, it carries no scans, or none is named and there are several.
     """
-    named = [each for each in wanted if each.topic]
-    types = (SCAN, CLOUD) if named else (SCAN,)
-    return saved.find_topics(simulator, wanted, option="--save-scan", types=types, what="scans", suffix=".json")
+    has_scan = any(topic.type == SCAN for topic in simulator.bus.topics)
+    found = []
+    for each in wanted:
+        types = (SCAN,) if has_scan and not each.topic else (SCAN, CLOUD)
+        found += saved.find_topics(simulator, [each], option="--save-scan", types=types, what="scans", suffix=".json")
+    return found
 
 
 def save(simulator: Simulator, wanted: Sequence[tuple[str, Path]]) -> None:
