@@ -11,10 +11,6 @@ if TYPE_CHECKING:
     from urdfkit.description.robot import GazeboBlock, Plugin, Robot, SensorTag
     from urdfkit.lint.model import Model
 
-CLASSIC_TARGETS = frozenset(("ros1", "classic"))
-NOT_GAZEBO = frozenset(("mujoco", "isaac", "drake", "moveit"))
-"""Targets that read no ``<gazebo>``."""
-
 OUTSIDE_FRAMES = frozenset(("world", "map", "odom", "/world", "/map", "/odom", "base_footprint_odom"))
 """Frames that are no links of the robot."""
 

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
     from urdfkit.lint.syntax import Document
 
+NOT_GAZEBO = frozenset(("mujoco", "isaac", "drake", "moveit"))
+"""Targets that read neither ``<gazebo>`` nor what belongs to controllers."""
+
 SECTIONS = ("What it does", "Why is this bad?", "Example", "Use instead", "Fix safety", "References")
 """The headings a rule's docstring may have, in this order; the first four are required."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.robot import Cylinder, Sphere
-from urdfkit.lint.edits import nearest
+from urdfkit.lint.edits import nearest, new_text
 from urdfkit.lint.gazebo import plugins, spec_of
 from urdfkit.lint.placement import Frame, rotation, shapes_of, turned
 from urdfkit.record import record
@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     from urdfkit.description.element import Element
     from urdfkit.description.plugins import PluginSpec
     from urdfkit.description.robot import Joint, Plugin, Vector
+    from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
+    from urdfkit.lint.rule import Rule
 
 _SIDES = {
     "diff_drive": (("left_joint",), ("right_joint",)),
@@ -85,6 +87,30 @@ def written(model: Model, drive: TwoSided, meaning: str) -> tuple[float, Element
     return float(parameter.default), drive.plugin.element, parameter.tag
 
 
+def mismatch(
+    rule: Rule, model: Model, drive: TwoSided, parameter: tuple[float, Element, str], *, actual: float, beside: str
+) -> Finding:
+    """Return the finding for a length of a drive that is not what the robot has.
+
+    Args:
+        rule: whose finding it is.
+        model: what is being linted.
+        drive: the drive.
+        parameter: the length [m], its element and its tag, as `written` returns them.
+        actual: what the robot has [m].
+        beside: what has it, with ``{}`` where the length goes.
+    """
+    number, element, tag = parameter
+    text = f"{actual:.6g}"
+    return rule.at(
+        model,
+        element,
+        f"<{tag}> is {number:g} m, but {beside.format(text)}",
+        joint=drive.left[0].joint.name,
+        fix=new_text(model, element, text, "unsafe", f"Write {text}") if element.tag == tag else None,
+    )
+
+
 def _wheels(model: Model, plugin: Plugin, spec: PluginSpec, meaning: str) -> Iterator[Wheel]:
     from urdfkit.description.plugins import values
 
@@ -128,4 +154,4 @@ def same_turn(first: Vector, second: Vector) -> float:
     )
 
 
-__all__ = ["Frame", "TwoSided", "Wheel", "drives", "same_turn", "written"]
+__all__ = ["Frame", "TwoSided", "Wheel", "drives", "mismatch", "same_turn", "written"]

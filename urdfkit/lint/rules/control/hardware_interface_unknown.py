@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.edits import nearest, new_text
 from urdfkit.lint.interfaces import INTERFACES, PACKAGE, written
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -63,14 +63,7 @@ class HardwareInterfaceUnknown(RobotRule):
     code = "C703"
     name = "hardware-interface-unknown"
     fix = "safe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each interface that is misspelt."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import nearest
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -60,14 +60,7 @@ class InterfaceCombination(RobotRule):
 
     code = "C710"
     name = "interface-combination-invalid"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each interface that is there twice or misspelt."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.interfaces import is_old
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -58,14 +58,7 @@ class OldTransmissionSyntax(RobotRule):
     code = "C706"
     name = "old-transmission-syntax"
     severity = "warning"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each transmission in the old form."""

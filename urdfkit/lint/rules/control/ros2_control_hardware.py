@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.edits import nearest, new_text
 from urdfkit.lint.gazebo import plugins
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -59,14 +59,7 @@ class HardwareMismatch(RobotRule):
     code = "C709"
     name = "ros2-control-plugin-vs-distro"
     fix = "unsafe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each hardware that the robot's Gazebo plugin does not have."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -52,14 +52,7 @@ class Ros2ControlInGazebo(RobotRule):
     code = "C708"
     name = "ros2-control-nested-in-gazebo"
     fix = "safe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each block in the wrong place."""

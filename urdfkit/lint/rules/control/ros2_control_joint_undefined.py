@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_value
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -61,14 +61,7 @@ class Ros2ControlJointUndefined(RobotRule):
     code = "C707"
     name = "ros2-control-joint-undefined"
     fix = "unsafe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint that the block names and the robot lacks."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.interfaces import has_gazebo_ros_control, is_old
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -66,16 +66,7 @@ class TransmissionInterfaceMissing(RobotRule):
     name = "transmission-hwif-missing"
     severity = "warning"
     fix = "unsafe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-            "ros2",
-            "gz",
-        )
-    )
+    not_for = NOT_GAZEBO | {"gz", "ros2"}
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint of a transmission without interface."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.gazebo import plugins, spec_of
 from urdfkit.lint.interfaces import has_gazebo_ros_control
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -89,14 +89,7 @@ class TwoDrivers(RobotRule):
     code = "C713"
     name = "two-drivers-one-joint"
     severity = "warning"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each drive, or controller, whose joints have another driver."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -48,14 +48,7 @@ class PluginOutsideGazebo(RobotRule):
     code = "Z810"
     name = "plugin-outside-gazebo-tag"
     fix = "safe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each plugin and sensor that nobody reads."""

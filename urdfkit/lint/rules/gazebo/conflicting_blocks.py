@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -49,14 +49,7 @@ class ConflictingBlocks(RobotRule):
     code = "Z822"
     name = "conflicting-gazebo-blocks"
     severity = "warning"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each value that contradicts one before."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.gazebo import plugins
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -49,14 +49,7 @@ class DuplicateSensorOrPlugin(RobotRule):
 
     code = "Z820"
     name = "duplicate-sensor-or-plugin-name"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each second of a name."""

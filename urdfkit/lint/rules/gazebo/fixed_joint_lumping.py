@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.gazebo import lumped, plugins
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -65,14 +65,7 @@ class FixedJointLumping(RobotRule):
     code = "Z819"
     name = "fixed-joint-lumping-hazard"
     severity = "warning"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each body or joint that will not be there."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.numbers import numbers
 from urdfkit.lint.edits import without_element
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -51,14 +51,7 @@ class FrictionDirectionZero(RobotRule):
     name = "fdir1-zero"
     severity = "warning"
     fix = "safe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each direction without length."""

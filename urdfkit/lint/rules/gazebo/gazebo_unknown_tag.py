@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import nearest, new_tag
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -114,14 +114,7 @@ class GazeboUnknownTag(RobotRule):
     name = "gazebo-unknown-link-tag"
     severity = "warning"
     fix = "unsafe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each name that is nearly one of sdformat's."""

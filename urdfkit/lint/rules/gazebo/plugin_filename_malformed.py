@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.gazebo import plugins, specs
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -52,14 +52,7 @@ class PluginFilenameMalformed(RobotRule):
     code = "Z809"
     name = "plugin-filename-malformed"
     fix = "safe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each file name that can be none."""

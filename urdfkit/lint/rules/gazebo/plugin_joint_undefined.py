@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ class PluginJointUndefined(RobotRule):
     code = "Z802"
     name = "plugin-joint-undefined"
     fix = "unsafe"
-    not_for = frozenset(("mujoco", "isaac", "drake", "moveit"))
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint name that is no joint."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_text
 from urdfkit.lint.gazebo import is_frame, references
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -54,14 +54,7 @@ class PluginLinkUndefined(RobotRule):
     code = "Z803"
     name = "plugin-link-undefined"
     fix = "unsafe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each link that a plugin names and the robot lacks."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.edits import new_value
 from urdfkit.lint.gazebo import plugins
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -52,16 +52,7 @@ class PluginNameCase(RobotRule):
     code = "Z808"
     name = "plugin-name-case"
     fix = "safe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-            "classic",
-            "ros1",
-        )
-    )
+    not_for = NOT_GAZEBO | {"classic", "ros1"}
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each class in the wrong case."""

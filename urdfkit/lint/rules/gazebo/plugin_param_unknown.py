@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.edits import nearest, new_tag
 from urdfkit.lint.gazebo import HARMLESS, READ_TOO, plugins, spec_of, specs
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -68,14 +68,7 @@ class PluginParamUnknown(RobotRule):
     name = "plugin-param-unknown"
     severity = "warning"
     fix = "unsafe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each parameter that the plugin does not read, in no generation."""

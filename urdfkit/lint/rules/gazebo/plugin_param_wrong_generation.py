@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.edits import new_tag
 from urdfkit.lint.gazebo import plugins, spec_of, specs
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -62,14 +62,7 @@ class PluginParamWrongGeneration(RobotRule):
     name = "plugin-param-wrong-generation"
     severity = "warning"
     fix = "unsafe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each parameter that only another generation reads."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_text
 from urdfkit.lint.gazebo import is_frame, references
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -63,14 +63,7 @@ class SensorFrameUndefined(RobotRule):
     name = "sensor-frame-undefined"
     severity = "warning"
     fix = "unsafe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each frame of a sensor that is no link."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -39,14 +39,7 @@ class ReservedSdfName(RobotRule):
 
     code = "N303"
     name = "reserved-sdf-name"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "moveit",
-            "drake",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each reserved name."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.edits import new_text
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 from urdfkit.lint.wheels import TwoSided, drives
 
 TYPE_CHECKING = False
@@ -90,14 +90,7 @@ class LeftRightSwapped(RobotRule):
     name = "left-right-swapped"
     severity = "warning"
     fix = "unsafe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each drive with its sides swapped, and one for each that rolls backwards."""

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import new_text
-from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.wheels import drives, written
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.lint.wheels import drives, mismatch, written
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -98,14 +97,7 @@ class WheelDiameter(RobotRule):
     name = "wheel-diameter-inconsistent"
     severity = "warning"
     fix = "unsafe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each drive whose wheels have another size."""
@@ -117,14 +109,6 @@ class WheelDiameter(RobotRule):
                 value = written(model, drive, meaning)
                 if value is None or not radii:
                     continue
-                number, element, tag = value
-                if any(abs(number - factor * radius) <= TOLERANCE * factor * radius for radius in radii):
+                if any(abs(value[0] - factor * radius) <= TOLERANCE * factor * radius for radius in radii):
                     continue
-                text = f"{factor * radii[0]:.6g}"
-                yield self.at(
-                    model,
-                    element,
-                    f"<{tag}> is {number:g} m, but the wheels have {text} m",
-                    joint=drive.left[0].joint.name,
-                    fix=new_text(model, element, text, "unsafe", f"Write {text}") if element.tag == tag else None,
-                )
+                yield mismatch(self, model, drive, value, actual=factor * radii[0], beside="the wheels have {} m")

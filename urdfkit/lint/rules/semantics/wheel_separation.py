@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import new_text
 from urdfkit.lint.placement import unit
-from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.wheels import drives, written
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.lint.wheels import drives, mismatch, written
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -96,14 +95,7 @@ class WheelSeparation(RobotRule):
     name = "wheel-separation-inconsistent"
     severity = "warning"
     fix = "unsafe"
-    not_for = frozenset(
-        (
-            "mujoco",
-            "isaac",
-            "drake",
-            "moveit",
-        )
-    )
+    not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each drive whose separation is off."""
@@ -113,7 +105,7 @@ class WheelSeparation(RobotRule):
             value = written(model, drive, "wheel_separation")
             if value is None or len(drive.left) != 1:
                 continue
-            separation, element, tag = value
+            separation = value[0]
             left, right = drive.left[0], drive.right[0]
             across = unit(left.axis) or (0.0, 1.0, 0.0)
             distances = [
@@ -122,11 +114,5 @@ class WheelSeparation(RobotRule):
             ]
             if distances[0] < 0.01 or any(abs(separation - distance) <= TOLERANCE * distance for distance in distances):
                 continue
-            text = f"{distances[0]:.6g}"
-            yield self.at(
-                model,
-                element,
-                f"<{tag}> is {separation:g} m, but `{left.joint.name}` and `{right.joint.name}` are {text} m apart",
-                joint=left.joint.name,
-                fix=new_text(model, element, text, "unsafe", f"Write {text}") if element.tag == tag else None,
-            )
+            apart = f"`{left.joint.name}` and `{right.joint.name}` are {{}} m apart"
+            yield mismatch(self, model, drive, value, actual=distances[0], beside=apart)
