@@ -121,9 +121,11 @@ def test_a_lenient_scene_leaves_out_what_cannot_be_had(robot_of: Build, meshes: 
     )
     assert [shape.role for shape in scene.shapes] == ["visual", "collision"]
     gone, broken = scene.problems
-    assert "gone.stl" in gone.message
-    assert "broken.stl" in broken.message
-    assert gone.position is not None
+    assert (gone.name, gone.body, gone.role) == ("a/visual/1", "a", "visual")
+    assert (broken.name, broken.role) == ("a/collision/0", "collision")
+    assert "gone.stl" in gone.error.message
+    assert "broken.stl" in broken.error.message
+    assert gone.error.position is not None
 
 
 def test_an_empty_link_has_a_body_and_no_shape(robot_of: Build) -> None:

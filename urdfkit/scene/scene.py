@@ -52,6 +52,23 @@ class Shape:
     label: int = 0
 
 
+@dataclass(frozen=True)
+class LeftOut:
+    """A shape that is not there, as its mesh cannot be had.
+
+    Attributes:
+        name: as its `Shape` would have.
+        body: name of the link it would be fixed to.
+        role: ``visual`` or ``collision``.
+        error: why, with the place where the mesh is named.
+    """
+
+    name: str
+    body: str
+    role: Role
+    error: ResourceError
+
+
 @dataclass(frozen=True, eq=False)
 class Scene:
     """What there is to see and to touch.
@@ -64,7 +81,7 @@ class Scene:
 
     bodies: tuple[str, ...]
     shapes: tuple[Shape, ...]
-    problems: tuple[ResourceError, ...] = ()
+    problems: tuple[LeftOut, ...] = ()
 
     @cached_property
     def body_index(self) -> dict[str, int]:
@@ -76,13 +93,12 @@ class Scene:
         return tuple(shape for shape in self.shapes if shape.role == role)
 
 
-def scene_of(robot: Robot, *, strict: bool | Role = True, meshes: MeshLoader | None = None) -> Scene:
+def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = None) -> Scene:
     """Return the scene of one robot; its bodies are the links in document order.
 
     Args:
         robot: a loaded robot; its `packages` resolve the URIs of meshes.
-        strict: raise on the first mesh that cannot be had, or the first of this role; leave other shapes out and note
-            them in `problems`.
+        strict: raise on the first mesh that cannot be had; if not, its shape is left out and noted in `problems`.
         meshes: reads the mesh files; pass the same one again to read only what has changed.
 
     Raises:
@@ -93,25 +109,25 @@ def scene_of(robot: Robot, *, strict: bool | Role = True, meshes: MeshLoader | N
     links = robot.link_by_name_in_order()
     retros, labels = _laser_retros(robot), labels_of(robot)
     shapes: list[Shape] = []
-    problems: list[ResourceError] = []
+    problems: list[LeftOut] = []
     for link in links:
         names: set[str] = set()
         for role, number, item in _items(link):
             if item.geometry is None:
                 continue
+            name = f"{link.name}/{role}/{item.name or number}"
+            while name in names:
+                name += "_"
+            names.add(name)
             mesh = None
             if isinstance(item.geometry, Mesh):
                 try:
                     mesh = _load(robot, item, item.geometry, meshes)
                 except ResourceError as error:
-                    if strict is True or strict == role:
+                    if strict:
                         raise
-                    problems.append(error)
+                    problems.append(LeftOut(name, link.name, role, error))
                     continue
-            name = f"{link.name}/{role}/{item.name or number}"
-            while name in names:
-                name += "_"
-            names.add(name)
             color = palette.of(link.name, item) if isinstance(item, Visual) else None
             rgba = color or DEFAULT
             if role == "visual" and (opacity := palette.opacity(link.name)) < 1.0:

@@ -18,6 +18,7 @@ from urdfkit.sim.engine import Engine, Ground, Member, Surface
 from urdfkit.sim.engine.arrays import FOUND_CONTACTS
 from urdfkit.sim.engine.part import Part
 from urdfkit.sim.installed import Installed, install
+from urdfkit.sim.left_out import remark_left_out
 from urdfkit.sim.link_options import self_colliding, weightless_links
 from urdfkit.sim.loading import require_masses
 from urdfkit.sim.motors import Motors, Servos
@@ -96,9 +97,8 @@ class SimulatedRobot:
         self._setup: Setup | None = None
         on_world = robot.roots()[0].name == "world"
         self.kinematics = Kinematics(robot, floating_base=not (bolted or on_world))
-        self.scene = scene_of(robot, strict="collision") if scene is None else scene
-        for problem in self.scene.problems:  # only eyes miss what cannot be touched
-            note(f"{problem}: what it would look like is not seen")
+        self.scene = scene_of(robot, strict=False) if scene is None else scene
+        remark_left_out(self.scene, note)
         self.spawn = spawn or Spawn(z=0.0 if on_world else None)
         self.base = self.spawn.place(self.kinematics, self.scene, ground)
         require_masses(self.kinematics, self.spawn.configuration(self.kinematics, self.base)[0], note)
