@@ -94,6 +94,7 @@ def test_what_is_shown_can_be_chosen(serve, visits, keep, until, arm: Path) -> N
     shown = "(role) => urdfkit.scene.viewer.scene_tree.find(['robot', 'links', 'upper', role]).object.visible"
     assert page.evaluate(shown, "visual")
     assert not page.evaluate(shown, "collision")
+    page.get_by_role("button", name="Show", exact=True).click()
     page.get_by_label("Collision").check()
     page.get_by_label("Visual").uncheck()
     assert page.evaluate(shown, "collision")
@@ -191,7 +192,7 @@ def test_a_phone(serve, visits, keep, until, arm: Path, scheme: str) -> None:
     phone = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
     page = visits.open(serve("view", str(arm)).url, color_scheme=scheme, **phone)
     keep(page, f"phone-{scheme}")
-    page.locator("#panel-toggle").tap()
+    page.get_by_role("button", name="Joints", exact=True).tap()
     slide(page, "shoulder", 0.5)
     until(lambda: page.evaluate(Y_OF_UPPER) == pytest.approx(math.sin(0.25), abs=1e-6))
     keep(page, f"phone-{scheme}-panel")

@@ -11,7 +11,7 @@ from urllib.parse import urlsplit
 import pytest
 import websocket
 
-from urdfkit.view import protocol
+from urdfkit.view import protocol, web
 
 ZEROS = "0" * 64
 
@@ -110,8 +110,8 @@ def test_no_path_leads_out(client, path: str) -> None:
 def test_the_page_and_all_it_asks_for_is_there_and_small(client) -> None:
     client.log_in()
     wire = 0
-    own = ["app", "connection", "drive", "joints", "pad", "scene", "stage"]
-    names = ["/", "/app/meshcat.js", *(f"/app/{name}.js" for name in own), "/app/style.css", "/app/icon.svg"]
+    own = sorted(path.name for path in web.APP.iterdir() if path.suffix in (".js", ".css", ".svg"))
+    names = ["/", "/app/meshcat.js", *(f"/app/{name}" for name in own)]
     for name in names:
         answer = client.get(name, Accept_Encoding="gzip")
         assert answer.status == 200, name
@@ -229,8 +229,6 @@ def test_refusals_are_logged_without_the_key(client, server, caplog) -> None:
 
 def test_missing_meshcat_is_one_line(monkeypatch) -> None:
     from urdfkit.errors import MissingDependencyError
-    from urdfkit.view import web
-
     monkeypatch.setattr(web, "find_spec", lambda name: None)
     with pytest.raises(MissingDependencyError, match=r"pip install 'urdfkit\[view\]'"):
         web.meshcat_bundle()

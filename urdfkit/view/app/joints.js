@@ -1,15 +1,32 @@
 // The joint panel: a slider and a number for every joint.
 
+import { h, short } from "./dom.js";
+
+const SLIDERS = "M4 7h9M17 7h3M15 5v4M4 17h3M11 17h9M9 15v4";
+
+export function joints(page) {
+  const panel = page.panels.add({ id: "joints", title: "Joints", icon: SLIDERS, modes: ["view"], order: 10 });
+  const made = new Joints(panel, (positions) => page.send("joints", { positions }));
+  page.on("model", (message) => {
+    made.show(message.joints);
+    page.panels.available("joints", message.joints.length > 0);
+  });
+  page.on("joints", (message) => made.update(message.positions));
+  page.expose("joints", made);
+}
+
 export class Joints {
   /** @param send called with {name: value} when a person moves something, at most once per picture */
-  constructor(send) {
+  constructor(panel, send) {
     this.send = send;
-    this.list = document.getElementById("joints");
+    this.list = h("ul#joints");
     this.rows = new Map();
     this.moved = {};
-    this.filter = document.getElementById("filter");
+    this.filter = h("input#filter", { type: "search", placeholder: "Filter joints", "aria-label": "Filter joints", autocomplete: "off", spellcheck: "false" });
     this.filter.addEventListener("input", () => this.#filter());
-    document.getElementById("zero").addEventListener("click", () => this.zero());
+    this.none = h("p.quiet", { hidden: true }, "No joint of this name.");
+    panel.tools.append(h("button", { type: "button", onclick: () => this.zero() }, "Zero all"));
+    panel.body.append(this.filter, this.list, this.none);
   }
 
   /** Build the rows for a robot; the filter stays. */
@@ -17,7 +34,6 @@ export class Joints {
     this.rows.clear();
     this.list.replaceChildren(...joints.map((joint) => this.#row(joint)));
     this.filter.hidden = joints.length < 6;
-    document.getElementById("joint-section").hidden = joints.length === 0;
     this.#filter();
   }
 
@@ -110,10 +126,6 @@ export class Joints {
       row.item.hidden = !fits;
       found += fits;
     }
-    document.getElementById("no-joints").hidden = found > 0 || this.rows.size === 0;
+    this.none.hidden = found > 0 || this.rows.size === 0;
   }
-}
-
-function short(value) {
-  return String(Number(value.toFixed(3)));
 }

@@ -1,0 +1,135 @@
+// The panels at the side (on a phone: the sheet at the bottom) and the rail of buttons that opens them.
+
+import { h, icon } from "./dom.js";
+
+const PIN = "M9 3h6l-1 6 4 4v2H6v-2l4-4zM12 15v6";
+const CLOSE = "M6 6l12 12M18 6L6 18";
+
+/** One panel. Fill `body`; tell people to look with `badge`. */
+class Panel {
+  constructor(panels, { id, title, icon: path, modes, order, element, pinned }) {
+    Object.assign(this, { id, title, modes, order, pinned, available: true });
+    this.count = h("span.count", { hidden: true });
+    this.button = h(
+      "button.rail-button",
+      { type: "button", id: `open-${id}`, title, "aria-expanded": "false", "aria-controls": `panel-${id}` },
+      path ? icon(path) : null,
+      h("span", {}, title),
+      this.count,
+    );
+    this.button.addEventListener("click", () => panels.toggle(id));
+    this.pin = h("button.bare.pin", { type: "button", "aria-pressed": String(pinned), title: "Keep open beside others" }, icon(PIN));
+    this.pin.setAttribute("aria-label", `Keep ${title} open`);
+    this.pin.addEventListener("click", () => {
+      this.pinned = !this.pinned;
+      this.pin.setAttribute("aria-pressed", this.pinned);
+    });
+    const close = h("button.bare", { type: "button", "aria-label": `Close ${title}`, title: "Close" }, icon(CLOSE));
+    close.addEventListener("click", () => panels.close(id, true));
+    this.tools = h("div.panel-tools");
+    this.body = element ?? h("div");
+    this.body.classList.add("panel-body");
+    this.body.hidden = false;
+    const head = h("div.panel-head", {}, h("h2", { id: `title-${id}` }, title), this.tools, this.pin, close);
+    this.section = h("section.panel", { id: `panel-${id}`, "aria-labelledby": `title-${id}`, hidden: true }, head, this.body);
+  }
+
+  get open() {
+    return !this.section.hidden;
+  }
+
+  /** Show a number (or nothing, for null) on the rail; `tone` is error, warning, info or nothing. */
+  badge(text, tone = "") {
+    this.count.hidden = text === null || text === "";
+    this.count.textContent = text ?? "";
+    this.count.dataset.tone = tone;
+  }
+}
+
+export class Panels {
+  /** @param host the element the panels are in; @param rail the element of the buttons */
+  constructor(host, rail) {
+    this.host = host;
+    this.rail = rail;
+    this.all = new Map();
+    this.mode = null;
+    this.narrow = matchMedia("(max-width: 760px)");
+  }
+
+  /**
+   * Add a panel.
+   * @param id a word, unique; @param title what people read; @param icon the `d` of a 24 × 24 line drawing
+   * @param modes where it is offered: ["view"], ["sim"] or both; @param order place on the rail, small first
+   * @param element an element to use as its body, otherwise an empty one is made
+   * @param pinned whether it stays open when another opens, until a person says otherwise
+   * @returns the panel: {body, tools, badge(text, tone), open}
+   */
+  add({ id, title, icon = null, modes = ["view", "sim"], order = 50, element = null, pinned = false }) {
+    const panel = new Panel(this, { id, title, icon, modes, order, element, pinned });
+    const after = [...this.all.values()].filter((other) => other.order > order).sort((a, b) => a.order - b.order)[0];
+    this.host.insertBefore(panel.section, after?.section ?? null);
+    this.rail.insertBefore(panel.button, after?.button ?? null);
+    this.all.set(id, panel);
+    this.#offer(panel);
+    return panel;
+  }
+
+  /** Offer the panels of a mode, and open the first of them (and those pinned) where there is room. */
+  use(mode) {
+    if (this.mode === mode) return;
+    this.mode = mode;
+    for (const panel of this.all.values()) this.#offer(panel);
+    if (this.narrow.matches) return this.#changed();
+    const offered = [...this.all.values()].filter((panel) => this.#offered(panel)).sort((a, b) => a.order - b.order);
+    offered.forEach((panel, i) => this.#show(panel, i === 0 || panel.pinned));
+    this.#changed();
+  }
+
+  /** Say whether a panel has anything to show; one that has not is not on the rail. */
+  available(id, is) {
+    const panel = this.all.get(id);
+    panel.available = is;
+    this.#offer(panel);
+    this.#changed();
+  }
+
+  toggle(id) {
+    if (this.all.get(id).open) this.close(id);
+    else this.open(id);
+  }
+
+  /** Open a panel; others close unless they are pinned (on a phone there is room for one). */
+  open(id) {
+    const opened = this.all.get(id);
+    if (!this.#offered(opened)) return;
+    for (const panel of this.all.values()) this.#show(panel, panel === opened || (panel.open && panel.pinned && !this.narrow.matches));
+    this.#changed();
+    opened.section.scrollIntoView({ block: "nearest" });
+  }
+
+  close(id, back = false) {
+    const panel = this.all.get(id);
+    this.#show(panel, false);
+    this.#changed();
+    if (back) panel.button.focus();
+  }
+
+  #offered(panel) {
+    return panel.available && (this.mode === null || panel.modes.includes(this.mode));
+  }
+
+  #offer(panel) {
+    const offered = this.#offered(panel);
+    panel.button.hidden = !offered;
+    if (!offered) this.#show(panel, false);
+  }
+
+  #show(panel, shown) {
+    panel.section.hidden = !shown;
+    panel.button.setAttribute("aria-expanded", shown);
+  }
+
+  #changed() {
+    this.host.toggleAttribute("data-closed", ![...this.all.values()].some((panel) => panel.open));
+  }
+}

@@ -1,0 +1,64 @@
+// The buttons on the stage: things to do once, and tools that stay in hand until another is taken.
+
+import { h, icon } from "./dom.js";
+
+const FIT = "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5M9 9h6v6H9z";
+
+export class Tools {
+  constructor(page, bar) {
+    this.page = page;
+    this.bar = bar;
+    this.held = null;
+    this.buttons = new Map();
+  }
+
+  /** Add a button that does something once. @param order place in the bar @returns the button */
+  action({ id, title, icon: path, modes = ["view", "sim"], order = 50, run }) {
+    const button = h("button.tool", { type: "button", id: `tool-${id}`, title, "aria-label": title, onclick: run }, icon(path));
+    this.#put(button, order, modes);
+    return button;
+  }
+
+  /** Add a tool; `take(held)` is called when it is taken in hand and when it is put down. */
+  tool({ id, title, icon: path, modes = ["view", "sim"], order = 50, take = () => {} }) {
+    const button = this.action({ id, title, icon: path, modes, order, run: () => this.hold(this.held === id ? null : id) });
+    button.setAttribute("aria-pressed", "false");
+    this.buttons.set(id, { button, take });
+    return button;
+  }
+
+  /** Take a tool in hand, or put it down (null). */
+  hold(id) {
+    if (id === this.held) return;
+    const [before, now] = [this.held, id];
+    this.held = id;
+    for (const [name, { button }] of this.buttons) button.setAttribute("aria-pressed", name === id);
+    if (before) this.buttons.get(before).take(false);
+    if (now) this.buttons.get(now).take(true);
+    this.page.emit("tool", id);
+  }
+
+  #put(button, order, modes) {
+    button.style.order = order;
+    button.dataset.modes = modes.join(" ");
+    this.bar.append(button);
+    if (this.page.mode) this.offer();
+  }
+
+  offer() {
+    for (const button of this.bar.children) button.hidden = !button.dataset.modes?.split(" ").includes(this.page.mode);
+  }
+}
+
+export function tools(page) {
+  page.tools = new Tools(page, document.getElementById("tools"));
+  page.on("hello", () => page.tools.offer());
+  page.fit = () => {
+    // In the simulation from behind, so that forward is away from the driver and left is left.
+    return page.mode === "sim"
+      ? page.stage.fit(page.scene.robot, [-1, -0.55, 0.75], 1.9)
+      : page.stage.fit(page.scene.robot, [1, 0.75, 0.6]);
+  };
+  page.tools.action({ id: "fit", title: "Fit view", icon: FIT, order: 10, run: () => page.fit() });
+  page.shortcut({ key: "f", does: "fit the view to the robot", group: "View", run: () => page.fit() && undefined });
+}
