@@ -121,3 +121,13 @@ def test_codes_and_names_are_unique_and_well_formed():
     assert all(re.fullmatch(r"[A-Z]\d{3}", rule.code) for rule in RULES)
     assert all(re.fullmatch(r"[a-z][a-z0-9]*(-[a-z0-9]+)*", rule.name) for rule in RULES)
     assert [rule.code for rule in RULES] == sorted(rule.code for rule in RULES)
+
+
+@pytest.mark.parametrize("path", files("bad"))
+def test_rules_left_out_by_the_table_would_find_nothing(path, monkeypatch):
+    from urdfkit.lint import engine, rules
+
+    few = lint(path, target=target(BY_NAME[path.parent.name]))
+    monkeypatch.setattr(engine, "source_rules", lambda _: rules.source_rules())
+    monkeypatch.setattr(engine, "robot_rules", lambda *_: rules.robot_rules())
+    assert lint(path, target=target(BY_NAME[path.parent.name])) == few

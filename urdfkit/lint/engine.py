@@ -137,8 +137,7 @@ class _Checker:
         """Lint one entry file and everything it includes."""
         model = self._model(entry.path)
         findings: list[Finding] = []
-        for file in model.expanded.sources:
-            findings += self._ask_source_rules(file, model)
+        findings += self._ask_source_rules(model)
         findings += self._ask_fault_rules(model, entry)
         if model.expanded.root is not None and not entry.is_library:
             foreign = [rule for rule in self.foreign if issubclass(rule, RobotRule)]
@@ -174,9 +173,12 @@ class _Checker:
         self.files.update({name: Path.cwd() / name for name in expanded.sources})
         return Model(expanded, robot, options.target, as_written)
 
-    def _ask_source_rules(self, file: str, model: Model) -> Iterator[Finding]:
-        for rule in (*source_rules(), *(rule for rule in self.foreign if issubclass(rule, SourceRule))):
-            if self._applies(rule):
+    def _ask_source_rules(self, model: Model) -> Iterator[Finding]:
+        sources = model.expanded.sources
+        foreign = [rule for rule in self.foreign if issubclass(rule, SourceRule)]
+        rules = [rule for rule in (*source_rules(sources), *foreign) if self._applies(rule)]
+        for file in sources:
+            for rule in rules:
                 yield from rule().check(model.document(file), model)
 
     def _ask_fault_rules(self, model: Model, entry: Entry) -> Iterator[Finding]:

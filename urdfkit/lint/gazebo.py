@@ -27,15 +27,9 @@ def plugins(robot: Robot) -> Iterator[tuple[Plugin, GazeboBlock, SensorTag | Non
 
 def specs(plugin: Plugin) -> list[PluginSpec]:
     """Return the tables of every generation that has a plugin of that file name."""
-    from urdfkit.description.plugins import ALL_SPECS
-    from urdfkit.description.plugins.lookup import stem
+    from urdfkit.description.plugins.unread import tables
 
-    if plugin.filename is None:
-        return []
-    name = stem("".join(plugin.filename.split()))
-    found = [spec for spec in ALL_SPECS if name in spec.filenames]
-    by_class = [spec for spec in found if (plugin.name or "").strip() in spec.class_names]
-    return by_class or found
+    return tables(plugin)
 
 
 def spec_of(plugin: Plugin, target: str | None) -> PluginSpec | None:
@@ -90,14 +84,3 @@ def lumped(robot: Robot) -> set[str]:
         for joint in robot.joints
         if joint.type == "fixed" and joint.child and joint.name not in kept and joint.parent != "world"
     }
-
-
-READ_TOO = {
-    "gazebo_ros_camera": ("P_cx", "P_cy", "P_fx", "P_fy", "Tx", "Ty", "rectification_matrix", "trigger_topic_name"),
-    "gazebo_ros_depth_camera": ("reflectanceTopicName", "normalsTopicName", "reduceNormals"),
-    "gazebo_ros_p3d": ("xyz_offsets", "rpy_offsets"),
-}
-"""Stem of a library → what it reads besides what our tables of parameters have: nothing here simulates it."""
-
-HARMLESS = frozenset(("alwaysOn", "always_on", "ros", "plugin", "xacro", "robotParam", "rosDebugLevel"))
-"""What is written into plugins by habit and read by none, or by all."""

@@ -76,15 +76,16 @@ _SDF = frozenset(
 
 
 class GazeboUnknownTag(RobotRule):
-    """An extension in ``<gazebo reference="…">`` is misspelt.
+    """An extension in ``<gazebo reference="…">`` is misspelt, or an element of a ``<sensor>``.
 
     ## What it does
     Compares what is in the block with the names that sdformat turns into friction, stiffness, colour …, and says
-    the nearest one. Names that are near to none pass: they may be SDF.
+    the nearest one. Names that are near to none pass: they may be SDF. In a ``<sensor>`` everything is SDF, so there
+    every name that SDF does not know in that place is told.
 
     ## Why is this bad?
     What sdformat does not know it copies as it is, and Gazebo skips it: ``<mu>`` is no friction, ``<selfcollide>``
-    nothing.
+    nothing, and a camera with ``<horisontal_fov>`` has the field of view that cameras have by default.
 
     ## Example
     ```xml
@@ -117,7 +118,9 @@ class GazeboUnknownTag(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each name that is nearly one of sdformat's."""
+        """Yield a finding for each name that is nearly one of sdformat's, and each that no sensor knows."""
+        from urdfkit.description.plugins.elements import strangers
+
         for block in model.robot.gazebo:
             for child in block.element.children if block.reference else ():
                 if child.tag in KEYS or child.tag in _SDF or ":" in child.tag:
@@ -130,4 +133,14 @@ class GazeboUnknownTag(RobotRule):
                         f"sdformat knows no <{child.tag}>",
                         help=f"did you mean <{meant}>?",
                         fix=new_tag(model, child, meant, "unsafe", f"Write <{meant}>"),
+                    )
+            for sensor in block.sensors:
+                for stranger in strangers(sensor.element):
+                    near, element = stranger.meant, stranger.element
+                    yield self.at(
+                        model,
+                        element,
+                        f"<{stranger.inside}> of a sensor knows no <{element.tag}>",
+                        help=f"did you mean <{near}>?" if near else None,
+                        fix=new_tag(model, element, near, "unsafe", f"Write <{near}>") if near else None,
                     )

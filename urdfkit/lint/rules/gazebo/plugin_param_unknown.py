@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import nearest, new_tag
-from urdfkit.lint.gazebo import HARMLESS, READ_TOO, plugins, spec_of, specs
+from urdfkit.lint.edits import new_tag
+from urdfkit.lint.gazebo import plugins, spec_of
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -12,17 +12,6 @@ if TYPE_CHECKING:
 
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
-
-_NAMES = {"ros1": "ROS 1", "ros2": "ROS 2", "gz": "the new Gazebo"}
-_KNOWN = {("diff_drive", "ros1", "torque"): "wheelTorque", ("diff_drive", "ros1", "broadcastTF"): "publishOdomTF"}
-"""What is copied from another plugin, and what means it here."""
-
-_PROMISED = {
-    ("diff_drive", "ros2", "odometry_topic"),
-    ("diff_drive", "ros2", "command_topic"),
-    ("openni_kinect", "ros1", "baseline"),
-}
-"""What the comment at the top of a plugin's header, or Gazebo's own tutorial, shows."""
 
 
 class PluginParamUnknown(RobotRule):
@@ -72,29 +61,19 @@ class PluginParamUnknown(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each parameter that the plugin does not read, in no generation."""
-        from urdfkit.description.plugins.lookup import stem
+        from urdfkit.description.plugins.unread import unread
 
         for plugin, _, _ in plugins(model.robot):
             spec = spec_of(plugin, model.target)
-            if spec is None:
-                continue
-            every = {parameter.tag for other in specs(plugin) for parameter in other.parameters}
-            also = READ_TOO.get(stem(plugin.filename or ""), ())
-            known = [parameter.tag for parameter in spec.parameters]
-            for child in plugin.element.children:
-                tag = child.tag
-                if tag in every or tag in also or tag in HARMLESS or ":" in tag:
+            for each in unread(plugin, spec) if spec is not None else ():
+                if each.promised:
+                    yield self.at(model, each.element, each.message, severity="info")
                     continue
-                if (spec.kind, spec.generation, tag) in _PROMISED:
-                    message = f"<{tag}> is shown in examples of the plugin, but not read"
-                    yield self.at(model, child, message, severity="info")
-                    continue
-                meant = _KNOWN.get((spec.kind, spec.generation, tag)) or nearest(tag, known, likeness=0.8)
-                is_there = meant is not None and plugin.element.find(meant) is not None
+                meant = each.meant
                 yield self.at(
                     model,
-                    child,
-                    f"<{tag}> is read by no {spec.kind.replace('_', ' ')} of {_NAMES[spec.generation]}",
-                    help=f"did you mean <{meant}>?" if meant and not is_there else None,
-                    fix=new_tag(model, child, meant, "unsafe", f"Write <{meant}>") if meant and not is_there else None,
+                    each.element,
+                    each.message,
+                    help=f"did you mean <{meant}>?" if meant else None,
+                    fix=new_tag(model, each.element, meant, "unsafe", f"Write <{meant}>") if meant else None,
                 )
