@@ -136,6 +136,8 @@ ROBOT: tuple[Row, ...] = (
     ("plugin sensor", "gazebo.fixed_joint_lumping", "FixedJointLumping"),
     ("plugin sensor", "gazebo.duplicate_sensor_or_plugin", "DuplicateSensorOrPlugin"),
     ("gazebo", "gazebo.conflicting_blocks", "ConflictingBlocks"),
+    ("sensor plugin", "gazebo.sensor_range_invalid", "SensorRangeInvalid"),
+    ("material", "gazebo.gazebo_material_unknown", "GazeboMaterialUnknown"),
     ("plugin transmission", "control.two_drivers", "TwoDrivers"),
     ("transmission", "control.transmission_joint_undefined", "TransmissionJointUndefined"),
     ("transmission", "control.transmission_interface_missing", "TransmissionInterfaceMissing"),

@@ -12,7 +12,7 @@ from urdfkit.lint.table import FAULTS, ROBOT, SOURCE, SUPPRESSION, TARGETED, tra
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
     from typing import Any
 
     from urdfkit.description.robot import Robot
@@ -30,19 +30,19 @@ def source_rules(sources: Mapping[str, Source] | None = None) -> tuple[type[Sour
         sources: leave out the rules that have nothing to look at in these; without them all are returned.
     """
     if sources is None:
-        return _rules(SOURCE)
+        return tuple(_rules(SOURCE))
 
     def has(word: str) -> bool:
         if word.startswith("*"):
             return any(file.endswith(word[1:]) for file in sources)
         return any(word in source.text for source in sources.values())
 
-    return _rules(row for row in SOURCE if not row[0] or any(map(has, row[0].split())))
+    return tuple(_rules(row for row in SOURCE if not row[0] or any(map(has, row[0].split()))))
 
 
 def fault_rules() -> tuple[type[FaultRule], ...]:
     """Return the rules on what xacro could not expand."""
-    return _rules(FAULTS)
+    return tuple(_rules(FAULTS))
 
 
 def robot_rules(robot: Robot | None = None, target: str | None = None) -> tuple[type[RobotRule], ...]:
@@ -53,19 +53,20 @@ def robot_rules(robot: Robot | None = None, target: str | None = None) -> tuple[
         target: leave out those for other targets, where a robot is given.
     """
     if robot is None:
-        return _rules((*ROBOT, *TARGETED))
+        return tuple(_rules((*ROBOT, *TARGETED)))
     found = traits(robot)
     rows = ROBOT if target is None else (*ROBOT, *TARGETED)
-    return _rules(row for row in rows if not row[0] or not found.isdisjoint(row[0].split()))
+    return tuple(_rules(row for row in rows if not row[0] or not found.isdisjoint(row[0].split())))
 
 
 def suppression_rules() -> tuple[type[Rule], ...]:
     """Return the rules on the comments that suppress findings."""
-    return _rules(SUPPRESSION)
+    return tuple(_rules(SUPPRESSION))
 
 
-def _rules(rows: Iterable[Row]) -> Any:
-    return tuple([getattr(import_module(f"urdfkit.lint.rules.{module}"), name) for _, module, name in rows])
+def _rules(rows: Iterable[Row]) -> Iterator[Any]:
+    for _, module, name in rows:
+        yield getattr(import_module(f"urdfkit.lint.rules.{module}"), name)
 
 
 def __getattr__(name: str) -> Any:
