@@ -14,13 +14,16 @@ pytest.importorskip("meshcat")
 
 from PIL import Image
 
-from urdfkit.cli.sim.sights import MOST_POINTS, PICTURE, POINTS, Sights, picture, points
+from urdfkit.cli.sim.sights import MOST_POINTS, OPTICAL, Sights, picture, points
 from urdfkit.description import load
+from urdfkit.scene.lens import Lens
 from urdfkit.sim import Simulator
 from urdfkit.sim.sensors.camera import Eye
 from urdfkit.sim.sensors.clouds import GZ, cloud, old_cloud
+from urdfkit.sim.sensors.depth import points as depth_points
 from urdfkit.sim.sensors.optics import depth_image, image
 from urdfkit.view import protocol
+from urdfkit.view.protocol import COLORED, PICTURE, POINTS
 
 LASER = str(
     Path(__file__).parents[2]
@@ -33,14 +36,17 @@ class Page:
     """A server that keeps what it is told."""
 
     def __init__(self) -> None:
-        self.hub = SimpleNamespace(watchers=1)
+        self.hub = SimpleNamespace(takes=lambda key: key in self.wanted)
+        self.wanted: set[str] = set()
         self.sensed: list[tuple[int, float, int, bytes]] = []
         self.declared: list[dict[str, Any]] = []
 
     def declare(self, type: str, **values: Any) -> None:
         self.declared.append({"type": type, **values})
+        self.wanted = {f"sensor:{each['topic']}" for each in values.get("sensors", ())}
 
-    def sense(self, *content: Any) -> None:
+    def sense(self, key: str, *content: Any) -> None:
+        assert key in self.wanted
         self.sensed.append(content)
 
 
@@ -86,7 +92,7 @@ def shown():
 
 def test_the_page_gets_what_the_laser_met(shown) -> None:
     simulator, page, sights, _ = shown
-    assert page.declared == [{"type": "sensors", "sensors": [{"topic": "/scan", "picture": False}]}]
+    assert page.declared == [{"type": "sensors", "sensors": [{"topic": "/scan", "picture": False, "camera": False}]}]
     simulator.run(0.1)
     sights.show()
     ((index, t, kind, content),) = page.sensed
@@ -98,9 +104,9 @@ def test_the_page_gets_what_the_laser_met(shown) -> None:
     assert off.std() < 1e-4  # all as far from the axis of a cylinder as its radius
 
 
-def test_nobody_watching_means_nobody_looking(shown) -> None:
+def test_what_no_page_wants_is_not_looked_at(shown) -> None:
     simulator, page, sights, _ = shown
-    page.hub.watchers = 0
+    page.wanted.clear()
     simulator.run(0.1)
     assert sights.show() == 0.0
     assert not page.sensed
@@ -126,13 +132,39 @@ def test_what_one_camera_publishes_comes_of_one_small_look(monkeypatch: pytest.M
     monkeypatch.setattr(Eye, "look", lambda self, *g, **k: looks.append(self.optics.lens.width) or look(self, *g, **k))
     simulator.run(0.2)
     sights.show()
-    assert [names[index] for index, *_ in page.sensed] == names[:2]
+    assert [names[index] for index, *_ in page.sensed] == names[:3]
+    assert [kind for _, _, kind, _ in page.sensed] == [PICTURE, PICTURE, COLORED]
     assert looks == [320]
-    for *_, jpeg in page.sensed:
+    for *_, jpeg in page.sensed[:2]:
         with Image.open(io.BytesIO(jpeg)) as found:
             assert found.size == (320, 240)
     whole = simulator.bus.latest(names[0])
     assert (whole.width, whole.height) == (800, 600)  # who subscribes gets it as it is written
+
+
+def test_a_cloud_of_a_depth_camera_has_its_colours_and_lies_where_things_are() -> None:
+    lens = Lens(4, 3, 1.0)
+    rgb = np.zeros((3, 4, 3), dtype=np.uint8)
+    rgb[:, :2], rgb[:, 2:] = (200, 10, 30), (5, 6, 250)
+    depth = np.full((3, 4), 2.0, dtype=np.float32)
+    depth[0, 0] = np.nan
+    message = depth_points(0.0, "optical", lens, depth, rgb)
+    found = points(message, MOVED @ OPTICAL, colored=True)
+    rows = np.frombuffer(found, "<f4").reshape(-1, 4)
+    assert len(rows) == 11
+    assert rows[:, 1] == pytest.approx(22.0)  # two metres ahead, which is along y
+    colors = np.frombuffer(found, np.uint8).reshape(-1, 16)[:, 12:]
+    left = rows[:, 0] < 10.0  # looking along y, left is where x is small
+    assert (colors[left] == (200, 10, 30, 255)).all()
+    assert (colors[~left] == (5, 6, 250, 255)).all()
+
+
+def test_the_colours_of_a_segmentation_are_not_blurred() -> None:
+    rng = np.random.default_rng(0)
+    rgb = rng.integers(0, 255, (60, 80, 3)).astype(np.uint8)
+    with Image.open(io.BytesIO(picture(image(0.0, "eye", rgb, "rgb8"), exact=True))) as found:
+        assert found.format == "WEBP"
+        assert (np.asarray(found.convert("RGB")) == rgb).all()
 
 
 def test_frames_tell_sensor_kind_and_time() -> None:
@@ -148,8 +180,15 @@ def test_the_page_shows_points_and_pictures(serve_for_all, visits, keep, until) 
     page.wait_for_selector("#progress", state="hidden", timeout=180_000)
     until(lambda: page.evaluate("urdfkit.sensors.shown[0]?.count ?? 0") > 50)
     keep(page, "scan")
-    page.get_by_label("/scan").click()
+    page.get_by_label("/scan").first.click()
     assert not page.evaluate("urdfkit.sensors.shown[0].points.visible")
+    until(lambda: not page.evaluate("urdfkit.connection.wanted.size"))
+    page.wait_for_timeout(300)
+    page.evaluate("urdfkit.sensors.frames = 0, urdfkit.page.on('sensed', () => (urdfkit.sensors.frames += 1))")
+    page.wait_for_timeout(400)
+    assert page.evaluate("urdfkit.sensors.frames") == 0
+    page.get_by_label("/scan").first.click()
+    until(lambda: page.evaluate("urdfkit.sensors.frames") > 2)
     assert visits.problems == []
 
 

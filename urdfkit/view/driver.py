@@ -43,6 +43,19 @@ class Driver:
             self._holder, self._axes, self._heard = client, axes, self._clock()
             return True
 
+    def may(self, client: int) -> bool:
+        """Whether a page may change something: not while another one drives."""
+        with self._lock:
+            self._expire()
+            return self._holder in (None, client)
+
+    def touch(self, client: int) -> None:
+        """Count a page that holds something other than the wheel, such as an arm, as driving for a while."""
+        with self._lock:
+            self._expire()
+            if self._holder is None or (self._holder == client and self._axes is None):
+                self._holder, self._heard = client, self._clock()
+
     def leave(self, client: int) -> None:
         """Forget a page that closed or lost its connection; if it drove, the robot stops now."""
         with self._lock:

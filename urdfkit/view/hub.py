@@ -9,32 +9,47 @@ import umsgpack
 
 from urdfkit.view.channel import Channel, ChannelFullError, Frame
 
+CLEAR = umsgpack.packb({"type": "delete", "path": "/robot"})
+"""The command that empties the scene."""
+
 
 class Hub:
     """The scene as it stands, and the browsers that watch it. Lives in the server's loop."""
 
     def __init__(self) -> None:
-        self._channels: set[Channel] = set()
+        self._channels: tuple[Channel, ...] = ()  # replaced, never changed: other threads look at it
+        self._clients: dict[int, Channel] = {}
         self._scene: dict[str, dict[str, bytes]] = {}
         self._lasting: dict[str, Frame] = {}
         self._poses: tuple[int, bytes] | None = None
 
-    def join(self, channel: Channel) -> None:
-        """Bring a browser up to date, then keep it so."""
+    def join(self, channel: Channel, client: int = 0) -> None:
+        """Bring a browser up to date, then keep it so; `client` is its number."""
         for frame in self.snapshot():
             channel.line(frame)
         if self._poses is not None:
             channel.poses(*self._poses)
-        self._channels.add(channel)
+        self._channels = (*self._channels, channel)
+        self._clients[client] = channel
 
     def leave(self, channel: Channel) -> None:
         """Forget a browser."""
-        self._channels.discard(channel)
+        self._channels = tuple(each for each in self._channels if each is not channel)
+        self._clients = {client: each for client, each in self._clients.items() if each is not channel}
 
     @property
     def watchers(self) -> int:
         """How many browsers watch."""
         return len(self._channels)
+
+    @property
+    def wanted(self) -> frozenset[str]:
+        """What any browser wants beside what everybody gets; may be asked from any thread."""
+        return frozenset().union(*(channel.wanted for channel in self._channels))
+
+    def takes(self, key: str) -> bool:
+        """Whether a browser wants a source and can take another frame of it; may be asked from any thread."""
+        return any(channel.takes(key) for channel in self._channels)
 
     def snapshot(self) -> Iterator[Frame]:
         """Yield what a browser needs to see what all others see: scene commands, then the lasting texts."""
@@ -55,13 +70,13 @@ class Hub:
                 del self._scene[known]
         else:
             self._scene.setdefault(path, {})[slot] = packed
-        for channel in tuple(self._channels):
+        for channel in self._channels:
             self._line(channel, packed)
 
     def lasting(self, topic: str, frame: Frame) -> None:
         """Send a text to all; who comes later gets the last one of its topic."""
         self._lasting[topic] = frame
-        for channel in tuple(self._channels):
+        for channel in self._channels:
             self._line(channel, frame)
 
     def news(self, topic: str, frame: Frame) -> None:
@@ -69,6 +84,29 @@ class Hub:
         self._lasting[topic] = frame
         for channel in self._channels:
             channel.news(topic, frame)
+
+    def news_for(self, key: str, frame: Frame) -> None:
+        """Send a text to who wants it; a newer one may overtake it."""
+        for channel in self._channels:
+            if key in channel.wanted:
+                channel.news(key, frame)
+
+    def stream(self, key: str, frame: Frame) -> None:
+        """Send a part of something that goes on to who wants it; see `Channel.stream`."""
+        for channel in self._channels:
+            if key in channel.wanted:
+                channel.stream(key, frame)
+
+    def view(self, key: str, sequence: int, frame: bytes) -> None:
+        """Send a picture or points to who wants them; newest wins."""
+        for channel in self._channels:
+            if key in channel.wanted:
+                channel.view(key, sequence, frame)
+
+    def tell(self, client: int, frame: Frame) -> None:
+        """Send something to one browser, if it is still there."""
+        if (channel := self._clients.get(client)) is not None:
+            self._line(channel, frame)
 
     def poses(self, sequence: int, frame: bytes) -> None:
         """Send a pose frame; newest wins."""

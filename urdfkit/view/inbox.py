@@ -4,8 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from threading import Condition
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from urdfkit.view.orders import Order
 
 MAX_ACTIONS = 16
+MAX_ORDERS = 256
+"""Orders that may wait; who orders more is told so."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,13 +21,15 @@ class Wishes:
     Attributes:
         joints: joint → position last asked for [rad or m].
         actions: buttons pressed, oldest first.
+        orders: what is to be done, oldest first.
     """
 
     joints: dict[str, float] = field(default_factory=dict)
     actions: tuple[str, ...] = ()
+    orders: tuple[Order, ...] = ()
 
     def __bool__(self) -> bool:
-        return bool(self.joints or self.actions)
+        return bool(self.joints or self.actions or self.orders)
 
 
 class Inbox:
@@ -31,6 +39,7 @@ class Inbox:
         self._changed = Condition()
         self._joints: dict[str, float] = {}
         self._actions: list[str] = []
+        self._orders: list[Order] = []
 
     def put_joints(self, positions: dict[str, float]) -> None:
         """Remember joint positions; of several for one joint the last."""
@@ -45,15 +54,24 @@ class Inbox:
             del self._actions[:-MAX_ACTIONS]
             self._changed.notify()
 
+    def put_order(self, order: Order) -> bool:
+        """Remember an order; False where too many wait already."""
+        with self._changed:
+            if len(self._orders) >= MAX_ORDERS:
+                return False
+            self._orders.append(order)
+            self._changed.notify()
+            return True
+
     def take(self) -> Wishes:
         """Return what came in and forget it; never waits."""
         with self._changed:
-            wishes = Wishes(self._joints, tuple(self._actions))
-            self._joints, self._actions = {}, []
+            wishes = Wishes(self._joints, tuple(self._actions), tuple(self._orders))
+            self._joints, self._actions, self._orders = {}, [], []
         return wishes
 
     def wait(self, timeout: float) -> Wishes:
         """Return what came in; when there is nothing, wait up to `timeout` [s] for it."""
         with self._changed:
-            self._changed.wait_for(lambda: self._joints or self._actions, timeout)
+            self._changed.wait_for(lambda: self._joints or self._actions or self._orders, timeout)
         return self.take()

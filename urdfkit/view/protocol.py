@@ -1,12 +1,15 @@
-"""What travels on the websocket, and the checks on every value that comes in.
+"""What travels on the websocket, and the checks on every value that comes in; docs/protocol.md tells it in full.
 
-Version 1. Text frames are JSON objects with a ``type``; binary frames whose first byte is 0x01 are packed poses, 0x02
-what a sensor sees; other binary frames are meshcat commands (msgpack maps, whose first byte is neither).
+Version 2. Text frames are JSON objects with a ``type``; binary frames whose first byte is 0x01 are packed poses, 0x02
+what a sensor sees, 0x03 a file to keep; other binary frames are meshcat commands (msgpack maps, whose first byte is
+none of these).
 
-Browser → Python: ``joints`` {positions: {name: value}}, ``axes`` {axes: [x, y, z, turn] each -1..1, speed, turn},
-``control`` {action}, ``ack`` {sequence}.
+Browser → Python: ``joints`` {positions: {name: value}}, ``axes`` {axes: [x, y, z, turn] each -1..1, speed, turn, and
+which robot}, ``control`` {action}, ``ack`` {sequence}, ``seen`` {key, sequence}, ``watch`` {wanted: [key]}, ``do``
+{number, order, values}.
 
-Python → browser: ``hello``, ``model``, ``status``, ``fault``, ``progress``, ``driver``, ``joints``, ``sensors``.
+Python → browser: ``hello``, ``you``, ``model``, ``status``, ``fault``, ``progress``, ``joints``, ``sensors``,
+``answer``, and what the mode adds.
 """
 
 from __future__ import annotations
@@ -21,7 +24,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-VERSION = 1
+VERSION = 2
 MAX_INBOUND = 64 * 1024
 """Longest frame accepted from a browser [byte]."""
 MAX_JOINTS = 2000
@@ -29,13 +32,22 @@ MAX_MAGNITUDE = 1e6
 """Largest joint position accepted [rad or m]."""
 MAX_SPEED = 1000.0
 """Largest speed accepted [m/s, rad/s]; the default limit of teleop_twist_keyboard."""
+MAX_NAME = 200
+"""Longest name of an order, a robot or a key [characters]."""
+MAX_WANTED = 64
+"""Most keys one page may want."""
 ACTIONS = ("play", "pause", "reset")
 
 POSE_HEADER = struct.Struct("<BBHId")
 """0x01, number of the model modulo 256, number of objects, sequence, time [s]: 16 bytes."""
 POSE_MARK = 0x01
 SENSED_MARK = 0x02
-"""As `POSE_HEADER`: mark, kind (0 points, 1 a JPEG), number of the sensor, sequence, time [s]; then the content."""
+"""As `POSE_HEADER`: mark, kind, number of the source, sequence, time [s]; then the content."""
+POINTS, PICTURE, ARROWS, COLORED = 0, 1, 2, 3
+"""Kinds of what is sensed: float32 x y z [m] in the world; a JPEG or WebP; float32 x y z [m] and a vector, six each;
+float32 x y z [m] and red, green, blue and 255, a byte each."""
+FILE_MARK = 0x03
+"""As `POSE_HEADER`: mark, 0, length of the name, 0, 0; then the name in UTF-8 and the content."""
 
 
 class ProtocolError(Exception):
@@ -51,11 +63,15 @@ class Joints:
 
 @dataclass(frozen=True, slots=True)
 class Axes:
-    """What a driver holds: `axes` (x, y, z, turn) in -1..1, `speed` [m/s] and `turn` [rad/s] to scale them with."""
+    """What a driver holds: `axes` (x, y, z, turn) in -1..1, `speed` [m/s] and `turn` [rad/s] to scale them with.
+
+    `robot` is the one driven; the first where it is empty.
+    """
 
     axes: tuple[float, float, float, float]
     speed: float
     turn: float
+    robot: str = ""
 
     @property
     def is_zero(self) -> bool:
@@ -77,7 +93,31 @@ class Ack:
     sequence: int
 
 
-Message = Joints | Axes | Control | Ack
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """The browser has shown a frame of a source, and can take another."""
+
+    key: str
+    sequence: int
+
+
+@dataclass(frozen=True, slots=True)
+class Watch:
+    """What the browser wants to be sent beside what everybody gets, all of it."""
+
+    wanted: frozenset[str]
+
+
+@dataclass(frozen=True, slots=True)
+class Do:
+    """Something to be done and answered. The values are not yet checked: what they may be depends on the order."""
+
+    number: int
+    order: str
+    values: dict[str, Any]
+
+
+Message = Joints | Axes | Control | Ack | Seen | Watch | Do
 
 
 def read(text: str | bytes) -> Message:
@@ -96,10 +136,10 @@ def read(text: str | bytes) -> Message:
         raise ProtocolError("not a JSON object")
     kind = message.pop("type", None)
     try:
-        reader, keys = _READERS[kind]
+        reader, keys, optional = _READERS[kind]
     except (KeyError, TypeError):
         raise ProtocolError("unknown type") from None
-    if message.keys() != keys:
+    if not keys <= message.keys() <= keys | optional:
         raise ProtocolError(f"`{kind}` takes {', '.join(sorted(keys))} and nothing else")
     wish: Message = reader(message)
     return wish
@@ -133,7 +173,7 @@ def _axes(message: dict[str, Any]) -> Axes:
     speed, rate = _number(message["speed"], MAX_SPEED), _number(message["turn"], MAX_SPEED)
     if speed < 0 or rate < 0:
         raise ProtocolError("`speed` and `turn` must not be negative")
-    return Axes((x, y, z, turn), speed, rate)
+    return Axes((x, y, z, turn), speed, rate, _name(message.get("robot", "")))
 
 
 def _control(message: dict[str, Any]) -> Control:
@@ -143,17 +183,47 @@ def _control(message: dict[str, Any]) -> Control:
 
 
 def _ack(message: dict[str, Any]) -> Ack:
-    sequence = message["sequence"]
-    if isinstance(sequence, bool) or not isinstance(sequence, int) or not 0 <= sequence < 2**32:
-        raise ProtocolError("`sequence` must be an unsigned 32-bit integer")
-    return Ack(sequence)
+    return Ack(_sequence(message["sequence"]))
 
 
-_READERS: dict[object, tuple[Any, set[str]]] = {
-    "joints": (_joints, {"positions"}),
-    "axes": (_axes, {"axes", "speed", "turn"}),
-    "control": (_control, {"action"}),
-    "ack": (_ack, {"sequence"}),
+def _seen(message: dict[str, Any]) -> Seen:
+    return Seen(_name(message["key"]), _sequence(message["sequence"]))
+
+
+def _watch(message: dict[str, Any]) -> Watch:
+    wanted = message["wanted"]
+    if not isinstance(wanted, list) or len(wanted) > MAX_WANTED:
+        raise ProtocolError(f"`wanted` must be a list of at most {MAX_WANTED} keys")
+    return Watch(frozenset(_name(key) for key in wanted))
+
+
+def _do(message: dict[str, Any]) -> Do:
+    values = message["values"]
+    if not isinstance(values, dict):
+        raise ProtocolError("`values` must be an object")
+    return Do(_sequence(message["number"]), _name(message["order"]), values)
+
+
+def _sequence(value: Any) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**32:
+        raise ProtocolError("`sequence` and `number` must be unsigned 32-bit integers")
+    return value
+
+
+def _name(value: Any) -> str:
+    if not isinstance(value, str) or len(value) > MAX_NAME:
+        raise ProtocolError(f"a name must be a text of at most {MAX_NAME} characters")
+    return value
+
+
+_READERS: dict[object, tuple[Any, set[str], set[str]]] = {
+    "joints": (_joints, {"positions"}, set()),
+    "axes": (_axes, {"axes", "speed", "turn"}, {"robot"}),
+    "control": (_control, {"action"}, set()),
+    "ack": (_ack, {"sequence"}, set()),
+    "seen": (_seen, {"key", "sequence"}, set()),
+    "watch": (_watch, {"wanted"}, set()),
+    "do": (_do, {"number", "order", "values"}, set()),
 }
 
 
@@ -166,16 +236,23 @@ def write(type: str, **values: Any) -> str:
     return json.dumps({"type": type, **values}, separators=(",", ":"), allow_nan=False)
 
 
-def pack_sensed(index: int, time: float, kind: int, content: bytes) -> bytes:
+def pack_sensed(index: int, time: float, kind: int, content: bytes, sequence: int = 0) -> bytes:
     """Pack what a sensor sees for the browser.
 
     Args:
-        index: number of the sensor in the last ``sensors``.
+        index: number of the source in the last ``sensors``, modulo 2¹⁶.
         time: simulated time [s].
-        kind: 0 for points, float32 x y z [m] in the world; 1 for a JPEG.
+        kind: `POINTS`, `PICTURE`, `ARROWS` or `COLORED`.
         content: these.
+        sequence: counts frames, modulo 2³².
     """
-    return POSE_HEADER.pack(SENSED_MARK, kind, index & 0xFFFF, 0, time) + content
+    return POSE_HEADER.pack(SENSED_MARK, kind, index & 0xFFFF, sequence & 0xFFFFFFFF, time) + content
+
+
+def pack_file(name: str, content: bytes) -> bytes:
+    """Pack a file that the browser is to keep."""
+    encoded = name.encode()[:0xFFFF]
+    return POSE_HEADER.pack(FILE_MARK, 0, len(encoded), 0, 0.0) + encoded + content
 
 
 def pack_poses(sequence: int, time: float, poses: NDArray[np.float64], *, model: int = 0) -> bytes:

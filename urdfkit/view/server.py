@@ -6,7 +6,7 @@ import asyncio
 import contextlib
 import itertools
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +17,9 @@ from urdfkit.view.driver import Driver
 from urdfkit.view.geometry import GeometryStore
 from urdfkit.view.hub import Hub, pack
 from urdfkit.view.inbox import Inbox
+from urdfkit.view.keys import keys_of
 from urdfkit.view.listen import bind, urls
+from urdfkit.view.orders import Order, Schema, check
 from urdfkit.view.security import LOOPBACK_NAMES, Gate, is_loopback
 from urdfkit.view.web import application
 
@@ -25,6 +27,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
     from tornado.web import Application
+
+    from urdfkit.view.channel import Channel
 
 
 class Server:
@@ -37,18 +41,27 @@ class Server:
         host: address to bind; anything but loopback lets the network in.
         port: port to bind, 0 for any; None for the first free one from the usual one on.
         settings: further values for the page's first message.
+        orders: what pages may order, beside what the protocol has anyway.
 
     Raises:
         UsageError: the port is busy or the address cannot be bound.
     """
 
     def __init__(
-        self, mode: str, *, host: str = "127.0.0.1", port: int | None = None, settings: dict[str, Any] | None = None
+        self,
+        mode: str,
+        *,
+        host: str = "127.0.0.1",
+        port: int | None = None,
+        settings: dict[str, Any] | None = None,
+        orders: Mapping[str, Schema] | None = None,
     ) -> None:
         self._socket, self.port = bind(host, port)
         loopback = is_loopback(host)
         names = LOOPBACK_NAMES if loopback else (*LOOPBACK_NAMES, *local_names(host))
-        self.gate = Gate(self.port, names=names, open_to_network=not loopback)
+        # A port that is any port is another one the next time: there is nobody to know again.
+        secrets = {} if port == 0 else keys_of(self.port)
+        self.gate = Gate(self.port, names=names, open_to_network=not loopback, **secrets)
         self.urls = urls(host, self.port, self.gate.token)
         self.inbox = Inbox()
         self.driver = Driver()
@@ -56,6 +69,8 @@ class Server:
         self.geometries = GeometryStore()
         self.joints: frozenset[str] = frozenset()
         self.mode = mode
+        self.orders: dict[str, Schema] = dict(orders or {})
+        self._seen = itertools.count(1)
         self._model = itertools.count(1)
         self._model_number = 0
         self._sequence = 0
@@ -147,9 +162,10 @@ class Server:
         if latest is not None:
             self.hub.poses(*latest)
 
-    def sense(self, index: int, time: float, kind: int, content: bytes) -> None:
-        """Send what a sensor sees, until the next from it; see `protocol.pack_sensed`."""
-        self._post(self.hub.news, f"sensed {index}", protocol.pack_sensed(index, time, kind, content))
+    def sense(self, key: str, index: int, time: float, kind: int, content: bytes) -> None:
+        """Send what a source sees to who wants its key, until the next from it; see `protocol.pack_sensed`."""
+        sequence = next(self._seen) & 0xFFFFFFFF
+        self._post(self.hub.view, key, sequence, protocol.pack_sensed(index, time, kind, content, sequence))
 
     def tell(self, type: str, **values: Any) -> None:
         """Send a text that matters only until the next of its type, such as ``status``."""
@@ -158,6 +174,58 @@ class Server:
     def declare(self, type: str, **values: Any) -> None:
         """Send a text that holds until the next of its type; pages that open later get it too."""
         self._post(self.hub.lasting, type, protocol.write(type, **values))
+
+    def tell_who_wants(self, key: str, type: str, **values: Any) -> None:
+        """Send a text to who wants its key; it matters only until the next."""
+        self._post(self.hub.news_for, key, protocol.write(type, **values))
+
+    def stream(self, key: str, type: str, **values: Any) -> None:
+        """Send a part of something that goes on to who wants its key."""
+        self._post(self.hub.stream, key, protocol.write(type, **values))
+
+    def answer(self, order: Order, error: str | None = None, **values: Any) -> None:
+        """Tell the page that ordered something that it is done, or why not."""
+        message = protocol.write("answer", number=order.number, order=order.name, error=error, values=values)
+        self._post(self.hub.tell, order.client, message)
+
+    def hand_over(self, order: Order, name: str, content: bytes) -> None:
+        """Give a file to the page that ordered it."""
+        self._post(self.hub.tell, order.client, protocol.pack_file(name, content))
+
+    # What the pages say, in the server's thread
+
+    def heard(self, client: int, channel: Channel, frame: str | bytes) -> None:
+        """Check a frame from a page and pass it on.
+
+        Raises:
+            ProtocolError: it makes no sense.
+        """
+        wish = protocol.read(frame)
+        if isinstance(wish, protocol.Ack):
+            channel.acknowledge(wish.sequence)
+        elif isinstance(wish, protocol.Seen):
+            channel.seen(wish.key, wish.sequence)
+        elif isinstance(wish, protocol.Watch):
+            channel.want(wish.wanted)
+        elif isinstance(wish, protocol.Joints):
+            self.inbox.put_joints({name: value for name, value in wish.positions.items() if name in self.joints})
+        elif isinstance(wish, protocol.Axes):
+            self.driver.offer(client, wish)
+        elif isinstance(wish, protocol.Control):
+            self.inbox.put_action(wish.action)
+        else:
+            self._ordered(client, wish)
+
+    def _ordered(self, client: int, wish: protocol.Do) -> None:
+        try:
+            order = check(self.orders, client, wish)
+        except protocol.ProtocolError as error:
+            self.answer(Order(client, wish.number, wish.order, {}), str(error))
+            raise
+        if self.orders[order.name].changes and not self.driver.may(client):
+            self.answer(order, "somebody else is driving; wait until they let go")
+        elif not self.inbox.put_order(order):
+            self.answer(order, "too much is waiting to be done; try again in a moment")
 
     # The thread
 

@@ -17,6 +17,7 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 from urdfkit.errors import MissingDependencyError
 from urdfkit.view import protocol
 from urdfkit.view.channel import Channel, Frame
+from urdfkit.view.hub import CLEAR
 from urdfkit.view.security import Gate, headers
 
 if TYPE_CHECKING:
@@ -215,7 +216,8 @@ class Socket(Guarded, WebSocketHandler):
         """Bring the page up to date and start sending."""
         self.set_nodelay(True)
         self.channel.line(protocol.write("you", client=self.client))
-        self.server.hub.join(self.channel)
+        self.channel.line(CLEAR)  # it may have been here before, and show what is no more
+        self.server.hub.join(self.channel, self.client)
         self._sender = asyncio.ensure_future(self._send())
 
     async def _send(self) -> None:
@@ -229,20 +231,9 @@ class Socket(Guarded, WebSocketHandler):
     def on_message(self, message: str | bytes) -> None:
         """Check and pass on what the page sends; nonsense is dropped and said so in the log."""
         try:
-            wish = protocol.read(message)
+            self.server.heard(self.client, self.channel, message)
         except protocol.ProtocolError as error:
             self._complain(error)
-            return
-        if isinstance(wish, protocol.Ack):
-            self.channel.acknowledge(wish.sequence)
-        elif isinstance(wish, protocol.Joints):
-            self.server.inbox.put_joints(
-                {name: value for name, value in wish.positions.items() if name in self.server.joints}
-            )
-        elif isinstance(wish, protocol.Axes):
-            self.server.driver.offer(self.client, wish)
-        else:
-            self.server.inbox.put_action(wish.action)
 
     def _complain(self, error: protocol.ProtocolError) -> None:
         self._dropped += 1

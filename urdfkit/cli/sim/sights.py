@@ -1,8 +1,8 @@
 """What lidars and cameras see, on the page of ``sim teleop``: points in the scene, and small pictures.
 
-They are looked at only while somebody watches, the one that waited longest first, and no oftener than leaves the
-simulation most of the time: what a sensor's rate is does not matter to the page. Cameras take a small picture for it,
-so that whoever drives never waits for a large one.
+A sensor is looked at only while a page has it ticked and has shown what came before, the one that waited longest first,
+and no oftener than leaves the simulation most of the time: what a sensor's rate is does not matter to the page. Cameras
+take a small picture for it, so that whoever drives never waits for a large one.
 """
 
 from __future__ import annotations
@@ -16,10 +16,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.sim.sensors.annotating import GzSegmentationCamera
 from urdfkit.sim.sensors.camera import Camera
+from urdfkit.sim.sensors.depth_camera import GzDepthCamera
 from urdfkit.sim.sensors.lidar import LASER_SCAN, Lidar
 from urdfkit.sim.sensors.mounted import Mounted
 from urdfkit.sim.sensors.optics import IMAGE
+from urdfkit.view.protocol import COLORED, PICTURE, POINTS
 
 if TYPE_CHECKING:
     from urdfkit.bus import Topic
@@ -36,8 +39,9 @@ WIDTH = 320
 """Of a picture on the page [px], at most."""
 MOST_POINTS = 20_000
 """Of one scan on the page; of larger ones every second point, every third, …"""
-POINTS, PICTURE = 0, 1
-"""What is in a frame."""
+CLOUDS = ("sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/PointCloud")
+OPTICAL = np.array([[0.0, 0, 1, 0], [-1, 0, 0, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
+"""A camera's optical frame in the sensor's: z forward, x right, y down."""
 
 
 @dataclass
@@ -47,7 +51,8 @@ class Sight:
     Attributes:
         topic: where the sensor publishes.
         sensor: that publishes there.
-        kind: `POINTS` or `PICTURE`.
+        kind: `POINTS`, `COLORED` or `PICTURE`.
+        exact: whether the picture's colours have a meaning, which a JPEG would blur.
         due: when it may be looked at again [s of the clock].
         shown: messages there had been when it was looked at last.
     """
@@ -55,8 +60,23 @@ class Sight:
     topic: Topic
     sensor: Mounted
     kind: int
+    exact: bool = False
     due: float = 0.0
     shown: int = 0
+
+    @property
+    def key(self) -> str:
+        """What pages want it by."""
+        return f"sensor:{self.topic.name}"
+
+    def content(self, message: Any) -> bytes:
+        """Return what a page is sent of a message."""
+        if self.kind == PICTURE:
+            return picture(message, exact=self.exact)
+        frame = self.sensor.viewpoint
+        if isinstance(self.sensor, Camera) and not isinstance(self.sensor, GzDepthCamera):
+            frame = frame @ OPTICAL
+        return points(message, frame, colored=self.kind == COLORED)
 
 
 class Sights:
@@ -82,8 +102,12 @@ class Sights:
             for sensor in robot.plugins.sensors:
                 if isinstance(sensor, Mounted):
                     shown = smaller(sensor) if isinstance(sensor, Camera) else sensor
-                    self._sights += [Sight(topic, shown, kind) for topic, kind in _shown(sensor)]
-        names = [{"topic": sight.topic.name, "picture": sight.kind == PICTURE} for sight in self._sights]
+                    exact = isinstance(sensor, GzSegmentationCamera)
+                    self._sights += [Sight(topic, shown, kind, exact) for topic, kind in _shown(sensor)]
+        names = [
+            {"topic": sight.topic.name, "picture": sight.kind == PICTURE, "camera": isinstance(sight.sensor, Camera)}
+            for sight in self._sights
+        ]
         self._server.declare("sensors", sensors=names)
         return bool(self._sights)
 
@@ -98,10 +122,12 @@ class Sights:
         if self._simulator.revision != self._revision:
             self.find()
         now = self._clock()
-        if not self._server.hub.watchers or now < self._free:
+        if now < self._free:
             return 0.0
         waiting = [
-            (k, each) for k, each in enumerate(self._sights) if each.due <= now and each.topic.count != each.shown
+            (k, each)
+            for k, each in enumerate(self._sights)
+            if each.due <= now and each.topic.count != each.shown and self._server.hub.takes(each.key)
         ]
         if not waiting:
             return 0.0
@@ -115,8 +141,7 @@ class Sights:
             sight.shown = sight.topic.count
             message = messages[sight.topic.name]() if messages else sight.topic.latest
             if message is not None:
-                found = picture(message) if sight.kind == PICTURE else points(message, sight.sensor.viewpoint)
-                self._server.sense(index, self._simulator.t, sight.kind, found)
+                self._server.sense(sight.key, index, self._simulator.t, sight.kind, sight.content(message))
         cost = self._clock() - now
         for _, sight in together:
             sight.due = now + max(PERIOD, cost / SHARE)
@@ -139,18 +164,22 @@ def smaller(camera: Camera) -> Camera:
 
 def _shown(sensor: Mounted) -> list[tuple[Topic, int]]:
     if isinstance(sensor, Lidar):
-        kinds = (LASER_SCAN, "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/PointCloud")
-        return [(topic, POINTS) for topic in sensor.topics if topic.type in kinds][:1]
-    return [(topic, PICTURE) for topic in sensor.topics if topic.type == IMAGE]
+        return [(topic, POINTS) for topic in sensor.topics if topic.type in (LASER_SCAN, *CLOUDS)][:1]
+    if isinstance(sensor, GzSegmentationCamera):
+        return [(sensor.topics[0], PICTURE)]  # the others hold numbers, too dark to see
+    kinds = {IMAGE: PICTURE, CLOUDS[0]: COLORED}
+    return [(topic, kinds[topic.type]) for topic in sensor.topics if topic.type in kinds]
 
 
-def points(message: Any, viewpoint: Array) -> bytes:
+def points(message: Any, viewpoint: Array, *, colored: bool = False) -> bytes:
     """Return where the points of a scan are in the world [m], as little-endian float32.
 
     Args:
         message: a LaserScan, PointCloud2 or PointCloud in the coordinates of the sensor.
         viewpoint: of the sensor; shape (4, 4).
+        colored: each with red, green, blue and 255 behind it, a byte each; of a PointCloud2 with ``rgb``.
     """
+    colors = None
     if hasattr(message, "ranges"):
         angles = message.angle_min + message.angle_increment * np.arange(len(message.ranges))
         ranges = np.asarray(message.ranges, dtype=float)
@@ -164,15 +193,28 @@ def points(message: Any, viewpoint: Array) -> bytes:
             [np.ascontiguousarray(rows[:, offsets[axis] : offsets[axis] + 4]).view("<f4")[:, 0] for axis in "xyz"],
             axis=-1,
         ).astype(float)
+        if colored and "rgb" in offsets:
+            blue_first = rows[:, offsets["rgb"] : offsets["rgb"] + 3]
+            colors = np.concatenate([blue_first[:, ::-1], np.full((len(rows), 1), 255, dtype=np.uint8)], axis=1)
     else:
         found = np.array([(each.x, each.y, each.z) for each in message.points], dtype=float).reshape(-1, 3)
-    found = found[np.isfinite(found).all(axis=1)]
-    found = found[:: max(1, -(-len(found) // MOST_POINTS))]
-    return bytes((found @ viewpoint[:3, :3].T + viewpoint[:3, 3]).astype("<f4").tobytes())
+    known = np.isfinite(found).all(axis=1)
+    every = max(1, -(-int(known.sum()) // MOST_POINTS))
+    found = (found[known][::every] @ viewpoint[:3, :3].T + viewpoint[:3, 3]).astype("<f4")
+    if not colored:
+        return bytes(found.tobytes())
+    if colors is None:
+        colors = np.full((len(known), 4), 255, dtype=np.uint8)
+    return bytes(np.concatenate([found.view(np.uint8).reshape(-1, 12), colors[known][::every]], axis=1).tobytes())
 
 
-def picture(message: Any) -> bytes:
-    """Return an Image as a small JPEG; depths as grey, near ones bright."""
+def picture(message: Any, *, exact: bool = False) -> bytes:
+    """Return an Image as a small JPEG; depths as grey, near ones bright.
+
+    Args:
+        message: the Image.
+        exact: as a WebP that blurs nothing instead.
+    """
     from PIL import Image
 
     from urdfkit.cli.sim.pictures import png
@@ -184,7 +226,10 @@ def picture(message: Any) -> bytes:
             known = depth[depth > 0]
             far = float(known.max()) if len(known) else 1.0
             small = Image.fromarray(np.where(depth > 0, 255 - 215 * depth / far, 0).astype(np.uint8))
-        small = small.resize((min(WIDTH, whole.width), max(1, round(whole.height * min(1.0, WIDTH / whole.width)))))
+        size = min(WIDTH, whole.width), max(1, round(whole.height * min(1.0, WIDTH / whole.width)))
         file = io.BytesIO()
-        small.save(file, format="JPEG", quality=80)
+        if exact:
+            small.resize(size, Image.Resampling.NEAREST).save(file, format="WEBP", lossless=True, quality=0, method=0)
+        else:
+            small.resize(size).save(file, format="JPEG", quality=80)
     return file.getvalue()

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.plugins.sense import senseless_parameters
 from urdfkit.errors import SimulationError
 from urdfkit.sim.parameters import Parameters
 from urdfkit.sim.plugin import Sensor, Setup
 from urdfkit.sim.sensors.carried import carrier
-from urdfkit.sim.sensors.values import pose_of, rate_of
+from urdfkit.sim.sensors.values import pose_of, rate_of, refuse
 from urdfkit.sim.topics import Topics
 
 if TYPE_CHECKING:
@@ -54,6 +55,7 @@ class Mounted(Sensor):
         self.name = sensor.name or "sensor"
         names = {**setup.names, "link": setup.link, "sensor": self.name}
         read = Parameters(self.plugin, self.spec, names)
+        refuse(senseless_parameters(self.plugin, self.spec))
         empty = self.plugin.element.find("robotNamespace") is not None
         topics = Topics(self.plugin, self.spec, namespace=self.namespace.format(**names) if empty else "")
         self.rate = rate_of(sensor.element, read)
@@ -89,7 +91,7 @@ class Mounted(Sensor):
             t: now [s].
         """
         layout = self._surroundings.layout()
-        frame = layout.placement(self._robot, self._link) @ self._pose
+        frame = self.viewpoint = layout.placement(self._robot, self._link) @ self._pose
         seen = self._look(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, 0])))
         return tuple(partial(message, seen) for message in self.messages())
 

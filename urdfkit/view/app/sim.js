@@ -27,6 +27,7 @@ function clock(page) {
   let me = null;
   page.on("you", (message) => (me = message.client));
   page.on("status", (message) => {
+    page.pose = message.pose;
     $("sim-time").textContent = `${message.time.toFixed(1)} s`;
     $("rtf").textContent = message.paused ? "paused" : `×${message.real_time_factor.toFixed(2)}`;
     const { x, y, yaw } = message.pose;
@@ -49,7 +50,7 @@ function clock(page) {
 function sensing(page) {
   page.panels.add({ id: "sensors", title: "Sensors", icon: EYE, modes: ["sim"], order: 20, element: $("sensor-section"), pinned: true });
   page.panels.available("sensors", false);
-  const sensors = new Sensors(page.stage);
+  const sensors = new Sensors(page, $("sensors"));
   page.on("sensors", (message) => {
     sensors.use(message.sensors);
     page.panels.available("sensors", message.sensors.length > 0);
