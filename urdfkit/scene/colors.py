@@ -3,62 +3,13 @@
 from __future__ import annotations
 
 from urdfkit.description.element import Element
+from urdfkit.description.gazebo_materials import GAZEBO, Rgba, script_of
 from urdfkit.description.robot import Robot, Visual
 
-Rgba = tuple[float, float, float, float]
+__all__ = ["DEFAULT", "GAZEBO", "Palette", "Rgba"]
 
 DEFAULT: Rgba = (0.7, 0.7, 0.7, 1.0)
 """Gazebo's default grey, for what has no material."""
-
-GAZEBO: dict[str, Rgba] = {
-    "Black": (0.0, 0.0, 0.0, 1.0),
-    "Blue": (0.0, 0.0, 1.0, 1.0),
-    "BlueGlow": (0.0, 0.0, 1.0, 1.0),
-    "BlueLaser": (0.0, 0.0, 1.0, 0.4),
-    "BlueTransparent": (0.0, 0.0, 1.0, 0.5),
-    "Bricks": (0.55, 0.35, 0.28, 1.0),
-    "CeilingTiled": (0.8, 0.8, 0.8, 1.0),
-    "DarkGray": (0.175, 0.175, 0.175, 1.0),
-    "DarkGrey": (0.175, 0.175, 0.175, 1.0),
-    "FlatBlack": (0.1, 0.1, 0.1, 1.0),
-    "Gold": (0.8, 0.64869, 0.120759, 1.0),
-    "Gray": (0.7, 0.7, 0.7, 1.0),
-    "Green": (0.0, 1.0, 0.0, 1.0),
-    "GreenGlow": (0.0, 1.0, 0.0, 1.0),
-    "GreenTransparent": (0.0, 1.0, 0.0, 0.5),
-    "Grey": (0.7, 0.7, 0.7, 1.0),
-    "GreyTransparent": (0.5, 0.5, 0.5, 0.5),
-    "JointAnchor": (1.0, 1.0, 1.0, 1.0),
-    "LightOff": (1.0, 0.0, 0.0, 1.0),
-    "LightOn": (0.0, 1.0, 0.0, 1.0),
-    "Orange": (1.0, 0.5088, 0.0468, 1.0),
-    "OrangeTransparent": (1.0, 0.44, 0.0, 0.4),
-    "PaintedWall": (0.9, 0.9, 0.9, 1.0),
-    "Pioneer2Body": (0.681193, 0.000923, 0.000923, 1.0),
-    "PioneerBody": (1.0, 0.0, 0.0, 1.0),
-    "Purple": (1.0, 0.0, 1.0, 1.0),
-    "PurpleGlow": (1.0, 0.0, 1.0, 1.0),
-    "Red": (1.0, 0.0, 0.0, 1.0),
-    "RedBright": (0.87, 0.26, 0.07, 1.0),
-    "RedGlow": (1.0, 0.0, 0.0, 1.0),
-    "RedTransparent": (1.0, 0.0, 0.0, 0.5),
-    "Residential": (0.35, 0.35, 0.35, 1.0),
-    "Road": (0.35, 0.35, 0.35, 1.0),
-    "SkyBlue": (0.0, 0.0, 1.0, 1.0),
-    "Turquoise": (0.0, 1.0, 1.0, 1.0),
-    "TurquoiseGlow": (0.0, 1.0, 1.0, 1.0),
-    "White": (1.0, 1.0, 1.0, 1.0),
-    "WhiteGlow": (1.0, 1.0, 1.0, 1.0),
-    "Wood": (0.6, 0.45, 0.28, 1.0),
-    "WoodFloor": (0.6, 0.45, 0.3, 1.0),
-    "WoodPallet": (0.6, 0.48, 0.32, 1.0),
-    "Yellow": (1.0, 1.0, 0.0, 1.0),
-    "YellowGlow": (1.0, 1.0, 0.0, 1.0),
-    "YellowTransparent": (1.0, 1.0, 0.0, 0.5),
-    "ZincYellow": (0.9725, 0.9529, 0.2078, 1.0),
-}
-"""Gazebo classic's materials without their prefix ``Gazebo/`` (gazebo: media/materials/scripts/gazebo.material): the
-diffuse colour, or one like the texture where the material is a picture."""
 
 
 class Palette:
@@ -104,9 +55,7 @@ def _gazebo_color(block: Element) -> Rgba | None:
         for tag in ("diffuse", "ambient"):
             if (color := material.find(tag)) is not None and (rgba := _numbers(color.text)) is not None:
                 return rgba
-        script = material.find("script")
-        name = (script.find("name") if script else None) or material
-        if (known := GAZEBO.get(name.text.strip().removeprefix("Gazebo/"))) is not None:
+        if (known := GAZEBO.get(script_of(material)[1].removeprefix("Gazebo/"))) is not None:
             return known
     return None
 

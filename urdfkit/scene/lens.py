@@ -89,6 +89,12 @@ class Lens:
         row, column = np.divmod(self.order, self.width)
         return self.towards(column.astype(float), row.astype(float))
 
+    @property
+    def lost(self) -> float:
+        """What part of the picture nothing is projected to, 0..1, by some hundreds of its pixels."""
+        column, row = np.meshgrid(np.linspace(0, self.width - 1, 32), np.linspace(0, self.height - 1, 32))
+        return float((self.towards(column.ravel(), row.ravel())[:, 0] < 0).mean()) if self.distortion else 0.0
+
     def towards(self, column: Array, row: Array) -> Array:
         """Return the unit vectors towards places in the picture, as `directions`; shape (n, 3).
 

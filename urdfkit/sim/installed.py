@@ -2,30 +2,26 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
 
 from urdfkit import registry
-from urdfkit.description.plugins import ALL_SPECS, PluginSpec, match
+from urdfkit.description.plugins import PluginSpec, match
 from urdfkit.description.plugins.lookup import stem
-from urdfkit.description.plugins.sensors import BARE, SENSOR_TYPES
+from urdfkit.description.plugins.sensors import BARE
 from urdfkit.description.robot import Plugin, Robot, SensorTag
 from urdfkit.description.world.systems import NEEDLESS
-from urdfkit.errors import SimulationError, UsageError, did_you_mean
+from urdfkit.errors import SimulationError, UsageError
 from urdfkit.sim.controllers import CONTROLLERS
 from urdfkit.sim.controllers.joint_state import JointStatePublisher
 from urdfkit.sim.drives import DRIVES
 from urdfkit.sim.plugin import Controller, Drive, Sensor, Setup
 from urdfkit.sim.publications import JointStates, all_joint_states, joint_states
+from urdfkit.sim.remarks import SharedTopics, misspelt, not_read, strange, unknown
 from urdfkit.sim.sensors import SENSORS
-
-_SHARED = re.compile(r"^(gazebo_ros_|gazebo_|gz-sim-|ignition-gazebo-|gz_|hector_gazebo_)|(-system|_plugin)$")
-"""How names of plugins begin and end."""
 
 
 @dataclass
@@ -49,7 +45,9 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
     Raises:
         SimulationError: a parameter makes no sense, with its place.
     """
-    installed = Installed()
+    installed, shared = Installed(), SharedTopics(setup.note)
+    for remark in misspelt(robot):
+        setup.note(remark)
     rooms: tuple[tuple[Sequence[Any], list[Any]], ...] = (
         ((*DRIVES, *registry.load("urdfkit.drives")), installed.drives),
         ((*SENSORS, *registry.load("urdfkit.sensors")), installed.sensors),
@@ -59,9 +57,11 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
         own = replace(setup, random=np.random.default_rng([seed, number]), sensor=sensor, link=link)
         bare = sensor is not None and plugin.element is sensor.element
         spec = BARE.get((sensor.type or "").strip()) if bare and sensor is not None else match(plugin)
-        if sensor is not None and (strange := _strange(sensor, simulated=spec is not None or not bare)):
-            setup.note(strange)
+        if sensor is not None and (remark := strange(sensor, simulated=spec is not None or not bare)):
+            setup.note(remark)
             continue
+        for remark in not_read(plugin, spec) if spec is not None and not bare else ():
+            setup.note(remark)
         if spec is not None and spec.kind == "joint_state_publisher":
             installed.joint_states.append(joint_states(plugin, spec, own))
         elif (found := _choose(plugin, spec, rooms)) is not None:
@@ -76,8 +76,12 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
                 setup.note(f"{place}{error}; sensor `{left_out}` is left out")
                 continue
             works.append(made)
+            if isinstance(made, Sensor):
+                told = (topic.name for topic in made.topics if not topic.type.endswith("/CameraInfo"))
+                shared.add(made.name or plugin.name or "", plugin.element, told)
         elif stem(plugin.filename or "") not in NEEDLESS:
-            setup.note(_unknown(plugin, [table for classes, _ in rooms for made in classes for table in made.specs]))
+            tables = [table for classes, _ in rooms for made in classes for table in made.specs]
+            setup.note(unknown(plugin, sensor, tables))
     if robot.ros2_control and not any(controller.kind == "ros2_control" for controller in installed.controllers):
         for block in robot.ros2_control:
             setup.note(
@@ -87,41 +91,6 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
     if not installed.joint_states and not _publishes_joint_states(installed):
         installed.joint_states.append(all_joint_states(setup))
     return installed
-
-
-def _strange(sensor: SensorTag, *, simulated: bool) -> str:
-    """Return why a sensor is left out before it is looked into: its place, and the nearest type; empty if it is not."""
-    place, kind = sensor.element.origin.position, (sensor.type or "").strip()
-    if not kind:
-        return f"{place}: a sensor has no type; sensor `{sensor.name or 'sensor'}` is left out"
-    if kind not in SENSOR_TYPES:
-        hint = did_you_mean(kind, SENSOR_TYPES)
-        return f"{place}: no sensor is of type `{kind}`{hint}; sensor `{sensor.name or 'sensor'}` is left out"
-    if not simulated:
-        return (
-            f"{place}: sensors of type `{kind}` are not simulated yet; sensor `{sensor.name or 'sensor'}` is left out"
-        )
-    return ""
-
-
-def _unknown(plugin: Plugin, tables: Sequence[PluginSpec]) -> str:
-    """Return what to say of a plugin that nothing here simulates: its place, and the nearest that something does."""
-    place = plugin.element.origin.position
-    if plugin.filename is None:
-        return f"{place}: plugin `{plugin.name or ''}` has no filename, so nothing runs it"
-    name = stem(plugin.filename)
-    # What most of them share says nothing about which one was meant.
-    known = [other for spec in (*ALL_SPECS, *tables) for other in spec.filenames]
-    hint = did_you_mean(_essence(name), map(_essence, known))
-    if not hint:
-        return f"plugin {plugin.filename}: not simulated yet"
-    meant = [other for other in known if _essence(other) == hint.split("`")[1]]
-    near = get_close_matches(name, meant, n=1, cutoff=0.0)[0]
-    return f"{place}: no plugin `{plugin.filename}`; did you mean `{plugin.filename.replace(name, near)}`?"
-
-
-def _essence(name: str) -> str:
-    return _SHARED.sub("", name)
 
 
 def _publishes_joint_states(installed: Installed) -> bool:

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import re
+
 from urdfkit.bus import absolute
 from urdfkit.description.plugins import PluginSpec
 from urdfkit.description.robot import Plugin
+from urdfkit.errors import SimulationError
+
+_TOPIC = re.compile(r"^/[A-Za-z0-9_./:~-]*$")
+"""ROS allows less; but names of things in the new Gazebo, of which it makes topics, may hold any of these."""
 
 
 class Topics:
@@ -24,6 +30,7 @@ class Topics:
         self._remappings: dict[str, str] = {}
         self._namespace = ""
         self._node = plugin.name or ""
+        self._element = plugin.element
         if spec.generation == "ros1":
             written = plugin.element.find("robotNamespace")
             self._namespace = (written.text if written is not None else "") or namespace
@@ -36,9 +43,20 @@ class Topics:
                     self._remappings[self._below(old.strip())] = self._below(new.strip())
 
     def resolve(self, name: str) -> str:
-        """Return the absolute topic for a name as the plugin knows it."""
+        """Return the absolute topic for a name as the plugin knows it.
+
+        Raises:
+            SimulationError: it is none, with its place.
+        """
         full = self._below(name)
-        return self._remappings.get(full, full)
+        found = self._remappings.get(full, full)
+        if not _TOPIC.match(found):
+            written = (each for each in self._element.walk() if each.text and found.endswith(each.text.strip()))
+            raise SimulationError(
+                f"`{found}` is no name of a topic: it is made of letters, digits, _ and /",
+                position=next(written, self._element).origin.position,
+            )
+        return found
 
     def _below(self, name: str) -> str:
         if name.startswith("/"):

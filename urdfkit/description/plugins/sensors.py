@@ -62,3 +62,22 @@ SENSOR_TYPES = tuple(
     )
 )
 """What the ``type`` of a ``<sensor>`` may be (sdformat main, src/Sensor.cc), simulated here or not."""
+
+_NEAREST_OF_RAYS = (
+    'write type="ray" and a plugin that tells the nearest of its rays, libgazebo_ros_range.so in ROS 1 or '
+    "libgazebo_ros_ray_sensor.so in ROS 2, with {} as the kind of radiation"
+)
+_TWO = 'write a sensor of type="camera" for each, or libgazebo_ros_camera.so into this one'
+
+INSTEAD: dict[str, str] = {
+    **dict.fromkeys(("sonar", "ultrasonic", "ultrasound"), _NEAREST_OF_RAYS.format("ultrasound")),
+    **dict.fromkeys(("infrared", "ir", "range"), _NEAREST_OF_RAYS.format("infrared")),
+    **dict.fromkeys(("thermal", "thermal_camera"), 'type="camera" tells colours, temperatures are not known here'),
+    **dict.fromkeys(("wideanglecamera", "wide_angle_camera"), 'write type="camera", with <distortion> if need be'),
+    **dict.fromkeys(("multicamera", "stereo", "stereo_camera"), _TWO),
+    **dict.fromkeys(
+        ("openni", "openni_kinect", "kinect"), 'write type="depth"; ROS 1 wants libgazebo_ros_openni_kinect.so'
+    ),
+    "laser": 'write type="ray"',
+}
+"""Type of a ``<sensor>`` that is not simulated, or that SDF does not have → what to write instead."""

@@ -37,6 +37,9 @@ Array = NDArray[np.float64]
 SEVERAL = ("multicamera", "stereo_camera")
 """Types of sensors that have more than one camera."""
 
+MOST_LOST = 0.25
+"""A larger part of the picture that nothing gets to is remarked on; that of a fish-eye's corners is smaller."""
+
 
 @dataclass(frozen=True, eq=False)
 class Sight:
@@ -119,6 +122,9 @@ class Camera(Mounted):
         written = Distortion(*(read.number(meaning) for meaning in ("k1", "k2", "p1", "p2", "k3")))
         if written and not optics.lens.distortion:
             optics = replace(optics, lens=replace(optics.lens, distortion=written))
+        if (lost := optics.lens.lost) > MOST_LOST:
+            place = (camera.find("distortion") or camera).origin.position
+            setup.note(f"{place}: through this distortion nothing gets to {lost:.0%} of the picture, which stays empty")
         lens, gz = optics.lens, self.spec.generation == "gz"
         return Eye(
             camera.get("name") or "",

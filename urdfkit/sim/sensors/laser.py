@@ -67,7 +67,7 @@ class Range(Lidar):
     def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
         self._deviation = read.number("gaussian_noise", unsigned=True)
         self._field_of_view = read.number("field_of_view", unsigned=True)
-        self._ultrasound = read.text("radiation") == "ultrasound"
+        self._ultrasound = self.is_ultrasound(setup, read)
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), RANGE),)
 
     def messages(self) -> Messages:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.errors import did_you_mean
 from urdfkit.messages import header, message_type
 from urdfkit.sim.sensors.mounted import Mounted
 from urdfkit.sim.sensors.noise import noise_of
@@ -32,6 +33,8 @@ Array = NDArray[np.float64]
 
 LASER_SCAN = "sensor_msgs/msg/LaserScan"
 RANGE = "sensor_msgs/msg/Range"
+
+RADIATIONS = ("infrared", "ultrasound")
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +98,16 @@ class Lidar(Mounted):
             header(reading.t, self.frame), kind.ULTRASOUND if ultrasound else kind.INFRARED, field_of_view,
             self.scan.range_min, self.scan.range_max, nearest,
         )  # fmt: skip
+
+    def is_ultrasound(self, setup: Setup, read: Parameters) -> bool:
+        """Return whether the kind of radiation is ultrasound; Gazebo takes what it does not know for infrared."""
+        kind = read.text("radiation", RADIATIONS[0])
+        if kind not in RADIATIONS:
+            setup.note(
+                f"{read.place('radiation')}: <{read.tag('radiation')}> is `{kind}`, which is taken for infrared"
+                f"{did_you_mean(kind, RADIATIONS)}"
+            )
+        return kind == "ultrasound"
 
     def points(self, ranges: Array) -> Array:
         """Return where the readings are in the sensor's frame [m]; shape (rings · samples, 3)."""

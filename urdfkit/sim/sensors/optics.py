@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.element import Element
+from urdfkit.description.plugins.sense import senseless_camera
 from urdfkit.description.robot import SensorTag
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.messages import header, message_type
 from urdfkit.scene.lens import Distortion, Lens
-from urdfkit.sim.sensors.values import number
+from urdfkit.sim.sensors.values import number, refuse
 
 IMAGE = "sensor_msgs/msg/Image"
 CAMERA_INFO = "sensor_msgs/msg/CameraInfo"
@@ -87,22 +87,15 @@ def optics_of(camera: Element) -> Optics:
     Raises:
         SimulationError: it makes no sense, with its place.
     """
+    refuse(senseless_camera(camera))
     image, clip = camera.find("image"), camera.find("clip")
     width, height = number(image, "width", 320.0, least=1.0), number(image, "height", 240.0, least=1.0)
-    if width != int(width) or height != int(height) or width * height > MAX_PIXELS:
+    if width * height > MAX_PIXELS:
         raise SimulationError(
             f"a picture of {width:g} × {height:g} pixels cannot be taken", position=(image or camera).origin.position
         )
     angle = number(camera, "horizontal_fov", 1.047)
-    if not 0.0 < angle < pi:
-        raise SimulationError(
-            f"<horizontal_fov> is {angle:g} rad; it must be between 0 and π", position=camera.origin.position
-        )
     near, far = number(clip, "near", 0.1, least=0.0), number(clip, "far", 100.0, infinite=True)
-    if not near < far:
-        raise SimulationError(
-            f"a camera that sees from {near:g} m to {far:g} m sees nothing", position=(clip or camera).origin.position
-        )
     written = camera.find("distortion")
     distortion = Distortion(*(number(written, tag, 0.0) for tag in ("k1", "k2", "p1", "p2", "k3")))
     lens = Lens(int(width), int(height), angle, distortion)

@@ -40,7 +40,7 @@ class RaySensor(Lidar):
                 position=read.place("output_type"),
             )
         self._min_intensity = read.number("min_intensity")
-        self._ultrasound = read.text("radiation") == "ultrasound"
+        self._ultrasound = self.is_ultrasound(setup, read)
         self.topics = (setup.bus.advertise(topics.resolve("~/out"), OUTPUTS[self._output]),)
 
     def messages(self) -> Messages:

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.element import Element
+from urdfkit.description.plugins.sense import senseless_scan
 from urdfkit.description.robot import SensorTag
 from urdfkit.errors import SimulationError
-from urdfkit.sim.sensors.values import number
+from urdfkit.sim.sensors.values import number, refuse
 
 Array = NDArray[np.float64]
 
@@ -72,6 +73,7 @@ def scan_of(sensor: SensorTag) -> Scan:
     lidar = sensor.element.find("ray") or sensor.element.find("lidar")
     if lidar is None:
         raise SimulationError("a lidar lacks its <ray>", position=sensor.element.origin.position)
+    refuse(senseless_scan(lidar))
     pattern, reach = lidar.find("scan"), lidar.find("range")
     samples, angle_min, angle_max = _fan(None if pattern is None else pattern.find("horizontal"), 640)
     rings, vertical_min, vertical_max = _fan(None if pattern is None else pattern.find("vertical"), 1)
@@ -80,11 +82,6 @@ def scan_of(sensor: SensorTag) -> Scan:
             f"{samples} × {rings} rays are more than {MAX_RAYS}", position=(pattern or lidar).origin.position
         )
     range_min, range_max = number(reach, "min", 0.0), number(reach, "max", 0.0, infinite=True)
-    if not 0.0 <= range_min < range_max:
-        raise SimulationError(
-            f"a lidar that sees from {range_min:g} m to {range_max:g} m sees nothing",
-            position=(reach or lidar).origin.position,
-        )
     return Scan(samples, angle_min, angle_max, rings, vertical_min, vertical_max, range_min, range_max)
 
 
@@ -92,16 +89,6 @@ def _fan(element: Element | None, default: int) -> tuple[int, float, float]:
     """Return how many rays there are, and the angles of the first and the last."""
     if element is None:
         return default, 0.0, 0.0
-    samples = number(element, "samples", float(default))
+    samples = number(element, "samples", float(default), least=1.0)
     rays = round(samples * number(element, "resolution", 1.0))
-    low, high = number(element, "min_angle", 0.0), number(element, "max_angle", 0.0)
-    if samples < 1 or rays < 1:
-        raise SimulationError(
-            f"<{element.tag}> asks for {samples:g} samples; it must be one or more", position=element.origin.position
-        )
-    if low > high:
-        raise SimulationError(
-            f"<{element.tag}> goes from {low:g} to {high:g} rad: the smaller angle is <min_angle>",
-            position=element.origin.position,
-        )
-    return rays, low, high
+    return rays, number(element, "min_angle", 0.0), number(element, "max_angle", 0.0)

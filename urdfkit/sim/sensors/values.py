@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import isfinite, isnan
 from typing import TYPE_CHECKING
 
@@ -44,6 +45,16 @@ def number(
         wanted += "" if least is None else f", {least:g} or greater"
         raise SimulationError(f"<{tag}> is `{child.text}`; it must be {wanted}", position=child.origin.position)
     return value
+
+
+def refuse(found: Iterable[tuple[Element, str]]) -> None:
+    """Refuse the first of what makes no sense, if there is any.
+
+    Raises:
+        SimulationError: with its place.
+    """
+    for element, message in found:
+        raise SimulationError(message, position=element.origin.position)
 
 
 def pose_of(sensor: Element) -> NDArray[np.float64]:

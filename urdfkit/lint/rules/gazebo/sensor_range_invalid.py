@@ -9,6 +9,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from urdfkit.description.element import Element
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
@@ -70,7 +71,7 @@ class SensorRangeInvalid(RobotRule):
 
         for block in model.robot.gazebo:
             for sensor in block.sensors:
-                found = []
+                found: list[tuple[Element, str]] = []
                 for child in sensor.element.children:
                     if child.tag in ("ray", "lidar"):
                         found += senseless_scan(child)
