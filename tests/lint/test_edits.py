@@ -6,7 +6,7 @@ import pytest
 
 from urdfkit.description.element import Element
 from urdfkit.lint import edits
-from urdfkit.lint.engine import Options, _Checker
+from urdfkit.lint.engine import Options, model_of
 from urdfkit.lint.finding import Fix
 
 TEXT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
@@ -37,7 +37,7 @@ def applied(fix: Fix | None) -> str:
 
 @pytest.fixture
 def found(write):
-    model = _Checker(Options())._model(write("r.xacro", TEXT))
+    model = model_of(write("r.xacro", TEXT), Options())
     elements = {element.tag: element for element in model.robot.element.walk()}
 
     def element(tag: str) -> Element:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from urdfkit.description import load
 from urdfkit.description.robot import Box, Capsule, Cylinder, Pose, Sphere
-from urdfkit.lint.placement import Extent, Frame, _box, rotation, unit
+from urdfkit.lint.placement import Extent, Frame, box_around, rotation, unit
 from urdfkit.lint.wheels import same_turn
 
 angles = st.tuples(*[st.floats(-7, 7)] * 3)
@@ -54,14 +54,14 @@ def surface(shape) -> np.ndarray:
 def test_boxes_and_reach_are_those_of_the_surface(shape, xyz, rpy, point):
     pose = Pose(xyz, rpy)
     there = surface(shape) @ np.array(rotation(rpy)).T + xyz
-    low, high = _box(shape, pose)
+    low, high = box_around(shape, pose)
     np.testing.assert_allclose(low, there.min(axis=0), atol=2e-4)
     np.testing.assert_allclose(high, there.max(axis=0), atol=2e-4)
     filled = Extent(low, high, ((shape, pose),), ())
     assert filled.radius(point) == pytest.approx(np.linalg.norm(there - point, axis=1).max(), abs=2e-4)
 
 
-def test_outside_is_the_distance_to_the_box():
+def test_outside_is_the_distance_to_thebox_around():
     filled = Extent((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0), (), ())
     assert filled.outside((0.5, -1.0, 0.0)) == 0
     assert filled.outside((4.0, 5.0, 1.0)) == pytest.approx(5.0)

@@ -6,7 +6,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from urdfkit.lint.engine import Options, _Checker
+from urdfkit.lint.engine import Options, model_of
 from urdfkit.lint.principal import is_possible
 from urdfkit.lint.tensor import tensor_of
 
@@ -16,7 +16,7 @@ LINK = """<link name="a"><inertial>{origin}<mass value="{mass}"/>
 
 def tensor(write, shapes: str, mass: float, origin: str = "") -> tuple[float, ...]:
     path = write("r.xacro", LINK.format(origin=origin, mass=mass, shapes=shapes))
-    model = _Checker(Options())._model(path)
+    model = model_of(path, Options())
     values = tensor_of(model.robot.links[0], model.extents["a"], mass)
     assert values is not None
     return values

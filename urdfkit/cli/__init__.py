@@ -23,6 +23,7 @@ COMMANDS = {
     "rule": "print the page of a lint rule, or the catalogue",
     "expand": "xacro to URDF, without ROS installed",
     "info": "links, joints, mass, sensors, drives",
+    "inertia": "compute masses and inertia from shapes, beside what is written",
     "view": "look at a robot in the browser",
     "tf": "compute a transform, or draw the frame tree",
     "sim": "simulate a robot: teleop, run, bench, warmup",

@@ -115,6 +115,31 @@ def run(entries: Iterable[Entry], options: Options) -> Outcome:
     return checker.outcome()
 
 
+def model_of(path: Path, options: Options) -> Model:
+    """Expand a file, going on after errors, and read the robot in it.
+
+    Raises:
+        ResourceError: it cannot be read.
+        ModelError: it is no robot description.
+    """
+    packages = Packages(options.package_path, near=path)
+
+    def as_written() -> Robot:
+        expanded = expand_leniently(
+            path, arguments=options.arguments, packages=packages, mend_prefixes=False, texts=options.texts
+        )
+        return parse(expanded.root) if expanded.root is not None else robot
+
+    expanded = expand_leniently(path, arguments=options.arguments, packages=packages, texts=options.texts)
+    root = expanded.root
+    if root is not None and root.tag != "robot":
+        from urdfkit.errors import ModelError
+
+        raise ModelError(f"<{root.tag}> is no robot description", position=root.origin.position)
+    robot = parse(root if root is not None else _nothing(path))
+    return Model(expanded, robot, options.target, as_written)
+
+
 class _Checker:
     """One run over several entries."""
 
@@ -153,25 +178,10 @@ class _Checker:
         self.findings += findings
 
     def _model(self, path: Path) -> Model:
-        options = self.options
-        packages = Packages(options.package_path, near=path)
-
-        def as_written() -> Robot:
-            expanded = expand_leniently(
-                path, arguments=options.arguments, packages=packages, mend_prefixes=False, texts=options.texts
-            )
-            return parse(expanded.root) if expanded.root is not None else robot
-
-        expanded = expand_leniently(path, arguments=options.arguments, packages=packages, texts=options.texts)
-        root = expanded.root
-        if root is not None and root.tag != "robot":
-            from urdfkit.errors import ModelError
-
-            raise ModelError(f"<{root.tag}> is no robot description", position=root.origin.position)
-        robot = parse(root if root is not None else _nothing(path))
-        self.sources.update(expanded.sources)
-        self.files.update({name: Path.cwd() / name for name in expanded.sources})
-        return Model(expanded, robot, options.target, as_written)
+        model = model_of(path, self.options)
+        self.sources.update(model.expanded.sources)
+        self.files.update({name: Path.cwd() / name for name in model.expanded.sources})
+        return model
 
     def _ask_source_rules(self, model: Model) -> Iterator[Finding]:
         sources = model.expanded.sources

@@ -16,7 +16,7 @@ from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from urdfkit.description.source import Source, Span
     from urdfkit.lint.entries import Entry
@@ -54,6 +54,11 @@ class Change:
             raise ResourceError(f"{self.shown} was changed while it was being fixed; nothing was written to it")
         write_bytes(self.path, self.after)
 
+    @property
+    def text(self) -> str:
+        """What the file is to hold, decoded."""
+        return _SURROGATE.sub("\ufffd", _Text(self.after).text)
+
     def diff(self) -> str:
         """Return the change as a unified diff."""
         from difflib import unified_diff
@@ -80,7 +85,14 @@ class Fixed:
     notes: tuple[str, ...]
 
 
-def fix(entries: Sequence[Entry], options: Options, *, within: Iterable[Path], unsafe: bool = False) -> Fixed:
+def fix(
+    entries: Sequence[Entry],
+    options: Options,
+    *,
+    within: Iterable[Path],
+    unsafe: bool = False,
+    only: Callable[[Finding], bool] | None = None,
+) -> Fixed:
     """Mend what can be mended, in memory; see `Change.write`.
 
     Args:
@@ -88,12 +100,13 @@ def fix(entries: Sequence[Entry], options: Options, *, within: Iterable[Path], u
         options: how to lint it.
         within: folders (or files) whose files may be changed.
         unsafe: apply unsafe fixes too.
+        only: mend the findings it says yes to; all where it is None.
 
     Raises:
         UsageError: a code or the target is not known.
         ResourceError: an entry cannot be read.
     """
-    return _Fixer(entries, options, tuple(path.resolve() for path in within), unsafe).fix()
+    return _Fixer(entries, options, tuple(path.resolve() for path in within), unsafe, only).fix()
 
 
 def may_be_changed(paths: Iterable[Path]) -> list[Path]:
@@ -110,6 +123,38 @@ def may_be_changed(paths: Iterable[Path]) -> list[Path]:
             package = next((folder for folder in resolved.parents if (folder / "package.xml").is_file()), None)
             folders.append(package or resolved.parent)
     return folders
+
+
+def changes(edits: Iterable[Edit], sources: Mapping[str, Source], *, within: Iterable[Path]) -> list[Change]:
+    """Return the files that edits change, in memory; see `Change.write`.
+
+    Args:
+        edits: changes that do not overlap, by the names of `sources`.
+        sources: the text of each file as it was read.
+        within: folders (or files) whose files may be changed.
+
+    Raises:
+        ResourceError: a file is outside of them, or in another encoding.
+    """
+    folders = [folder.resolve() for folder in within]
+    found = []
+    edits = list(edits)
+    for file in dict.fromkeys(edit.span.file for edit in edits):
+        path, source = Path.cwd() / file, sources[file]
+        real = path.resolve()
+        if not any(real == folder or folder in real.parents for folder in folders):
+            raise ResourceError(f"{file} is outside of the model's package; nothing was written")
+        content = path.read_bytes()
+        text = _Text(content)
+        if not text.agrees_with(source):
+            raise ResourceError(f"{file} is not in UTF-8 or UTF-16, or was changed meanwhile; nothing was written")
+        edited = text.text
+        for edit in sorted((edit for edit in edits if edit.span.file == file), key=lambda e: e.span, reverse=True):
+            start, end = _offsets(source, edit.span)
+            edited = edited[:start] + edit.text + edited[end:]
+        if edited != text.text:
+            found.append(Change(path, file, content, text.encoded(edited)))
+    return found
 
 
 class _Text:
@@ -137,8 +182,15 @@ class _Text:
 class _Fixer:
     """One call of `fix`."""
 
-    def __init__(self, entries: Sequence[Entry], options: Options, within: tuple[Path, ...], unsafe: bool) -> None:
-        self.entries, self.options, self.within, self.unsafe = entries, options, within, unsafe
+    def __init__(
+        self,
+        entries: Sequence[Entry],
+        options: Options,
+        within: tuple[Path, ...],
+        unsafe: bool,
+        only: Callable[[Finding], bool] | None = None,
+    ) -> None:
+        self.entries, self.options, self.within, self.unsafe, self.only = entries, options, within, unsafe, only
         self.originals: dict[Path, _Text] = {}
         self.contents: dict[Path, bytes] = {}
         self.shown: dict[Path, str] = {}
@@ -189,7 +241,9 @@ class _Fixer:
 
     def _is_wanted(self, finding: Finding) -> bool:
         fix = finding.fix
-        return fix is not None and (fix.safety == "safe" or self.unsafe) and finding.code not in self.refused
+        if fix is None or finding.code in self.refused or not (fix.safety == "safe" or self.unsafe):
+            return False
+        return self.only is None or self.only(finding)
 
     def _edited(self, findings: list[Finding], outcome: Outcome) -> dict[Path, str]:
         """Return the texts with the fixes applied that do not overlap; the rest has its turn in the next round."""

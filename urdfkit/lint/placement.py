@@ -132,21 +132,22 @@ def extent(link: Link, box_of: Callable[[Mesh], tuple[Vector, Vector] | None]) -
                 frame = Frame().moved(pose).moved(Pose(box[0]))
                 geometry, pose, volume = Box(box[1]), Pose(frame.translation, pose.rpy), None
             shapes.append((geometry, pose))
-            volume = None if volume is None else volume + _volume(geometry)
+            volume = None if volume is None else volume + volume_of(geometry)
         if group and volume:
             volumes.append(volume)
     if not shapes:
         return None
     if len(shapes) == 1 or all(other == shapes[0] for other in shapes):
-        low, high = _box(*shapes[0])
+        low, high = box_around(*shapes[0])
         return Extent(low, high, tuple(shapes), tuple(volumes))
-    corners = [_box(geometry, pose) for geometry, pose in shapes]
+    corners = [box_around(geometry, pose) for geometry, pose in shapes]
     a, b, c = (min(corner[0][i] for corner in corners) for i in range(3))
     d, e, f = (max(corner[1][i] for corner in corners) for i in range(3))
     return Extent((a, b, c), (d, e, f), tuple(shapes), tuple(volumes))
 
 
-def _volume(shape: Geometry) -> float:
+def volume_of(shape: Geometry) -> float:
+    """Return the volume of a shape [m³]; 0 for a mesh."""
     if isinstance(shape, Box):
         return abs(shape.size[0] * shape.size[1] * shape.size[2])
     if isinstance(shape, Sphere):
@@ -158,7 +159,8 @@ def _volume(shape: Geometry) -> float:
     return 0.0
 
 
-def _box(shape: Geometry, pose: Pose) -> tuple[Vector, Vector]:
+def box_around(shape: Geometry, pose: Pose) -> tuple[Vector, Vector]:
+    """Return the lowest and highest corner of the box along the axes around a shape at a pose [m]."""
     rows = rotation(pose.rpy)
     half: list[float] = []
     if rows is IDENTITY and isinstance(shape, Box):

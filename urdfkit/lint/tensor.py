@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.robot import Box, Capsule, Cylinder, Sphere
 from urdfkit.lint.edits import new_values
-from urdfkit.lint.placement import Extent, rotation
+from urdfkit.lint.placement import Extent, rotation, volume_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ def tensor_of(link: Link, extent: Extent, mass: float) -> tuple[float, ...] | No
     """
     count = len(link.visuals)
     shapes = extent.shapes[count:] or extent.shapes[:count]
-    volumes = [_volume(shape) for shape, _ in shapes]
+    volumes = [volume_of(shape) for shape, _ in shapes]
     if sum(volumes) <= 0.0:
         return None
     if len(shapes) == 1 and shapes[0][1].rpy == (0.0, 0.0, 0.0) and not _is_turned(link):
@@ -75,27 +75,26 @@ def _written(value: float, largest: float) -> str:
     return "0" if abs(value) < 1e-9 * largest else f"{value:.6g}"
 
 
-def _volume(shape: Geometry) -> float:
+def squares(shape: Geometry) -> Vector:
+    """Return the mean of x², y² and z² over a solid about its middle [m²] (any textbook)."""
     if isinstance(shape, Box):
-        return abs(shape.size[0] * shape.size[1] * shape.size[2])
+        x, y, z = (size * size / 12.0 for size in shape.size)
+        return x, y, z
     if isinstance(shape, Sphere):
-        return 4.18879020479 * shape.radius**3
-    if isinstance(shape, (Cylinder, Capsule)):
-        cap = 4.0 / 3.0 * shape.radius if isinstance(shape, Capsule) else 0.0
-        return 3.14159265359 * shape.radius**2 * (shape.length + cap)
-    return 0.0
+        square = shape.radius**2 / 5.0
+        return square, square, square
+    if isinstance(shape, Cylinder):
+        return shape.radius**2 / 4.0, shape.radius**2 / 4.0, shape.length**2 / 12.0
+    if isinstance(shape, Capsule):
+        r, h = shape.radius, shape.length
+        middle, ends = h, 4.0 / 3.0 * r  # volumes over πr²
+        across = (middle * r**2 / 4.0 + ends * r**2 / 5.0) / (middle + ends)
+        along = (middle * h**2 / 12.0 + ends * (h**2 / 4.0 + 3.0 / 8.0 * h * r + r**2 / 5.0)) / (middle + ends)
+        return across, across, along
+    return 0.0, 0.0, 0.0
 
 
 def _diagonal(shape: Geometry, mass: float) -> Vector:
-    """Return the principal moments of a solid about its centre (any textbook); a capsule is taken as a cylinder."""
-    if isinstance(shape, Box):
-        x, y, z = (size * size for size in shape.size)
-        return mass * (y + z) / 12.0, mass * (x + z) / 12.0, mass * (x + y) / 12.0
-    if isinstance(shape, Sphere):
-        moment = 0.4 * mass * shape.radius**2
-        return moment, moment, moment
-    if isinstance(shape, (Cylinder, Capsule)):
-        length = shape.length + (4.0 / 3.0 * shape.radius if isinstance(shape, Capsule) else 0.0)
-        across = mass * (3.0 * shape.radius**2 + length**2) / 12.0
-        return across, across, mass * shape.radius**2 / 2.0
-    return 0.0, 0.0, 0.0
+    """Return the principal moments of a solid about its middle [kg·m²]."""
+    x, y, z = squares(shape)
+    return mass * (y + z), mass * (x + z), mass * (x + y)
