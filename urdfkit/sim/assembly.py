@@ -199,6 +199,12 @@ class Assembly:
     ) -> Entry:
         return self._make.entry(thing, robot, spawn, ground=ground_height(self.ground), bolted=bolted)
 
+    def rebuild(self) -> None:
+        """Make the engine anew of the same things, whose properties have changed."""
+        revision = self.revision
+        self._build()
+        self.revision = revision  # nobody who looks has to look anew
+
     def _build(self) -> None:
         """Make the engine anew, and bring it to where the last one was."""
         ground = self.ground
