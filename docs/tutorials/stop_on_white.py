@@ -19,8 +19,9 @@ def look(image: Any) -> None:
     simulator.bus.publish(COMMAND, TWIST, twist((speed, 0.0, 0.0), (0.0, 0.0, 0.0)))
     if not speed:
         print(f"{simulator.t:.2f} s: {white:.0%} of the picture is white. Stopping!")
+        camera.close()  # seen enough
 
 
 simulator = Simulator("simpleton", world=Path(__file__).with_name("white_barrier.sdf"))
-simulator.subscribe(CAMERA, "sensor_msgs/msg/Image", look)
+camera = simulator.subscribe(CAMERA, "sensor_msgs/msg/Image", look)
 simulator.run(3.5)

@@ -102,7 +102,11 @@ class GzSegmentationCamera(Camera):
         return image(sight.t, self.frame, colors_of(labels + 256 * numbers if self._apart else labels), "rgb8")
 
     def _labels(self, sight: Sight) -> Any:
-        """Return the label three times, or the instance's low and high byte and the label."""
+        """Return the label three times, or the instance's low and high byte and the label.
+
+        Source: gz-rendering, Ogre2SegmentationMaterialSwitcher::ColorForVisual: red is the number of the instance modulo
+        256, green that number divided by 256, blue the label; the first instance of a label has number 1.
+        """
         labels, numbers = instances(sight)
         planes = (numbers % 256, numbers // 256, labels) if self._apart else (labels, labels, labels)
         return image(sight.t, self.frame, np.stack(planes, axis=-1).astype(np.uint8), "rgb8")
