@@ -87,6 +87,17 @@ def models_of(table: RayTable, paint: tuple[Any, ...]) -> list[Model]:
     return found
 
 
+def triangles_of(table: RayTable, shape: int) -> Array:
+    """Return the triangles of one shape in its own frame [m]; shape (n, 3, 3)."""
+    mesh = table.shapes[shape].mesh
+    kind, size = int(table.kernel_scene[1][shape]), table.sizes[shape]
+    if mesh is not None and kind == solids.MESH:
+        return mesh.vertices[mesh.faces].astype(float)
+    key: Any = (kind, *size[:2].tolist()) if kind == solids.CAPSULE else kind
+    found: Array = (_solid(key)[0] * _scales(key, size[None])[0]).reshape(-1, 3, 3)
+    return found
+
+
 def _scales(key: Any, sizes: Array) -> Array:
     if isinstance(key, tuple):
         return np.ones_like(sizes)
