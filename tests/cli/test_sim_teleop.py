@@ -14,7 +14,8 @@ pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
 from urdfkit.cli import main
-from urdfkit.cli.sim.teleop import BEHIND, FRAME, Ride
+from urdfkit.cli.sim.ride.loop import Ride
+from urdfkit.cli.sim.ride.pace import BEHIND, FRAME
 from urdfkit.view.protocol import Axes
 
 X = "urdfkit.link().position.x"
@@ -264,7 +265,7 @@ def ride():
     made = Ride(Simulator("simpleton", note=lambda text: None), server, clock=wall)
     made.wall = wall
     made.server.driver._clock = wall
-    made._keep_pace_from_here()
+    made.pace.begin(0.0)
     yield made
     server.stop()
 
@@ -331,7 +332,6 @@ def test_a_simulation_that_diverges_pauses_and_says_so(ride: Ride, capfd, monkey
 
 
 def test_what_is_spawned_appears_on_the_page_and_what_is_removed_vanishes() -> None:
-    from urdfkit.cli.sim.teleop import Ride
     from urdfkit.sim import Simulator
     from urdfkit.view.server import Server
 

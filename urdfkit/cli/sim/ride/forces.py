@@ -1,0 +1,47 @@
+"""Contact forces as arrows, and how fast what touches slides; while a page shows them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from urdfkit.cli.sim.ride.part import Part
+from urdfkit.view.protocol import ARROWS
+
+FORCES, SLIPS = "contacts", "slip"
+"""Keys that pages want them by."""
+PERIOD = 1 / 30
+"""Seconds between two looks."""
+MOST = 400
+"""Arrows of one look, the strongest."""
+
+
+class Forces(Part):
+    """Looks at the contacts of the last step."""
+
+    def tick(self) -> None:
+        """Send what pages can take."""
+        hub = self.server.hub
+        forces, slides = hub.takes(FORCES), hub.takes(SLIPS)
+        if not (forces or slides) or not self.is_due(PERIOD):
+            return
+        simulator = self.simulator
+        contacts = simulator.state.contacts
+        if forces:
+            rows = np.array([(*each.position, *each.force) for each in contacts]).reshape(-1, 6)
+            self.server.sense(FORCES, 0, simulator.t, ARROWS, _packed(rows))
+        if slides:
+            from urdfkit.sim.slip import slips
+
+            found = slips(simulator, contacts)
+            rows = np.array([(*each.position, *each.velocity) for each in found]).reshape(-1, 6)
+            self.server.sense(SLIPS, 1, simulator.t, ARROWS, _packed(rows))
+            fastest: dict[str, float] = {}
+            for each in found:
+                fastest[each.link] = max(fastest.get(each.link, 0.0), each.speed)
+            self.server.tell_who_wants(SLIPS, SLIPS, rows=[[link, round(v, 5)] for link, v in sorted(fastest.items())])
+
+
+def _packed(rows: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> bytes:
+    if len(rows) > MOST:
+        rows = rows[np.argsort(-np.linalg.norm(rows[:, 3:], axis=1))[:MOST]]
+    return bytes(rows.astype("<f4").tobytes())

@@ -1,0 +1,47 @@
+"""Transport: one step, so many steps, slower and faster."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING
+
+from urdfkit.cli.sim.ride.part import Done, Part, Takes
+from urdfkit.errors import SimulationError
+from urdfkit.view.orders import Order, Schema, number, whole
+
+if TYPE_CHECKING:
+    from urdfkit.cli.sim.ride.pace import Pace
+
+MOST_STEPS = 10_000
+"""At one order: more would keep everybody waiting."""
+
+
+class Transport(Part):
+    """Orders about time.
+
+    Attributes:
+        pace: how simulated time keeps up with the clock.
+    """
+
+    pace: Pace
+
+    @property
+    def takes(self) -> Takes:
+        """The orders it takes."""
+        return {
+            "step": (Schema({"steps": whole(1, MOST_STEPS)}), self._step),
+            "speed": (Schema({}, {"factor": number(0.01, 1000)}), self._speed),
+        }
+
+    def _step(self, order: Order) -> Done:
+        if not self.simulator.paused:
+            raise SimulationError("the simulation runs: pause it to go by steps")
+        self.simulator.step(order.values["steps"])
+        self.pace.restart(self.simulator.t)
+        return {"time": self.simulator.t}
+
+    def _speed(self, order: Order) -> Done:
+        """Change the factor; as fast as it can where there is none."""
+        self.pace.factor = order.values.get("factor", inf)
+        self.pace.restart(self.simulator.t)
+        return None

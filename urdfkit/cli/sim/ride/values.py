@@ -1,0 +1,89 @@
+"""Messages for people and for curves: as JSON, cut where they are long, and the numbers in them by path."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from urdfkit.errors import UsageError, did_you_mean
+
+LONG = 24
+"""Entries of an array that are shown."""
+PLOTTED = 64
+"""Entries of an array that are offered to be plotted."""
+_STEP = re.compile(r"([A-Za-z_]\w*)|\[(\d{1,6})\]")
+
+
+def fields_of(message: Any) -> tuple[str, ...]:
+    """Return the names of a message's fields."""
+    return tuple(name for name in getattr(message, "__dataclass_fields__", ()) if not name.startswith("_"))
+
+
+def as_json(value: Any) -> Any:
+    """Return a message, or a part of one, as JSON can say it; long arrays are cut, with how many entries they have."""
+    if isinstance(value, bool | np.bool_):
+        return bool(value)
+    if isinstance(value, int | np.integer):
+        return int(value)
+    if isinstance(value, float | np.floating):
+        return float(value) if math.isfinite(value) else str(float(value))
+    if isinstance(value, str):
+        return value if len(value) <= 4000 else f"{value[:4000]} … {len(value)} characters"
+    if isinstance(value, bytes | bytearray):
+        return f"{len(value)} bytes"
+    if isinstance(value, np.ndarray) and value.dtype == np.uint8 and value.size > LONG:
+        return f"{value.size} bytes"
+    if isinstance(value, np.ndarray | list | tuple):
+        shown = [as_json(entry) for entry in value[:LONG]]
+        return shown if len(value) <= LONG else [*shown, f"… {len(value)} in all"]
+    if names := fields_of(value):
+        return {name: as_json(getattr(value, name)) for name in names if name != "structure_needs_at_least_one_member"}
+    return str(value)
+
+
+def number_at(message: Any, path: str) -> float:
+    """Return the number at a path such as ``pose.pose.position.x`` or ``position[2]``; NaN past the end of an array.
+
+    Raises:
+        UsageError: no field, or no number, there; says where and what is near.
+    """
+    value, at = message, 0
+    while at < len(path):
+        found = _STEP.match(path, at)
+        if found is None:
+            raise UsageError(f"`{path}` is no path of a field, such as pose.position.x or position[2]")
+        name, index = found[1], found[2]
+        if name is not None:
+            if name not in (known := fields_of(value)):
+                raise UsageError(f"no field `{name}` in `{path}`{did_you_mean(name, known)}")
+            value = getattr(value, name)
+        else:
+            if not isinstance(value, np.ndarray | list | tuple):
+                raise UsageError(f"`{path[:at]}` is no array: it has no entry {index}")
+            if int(index) >= len(value):
+                return math.nan
+            value = value[int(index)]
+        at = found.end()
+        if at < len(path) and path[at] == ".":
+            at += 1
+    if isinstance(value, bool | np.bool_ | int | float | np.number):
+        return float(value)
+    raise UsageError(f"`{path}` is no number")
+
+
+def numbers_in(value: Any, path: str = "") -> Iterator[str]:
+    """Yield the paths of all numbers in a message."""
+    if isinstance(value, bool | np.bool_ | int | float | np.number):
+        yield path
+    elif isinstance(value, np.ndarray | list | tuple):
+        if isinstance(value, np.ndarray) and value.dtype == np.uint8 and value.size > PLOTTED:
+            return
+        for k, entry in enumerate(value[:PLOTTED]):
+            yield from numbers_in(entry, f"{path}[{k}]")
+    else:
+        for name in fields_of(value):
+            yield from numbers_in(getattr(value, name), f"{path}.{name}" if path else name)

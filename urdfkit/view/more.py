@@ -1,0 +1,42 @@
+"""Shapes added to a scene that is shown, and bodies taken out of it, without drawing the rest again."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from urdfkit.view.nodes import geometry_of, link_path, material
+
+if TYPE_CHECKING:
+    from urdfkit.scene import Shape
+    from urdfkit.view.geometry import GeometryStore
+
+
+def draw_more(
+    shapes: Sequence[Shape], window: Any, geometries: GeometryStore, *, instead_of: Sequence[str] = ()
+) -> None:
+    """Send shapes beside those that are there.
+
+    Args:
+        shapes: to be added.
+        window: takes meshcat commands by ``send``.
+        geometries: takes the meshes; none is forgotten, as what was taken out may come again.
+        instead_of: bodies whose shapes are taken out first.
+    """
+    import meshcat  # after `nodes`, which knows what it warns of
+
+    root = meshcat.Visualizer.view_into(window, meshcat.path.Path())
+    for body in instead_of:
+        root[link_path(body).lstrip("/")].delete()
+    counts: dict[str, int] = {}
+    for shape in shapes:
+        where = f"{link_path(shape.body)}/{shape.role}"
+        number = counts[where] = counts.get(where, -1) + 1
+        geometry, inner = geometry_of(shape, geometries)
+        if geometry is None:
+            continue
+        node = root[f"{where.lstrip('/')}/{number}"]
+        node.set_object(geometry, material(shape))
+        node.set_transform(np.asarray(shape.placement, dtype=float) @ inner)
