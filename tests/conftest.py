@@ -18,6 +18,12 @@ settings.register_profile("ci", deadline=None, derandomize=True)
 settings.load_profile("ci" if os.environ.get("CI") else "developer")
 
 
+@pytest.fixture(autouse=True)
+def _own_findings(monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Keep what lint remembers away from the user's."""
+    monkeypatch.setenv("URDFKIT_CACHE_DIR", str(tmp_path_factory.getbasetemp() / "cache"))
+
+
 @pytest.fixture(scope="session")
 def sdformat(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., list[list[str]]]:
     """Return what the real sdformat reads in files; see description/worlds/sdformat.cc."""

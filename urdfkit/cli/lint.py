@@ -38,13 +38,28 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--diff", action="store_true", help="show what --fix would change, and change nothing")
     parser.add_argument("--select", action="append", default=[], metavar="CODES", help="only these: I503,J or I,X1")
     parser.add_argument("--ignore", action="append", default=[], metavar="CODES", help="not these")
-    parser.add_argument("--target", metavar="NAME", help="ros1, ros2, gz, classic, mujoco, isaac, drake or moveit")
+    parser.add_argument(
+        "--target",
+        metavar="NAME",
+        help="ros1, ros2, gz, classic, mujoco, isaac, drake, moveit, or any: what holds for all of them "
+        "(default: guessed from package.xml)",
+    )
     parser.add_argument("--format", choices=("text", "json"), default="text", help="text (default) or json")
     parser.add_argument("--statistics", action="store_true", help="count by rule instead of listing")
     parser.add_argument(
         "--package-path", action="append", default=[], metavar="DIR", help="look for packages here too (repeatable)"
     )
+    parser.add_argument("--no-cache", action="store_true", help="lint again what has not changed")
+    parser.add_argument("--jobs", type=_count, metavar="N", help="lint in so many processes (default: one per core)")
     parser.epilog = _EPILOG
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        from argparse import ArgumentTypeError
+
+        raise ArgumentTypeError(f"`{text}` is no number of processes")
+    return int(text)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -61,7 +76,12 @@ def run(arguments: argparse.Namespace) -> int:
     entries = find_entries(paths)
     if arguments.fix or arguments.diff:
         return _fix(arguments, paths, entries, options)
-    return _report(arguments, lint(entries, options))
+    jobs = arguments.jobs or _cores()
+    return _report(arguments, lint(entries, options, cached=not arguments.no_cache, jobs=jobs))
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _read(arguments: argparse.Namespace) -> tuple[list[str], Options]:
@@ -81,7 +101,9 @@ def _read(arguments: argparse.Namespace) -> tuple[list[str], Options]:
             raise UsageError(f"`{word}` lacks its key: xacro arguments are key:=value")
     folders = tuple(_folder(word) for word in arguments.package_path)
     select, ignore = tuple(arguments.select), tuple(arguments.ignore)
-    return paths or ["."], Options(select, ignore, arguments.target, xacro_arguments, folders)
+    target = None if arguments.target == "any" else arguments.target
+    guess = arguments.target is None
+    return paths or ["."], Options(select, ignore, target, xacro_arguments, folders, guess_target=guess)
 
 
 def _folder(word: str) -> Path:
@@ -124,6 +146,8 @@ def _show(fixed: Fixed) -> int:
 
 def _report(arguments: argparse.Namespace, outcome: Outcome) -> int:
     findings = outcome.findings
+    for note in () if arguments.quiet else outcome.notes:
+        print(f"urdfkit: {note}", file=sys.stderr)
     if arguments.format == "json":
         from urdfkit.lint.report.json import as_json
 

@@ -46,6 +46,26 @@ class Packages:
         self._found: dict[str, Path] = {}
         self._seen: dict[str, Path] = {}
         self._crawled: dict[Path, dict[str, Path]] = {}
+        self.answers: dict[tuple[str, ...], str] = {}
+        """What was asked so far, and the answers: what holds as long as `ask` gives the same."""
+
+    def ask(self, question: tuple[str, ...]) -> str:
+        """Return the answer to a question of `answers`, asked again: a path, or what was said instead."""
+        kind, *words = question
+        try:
+            if kind == "find":
+                return str(self.find(words[0]))
+            if kind == "resolve":
+                return str(self.resolve(words[0], words[1]))
+            return self._moved(words[0])
+        except ResourceError as error:
+            return f"!{error.message}"
+
+    def beside(self, near: str | Path) -> Packages:
+        """Return one that looks near another file, and shares what was learnt of folders."""
+        other = Packages(self.search, near, environment=self._environment)
+        other._crawled = self._crawled
+        return other
 
     def find(self, name: str) -> Path:
         """Return the folder of a package: where its package.xml is, or its share folder when installed.
@@ -60,8 +80,11 @@ class Packages:
             found = self._look_up(name) if _is_plain(name) else None
             if found is None:
                 hint = did_you_mean(name, self._seen)
-                raise ResourceError(f"no package `{name}` in {self._looked_in()}{hint or '; see --package-path'}")
+                message = f"no package `{name}` in {self._looked_in()}{hint or '; see --package-path'}"
+                self.answers[("find", name)] = f"!{message}"
+                raise ResourceError(message)
             self._found[name] = found
+            self.answers[("find", name)] = str(found)
         return self._found[name]
 
     def resolve(self, uri: str, relative_to: str | Path) -> Path:
@@ -74,10 +97,20 @@ class Packages:
         Raises:
             ResourceError: there is no such package or file; names the nearest file.
         """
+        question = ("resolve", uri, str(relative_to))
+        try:
+            path = self._resolved(uri, relative_to)
+        except ResourceError as error:
+            self.answers[question] = f"!{error.message}"
+            raise
+        self.answers[question] = str(path)
+        return path
+
+    def _resolved(self, uri: str, relative_to: str | Path) -> Path:
         path = self._path_of(uri, Path(relative_to))
         if path.exists():
             return path
-        if (moved := self.relocate(path)) is not None:
+        if (moved := self._relocated(path)) is not None:
             return moved
         if "%" in uri:
             from urllib.parse import unquote
@@ -99,6 +132,15 @@ class Packages:
         Returns:
             A path that does, or None.
         """
+        moved = self._relocated(path)
+        self.answers[("relocate", str(path))] = str(moved or "")
+        return moved
+
+    def _moved(self, path: str) -> str:
+        """Return the path itself where it exists by now, else where it was moved to."""
+        return path if Path(path).exists() else str(self._relocated(path) or "")
+
+    def _relocated(self, path: str | Path) -> Path | None:
         wanted = absolute(path)
         for folder in dict.fromkeys(self._found.values()):
             if folder in wanted.parents:

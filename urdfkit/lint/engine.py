@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from urdfkit.description.element import Element
@@ -10,7 +11,7 @@ from urdfkit.description.packages import Packages
 from urdfkit.description.parse import parse
 from urdfkit.description.source import Origin, Position
 from urdfkit.lint.entries import Entry, find_entries
-from urdfkit.lint.finding import SEVERITIES, Finding
+from urdfkit.lint.finding import SEVERITIES, Finding, Found
 from urdfkit.lint.model import Model
 from urdfkit.lint.rule import FaultRule, RobotRule, Rule, SourceRule
 from urdfkit.lint.rules import fault_rules, robot_rules, source_rules
@@ -23,10 +24,14 @@ if TYPE_CHECKING:
 
     from urdfkit.description.robot import Robot
     from urdfkit.description.source import Source, Span
+    from urdfkit.lint.cache import Cache
     from urdfkit.lint.suppress import Suppression
 
 TARGETS = ("ros1", "ros2", "gz", "classic", "mujoco", "isaac", "drake", "moveit")
-"""Consumers that ``--target`` may name; without it every rule counts that holds for any of them."""
+"""Consumers that ``--target`` may name; without one every rule counts that holds for any of them."""
+
+_AT_ONCE = 8
+"""From so many files on it pays to lint them in several processes."""
 
 
 @record
@@ -40,6 +45,7 @@ class Options:
         arguments: values for ``$(arg …)``.
         package_path: folders to look for packages in first.
         texts: contents to lint instead of those on disk, by absolute path.
+        guess_target: where `target` is None, take what the package.xml of each robot tells.
     """
 
     select: tuple[str, ...] = ()
@@ -48,6 +54,7 @@ class Options:
     arguments: Mapping[str, str] = field(default_factory=dict)
     package_path: tuple[Path, ...] = ()
     texts: Mapping[str, str] = field(default_factory=dict)
+    guess_target: bool = False
 
 
 @record(eq=False)
@@ -58,11 +65,15 @@ class Outcome:
         findings: sorted by place.
         sources: the text of every file that was read, by the name findings use.
         files: every file that was read, absolute; by the same name.
+        notes: what targets were guessed, one line each.
+        cached: how many entry files had not changed since they were linted before.
     """
 
     findings: tuple[Finding, ...]
     sources: Mapping[str, Source]
     files: Mapping[str, Path]
+    notes: tuple[str, ...] = ()
+    cached: int = 0
 
 
 def lint(
@@ -97,8 +108,14 @@ def lint(
     return list(run(find_entries(several), options).findings)
 
 
-def run(entries: Iterable[Entry], options: Options) -> Outcome:
+def run(entries: Iterable[Entry], options: Options, *, cached: bool = False, jobs: int = 1) -> Outcome:
     """Lint entry files.
+
+    Args:
+        entries: what to lint.
+        options: how.
+        cached: take what was found before where nothing has changed since, and keep what is found now.
+        jobs: how many processes to lint in at most.
 
     Raises:
         UsageError: a code or the target is not known.
@@ -109,20 +126,51 @@ def run(entries: Iterable[Entry], options: Options) -> Outcome:
 
         hint = did_you_mean(options.target, TARGETS) or f"; one of {', '.join(TARGETS)}"
         raise UsageError(f"--target {options.target} is not known{hint}")
-    checker = _Checker(options)
-    for entry in entries:
-        checker.check(entry)
-    return checker.outcome()
+    entries = list(entries)
+    checker = Checker(options, cached=cached)
+    found = {entry: known for entry in entries if (known := checker.known(entry)) is not None}
+    hits = len(found)
+    left = [entry for entry in entries if entry not in found]
+    if jobs > 1 and len(left) >= _AT_ONCE and not options.texts:
+        from urdfkit.lint.parallel import check_all
+
+        found.update(zip(left, check_all(left, options, cached=cached, jobs=jobs), strict=True))
+    else:
+        found.update((entry, checker.check(entry)) for entry in left)
+    every = [found[entry] for entry in entries]
+    files = {name: Path(path) for one in every for name, path in one.files.items()}
+    findings = merged(finding for one in every for finding in one.findings)
+    notes = dict.fromkeys(one.note for one in every if one.note)
+    return Outcome(tuple(findings), Sources(checker.sources, files), files, tuple(notes), hits)
 
 
-def model_of(path: Path, options: Options) -> Model:
+class Sources(dict[str, "Source"]):
+    """The text of every file that was read, by the name findings use; read again when it is not at hand."""
+
+    def __init__(self, sources: Mapping[str, Source], files: Mapping[str, Path]) -> None:
+        super().__init__(sources)
+        self._files = files
+
+    def __missing__(self, name: str) -> Source:
+        from urdfkit.description.source import Source
+
+        self[name] = found = Source.read(self._files[name], shown_as=name)
+        return found
+
+
+def model_of(path: Path, options: Options, *, packages: Packages | None = None) -> Model:
     """Expand a file, going on after errors, and read the robot in it.
+
+    Args:
+        path: the file.
+        options: how to expand it.
+        packages: resolves what it names; by default what lies near it and in the environment.
 
     Raises:
         ResourceError: it cannot be read.
         ModelError: it is no robot description.
     """
-    packages = Packages(options.package_path, near=path)
+    packages = packages if packages is not None else Packages(options.package_path, near=path)
 
     def as_written() -> Robot:
         expanded = expand_leniently(
@@ -140,53 +188,73 @@ def model_of(path: Path, options: Options) -> Model:
     return Model(expanded, robot, options.target, as_written)
 
 
-class _Checker:
-    """One run over several entries."""
+class Checker:
+    """One run over several entries.
 
-    def __init__(self, options: Options) -> None:
+    Args:
+        options: what to look for, and how to expand.
+        cached: take and keep what was found before.
+    """
+
+    def __init__(self, options: Options, *, cached: bool = False) -> None:
         self.options = options
         self.sources: dict[str, Source] = {}
-        self.files: dict[str, Path] = {}
-        self.findings: list[Finding] = []
+        self.packages = Packages(options.package_path)
         self.foreign = _third_party()
         self.wanted = selection(options.select, options.ignore, self._codes)
+        self.cache: Cache | None = None
+        if cached and not options.texts and not self.foreign:  # nobody knows what the rules of others read
+            from urdfkit.lint.cache import Cache
+
+            self.cache = Cache(options, self.packages)
 
     def _codes(self) -> tuple[str, ...]:
         return (*codes(), *(rule.code for rule in self.foreign))
 
-    def _applies(self, rule: type[Rule]) -> bool:
-        target = self.options.target
+    def _applies(self, rule: type[Rule], target: str | None) -> bool:
         return self.wanted(rule.code) and target not in rule.not_for and (not rule.only_for or target in rule.only_for)
 
-    def check(self, entry: Entry) -> None:
+    def known(self, entry: Entry) -> Found | None:
+        """Return what was found before, where nothing has changed since."""
+        return self.cache.get(entry) if self.cache is not None else None
+
+    def check(self, entry: Entry) -> Found:
         """Lint one entry file and everything it includes."""
-        model = self._model(entry.path)
-        findings: list[Finding] = []
-        findings += self._ask_source_rules(model)
+        options, note = self.options, ""
+        if options.guess_target and options.target is None:
+            from urdfkit.lint.target import guess
+
+            guessed = guess(entry.path)
+            if guessed.target is not None and guessed.manifest is not None:
+                options = Options(**{**options.__dict__, "target": guessed.target})
+                note = f"linted for {guessed.target}: {guessed.manifest.parent.name} {guessed.why}"
+        model = model_of(entry.path, options, packages=self.packages.beside(entry.path))
+        self.sources.update(model.expanded.sources)
+        findings = list(self._ask_source_rules(model))
         findings += self._ask_fault_rules(model, entry)
         if model.expanded.root is not None and not entry.is_library:
             foreign = [rule for rule in self.foreign if issubclass(rule, RobotRule)]
-            for rule in (*robot_rules(model.robot, self.options.target), *foreign):
-                if self._applies(rule):
+            for rule in (*robot_rules(model.robot, model.target), *foreign):
+                if self._applies(rule, model.target):
                     findings += rule().check(model)
         if any("urdfkit:" in source.text for source in model.expanded.sources.values()):
             findings = self._suppress(findings, model)
+        here = str(Path.cwd())
+        files = {name: os.path.join(here, name) for name in model.expanded.sources}  # noqa: PTH118
         if entry.only:
             only = {path.resolve() for path in entry.only}
-            names = {name for name, path in self.files.items() if path.resolve() in only}
+            names = {name for name, path in files.items() if Path(path).resolve() in only}
             findings = [finding for finding in findings if finding.file in names]
-        self.findings += findings
-
-    def _model(self, path: Path) -> Model:
-        model = model_of(path, self.options)
-        self.sources.update(model.expanded.sources)
-        self.files.update({name: Path.cwd() / name for name in model.expanded.sources})
-        return model
+        found = Found(tuple(findings), files, note)
+        if self.cache is not None:
+            texts = [source.text for source in model.expanded.sources.values()]
+            self.cache.put(entry, found, model.expanded.packages, texts)
+        return found
 
     def _ask_source_rules(self, model: Model) -> Iterator[Finding]:
         sources = model.expanded.sources
         foreign = [rule for rule in self.foreign if issubclass(rule, SourceRule)]
-        rules = [rule for rule in (*source_rules(sources), *foreign) if self._applies(rule)]
+        rules = [rule for rule in (*source_rules(sources), *foreign) if self._applies(rule, model.target)]
         for file in sources:
             for rule in rules:
                 yield from rule().check(model.document(file), model)
@@ -199,7 +267,7 @@ class _Checker:
             if entry.is_library and fault.kind != "xml":
                 continue
             for rule in rules:
-                if rule.claims(fault) and self._applies(type(rule)):
+                if rule.claims(fault) and self._applies(type(rule), model.target):
                     yield from rule.check(fault, model)
 
     def _suppress(self, findings: list[Finding], model: Model) -> list[Finding]:
@@ -211,13 +279,9 @@ class _Checker:
             if "urdfkit:" in source.text:
                 comments[file] = suppressions(model.document(file))
                 for rule in suppression_rules():
-                    if self._applies(rule):
+                    if self._applies(rule, model.target):
                         findings += rule().check(comments[file], self._codes(), model)  # type: ignore[attr-defined]
         return suppressed(findings, comments)
-
-    def outcome(self) -> Outcome:
-        """Return what was found, each thing once."""
-        return Outcome(tuple(merged(self.findings)), self.sources, self.files)
 
 
 def merged(findings: Iterable[Finding]) -> list[Finding]:

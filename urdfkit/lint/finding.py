@@ -7,6 +7,7 @@ from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from typing import Any, Literal
 
     Severity = Literal["error", "warning", "info"]
@@ -122,6 +123,21 @@ class Finding:
             "chains": [[_call(call) for call in chain] for chain in self.chains],
             "fix": self.fix.to_json() if self.fix is not None else None,
         }
+
+
+@record(eq=False)
+class Found:
+    """What linting one entry file found.
+
+    Attributes:
+        findings: those that no comment suppresses.
+        files: name in findings → file, absolute, of every file that was read.
+        note: what target was guessed and why, one line; empty where none was.
+    """
+
+    findings: tuple[Finding, ...]
+    files: Mapping[str, str]
+    note: str = ""
 
 
 def _call(call: Expansion) -> dict[str, Any]:

@@ -1,0 +1,53 @@
+"""What a package is for, from its package.xml."""
+
+from __future__ import annotations
+
+import pytest
+
+from urdfkit.lint.engine import Options, run
+from urdfkit.lint.entries import Entry
+from urdfkit.lint.target import guess
+
+AMENT = "<export><build_type>ament_cmake</build_type></export>"
+CATKIN = "<buildtool_depend>catkin</buildtool_depend>"
+
+
+@pytest.mark.parametrize(
+    ("inside", "target", "why"),
+    [
+        (AMENT, "ros2", "is built with ament_cmake"),
+        (CATKIN, "ros1", "is built with catkin"),
+        (CATKIN + AMENT, None, "is for ROS 1 and ROS 2"),
+        (f"{AMENT}<exec_depend>ros_gz_sim</exec_depend>", "gz", "depends on ros_gz_sim"),
+        (
+            f"{AMENT}<exec_depend>ros_gz_sim</exec_depend><depend>gazebo_ros</depend>",
+            "ros2",
+            "is built with ament_cmake",
+        ),
+        (f"<!-- {CATKIN} -->{AMENT}", "ros2", "is built with ament_cmake"),
+        ("<depend>rclpy</depend>", "ros2", "depends on rclpy"),
+        ("<depend>rclpy</depend><depend>rospy</depend>", None, "is for ROS 1 and ROS 2"),
+        ("<depend>xacro</depend>", None, "names no build tool"),
+    ],
+)
+def test_the_build_tool_and_what_is_needed_tell(write, inside, target, why):
+    write("p/package.xml", f"<package><name>p</name>{inside}</package>")
+    found = guess(write("p/urdf/r.urdf", "<link name='a'/>"))
+    assert (found.target, found.why) == (target, why)
+
+
+def test_without_a_package_nothing_is_guessed(write):
+    found = guess(write("r.urdf", "<link name='a'/>"))
+    assert found.target is None
+
+
+def test_a_run_says_what_it_was_for_and_each_package_has_its_own(write):
+    body = '<link name="a"/><gazebo reference="a"><sensor name="s" type="ray"/></gazebo>'
+    write("new/package.xml", f"<package><name>new</name>{AMENT}<depend>ros_gz_sim</depend></package>")
+    write("old/package.xml", f"<package><name>old</name>{CATKIN}</package>")
+    entries = [Entry(write("new/r.urdf", body)), Entry(write("old/r.urdf", body))]
+    outcome = run(entries, Options(guess_target=True))
+    assert [(finding.code, finding.file) for finding in outcome.findings] == [("Z817", "new/r.urdf")]
+    assert outcome.notes == ("linted for gz: new depends on ros_gz_sim", "linted for ros1: old is built with catkin")
+    assert run(entries, Options(guess_target=True, target="mujoco")).notes == ()
+    assert run(entries, Options()).findings == ()
