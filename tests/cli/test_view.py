@@ -234,7 +234,7 @@ def test_ending_is_clean_and_leaves_nothing_behind(serve, arm: Path, how: signal
         (["{folder}/arm.urdf", "--port", "99999"], "outside 0..65535"),
         (["{folder}/arm.urdf", "--port", "x"], "invalid int value"),
         (["{folder}/arm.urdf", "--host", "192.0.2.1"], "cannot listen on"),
-        (["{folder}/arm.urdf", "--html", "x"], "unrecognized arguments: --html"),
+        (["{folder}/arm.urdf", "--html", "{folder}/no/such/folder/x.html"], "cannot write"),
     ],
 )
 def test_bad_input_is_one_line_and_exit_2(arm: Path, capfd, words: list[str], expected: str) -> None:

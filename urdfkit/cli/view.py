@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
 
 from urdfkit.cli.page import Page, add_page_options, note, require_page, until_interrupted
 from urdfkit.cli.parser import add_model
@@ -12,46 +14,91 @@ from urdfkit.cli.unused import note_unused
 from urdfkit.errors import UrdfkitError
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from collections.abc import Mapping, Sequence
 
+    from urdfkit.cli.findings import Findings
     from urdfkit.kinematics import Kinematics
     from urdfkit.resources import ModelArgument
     from urdfkit.scene import Scene
+    from urdfkit.view.export import Recording
+    from urdfkit.view.orders import Order, Schema
     from urdfkit.view.server import Server
 
 LOOK = 0.15
 """Seconds between looks at the files."""
+SIGN = 2.0
+"""Seconds between signs of life to the pages, which take six seconds of silence for a lost connection."""
 JOINT_STATES = "/joint_states"
+CLICKED_POINT = "/clicked_point"
+"""Where RViz's "Publish Point" tool publishes (rviz_default_plugins, tools/point)."""
+POINT_STAMPED = "geometry_msgs/msg/PointStamped"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
     add_model(parser)
     add_page_options(parser)
+    parser.add_argument(
+        "--html", metavar="FILE", help="write one self-contained page with sliders that needs no server, and end"
+    )
     parser.epilog = (
-        "examples:\n  urdfkit view simpleton\n  urdfkit view urdf/robot.urdf.xacro use_camera:=true --port 8080"
+        "examples:\n  urdfkit view simpleton\n  urdfkit view urdf/robot.urdf.xacro use_camera:=true --port 8080\n"
+        "  urdfkit view simpleton --html simpleton.html"
     )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Serve until interrupted."""
+    """Serve until interrupted, or write the page."""
     require_page("view", "view", beside=("rosbags",))
+    from urdfkit.cli.findings import Findings
     from urdfkit.resources import find_model
+    from urdfkit.view.security import is_loopback
     from urdfkit.view.server import Server
 
     model = find_model(arguments.model, package_path=arguments.package_path)
+    if arguments.html is not None:
+        return export(model, Path(arguments.html), quiet=arguments.quiet)
     with until_interrupted():
         figure = Figure.read(model)
         note_unused(model.arguments, figure.files, quiet=arguments.quiet)
-        server = Server("view", host=arguments.host, port=arguments.port)
+        server = Server("view", host=arguments.host, port=arguments.port, orders=orders())
         page = Page(server, host=arguments.host, browser=not arguments.no_browser)
         try:
-            session = Session(server, model, figure)
+            session = Session(server, model, figure, Findings(model, may_write=is_loopback(arguments.host)))
             session.show()
             page.open()
             session.run()
         finally:
             server.stop()
+    return 0
+
+
+def orders() -> dict[str, Schema]:
+    """Return what the page may order: a fix by the number of its finding, a point in a link's frame."""
+    from urdfkit.view.orders import Schema, numbers, text, whole
+
+    return {
+        "fix": Schema({"finding": whole()}),
+        "point": Schema({"frame": text(), "position": numbers(3)}, changes=False),
+    }
+
+
+def export(model: ModelArgument, path: Path, *, quiet: bool = False) -> int:
+    """Write the page in one file."""
+    from urdfkit.atomic import write_text
+    from urdfkit.cli.findings import Findings
+    from urdfkit.view.export import Recording
+
+    figure = Figure.read(model)
+    note_unused(model.arguments, figure.files, quiet=quiet)
+    recording = Recording()
+    session = Session(recording, model, figure, Findings(model, may_write=False))
+    session.show()
+    session.lint()
+    html = recording.html()
+    write_text(path, html)
+    if not quiet:
+        note(f"wrote {path} ({len(html.encode()) / 1e6:.2f} MB)")
     return 0
 
 
@@ -81,27 +128,67 @@ class Figure:
 class Session:
     """One robot being looked at: joint positions, what is on the page, and the files it came from."""
 
-    def __init__(self, server: Server, model: ModelArgument, figure: Figure) -> None:
+    def __init__(self, server: Server | Recording, model: ModelArgument, figure: Figure, findings: Findings) -> None:
         from urdfkit.bus import Bus
         from urdfkit.view.files import Watch
 
         self.server = server
         self.model = model
         self.figure = figure
+        self.findings = findings
         self.watch = Watch(figure.files)
         self.positions: dict[str, float] = {}
         self.bus = Bus()
         self.bus.subscribe(JOINT_STATES, "sensor_msgs/msg/JointState", self._place)
 
     def run(self) -> None:
-        """Follow sliders and files for ever."""
+        """Follow sliders, orders and files for ever."""
+        server = cast("Server", self.server)
+        self.lint()
+        due = 0.0
         while True:
-            wishes = self.server.inbox.wait(LOOK)
+            if (now := time.monotonic()) >= due:
+                server.tell("alive")
+                due = now + SIGN
+            wishes = server.inbox.wait(LOOK)
             if wishes.joints:
-                self.positions.update({j: p for j, p in wishes.joints.items() if j in self.positions})
-                self._publish()
+                self.move(wishes.joints)
+            for order in wishes.orders:
+                try:
+                    server.answer(order, **self.obey(order))
+                except UrdfkitError as error:
+                    server.answer(order, str(error))
             if self.watch.changed():
                 self._reload()
+
+    def move(self, joints: Mapping[str, float]) -> None:
+        """Set joint positions [rad or m] of those that are there; nothing moves where they make no pose."""
+        before = dict(self.positions)
+        self.positions.update({name: at for name, at in joints.items() if name in self.positions})
+        try:
+            self._publish()
+        except UrdfkitError:  # a floating joint whose quaternion is zero
+            self.positions = before
+            self._publish()
+
+    def obey(self, order: Order) -> dict[str, Any]:
+        """Do what a page ordered and return what to answer.
+
+        Raises:
+            UrdfkitError: it cannot be done.
+        """
+        if order.name == "fix":
+            done = self.findings.mend(order.values["finding"])
+            note(f"fixed {done}")
+            return {"done": done}
+        frame, position = order.values["frame"], order.values["position"]
+        self.figure.kinematics.frame(frame)
+        self._publish_point(frame, position)
+        return {}
+
+    def lint(self) -> None:
+        """Put what the linter finds on the page."""
+        self.server.declare("findings", **self.findings.look())
 
     def _reload(self) -> None:
         """Read the files again; a robot that cannot be read leaves the last good one where it is."""
@@ -110,13 +197,15 @@ class Session:
         except UrdfkitError as error:
             note(f"urdfkit: {error}")
             self.server.declare("fault", message=str(error))
-            return
-        self.watch.follow(self.figure.files)
-        self.show()
-        note(f"reloaded {self.model.path.name}")
+        else:
+            self.watch.follow(self.figure.files)
+            self.show()
+            note(f"reloaded {self.model.path.name}")
+        self.lint()
 
     def show(self) -> None:
         """Put the robot on the page, its joints where they were by name."""
+        from urdfkit.view.inspection import inspection
         from urdfkit.view.joints import home, joint_rows
         from urdfkit.view.nodes import draw, link_path
 
@@ -130,6 +219,7 @@ class Session:
             root=kinematics.link_names.index(kinematics.root),
             draw=lambda server: draw(scene, server, server.geometries),
         )
+        self.server.declare("inspect", **inspection(kinematics))
         self.server.declare("fault", message=None)
         self._publish()
 
@@ -146,10 +236,19 @@ class Session:
         message = message_type(JOINT_STATE)(header(0.0, ""), names, np.array(values), empty, empty)
         self.bus.publish(JOINT_STATES, JOINT_STATE, message)
 
+    def _publish_point(self, frame: str, position: Sequence[float]) -> None:
+        """Publish a point as RViz's tool of that name does, and say it in the terminal."""
+        from urdfkit.messages import header, message_type
+
+        point = message_type("geometry_msgs/msg/Point")(*position)
+        message = message_type(POINT_STAMPED)(header(0.0, frame), point)
+        self.bus.publish(CLICKED_POINT, POINT_STAMPED, message)
+        note(f"{CLICKED_POINT}: {' '.join(f'{x:.6g}' for x in position)} in {frame}")
+
     def _place(self, message: Any) -> None:
         """Move the links to the joint positions of a message."""
         kinematics = self.figure.kinematics
-        own = set(kinematics.joint_names)
+        own = set(kinematics.variable_names)
         positions = {n: float(p) for n, p in zip(message.name, message.position, strict=True)}
         q = kinematics.configuration({name: position for name, position in positions.items() if name in own})
         self.server.publish(0.0, kinematics.link_poses(q))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import struct
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -48,6 +48,10 @@ class GeometryStore:
 
     def __len__(self) -> int:
         return len(self._packed)
+
+    def __iter__(self) -> Iterator[tuple[str, bytes]]:
+        """Yield names and packed meshes."""
+        yield from self._packed.items()
 
 
 def pack(mesh: TriMesh) -> bytes:

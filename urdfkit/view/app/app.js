@@ -68,9 +68,9 @@ page.expose("connection", page.connection);
 
 function applied(sequence, time) {
   page.send("ack", { sequence });
-  page.emit("poses", time);
   const { x, y, z } = page.mode === "sim" && scene.nodes[root] ? scene.nodes[root].position : { x: 0, y: 0, z: 0 };
-  if (page.mode === "sim" || !fitted) stage.at(x, y, z, page.mode === "sim" && page.following !== false);
+  if (page.mode === "sim" || !fitted) stage.at(x, y, z, page.mode === "sim" && page.following !== false && !page.cameras.tracks);
+  page.emit("poses", time);
   if (!fitted) {
     fitted = true;
     scene.settled().then(() => {

@@ -13,6 +13,9 @@ export class Scene {
     this.waiting = new Set();
     this.groups = { visual: new Map(), collision: new Map() };
     this.shown = { visual: true, collision: false };
+    this.look = { wireframe: false, opacity: 1 };
+    this.byLink = new Map(); // name → node
+    this.linkOf = new Map(); // node → name
     this.generation = 0;
     this.nodes = [];
     this.own = [];
@@ -46,6 +49,26 @@ export class Scene {
     this.groups[role].set(path.slice(0, 4).join("/"), group);
     group.visible = this.shown[role];
     if (role === "collision") group.traverse((object) => (object.castShadow = false));
+    this.#style(group);
+  }
+
+  // Wires and transparency go over what the description says, which is kept beside.
+  #style(group) {
+    group.traverse(({ material }) => {
+      if (!material) return;
+      material.userData.opacity ??= material.opacity;
+      material.wireframe = this.look.wireframe;
+      material.opacity = material.userData.opacity * this.look.opacity;
+      const clear = material.opacity < 1;
+      if (material.transparent !== clear) Object.assign(material, { transparent: clear, depthWrite: !clear, needsUpdate: true });
+    });
+  }
+
+  /** Draw shapes as wires, or let them be seen through. @param look {wireframe, opacity} of 0..1 */
+  restyle(look) {
+    Object.assign(this.look, look);
+    for (const groups of Object.values(this.groups)) for (const group of groups.values()) this.#style(group);
+    this.stage.dirty();
   }
 
   show(role, shown) {
@@ -63,6 +86,8 @@ export class Scene {
         mesh.castShadow = path[3] !== "collision";
         mesh.receiveShadow = true;
         this.viewer.set_object(path, mesh);
+        if (path[3] in this.groups) this.#style(mesh);
+        this.arrived?.(mesh);
         this.stage.dirty();
       })
       .catch((error) => console.warn(`mesh ${name.slice(0, 8)}: ${error.message}`))
@@ -73,10 +98,7 @@ export class Scene {
   #mesh(name) {
     this.used.add(name);
     if (!this.meshes.has(name)) {
-      const mesh = fetch(`/geometry/${name}`).then(async (answer) => {
-        if (!answer.ok) throw new Error(`${answer.status}`);
-        return unpack(await answer.arrayBuffer());
-      });
+      const mesh = (window.urdfkitMesh ?? fetched)(name).then(unpack);
       mesh.catch(() => this.meshes.delete(name));
       this.meshes.set(name, mesh);
     }
@@ -88,16 +110,57 @@ export class Scene {
     while (this.waiting.size) await Promise.allSettled([...this.waiting]);
   }
 
-  /** What the robot is made of, without the world around it; everything where it has nothing to see. */
-  get robot() {
-    const seen = (node) => !new THREE.Box3().setFromObject(node).isEmpty();
-    return this.own.some(seen) ? this.own : [this.viewer.scene_tree.find(["robot"]).object];
+  /** The box around the robot, without the world and without marks; around everything where it has nothing to see. */
+  bounds() {
+    const box = new THREE.Box3();
+    for (const node of this.own) node.updateWorldMatrix(true, true);
+    for (const role of ["visual", "collision"]) {
+      if (box.isEmpty()) for (const group of this.#groupsOf(role, this.own)) box.expandByObject(group);
+    }
+    if (box.isEmpty()) for (const node of this.own) box.expandByPoint(node.getWorldPosition(new THREE.Vector3()));
+    const size = box.getSize(new THREE.Vector3()).length();
+    if (!(size > 0)) box.setFromObject(this.viewer.scene_tree.find(["robot"]).object);
+    return box;
+  }
+
+  #groupsOf(role, nodes) {
+    const wanted = new Set(nodes);
+    return [...this.groups[role].values()].filter((group) => wanted.has(group.parent));
+  }
+
+  /** The groups of shapes of a link. @param role "visual" or "collision", or both */
+  shapes(link, role = null) {
+    const node = this.byLink.get(link);
+    const roles = role ? [role] : Object.keys(this.groups);
+    return node ? roles.flatMap((each) => this.#groupsOf(each, [node])) : [];
+  }
+
+  /** The middle of what there is to see of a link, in its frame. */
+  middle(link) {
+    const node = this.byLink.get(link);
+    const box = new THREE.Box3();
+    for (const group of this.shapes(link)) box.expandByObject(group);
+    return box.isEmpty() ? new THREE.Vector3() : node.worldToLocal(box.getCenter(new THREE.Vector3()));
+  }
+
+  /** Everything that can be pointed at. */
+  get solid() {
+    return Object.values(this.groups).flatMap((groups) => [...groups.values()]).filter((group) => group.visible);
+  }
+
+  /** The link an object belongs to, or null. */
+  owner(object) {
+    for (let at = object; at; at = at.parent) if (this.linkOf.has(at)) return this.linkOf.get(at);
+    return null;
   }
 
   /** The nodes that poses move, in the order of the rows of a pose frame. */
   use(model) {
     this.model = model.number;
     this.nodes = model.nodes.map((path) => this.viewer.scene_tree.find(path.split("/").filter(Boolean)).object);
+    const names = model.nodes.map((path) => decoded(path.split("/").pop()));
+    this.byLink = new Map(this.nodes.map((node, i) => [names[i], node]));
+    this.linkOf = new Map(this.nodes.map((node, i) => [node, names[i]]));
     // No link has a slash in its name; bodies of the world do.
     this.own = this.nodes.filter((_, i) => !model.nodes[i].includes("/world%2F"));
     this.pending = null;
@@ -129,6 +192,17 @@ export class Scene {
     }
     applied(sequence, time);
   }
+}
+
+// As link_path in nodes.py: parts of a path hold no slash.
+function decoded(part) {
+  return part.replaceAll("%2F", "/").replaceAll("%25", "%");
+}
+
+async function fetched(name) {
+  const answer = await fetch(`/geometry/${name}`);
+  if (!answer.ok) throw new Error(`${answer.status}`);
+  return answer.arrayBuffer();
 }
 
 function unpack(buffer) {

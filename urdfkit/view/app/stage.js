@@ -19,16 +19,15 @@ export class Stage {
     this.viewer.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.radius = 0.5;
     this.followed = null;
+    this.aspect = 1;
     this.#light();
     this.#ground();
     this.viewer.camera.fov = FOV;
     this.viewer.controls.enableDamping = false;
     this.viewer.controls.maxPolarAngle = Math.PI * 0.98;
-    this.viewer.controls.addEventListener("change", () => this.#haze());
+    this.viewer.controls.addEventListener("change", () => this.haze());
     this.visible("Axes", false);
-    const dark = matchMedia("(prefers-color-scheme: dark)");
-    dark.addEventListener("change", () => this.theme(dark.matches));
-    this.theme(dark.matches);
+    this.theme(matchMedia("(prefers-color-scheme: dark)").matches);
     new ResizeObserver(() => this.resize()).observe(pane);
     this.resize();
   }
@@ -40,10 +39,22 @@ export class Stage {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.pane;
     if (!width || !height) return;
-    this.viewer.camera.aspect = width / height;
-    this.viewer.camera.updateProjectionMatrix();
+    this.aspect = width / height;
+    this.#frame();
     this.viewer.renderer.setSize(width, height);
     this.dirty();
+  }
+
+  // What the camera's picture spans: of a parallel one `halfHeight` metres up and down from its middle.
+  #frame() {
+    const { camera } = this.viewer;
+    if (camera.isOrthographicCamera) {
+      const half = camera.userData.halfHeight ?? this.radius;
+      Object.assign(camera, { top: half, bottom: -half, left: -half * this.aspect, right: half * this.aspect });
+    } else {
+      camera.aspect = this.aspect;
+    }
+    camera.updateProjectionMatrix();
   }
 
   theme(dark) {
@@ -90,28 +101,30 @@ export class Stage {
     this.cell = 1;
   }
 
-  // Lines fade with distance, so that the ground has no end and no flicker.
-  #haze() {
-    const distance = this.viewer.camera.position.distanceTo(this.viewer.controls.target);
+  /** Lines of the grid fade with distance, so that the ground has no end and no flicker; seen in parallel they do not. */
+  haze() {
+    const { camera, controls } = this.viewer;
+    const distance = camera.isOrthographicCamera ? 1e6 : camera.position.distanceTo(controls.target);
     this.grid.material.uniforms.reach.value = distance * 5 + 4 * this.cell;
   }
 
-  /** Look at the robot, a list of nodes, from a good distance. `direction` points from it to the camera, z up. */
-  fit(robot, direction, zoom = 1) {
-    const box = new THREE.Box3();
-    for (const node of robot) {
-      node.updateWorldMatrix(true, true);
-      box.expandByObject(node);
-    }
+  /** Look at a box from a good distance. `direction` points from it to the camera, z up; none: from where it is now. */
+  fit(box, direction = null, zoom = 1) {
     if (box.isEmpty()) return false;
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const radius = (this.radius = Math.max(sphere.radius, 0.02));
     this.cell = this.grid.material.uniforms.cell.value = radius < 1.2 ? 0.2 : radius < 6 ? 1 : 5;
     const { camera, controls } = this.viewer;
-    const narrow = Math.min(1, camera.aspect);
+    const narrow = Math.min(1, this.aspect);
     const distance = (radius / Math.sin((FOV * Math.PI) / 360) / narrow) * 1.12 * zoom;
-    const [x, y, z] = direction;
-    const towards = new THREE.Vector3(x, z, -y).normalize();
+    const towards = camera.position.clone().sub(controls.target);
+    if (camera.isOrthographicCamera) {
+      towards.set(0, 1, 0);
+      camera.userData.halfHeight = ((radius * 1.12) / narrow) * zoom;
+      camera.zoom = 1;
+      this.#frame();
+    } else if (direction) towards.set(direction[0], direction[2], -direction[1]);
+    towards.normalize();
     controls.target.copy(sphere.center);
     camera.position.copy(sphere.center).addScaledVector(towards, distance);
     camera.near = radius / 50;
@@ -121,7 +134,7 @@ export class Stage {
     const reach = radius * 2.2;
     Object.assign(this.sun.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.01, far: radius * 12 });
     this.sun.shadow.camera.updateProjectionMatrix();
-    this.#haze();
+    this.haze();
     controls.update();
     this.dirty();
     return true;

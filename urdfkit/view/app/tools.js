@@ -19,12 +19,16 @@ export class Tools {
     return button;
   }
 
-  /** Add a tool; `take(held)` is called when it is taken in hand and when it is put down. */
-  tool({ id, title, icon: path, modes = ["view", "sim"], order = 50, take = () => {} }) {
+  /** Add a tool; `take(held)` is called when it is taken in hand and put down; with `clicks` it gets clicks (click3d). */
+  tool({ id, title, icon: path, modes = ["view", "sim"], order = 50, clicks = true, take = () => {} }) {
     const button = this.action({ id, title, icon: path, modes, order, run: () => this.hold(this.held === id ? null : id) });
     button.setAttribute("aria-pressed", "false");
-    this.buttons.set(id, { button, take });
+    this.buttons.set(id, { button, take, clicks });
     return button;
+  }
+
+  takesClicks(id) {
+    return this.buttons.get(id)?.clicks ?? false;
   }
 
   /** Take a tool in hand, or put it down (null). */
@@ -55,9 +59,10 @@ export function tools(page) {
   page.on("hello", () => page.tools.offer());
   page.fit = () => {
     // In the simulation from behind, so that forward is away from the driver and left is left.
-    return page.mode === "sim"
-      ? page.stage.fit(page.scene.robot, [-1, -0.55, 0.75], 1.9)
-      : page.stage.fit(page.scene.robot, [1, 0.75, 0.6]);
+    const sim = page.mode === "sim";
+    const done = page.stage.fit(page.scene.bounds(), sim ? [-1, -0.55, 0.75] : [1, 0.75, 0.6], sim ? 1.9 : 1);
+    page.emit("fit", done);
+    return done;
   };
   page.tools.action({ id: "fit", title: "Fit view", icon: FIT, order: 10, run: () => page.fit() });
   page.shortcut({ key: "f", does: "fit the view to the robot", group: "View", run: () => page.fit() && undefined });

@@ -1,0 +1,33 @@
+// The strip at the foot of the stage: what is selected and what can be done with it.
+
+import { h, icon } from "./dom.js";
+
+const TARGET = "M12 5a7 7 0 1 0 0 14a7 7 0 0 0 0-14zM12 2v6M12 16v6M2 12h6M16 12h6";
+const CARD = "M4 5h16v14H4zM8 9h8M8 12.5h8M8 16h5";
+const CLOSE = "M6 6l12 12M18 6L6 18";
+
+export function selection(page) {
+  const strip = h("div#selection", { role: "group", "aria-label": "Selection", hidden: true });
+  document.getElementById("stage").append(strip);
+  page.on("select", show);
+
+  function show(selected) {
+    const name = selected?.link ?? selected?.joint;
+    strip.hidden = !name || page.mode !== "view";
+    if (strip.hidden) return;
+    const button = (words, path, run) => h("button.bare", { type: "button", title: words, "aria-label": words, onclick: run }, icon(path));
+    strip.replaceChildren(
+      h("span.selected-name", { title: name }, h("small", {}, selected.link ? "link" : "joint"), h("bdi", {}, name)),
+      button("Inspect", CARD, () => page.panels.open("inspect")),
+      button("Look at it", TARGET, () => look(selected)),
+      button("Select nothing", CLOSE, () => page.select(null)),
+    );
+  }
+
+  function look(selected) {
+    const link = selected.link ?? page.childOf(selected.joint);
+    page.cameras.look(link);
+  }
+
+  page.shortcut({ key: "e", does: "look at what is selected", group: "View", run: () => page.selected && look(page.selected) });
+}
