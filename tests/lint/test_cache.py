@@ -135,10 +135,15 @@ def test_old_findings_make_room(package, monkeypatch):
     assert kept() == []
 
 
-def test_what_cannot_be_watched_is_not_kept(package):
-    package.write_text(f'{HEAD}<xacro:property name="f" value="x"/><link name="${{xacro.load_yaml(f)}}"/></robot>')
+def test_yaml_files_count(package):
+    package.write_text(f"{HEAD}<link name=\"${{xacro.load_yaml('n.yaml')['n']}}\"/></robot>")
     lint(package)
-    assert lint(package).cached == 0
+    assert lint(package).cached == 0  # it may come
+    package.with_name("n.yaml").write_text("n: a")
+    assert codes(lint(package)) == []
+    assert lint(package).cached == 1
+    package.with_name("n.yaml").write_text("n: a b")
+    assert codes(lint(package)) == ["N302"]
 
 
 def test_several_processes_find_the_same(write, package, monkeypatch):

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from typing import Any
 
+    from urdfkit.description.expanded import Expanded
     from urdfkit.description.packages import Packages
     from urdfkit.lint.engine import Options
     from urdfkit.lint.entries import Entry
@@ -39,7 +40,7 @@ _VARIABLES = (
 )
 _MANIFESTS = ("package.xml", "CMakeLists.txt", "setup.py")
 _ENVIRONMENT = r"\$\(\s*(?:opt)?env\s+([^\s()]+)"
-_UNSEEN = r"environ|getenv|load_yaml\(\s*[^'\"\s$]|\.gltf"
+_UNSEEN = r"environ|getenv|\.gltf"
 """What reads what is not looked at here; files with it are linted every time."""
 
 _KEPT = 64
@@ -96,24 +97,24 @@ class Cache:
         packages = self.packages.beside(entry.path)
         return all(packages.ask(tuple(question)) == answer for question, answer in kept["answers"])
 
-    def put(self, entry: Entry, found: Found, packages: Packages, texts: Iterable[str]) -> None:
+    def put(self, entry: Entry, found: Found, expanded: Expanded) -> None:
         """Keep what was found. Without a writable place, or where not all that was read is known, do not.
 
         Args:
             entry: the entry file.
             found: what was found.
-            packages: were asked while it was linted.
-            texts: of every file that was read.
+            expanded: what it was found in.
         """
         environment: dict[str, str | None] = {}
-        for text in texts:
-            if re.search(_UNSEEN, text):
-                return
+        packages = expanded.packages
+        for text in (source.text for source in expanded.sources.values()):
+            if re.search(_UNSEEN, text) or ("load_yaml" in text and expanded.faults):
+                return  # A YAML file that is not there may come.
             if "env" in text:
                 environment.update((name, os.environ.get(name)) for name in re.findall(_ENVIRONMENT, text))
         if any("$" in name for name in environment):
             return
-        read = dict.fromkeys(found.files.values())
+        read = dict.fromkeys((*found.files.values(), *map(str, expanded.files)))
         package = next((f for f in entry.path.absolute().parents if (f / "package.xml").is_file()), None)
         for name in _MANIFESTS if package is not None else ():
             read[str(package / name)] = None  # type: ignore[operator]

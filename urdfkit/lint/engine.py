@@ -247,8 +247,7 @@ class Checker:
             findings = [finding for finding in findings if finding.file in names]
         found = Found(tuple(findings), files, note)
         if self.cache is not None:
-            texts = [source.text for source in model.expanded.sources.values()]
-            self.cache.put(entry, found, model.expanded.packages, texts)
+            self.cache.put(entry, found, model.expanded)
         return found
 
     def _ask_source_rules(self, model: Model) -> Iterator[Finding]:
