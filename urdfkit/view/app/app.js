@@ -68,7 +68,8 @@ page.expose("connection", page.connection);
 
 function applied(sequence, time) {
   page.send("ack", { sequence });
-  const { x, y, z } = page.mode === "sim" && scene.nodes[root] ? scene.nodes[root].position : { x: 0, y: 0, z: 0 };
+  const followed = scene.nodes[page.followed ?? root]; // of several robots the one that is driven
+  const { x, y, z } = page.mode === "sim" && followed ? followed.position : { x: 0, y: 0, z: 0 };
   if (page.mode === "sim" || !fitted) stage.at(x, y, z, page.mode === "sim" && page.following !== false && !page.cameras.tracks);
   page.emit("poses", time);
   if (!fitted) {

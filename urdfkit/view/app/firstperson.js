@@ -26,11 +26,11 @@ export class FirstPerson {
     this.on = on;
     this.controls.enabled = !on;
     this.held.clear();
-    if (on) this.#turn(0, 0);
+    if (on) this.turn(0, 0);
   }
 
   // The middle of the view is kept straight ahead, which is all the controls need to agree.
-  #turn(yaw, pitch) {
+  turn(yaw, pitch) {
     const { camera, controls } = this;
     const ahead = controls.target.clone().sub(camera.position);
     const at = new THREE.Spherical().setFromVector3(ahead);
@@ -45,7 +45,7 @@ export class FirstPerson {
     if (!this.on || !this.last) return;
     const [x, y] = this.last;
     this.last = [event.clientX, event.clientY];
-    this.#turn(-(event.clientX - x) * TURN, (event.clientY - y) * TURN);
+    this.turn(-(event.clientX - x) * TURN, (event.clientY - y) * TURN);
   }
 
   #key(event, down) {

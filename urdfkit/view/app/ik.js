@@ -61,6 +61,7 @@ export class Dragging {
     if (!handle) return;
     event.stopImmediatePropagation();
     event.preventDefault();
+    this.page.labels.tip(null);
     const { link, page } = this;
     const at = page.labels.at(link);
     const axis = handle.axis?.clone().transformDirection(this.viewer.scene.matrixWorld) ?? null;
@@ -124,10 +125,10 @@ export class Dragging {
   }
 
   #tell({ error, turned }) {
-    const short_ = error > 5e-4 ? `${short(1000 * error, 0)} mm out of reach` : turned > 5e-3 && this.turn ? `${short((turned * 180) / Math.PI, 0)}° out of reach` : "";
-    if (!short_ && this.label) this.#quiet();
-    else if (short_ && !this.label) this.label = this.page.labels.add(h("span.measure-label"), () => this.drag?.at ?? null);
-    if (this.label) this.label.textContent = short_;
+    const away = error > 5e-4 ? `${short(1000 * error, 0)} mm out of reach` : turned > 5e-3 && this.turn ? `${short((turned * 180) / Math.PI, 0)}° out of reach` : "";
+    if (!away && this.label) this.#quiet();
+    else if (away && !this.label) this.label = this.page.labels.add(h("span.measure-label"), () => this.drag?.at ?? null);
+    if (this.label) this.label.textContent = away;
   }
 
   #quiet() {

@@ -15,8 +15,6 @@ export function inspector(page) {
     const joint = page.robot?.joints.get(selected?.joint);
     const content = link ? aboutLink(page, link) : joint ? aboutJoint(page, joint) : nothing();
     panel.body.replaceChildren(...content);
-    if ((link || joint) && !panel.open && !page.panels.narrow.matches && selected !== show.last) page.panels.open("inspect");
-    show.last = selected;
   }
 }
 

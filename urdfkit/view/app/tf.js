@@ -42,7 +42,7 @@ export function tf(page) {
   }
 
   function row({ link, joint, depth }) {
-    const name = h("button.entry", { type: "button", onclick: () => page.select({ link }) }, link);
+    const name = h("button.entry", { type: "button", title: link, onclick: () => page.select({ link }) }, link);
     name.style.paddingLeft = `${0.4 + 0.8 * Math.min(depth, 8)}rem`;
     const kind = h("small", {}, joint ? joint.type : "root");
     const numbers = h("span.tf-numbers");

@@ -14,10 +14,11 @@ import { pick } from "./pick.js";
 import { robot } from "./robot.js";
 import { selection } from "./selection.js";
 import { tf } from "./tf.js";
+import { steering } from "./steering.js";
 import { theme } from "./theme.js";
 import { tools } from "./tools.js";
 import { tree } from "./tree.js";
 
 export const viewFeatures = [
-  tools, robot, labels, joints, tree, inspector, layers, tf, measure, findings, cameras, capture, ik, pick, selection, theme, help,
+  tools, robot, labels, joints, tree, inspector, layers, tf, measure, findings, cameras, capture, ik, pick, steering, selection, theme, help,
 ];
