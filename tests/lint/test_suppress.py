@@ -10,8 +10,9 @@ TENSOR = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="3"/>'
 LINK = f'<link name="a">\n  <inertial><mass value="1"/>\n    {TENSOR}TRAIL\n  </inertial>\n</link>'
 
 
-def codes(path) -> list[str]:
-    return [finding.code for finding in lint(path)]
+def codes(path, **options) -> list[str]:
+    """What is found, comments without use left out."""
+    return [finding.code for finding in lint(path, **options) if finding.code != "E019"]
 
 
 @pytest.mark.parametrize(
@@ -57,3 +58,37 @@ def test_unknown_codes_are_reported_and_can_be_suppressed(write):
     assert codes(write("r.xacro", '<link name="a"/><!-- urdfkit: ignore I999 -->')) == ["E018"]
     assert codes(write("s.xacro", '<link name="a"/><!-- urdfkit: ignore I999 --><!-- urdfkit: ignore E018 -->')) == []
     assert lint("r.xacro", select=["I"]) == []
+
+
+def unused(path, **options) -> list[tuple[int, str]]:
+    found = lint(path, **options)
+    return [(finding.line, finding.message) for finding in found if finding.code == "E019"]
+
+
+def test_what_is_not_asked_for_is_not_called_unused(write):
+    path = write("r.xacro", "<!-- urdfkit: ignore-file J403, T210, C705 -->\n" + LINK.replace("TRAIL", ""))
+    assert unused(path) == [(2, "there is no `J403` here to ignore")]
+    assert unused(path, target="mujoco") == []
+    assert unused(path, ignore=["N"]) == []
+    write("lost.xacro", '<!-- urdfkit: ignore-file J403 --><link name="a"/><xacro:include filename="gone.xacro"/>')
+    assert unused("lost.xacro") == []
+
+
+def test_one_robot_of_several_is_use_enough(write):
+    write("p/package.xml", "<package><name>p</name></package>")
+    write(
+        "p/part.xacro",
+        '<!-- urdfkit: ignore-file I503, J403 -->\n<xacro:if value="$(arg full)">' + LINK + "</xacro:if>",
+    )
+    head = '<xacro:arg name="full" default="{}"/><xacro:include filename="part.xacro"/><link name="{}"/>'
+    full, bare = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">' + head, head
+    write(
+        "p/full.urdf.xacro",
+        full.format("true", "b") + "<joint name='j' type='fixed'><parent link='b'/><child link='a'/></joint></robot>",
+    )
+    write(
+        "p/bare.urdf.xacro",
+        bare.format("false", "b").join(('<robot name="q" xmlns:xacro="http://www.ros.org/wiki/xacro">', "</robot>")),
+    )
+    assert [message for _, message in unused("p/bare.urdf.xacro")] == ["there is no `I503`, `J403` here to ignore"]
+    assert [message for _, message in unused("p")] == ["there is no `J403` here to ignore"]

@@ -82,7 +82,7 @@ class Cache:
             kept = marshal.loads(content[32:])  # ours, whole, and by this Python: all that marshal asks
             if not self._holds(kept, entry):
                 return None
-            found = Found(tuple(map(_finding, kept["findings"])), kept["files"], kept["note"])
+            found = Found(tuple(map(_finding, kept["findings"])), kept["files"], kept["note"], kept["used"])
         except (OSError, ValueError, EOFError, KeyError, TypeError, RuntimeError):
             return None
         self.hits += 1
@@ -130,6 +130,7 @@ class Cache:
                 "findings": [_row(finding) for finding in found.findings],
                 "files": dict(found.files),
                 "note": found.note,
+                "used": found.used,
             },
         )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import partial
 from pathlib import Path
 
 from urdfkit.description.element import Element
@@ -20,7 +21,7 @@ from urdfkit.record import field, record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from urdfkit.description.robot import Robot
     from urdfkit.description.source import Source, Span
@@ -139,9 +140,19 @@ def run(entries: Iterable[Entry], options: Options, *, cached: bool = False, job
         found.update((entry, checker.check(entry)) for entry in left)
     every = [found[entry] for entry in entries]
     files = {name: Path(path) for one in every for name, path in one.files.items()}
-    findings = merged(finding for one in every for finding in one.findings)
+    used = {place for one in every for place in one.used}
+    findings = merged(finding for one in every for finding in one.findings if not _is_in_use(finding, used))
     notes = dict.fromkeys(one.note for one in every if one.note)
     return Outcome(tuple(findings), Sources(checker.sources, files), files, tuple(notes), hits)
+
+
+def _is_in_use(finding: Finding, used: set[str]) -> bool:
+    """Whether a suppression without use in one robot is in use in another."""
+    if finding.code != "E019" or not used:
+        return False
+    codes = finding.message.split("`")[1::2]
+    at = str(finding.span.start)
+    return any(place.startswith(f"{at} ") and (not codes or place.split()[-1] in codes) for place in used)
 
 
 class Sources(dict[str, "Source"]):
@@ -237,15 +248,16 @@ class Checker:
             for rule in (*robot_rules(model.robot, model.target), *foreign):
                 if self._applies(rule, model.target):
                     findings += rule().check(model)
+        used: tuple[str, ...] = ()
         if any("urdfkit:" in source.text for source in model.expanded.sources.values()):
-            findings = self._suppress(findings, model)
+            findings, used = self._suppress(findings, model, entry)
         here = str(Path.cwd())
         files = {name: os.path.join(here, name) for name in model.expanded.sources}  # noqa: PTH118
         if entry.only:
             only = {path.resolve() for path in entry.only}
             names = {name for name, path in files.items() if Path(path).resolve() in only}
             findings = [finding for finding in findings if finding.file in names]
-        found = Found(tuple(findings), files, note)
+        found = Found(tuple(findings), files, note, used)
         if self.cache is not None:
             self.cache.put(entry, found, model.expanded)
         return found
@@ -269,18 +281,37 @@ class Checker:
                 if rule.claims(fault) and self._applies(type(rule), model.target):
                     yield from rule.check(fault, model)
 
-    def _suppress(self, findings: list[Finding], model: Model) -> list[Finding]:
-        from urdfkit.lint.rules import suppression_rules
+    def _suppress(self, findings: list[Finding], model: Model, entry: Entry) -> tuple[list[Finding], tuple[str, ...]]:
+        """Return what no comment suppresses, and the places of the comments that do, for all files of the model."""
+        from urdfkit.lint.rules.document.unknown_suppression import UnknownSuppression
+        from urdfkit.lint.rules.document.unused_suppression import UnusedSuppression
         from urdfkit.lint.suppress import suppressed, suppressions
 
         comments: dict[str, list[Suppression]] = {}
         for file, source in model.expanded.sources.items():
             if "urdfkit:" in source.text:
                 comments[file] = suppressions(model.document(file))
-                for rule in suppression_rules():
-                    if self._applies(rule, model.target):
-                        findings += rule().check(comments[file], self._codes(), model)  # type: ignore[attr-defined]
-        return suppressed(findings, comments)
+                if self._applies(UnknownSuppression, model.target):
+                    findings += UnknownSuppression().check(comments[file], self._codes(), model)
+        left, used = suppressed(findings, comments)
+        judged = {code for code, target in self._asked().items() if target(model.target)}
+        if self.options.select or self.options.ignore or entry.is_library or model.is_incomplete:
+            judged.clear()
+        for items in comments.values():
+            unused = []
+            for item in items:
+                met = {code for other, code in used if other is item}
+                lost = tuple(code for code in item.codes if code in judged and code not in met)
+                if lost or (judged and not item.codes and not met):
+                    unused.append((item, lost))
+            known = [one for one in unused if one[0].verb in ("ignore", "ignore-file")]
+            left += UnusedSuppression().check(known, model)
+        return left, tuple(sorted({f"{item.position} {code}" for item, code in used}))
+
+    def _asked(self) -> dict[str, Callable[[str | None], bool]]:
+        from urdfkit.lint.rules import RULES
+
+        return {rule.code: partial(self._applies, rule) for rule in RULES}
 
 
 def merged(findings: Iterable[Finding]) -> list[Finding]:

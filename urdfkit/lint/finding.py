@@ -133,11 +133,13 @@ class Found:
         findings: those that no comment suppresses.
         files: name in findings → file, absolute, of every file that was read.
         note: what target was guessed and why, one line; empty where none was.
+        used: the places of comments that suppress something here, each with a code.
     """
 
     findings: tuple[Finding, ...]
     files: Mapping[str, str]
     note: str = ""
+    used: tuple[str, ...] = ()
 
 
 def _call(call: Expansion) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.syntax import Document
@@ -63,9 +63,18 @@ def suppressions(document: Document) -> list[Suppression]:
     return found
 
 
-def suppressed(findings: Iterable[Finding], by_file: dict[str, list[Suppression]]) -> list[Finding]:
-    """Return the findings that no comment suppresses."""
-    return [finding for finding in findings if not any(item.covers(finding) for item in by_file.get(finding.file, ()))]
+def suppressed(
+    findings: Iterable[Finding], by_file: Mapping[str, list[Suppression]]
+) -> tuple[list[Finding], set[tuple[Suppression, str]]]:
+    """Return the findings that no comment suppresses, and which comments met findings of which codes."""
+    left: list[Finding] = []
+    used: set[tuple[Suppression, str]] = set()
+    for finding in findings:
+        met = [item for item in by_file.get(finding.file, ()) if item.covers(finding)]
+        used.update((item, finding.code) for item in met)
+        if not met:
+            left.append(finding)
+    return left, used
 
 
 def _codes(text: str) -> tuple[str, ...]:

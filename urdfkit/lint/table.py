@@ -44,7 +44,10 @@ FAULTS: tuple[Row, ...] = (
     ("", "xacro.expansion_error", "ExpansionError"),
 )
 
-SUPPRESSION: tuple[Row, ...] = (("", "document.unknown_suppression", "UnknownSuppression"),)
+SUPPRESSION: tuple[Row, ...] = (
+    ("", "document.unknown_suppression", "UnknownSuppression"),
+    ("", "document.unused_suppression", "UnusedSuppression"),
+)
 
 ROBOT: tuple[Row, ...] = (
     ("", "document.robot_name_missing", "RobotNameMissing"),

@@ -26,7 +26,7 @@ class UnknownSuppression(Rule):
     ## Example
     ```xml
     <robot name="arm">
-      <!-- urdfkit: ignore I5O3 -->
+      <!-- urdfkit: ignore J4O2 -->
       <link name="base"/>
     </robot>
     ```
@@ -34,8 +34,12 @@ class UnknownSuppression(Rule):
     ## Use instead
     ```xml
     <robot name="arm">
-      <!-- urdfkit: ignore I503 -->
       <link name="base"/>
+      <link name="arm"/>
+      <joint name="shoulder" type="hinge"> <!-- urdfkit: ignore J402 our own reader knows it -->
+        <parent link="base"/>
+        <child link="arm"/>
+      </joint>
     </robot>
     ```
     """
