@@ -41,8 +41,8 @@ export class Cameras {
     this.way = way;
     if (way === "top") this.#fromAbove(camera, controls);
     if (way === "first") this.first.use(true);
-    this.was = null;
     if (way === "follow") this.#behind();
+    this.was = this.#stand();
     this.stage.haze();
     this.stage.dirty();
     this.page.emit("camera", way);
@@ -129,7 +129,7 @@ export class Cameras {
   fix(link) {
     this.fixed = link;
     this.#hold();
-    this.was = null;
+    this.was = this.#stand();
     this.stage.dirty();
     this.page.emit("fixed", link);
   }
@@ -137,7 +137,7 @@ export class Cameras {
   /** Choose the frame that the camera goes after. */
   aim(link) {
     this.target = link;
-    this.was = null;
+    this.was = this.#stand();
     if (link) this.look(link);
   }
 

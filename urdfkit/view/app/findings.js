@@ -76,7 +76,7 @@ export function findings(page) {
       "li.finding",
       {},
       h("div.finding-head", {}, tone, h("code", {}, finding.code), h("span.quiet", {}, finding.name)),
-      h("p.message", {}, inline(finding.message)),
+      h("p.finding-message", {}, inline(finding.message)),
       finding.links.length ? h("div.chips", {}, finding.links.map((link) => h("button.chip", { type: "button", onclick: () => page.select({ link }) }, link))) : null,
       source(place),
       copies,
@@ -105,8 +105,8 @@ export function findings(page) {
         page.toast(error.message, "error");
       }
     });
-    const unsafe = h("p.quiet", {}, "This fix guesses what was meant: ", h("code", {}, "urdfkit lint --fix --unsafe-fixes"));
-    return h("div.fix", {}, h("p", {}, h("strong", {}, "Fix: "), inline(title)), lines.length ? h("pre.code.diff", { tabindex: "0" }, lines) : null, may ? button : safety === "safe" ? null : unsafe);
+    const how = h("p.quiet", {}, safety === "safe" ? "Apply it with " : "It guesses what was meant; apply it with ", h("code", {}, `urdfkit lint --fix${safety === "safe" ? "" : " --unsafe-fixes"}`));
+    return h("div.fix", {}, h("p", {}, h("strong", {}, "Fix: "), inline(title)), lines.length ? h("pre.code.diff", { tabindex: "0" }, lines) : null, may ? button : how);
   }
 }
 

@@ -40,11 +40,12 @@ export class Gizmo extends THREE.Group {
     for (const mesh of this.handles) if (mesh.userData.kind === "about") mesh.visible = shown;
   }
 
-  /** The handle a ray meets: {kind, axis}, or null; arrows and rings before the ball, which they surround. */
+  /** The handle a ray meets: {kind, axis}, or null; the ball first, then what is seen, then the margins around it. */
   hit(ray) {
     if (!this.visible) return null;
     const hits = ray.intersectObjects(this.handles.filter((mesh) => mesh.visible), false);
-    return hits.length ? hits[0].object.userData : null;
+    const rank = ({ object: { userData, material: paint } }) => (userData.kind === "free" ? 0 : paint.opacity > 0 ? 1 : 2);
+    return hits.length ? hits.reduce((best, hit) => (rank(hit) < rank(best) ? hit : best)).object.userData : null;
   }
 }
 

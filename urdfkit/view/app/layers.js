@@ -63,7 +63,7 @@ export function slider(words, { id, min, max, value, step = 0.01, text, moved, m
     output.textContent = text(input.valueAsNumber);
     moved(input.valueAsNumber);
   });
-  const label = h("label.field", {}, words, " ", output, input);
+  const label = h("label.field", { for: id }, words, " ", output, input);
   if (mode) label.dataset.mode = mode;
   return label;
 }

@@ -39,6 +39,7 @@ export class Tools {
     for (const [name, { button }] of this.buttons) button.setAttribute("aria-pressed", name === id);
     if (before) this.buttons.get(before).take(false);
     if (now) this.buttons.get(now).take(true);
+    document.body.toggleAttribute("data-tool", now !== null);
     this.page.emit("tool", id);
   }
 
