@@ -69,7 +69,8 @@ def test_what_is_not_asked_for_is_not_called_unused(write):
     path = write("r.xacro", "<!-- urdfkit: ignore-file J403, T210, C705 -->\n" + LINK.replace("TRAIL", ""))
     assert unused(path) == [(2, "there is no `J403` here to ignore")]
     assert unused(path, target="mujoco") == []
-    assert unused(path, ignore=["N"]) == []
+    assert unused(path, ignore=["J4"]) == []
+    assert unused(path, select=["E019", "J403"]) == [(2, "there is no `J403` here to ignore")]
     write("lost.xacro", '<!-- urdfkit: ignore-file J403 --><link name="a"/><xacro:include filename="gone.xacro"/>')
     assert unused("lost.xacro") == []
 

@@ -6,6 +6,8 @@ import os
 import sys
 from pathlib import Path
 
+from urdfkit.cli.lint_output import FORMATS, show
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import argparse
@@ -13,7 +15,9 @@ if TYPE_CHECKING:
 
     from urdfkit.lint.engine import Options, Outcome
     from urdfkit.lint.entries import Entry
+    from urdfkit.lint.finding import Finding
     from urdfkit.lint.fix import Fixed
+    from urdfkit.lint.settings import Settings
 
 _EPILOG = """examples:
   urdfkit lint urdf/robot.urdf.xacro use_camera:=true
@@ -22,35 +26,40 @@ _EPILOG = """examples:
 exit: 0 nothing but notes found, 1 errors or warnings found, 2 could not lint
 suppress in the file:
   <!-- urdfkit: ignore I503 -->       after an element: this line; alone on a line: the next element
-  <!-- urdfkit: ignore-file I503 -->  the whole file"""
+  <!-- urdfkit: ignore-file I503 -->  the whole file
+settings: [lint] in urdfkit.toml or [tool.urdfkit.lint] in pyproject.toml, nearest above the first PATH"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
-    parser.add_argument(
+    add = parser.add_argument
+    add(
         "paths",
         nargs="*",
         metavar="PATH",
         help="files, package folders or workspaces (left out: where you stand); then key:=value xacro arguments",
     )
-    parser.add_argument("--fix", action="store_true", help="mend what has a safe fix")
-    parser.add_argument("--unsafe-fixes", action="store_true", help="with --fix or --diff: apply unsafe fixes too")
-    parser.add_argument("--diff", action="store_true", help="show what --fix would change, and change nothing")
-    parser.add_argument("--select", action="append", default=[], metavar="CODES", help="only these: I503,J or I,X1")
-    parser.add_argument("--ignore", action="append", default=[], metavar="CODES", help="not these")
-    parser.add_argument(
+    add("--fix", action="store_true", help="mend what has a safe fix")
+    add("--unsafe-fixes", action="store_true", help="with --fix or --diff: apply unsafe fixes too")
+    add("--diff", action="store_true", help="show what --fix would change, and change nothing")
+    add("--select", action="append", default=[], metavar="CODES", help="only these: I503,J or I,X1")
+    add("--ignore", action="append", default=[], metavar="CODES", help="not these")
+    add(
         "--target",
         metavar="NAME",
         help="ros1, ros2, gz, classic, mujoco, isaac, drake, moveit, or any: what holds for all of them "
         "(default: guessed from package.xml)",
     )
-    parser.add_argument("--format", choices=("text", "json"), default="text", help="text (default) or json")
-    parser.add_argument("--statistics", action="store_true", help="count by rule instead of listing")
-    parser.add_argument(
-        "--package-path", action="append", default=[], metavar="DIR", help="look for packages here too (repeatable)"
-    )
-    parser.add_argument("--no-cache", action="store_true", help="lint again what has not changed")
-    parser.add_argument("--jobs", type=_count, metavar="N", help="lint in so many processes (default: one per core)")
+    add("--format", choices=FORMATS, default="text", help="text (default), json, sarif, github or junit")
+    add("--statistics", action="store_true", help="count by rule instead of listing")
+    add("--watch", action="store_true", help="lint again whenever a file changes")
+    add("--baseline", type=Path, metavar="FILE", help="leave out the findings that are known by this file")
+    add("--write-baseline", type=Path, metavar="FILE", help="make what is found now known by this file")
+    add("--config", type=Path, metavar="FILE", help="read the settings from this file")
+    add("--no-config", action="store_true", help="read no settings")
+    add("--package-path", action="append", default=[], metavar="DIR", help="look for packages here too (repeatable)")
+    add("--no-cache", action="store_true", help="lint again what has not changed")
+    add("--jobs", type=_count, metavar="N", help="lint in so many processes (default: one per core)")
     parser.epilog = _EPILOG
 
 
@@ -66,32 +75,195 @@ def run(arguments: argparse.Namespace) -> int:
     """Lint, and fix where asked to.
 
     Raises:
-        UsageError: an argument makes no sense.
+        UsageError: an argument or a setting makes no sense.
         ResourceError: a path is not there, or a file cannot be read or written.
     """
-    from urdfkit.lint.engine import run as lint
-    from urdfkit.lint.entries import find_entries
-
-    paths, options = _read(arguments)
-    entries = find_entries(paths)
-    if arguments.fix or arguments.diff:
-        return _fix(arguments, paths, entries, options)
-    jobs = arguments.jobs or _cores()
-    return _report(arguments, lint(entries, options, cached=not arguments.no_cache, jobs=jobs))
+    _check(arguments)
+    if arguments.watch:
+        return _watch(arguments)
+    return _Run(arguments).run()[0]
 
 
-def _cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-def _read(arguments: argparse.Namespace) -> tuple[list[str], Options]:
+def _check(arguments: argparse.Namespace) -> None:
     from urdfkit.errors import UsageError
-    from urdfkit.lint.engine import Options
 
-    if arguments.unsafe_fixes and not (arguments.fix or arguments.diff):
+    changes = arguments.fix or arguments.diff
+    if arguments.unsafe_fixes and not changes:
         raise UsageError("--unsafe-fixes goes with --fix or --diff")
+    if arguments.watch and (changes or arguments.write_baseline):
+        raise UsageError("--watch only looks: it goes without --fix, --diff and --write-baseline")
+    if arguments.write_baseline and changes:
+        raise UsageError("--write-baseline goes without --fix and --diff")
+    if arguments.statistics and arguments.format not in ("text", "json"):
+        raise UsageError(f"--statistics are text or json, not {arguments.format}")
+    if arguments.config and arguments.no_config:
+        raise UsageError("either --config or --no-config")
+
+
+def _watch(arguments: argparse.Namespace) -> int:
+    from urdfkit.cli.lint_watch import watch
+    from urdfkit.errors import UrdfkitError
+
+    def once() -> Outcome | None:
+        try:
+            return _Run(arguments).run()[1]
+        except UrdfkitError as error:  # a file that is half written: it will come
+            print(f"urdfkit: {error}", file=sys.stderr)
+            return None
+
+    watch(once, [Path(word) for word in arguments.paths if ":=" not in word] or [Path()])
+    return 0
+
+
+class _Run:
+    """One run: what the command line and the settings ask for together."""
+
+    def __init__(self, arguments: argparse.Namespace) -> None:
+        self.arguments = arguments
+        self.paths, xacro_arguments = _split(arguments.paths)
+        self.settings = self._settings()
+        self.options = self._options(xacro_arguments)
+
+    def run(self) -> tuple[int, Outcome]:
+        """Lint, and fix where asked to; return the exit code and what is left."""
+        from urdfkit.lint.engine import run as lint
+
+        arguments = self.arguments
+        entries = self._entries()
+        if arguments.fix or arguments.diff:
+            return self._fix(entries)
+        outcome = lint(entries, self.options, cached=not arguments.no_cache, jobs=arguments.jobs or _cores())
+        return self._report(outcome), outcome
+
+    def _settings(self) -> Settings | None:
+        """Return what a file says; None without one: most runs have none, and need no module for it."""
+        arguments = self.arguments
+        if arguments.no_config:
+            return None
+        if arguments.config is not None:
+            from urdfkit.lint.settings import read
+
+            return read(arguments.config)
+        start = Path(self.paths[0]) if Path(self.paths[0]).exists() else Path.cwd()
+        if not _has_settings(start):
+            return None
+        from urdfkit.lint.settings import find
+
+        return find(start)
+
+    def _options(self, xacro_arguments: dict[str, str]) -> Options:
+        from urdfkit.lint.engine import Options
+
+        arguments, settings = self.arguments, self.settings
+        folders = tuple(_folder(word) for word in arguments.package_path)
+        select, ignore, target = tuple(arguments.select), tuple(arguments.ignore), arguments.target
+        if settings is not None:
+            select = select or settings.select
+            ignore = (*settings.ignore, *ignore)
+            target = target or settings.target
+            folders = (*folders, *settings.package_path)
+            xacro_arguments = {**settings.arguments, **xacro_arguments}
+        named = None if target == "any" else target
+        return Options(select, ignore, named, xacro_arguments, folders, guess_target=target is None)
+
+    def _entries(self) -> list[Entry]:
+        from urdfkit.lint.entries import find_entries
+
+        entries = find_entries(self.paths)
+        settings = self.settings
+        if settings is None or not settings.exclude:
+            return entries
+        named = {Path(path).resolve() for path in self.paths}
+        return [entry for entry in entries if entry.path.resolve() in named or not self._is_excluded(entry.path)]
+
+    def _is_excluded(self, path: Path) -> bool:
+        settings = self.settings
+        return settings is not None and any(settings.matches(path, pattern) for pattern in settings.exclude)
+
+    def _is_wanted(self, finding: Finding) -> bool:
+        """Whether the settings have nothing against a finding in its file."""
+        settings = self.settings
+        if settings is None:
+            return True
+        path = Path(finding.file)
+        if (
+            settings.exclude
+            and self._is_excluded(path)
+            and path.resolve() not in map(Path.resolve, map(Path, self.paths))
+        ):
+            return False
+        return not any(
+            finding.code.startswith(codes) and settings.matches(path, pattern)
+            for pattern, codes in settings.per_file.items()
+        )
+
+    def _fix(self, entries: Sequence[Entry]) -> tuple[int, Outcome]:
+        from urdfkit.lint.fix import fix, may_be_changed
+
+        arguments = self.arguments
+        within = may_be_changed(Path(path) for path in self.paths)
+        only = self._is_wanted if self.settings is not None else None
+        fixed = fix(entries, self.options, within=within, unsafe=arguments.unsafe_fixes, only=only)
+        for note in () if arguments.quiet else fixed.notes:
+            print(f"urdfkit: {note}", file=sys.stderr)
+        if arguments.diff:
+            return self._show(fixed), fixed.outcome
+        for change in fixed.changes:
+            change.write()
+        if fixed.changes and not arguments.quiet:
+            count = sum(fixed.fixed.values())
+            by_code = ", ".join(f"{number} × {code}" for code, number in sorted(fixed.fixed.items()))
+            files = f"{len(fixed.changes)} file{'s' if len(fixed.changes) > 1 else ''}"
+            print(f"Fixed {count} finding{'s' if count > 1 else ''} in {files} ({by_code}).", file=sys.stderr)
+        return self._report(fixed.outcome), fixed.outcome
+
+    def _show(self, fixed: Fixed) -> int:
+        for change in fixed.changes:
+            sys.stdout.write(change.diff())
+        left = sum(finding.severity != "info" for finding in self._left(fixed.outcome).findings)
+        if left:
+            print(f"{left} finding{'s' if left > 1 else ''} would be left; nothing was written.", file=sys.stderr)
+        return 1 if fixed.changes or left else 0
+
+    def _left(self, outcome: Outcome) -> Outcome:
+        """Return what is to be reported: neither against the settings nor known by the baseline."""
+        from urdfkit.lint.engine import Outcome
+
+        arguments = self.arguments
+        file = arguments.baseline or (self.settings.baseline if self.settings is not None else None)
+        if self.settings is None and file is None:
+            return outcome
+        findings = [finding for finding in outcome.findings if self._is_wanted(finding)]
+        if file is not None and arguments.write_baseline is None:
+            from urdfkit.lint.baseline import read, unknown
+
+            findings, known, gone = unknown(findings, read(file))
+            if not arguments.quiet:
+                hint = f"; {gone} are there no more: --write-baseline {file} forgets them" if gone else ""
+                print(f"urdfkit: {known} finding{'s' if known != 1 else ''} known by {file}{hint}", file=sys.stderr)
+        return Outcome(**{**outcome.__dict__, "findings": tuple(findings)})
+
+    def _report(self, whole: Outcome) -> int:
+        arguments = self.arguments
+        outcome = self._left(whole)
+        for note in () if arguments.quiet else outcome.notes:
+            print(f"urdfkit: {note}", file=sys.stderr)
+        if arguments.write_baseline is not None:
+            from urdfkit.lint.baseline import write
+
+            count = write(arguments.write_baseline, outcome.findings)
+            if not arguments.quiet:
+                print(f"urdfkit: {count} findings are known by {arguments.write_baseline} now", file=sys.stderr)
+            return 0
+        show(outcome, form=arguments.format, statistics=arguments.statistics, color=arguments.color)
+        return 1 if any(finding.severity != "info" for finding in outcome.findings) else 0
+
+
+def _split(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
+    from urdfkit.errors import UsageError
+
     paths, xacro_arguments = [], {}
-    for word in arguments.paths:
+    for word in words:
         key, separator, value = word.partition(":=")
         if not separator:
             paths.append(word)
@@ -99,11 +271,7 @@ def _read(arguments: argparse.Namespace) -> tuple[list[str], Options]:
             xacro_arguments[key] = value
         else:
             raise UsageError(f"`{word}` lacks its key: xacro arguments are key:=value")
-    folders = tuple(_folder(word) for word in arguments.package_path)
-    select, ignore = tuple(arguments.select), tuple(arguments.ignore)
-    target = None if arguments.target == "any" else arguments.target
-    guess = arguments.target is None
-    return paths or ["."], Options(select, ignore, target, xacro_arguments, folders, guess_target=guess)
+    return paths or ["."], xacro_arguments
 
 
 def _folder(word: str) -> Path:
@@ -116,59 +284,17 @@ def _folder(word: str) -> Path:
     return folder
 
 
-def _fix(arguments: argparse.Namespace, paths: Sequence[str], entries: Sequence[Entry], options: Options) -> int:
-    from urdfkit.lint.fix import fix, may_be_changed
-
-    within = may_be_changed(Path(path) for path in paths)
-    fixed = fix(entries, options, within=within, unsafe=arguments.unsafe_fixes)
-    for note in () if arguments.quiet else fixed.notes:
-        print(f"urdfkit: {note}", file=sys.stderr)
-    if arguments.diff:
-        return _show(fixed)
-    for change in fixed.changes:
-        change.write()
-    if fixed.changes and not arguments.quiet:
-        count = sum(fixed.fixed.values())
-        by_code = ", ".join(f"{number} × {code}" for code, number in sorted(fixed.fixed.items()))
-        files = f"{len(fixed.changes)} file{'s' if len(fixed.changes) > 1 else ''}"
-        print(f"Fixed {count} finding{'s' if count > 1 else ''} in {files} ({by_code}).", file=sys.stderr)
-    return _report(arguments, fixed.outcome)
+def _has_settings(start: Path) -> bool:
+    """Whether there may be settings above a path; `urdfkit.lint.settings` knows which."""
+    folder = os.path.abspath(start)  # noqa: PTH100 - a dozen look-ups before every run
+    while True:
+        if os.path.exists(f"{folder}/urdfkit.toml") or os.path.exists(f"{folder}/pyproject.toml"):  # noqa: PTH110
+            return True
+        above = os.path.dirname(folder)  # noqa: PTH120
+        if above == folder:
+            return False
+        folder = above
 
 
-def _show(fixed: Fixed) -> int:
-    for change in fixed.changes:
-        sys.stdout.write(change.diff())
-    left = sum(finding.severity != "info" for finding in fixed.outcome.findings)
-    if left:
-        print(f"{left} finding{'s' if left > 1 else ''} would be left; nothing was written.", file=sys.stderr)
-    return 1 if fixed.changes or left else 0
-
-
-def _report(arguments: argparse.Namespace, outcome: Outcome) -> int:
-    findings = outcome.findings
-    for note in () if arguments.quiet else outcome.notes:
-        print(f"urdfkit: {note}", file=sys.stderr)
-    if arguments.format == "json":
-        from urdfkit.lint.report.json import as_json
-
-        print(as_json(findings))
-    else:
-        from urdfkit.cli.parser import columns
-        from urdfkit.lint.report.text import TextReport, statistics, summary
-
-        if arguments.statistics:
-            print("\n".join([*statistics(findings), summary(findings)]))
-        else:
-            report = TextReport(
-                outcome.sources, colour=_colour(arguments.color), width=columns() if sys.stdout.isatty() else None
-            )
-            for finding in findings:
-                print(report.finding(finding), end="\n\n")
-            print(summary(findings))
-    return 1 if any(finding.severity != "info" for finding in findings) else 0
-
-
-def _colour(choice: str) -> bool:
-    if choice != "auto":
-        return choice == "always"
-    return sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

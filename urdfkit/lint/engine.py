@@ -295,17 +295,19 @@ class Checker:
                     findings += UnknownSuppression().check(comments[file], self._codes(), model)
         left, used = suppressed(findings, comments)
         judged = {code for code, target in self._asked().items() if target(model.target)}
-        if self.options.select or self.options.ignore or entry.is_library or model.is_incomplete:
+        if entry.is_library or model.is_incomplete:
             judged.clear()
+        every = bool(judged) and not self.options.select and not self.options.ignore
         for items in comments.values():
             unused = []
             for item in items:
                 met = {code for other, code in used if other is item}
                 lost = tuple(code for code in item.codes if code in judged and code not in met)
-                if lost or (judged and not item.codes and not met):
+                if lost or (every and not item.codes and not met):
                     unused.append((item, lost))
-            known = [one for one in unused if one[0].verb in ("ignore", "ignore-file")]
-            left += UnusedSuppression().check(known, model)
+            if self._applies(UnusedSuppression, model.target):
+                known = [one for one in unused if one[0].verb in ("ignore", "ignore-file")]
+                left += UnusedSuppression().check(known, model)
         return left, tuple(sorted({f"{item.position} {code}" for item, code in used}))
 
     def _asked(self) -> dict[str, Callable[[str | None], bool]]:

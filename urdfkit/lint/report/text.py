@@ -104,14 +104,18 @@ def summary(findings: Sequence[Finding]) -> str:
     return f"Found {found}{fixable}."
 
 
-def statistics(findings: Iterable[Finding]) -> list[str]:
-    """Return one line for each rule that found something, most findings first."""
-    counts: dict[tuple[str, str, str], int] = {}
+def counts(findings: Iterable[Finding]) -> list[tuple[str, str, str, int]]:
+    """Return code, name, severity and number of findings of each rule that found something, most findings first."""
+    found: dict[tuple[str, str, str], int] = {}
     for finding in findings:
         key = (finding.code, finding.name, finding.severity)
-        counts[key] = counts.get(key, 0) + 1
-    ordered = sorted(counts.items(), key=lambda item: (-item[1], item[0]))
-    return [f"{count:6d}  {code}  {severity:7s}  {name}" for (code, name, severity), count in ordered]
+        found[key] = found.get(key, 0) + 1
+    return [(*key, count) for key, count in sorted(found.items(), key=lambda item: (-item[1], item[0]))]
+
+
+def statistics(findings: Iterable[Finding]) -> list[str]:
+    """Return one line for each rule that found something, most findings first."""
+    return [f"{count:6d}  {code}  {severity:7s}  {name}" for code, name, severity, count in counts(findings)]
 
 
 def _expansions(chains: Sequence[tuple[Expansion, ...]]) -> str:

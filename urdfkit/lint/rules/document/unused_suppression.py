@@ -17,9 +17,9 @@ class UnusedSuppression(Rule):
     """A comment suppresses what is not found any more.
 
     ## What it does
-    Looks for comments ``urdfkit: ignore …`` that no finding meets, and for codes in them that none does. It asks only
-    where every rule is asked: not with ``--select`` or ``--ignore``, not of what the target leaves out, and not where
-    parts of the robot are missing. A comment in an included file is in use if it is for one of the robots linted.
+    Looks for comments ``urdfkit: ignore …`` that no finding meets, and for codes in them that none does. Codes that
+    are not asked for, or that the target leaves out, are let be, and so are comments where parts of the robot are
+    missing. A comment in an included file is in use if it is for one of the robots linted.
 
     ## Why is this bad?
     It will hide the next finding, which nobody has looked at.

@@ -1,0 +1,161 @@
+"""``urdfkit lint``: formats, settings, baseline, watching, cache, as options."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from urdfkit.cli import main
+
+BAD = '<robot name="r">\n<link name="a" kind="x"/>\n<link name="b"/>\n</robot>\n'
+
+
+@pytest.fixture
+def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    folder = tmp_path / "p"
+    (folder / "urdf").mkdir(parents=True)
+    (folder / ".git").mkdir()
+    build = "<export><build_type>ament_cmake</build_type></export>"
+    (folder / "package.xml").write_text(f"<package><name>p</name>{build}</package>")
+    (folder / "urdf" / "bad.urdf").write_text(BAD)
+    monkeypatch.chdir(folder)
+    return folder
+
+
+def codes(capsys) -> list[str]:
+    return [finding["code"] for finding in json.loads(capsys.readouterr().out)]
+
+
+def test_the_other_formats(package, capsys):
+    assert main(["lint", "--format", "sarif"]) == 1
+    assert len(json.loads(capsys.readouterr().out)["runs"][0]["results"]) == 2
+    assert main(["lint", "--format", "junit"]) == 1
+    assert ElementTree.fromstring(capsys.readouterr().out).get("failures") == "1"
+    assert main(["lint", "--format", "github"]) == 1
+    assert capsys.readouterr().out.count("::error file=urdf/bad.urdf,line=3") == 1
+    (package / "urdf" / "bad.urdf").write_text('<robot name="r"><link name="a"/></robot>')
+    assert main(["lint", "--format", "github"]) == 0
+    assert capsys.readouterr().out == ""
+
+
+def test_statistics_as_json(package, capsys):
+    assert main(["lint", "--statistics", "--format", "json"]) == 1
+    rows = json.loads(capsys.readouterr().out)
+    assert {row["code"]: row["count"] for row in rows} == {"T203": 1, "E009": 1}
+
+
+def test_the_target_is_guessed_and_said(package, capsys):
+    assert main(["lint"]) == 1
+    assert "urdfkit: linted for ros2: p is built with ament_cmake\n" in capsys.readouterr().err
+    for words in (["--target", "any"], ["--target", "gz"], ["-q"]):
+        assert main(["lint", *words]) == 1
+        assert "linted for" not in capsys.readouterr().err
+
+
+def test_settings_are_found_used_and_overridden(package, capsys):
+    Path("urdfkit.toml").write_text('[lint]\nignore = ["T203"]\ntarget = "any"\n')
+    assert main(["lint", "--format", "json"]) == 0
+    assert codes(capsys) == ["E009"]
+    assert main(["lint", "--format", "json", "--no-config", "--target", "any"]) == 1
+    assert codes(capsys) == ["E009", "T203"]
+    Path("other.toml").write_text('[lint]\nselect = ["T"]\n')
+    assert main(["lint", "--format", "json", "--config", "other.toml"]) == 1
+    assert codes(capsys) == ["T203"]
+    assert main(["lint", "--format", "json", "--config", "other.toml", "--select", "E"]) == 0
+    assert codes(capsys) == ["E009"]
+    Path("urdfkit.toml").write_text("[lint]\nignroe = []\n")
+    assert main(["lint"]) == 2
+    assert "did you mean `ignore`?" in capsys.readouterr().err
+
+
+def test_files_may_be_left_out_and_rules_for_some_files(package, capsys):
+    (package / "urdf" / "made").mkdir()
+    (package / "urdf" / "made" / "other.urdf").write_text(BAD)
+    Path("urdfkit.toml").write_text('[lint]\nexclude = ["urdf/made"]\n[lint.per-file-ignores]\n"*.urdf" = ["E"]\n')
+    assert main(["lint", "--format", "json"]) == 1
+    assert codes(capsys) == ["T203"]
+    assert main(["lint", "urdf/made/other.urdf", "--format", "json"]) == 1
+    assert codes(capsys) == ["T203"]
+    assert main(["lint", "--diff", "--unsafe-fixes"]) == 1
+    assert capsys.readouterr().out == ""
+
+
+def test_a_baseline_hides_what_is_known(package, capsys):
+    assert main(["lint", "--write-baseline", "known.json"]) == 0
+    assert "1 findings are known by known.json now" in capsys.readouterr().err
+    assert main(["lint", "--baseline", "known.json"]) == 0
+    assert "urdfkit: 1 finding known by known.json\n" in capsys.readouterr().err
+    text = BAD.replace("</robot>", '<link name="c"/></robot>')
+    (package / "urdf" / "bad.urdf").write_text(f"\n\n{text}")
+    assert main(["lint", "--baseline", "known.json", "--format", "json"]) == 1
+    assert "c" in {finding["link"] for finding in json.loads(capsys.readouterr().out)}
+    Path("urdfkit.toml").write_text('[lint]\nbaseline = "known.json"\n')
+    (package / "urdf" / "bad.urdf").write_text('<robot name="r"><link name="a"/></robot>')
+    assert main(["lint"]) == 0
+    assert "0 findings known by" in (err := capsys.readouterr().err)
+    assert "1 are there no more" in err
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--watch", "--fix"], "--watch only looks"),
+        (["--write-baseline", "x", "--fix"], "--write-baseline goes without"),
+        (["--statistics", "--format", "sarif"], "--statistics are text or json"),
+        (["--config", "x", "--no-config"], "either --config or --no-config"),
+        (["--jobs", "0"], "`0` is no number of processes"),
+        (["--format", "sarf"], "did you mean `sarif`?"),
+        (["--baseline", "none.json"], "--write-baseline makes one"),
+    ],
+)
+def test_what_does_not_go_together(package, capsys, words, message):
+    assert main(["lint", *words]) == 2
+    assert message in (err := capsys.readouterr().err.splitlines()[-1])
+    assert err.startswith("urdfkit: ")
+
+
+def test_the_cache_may_be_left_alone(package, monkeypatch, tmp_path):
+    monkeypatch.setenv("URDFKIT_CACHE_DIR", str(tmp_path / "own"))
+    main(["lint", "--no-cache"])
+    assert not (tmp_path / "own").exists()
+    main(["lint"])
+    assert len(list((tmp_path / "own").rglob("*.found"))) == 1
+
+
+def test_watching_lints_again_when_a_file_changes(package):
+    process = subprocess.Popen(
+        [sys.executable, "-u", "-m", "urdfkit", "lint", "--watch", "--target", "any"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env={**os.environ, "PYTHONUNBUFFERED": "1"},
+    )
+    assert process.stdout is not None
+
+    def until(text: str) -> None:
+        for line in process.stdout:  # type: ignore[union-attr]
+            if text in line:
+                return
+        raise AssertionError(text)
+
+    try:
+        until("Found 1 error, 1 note")
+        until("waiting for changes")
+        time.sleep(0.05)
+        file = package / "urdf" / "bad.urdf"
+        file.write_text('<robot name="r"><link name="a"/></robot>')
+        until("All checks passed.")
+        until("waiting for changes")
+        file.write_text("<robo")
+        until("waiting for changes")
+    finally:
+        process.kill()
+        process.wait()
+        process.stdout.close()

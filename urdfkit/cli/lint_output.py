@@ -1,0 +1,77 @@
+"""What ``urdfkit lint`` prints, in each of its formats."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from urdfkit.lint.engine import Outcome
+    from urdfkit.lint.finding import Finding
+
+FORMATS = ("text", "json", "sarif", "github", "junit")
+
+
+def show(outcome: Outcome, *, form: str, statistics: bool, color: str) -> None:
+    """Print the findings.
+
+    Args:
+        outcome: what was found.
+        form: one of `FORMATS`.
+        statistics: count by rule instead of listing; as text or JSON.
+        color: ``auto``, ``always`` or ``never``.
+    """
+    findings = outcome.findings
+    if statistics:
+        _count(findings, as_json=form == "json")
+    elif form == "json":
+        from urdfkit.lint.report.json import as_json
+
+        print(as_json(findings))
+    elif form == "sarif":
+        from urdfkit.lint.report.sarif import as_sarif
+
+        print(as_sarif(findings))
+    elif form == "junit":
+        from urdfkit.lint.report.junit import as_junit
+
+        print(as_junit(findings, outcome.files))
+    elif form == "github":
+        from urdfkit.lint.report.github import as_github
+
+        if findings:
+            print(as_github(findings))
+    else:
+        _text(outcome, color)
+
+
+def _text(outcome: Outcome, color: str) -> None:
+    from urdfkit.cli.parser import columns
+    from urdfkit.lint.report.text import TextReport, summary
+
+    width = columns() if sys.stdout.isatty() else None
+    report = TextReport(outcome.sources, colour=_colour(color), width=width)
+    for finding in outcome.findings:
+        print(report.finding(finding), end="\n\n")
+    print(summary(outcome.findings))
+
+
+def _count(findings: Sequence[Finding], *, as_json: bool) -> None:
+    from urdfkit.lint.report.text import counts, statistics, summary
+
+    if as_json:
+        import json
+
+        keys = ("code", "name", "severity", "count")
+        print(json.dumps([dict(zip(keys, row, strict=True)) for row in counts(findings)], indent=1))
+    else:
+        print("\n".join([*statistics(findings), summary(findings)]))
+
+
+def _colour(choice: str) -> bool:
+    if choice != "auto":
+        return choice == "always"
+    return sys.stdout.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"

@@ -1,0 +1,60 @@
+"""``urdfkit lint --watch``: lint, wait until a file changes, lint again."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from pathlib import Path
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from urdfkit.lint.engine import Outcome
+
+INTERVAL = 0.3
+"""Seconds between two looks at the files."""
+
+_SUFFIXES = (".urdf", ".xacro", ".gazebo", ".yaml", ".yml", ".xml", ".toml", ".stl", ".dae", ".obj")
+
+
+def watch(lint: Callable[[], Outcome | None], paths: Iterable[Path]) -> None:
+    """Lint whenever something has changed, until interrupted.
+
+    Args:
+        lint: lints and prints; returns what was read, None where it could not.
+        paths: files and folders named by the user: what comes into them is seen too.
+    """
+    named = list(paths)
+    while True:
+        if sys.stdout.isatty():
+            print("\x1b[2J\x1b[3J\x1b[H", end="")
+        before = time.time()
+        outcome = lint()
+        files = set(outcome.files.values()) if outcome is not None else set()
+        print(f"[{time.strftime('%H:%M:%S')}] {time.time() - before:.2f} s; waiting for changes", file=sys.stderr)
+        sys.stdout.flush()
+        state = _state(files, named)
+        while _state(files, named) == state:
+            time.sleep(INTERVAL)
+
+
+def _state(files: Iterable[Path], named: Iterable[Path]) -> dict[str, tuple[int, int]]:
+    """Return size and time of everything that counts."""
+    every = {str(file) for file in files}
+    for path in named:
+        if path.is_dir():
+            for folder, names, inside in os.walk(path):
+                names[:] = [name for name in names if not name.startswith(".") and name not in ("build", "install")]
+                every.update(os.path.join(folder, name) for name in inside if name.endswith(_SUFFIXES))  # noqa: PTH118
+        else:
+            every.add(str(path))
+    found = {}
+    for file in every:
+        try:
+            status = os.stat(file)  # noqa: PTH116 - thousands of these
+        except OSError:
+            continue
+        found[file] = (status.st_size, status.st_mtime_ns)
+    return found

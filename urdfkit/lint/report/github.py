@@ -1,0 +1,38 @@
+"""Findings as annotations of GitHub Actions: one workflow command a line.
+
+https://docs.github.com/en/actions/reference/workflow-commands-for-github-actions
+"""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from urdfkit.lint.finding import Finding
+
+_LEVELS = {"error": "error", "warning": "warning", "info": "notice"}
+
+
+def as_github(findings: Iterable[Finding]) -> str:
+    """Return one line for each finding."""
+    return "\n".join(map(_line, findings))
+
+
+def _line(finding: Finding) -> str:
+    span = finding.span
+    places = {"file": finding.file, "line": span.line, "endLine": span.end_line, "col": span.column}
+    if span.end_line == span.line:  # GitHub takes columns within one line only
+        places["endColumn"] = span.end_column
+    places["title"] = f"{finding.code} {finding.name}"
+    text = f"{finding.message}; {finding.help}" if finding.help else finding.message
+    properties = ",".join(f"{name}={_property(str(value))}" for name, value in places.items())
+    return f"::{_LEVELS[finding.severity]} {properties}::{_text(text)}"
+
+
+def _text(text: str) -> str:
+    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(text: str) -> str:
+    return _text(text).replace(":", "%3A").replace(",", "%2C")
