@@ -1,8 +1,8 @@
 """Pictures per CPU second beside MuJoCo's and PyBullet's software renderers, 640 × 480, of a room of the house.
 
 Run it: ``python tests/bench/bench_pictures.py [--seconds 1] [--rounds 3] [--json]``. Everybody gets the same visuals,
-the same camera and one sun; before every picture one chair is moved a little, as a robot would be. All take turns, and
-the best round of each counts. CPU seconds are those of all threads of the process. MuJoCo draws by the same OpenGL as
+the same camera and one sun; before every picture a table in it is moved a little, as a robot would be. All take turns,
+and the best round of each counts. CPU seconds are those of all threads of the process. MuJoCo draws by the same OpenGL as
 our ``gl``; without a graphics card that is a driver that draws on the CPU. MuJoCo's default is four samples per pixel.
 """
 
@@ -34,7 +34,7 @@ from urdfkit.sim.surroundings import world_scene
 EYE = Pose((-4.5, -3.5, 1.7), (0.0, 0.35, 0.7))
 LENS = Lens(640, 480, 1.2)
 SUN = np.array([-0.5, 0.1, -0.9])
-MOVES = "world/chair_1"
+MOVES = "world/cafe_table"
 Take = Callable[[], np.ndarray]
 
 

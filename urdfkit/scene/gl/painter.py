@@ -12,8 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.scene.gl.drawing import Drawing, Shot
 from urdfkit.scene.gl.probe import create
+from urdfkit.scene.gl.shade import LARGE, Rectangle, shaded, union
 from urdfkit.scene.gl.shaders import BOTH, STILL
-from urdfkit.scene.gl.shadows import EDGES, Rest, Shadows
+from urdfkit.scene.gl.shadows import EDGES, FINER, Rest, Shadows
 from urdfkit.scene.image import Painter, Picture
 from urdfkit.scene.lens import Lens
 from urdfkit.scene.lights import Lighting
@@ -108,12 +109,19 @@ class GlPainter:
         exact = bool((nearest < near).any() or (farthest > far).any())
         shot = Shot(rows, nearest, nearest > near, exact, self._uniforms(lens, turn, origin, low, high, near, far))
         target = self._target(lens, min(samples, self._ctx.max_samples))
-        self._cast_shadows(shot, turn, origin)
+        again = self._cast_shadows(shot, turn, origin, lens, low)
         self._ctx.front_face = "cw"  # the picture's top row comes first
         rgb = np.empty((lens.height, lens.width, 3), dtype=np.uint8)
         target["color"].use()
         target["color"].clear(*self._air[1].tolist(), 1.0)
         drawing.draw(shot, deep=False)
+        if again is not None:  # what shadows of moving things can fall on is drawn over
+            drawing.maps = BOTH
+            target["color"].scissor = again
+            self._ctx.depth_func = "<="
+            drawing.draw(shot, deep=False)
+            self._ctx.depth_func = "<"
+            target["color"].scissor = None
         if drawing.has_clear:
             drawing.blend(shot)
         if target["color"] is not target["plain"]:
@@ -159,10 +167,14 @@ class GlPainter:
                 found[f"u_cone{k}"] = tuple(row[15:18].tolist())
         return found
 
-    def _cast_shadows(self, shot: Shot, turn: Array, origin: Array) -> None:
-        """Bring the shadow maps up to date, and tell the shaders where they are."""
+    def _cast_shadows(self, shot: Shot, turn: Array, origin: Array, lens: Lens, low: float) -> Rectangle | None:
+        """Bring the shadow maps up to date, and tell the shaders where they are.
+
+        Returns:
+            Where the picture has to be drawn once more, with the shadows of what moves; None where it need not.
+        """
         if not self._shadows:
-            return
+            return None
         drawing, table = self._drawing, self.table
         casters = [batch for batch in drawing.batches if batch.model.casts]
         solid = np.zeros(len(shot.rows), dtype=bool)
@@ -170,17 +182,36 @@ class GlPainter:
             solid[batch.model.shapes] = True
         solid &= ~drawing.clear
         moving = self._rest.moving(table.frames, table.boxes) & solid
-        drawing.maps = BOTH if moving.any() else STILL
-        for unit, ((k, name), shadows) in enumerate(self._shadows.items(), start=1):
-            if name not in drawing.maps:
-                continue
-            wanted = moving if name == "m" else solid & ~moving
+        boxes, again = table.boxes, (0, 0, 0, 0)
+
+        def cast(k: int, name: str, wanted: NDArray[np.bool_], texel: float) -> None:
+            shadows = self._shadows[k, name]
             fill = partial(drawing.fill, [(batch, batch.members(wanted)) for batch in casters], shot.rows)
-            shadows.cast(self._lights[k, 1:4], table, wanted, turn, origin, fill)
+            shadows.cast(self._lights[k, 1:4], table, wanted, turn, origin, fill, texel=texel)
+            unit = 1 + list(self._shadows).index((k, name))
             shot.uniforms[f"u_lift{k}{name}"] = shadows.lift
             shot.uniforms[f"u_shade{k}{name}"] = shadows.matrix(turn, origin)
             shadows.texture.use(location=unit)
             shot.uniforms[f"u_map{k}{name}"] = unit
+
+        suns = [k for k, name in self._shadows if name == "s"]
+        for k in suns:
+            cast(k, "s", solid & ~moving, 0.0)
+        if moving.any():
+            wide = float((boxes[moving, 3:].max(axis=0) - boxes[moving, :3].min(axis=0)).max())
+            slack = 3.0 * max(wide / EDGES["m"], *(self._shadows[k, "s"].texel for k in suns))
+            again = union(
+                [shaded(boxes[moving], self._lights[k, 1:4], boxes, turn, origin, lens, low, slack) for k in suns]
+            )
+        drawing.maps = STILL
+        if not (again[2] and again[3]):
+            return None
+        for k in suns:
+            cast(k, "m", moving, self._shadows[k, "s"].texel / FINER)
+        if again[2] * again[3] > LARGE * lens.width * lens.height:
+            drawing.maps = BOTH
+            return None
+        return again
 
     def _target(self, lens: Lens, samples: int) -> dict[str, Any]:
         """Return the framebuffers of a size."""

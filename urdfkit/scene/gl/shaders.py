@@ -128,6 +128,7 @@ def vertex_shader(kind: Kind) -> str:
 in vec3 in_position; in vec3 in_normal; in vec2 in_uv; in vec4 in_color;
 in vec4 in_x; in vec4 in_y; in vec4 in_z; in vec3 in_scale; in vec4 in_rgba; in float in_shape;
 uniform vec4 u_lens;
+invariant gl_Position;
 {_lights(kind.lamps, kind.maps) if colors and kind.early else ""}
 {lines[0]}
 void main() {{

@@ -15,7 +15,13 @@ from urdfkit.scene.rays.table import RayTable
 Array = NDArray[np.float64]
 
 EDGES = {"s": 2048, "m": 1024}
-"""Texels along each edge of the map of what stands still, and of what moves."""
+"""Texels along each edge of the map of what stands still, and of what moves, at most."""
+
+FINER = 2.0
+"""How much finer the map of what moves is than the other, where it need not have the most texels for that."""
+
+LEAST = 128
+"""Texels along each edge at least."""
 
 REST = 100
 """Pictures after which what has not moved counts as standing still again."""
@@ -28,25 +34,33 @@ class Shadows:
 
     Args:
         context: of moderngl, current.
-        edge: of the map [texels].
+        edge: of the map [texels], at most.
 
     Attributes:
         texture: the map.
         lift: how far surfaces are to be lifted off it [m].
+        texel: length of its edge [m].
     """
 
     def __init__(self, context: Any, edge: int) -> None:
         self._ctx = context
-        self._edge = edge
-        self.lift = 0.0
-        self.texture = context.depth_texture((edge, edge))
-        self.texture.filter = context.NEAREST, context.NEAREST
-        self.texture.compare_func = "<="
-        self.texture.repeat_x = self.texture.repeat_y = False
-        self._fbo = context.framebuffer(depth_attachment=self.texture)
+        self._most = edge
+        self._maps: dict[int, tuple[Any, Any]] = {}
+        self.lift = self.texel = 0.0
+        self.texture, self._fbo = self._map(edge)
         self._program = context.program(SHADOW_VERTEX, SHADOW_FRAGMENT)
         self._key: bytes = b""
         self._from_world = np.eye(4)
+
+    def _map(self, edge: int) -> tuple[Any, Any]:
+        """Return the map of so many texels along each edge, and what draws into it."""
+        if edge not in self._maps:
+            texture = self._ctx.depth_texture((edge, edge))
+            texture.filter = self._ctx.NEAREST, self._ctx.NEAREST
+            texture.compare_func = "<="
+            texture.repeat_x = texture.repeat_y = False
+            self._maps[edge] = texture, self._ctx.framebuffer(depth_attachment=texture)
+        return self._maps[edge]
 
     def cast(
         self,
@@ -56,6 +70,8 @@ class Shadows:
         turn: Array,
         origin: Array,
         fill: Callable[[], Iterable[tuple[Any, int]]],
+        *,
+        texel: float = 0.0,
     ) -> None:
         """Bring the map up to date.
 
@@ -66,6 +82,7 @@ class Shadows:
             turn: of the camera, in whose frame shapes are drawn; shape (3, 3).
             origin: of the camera [m].
             fill: writes where the casters are, batch by batch; yields each with how often it is to be drawn.
+            texel: fine enough for its texels [m]; zero for as fine as can be.
         """
         key = towards.tobytes() + casters.tobytes() + table.frames[casters].tobytes()
         if key == self._key:
@@ -73,19 +90,25 @@ class Shadows:
         self._key = key
         axes = upright(towards).T  # its rows are the map's axes in the world; the last looks at the sun
         boxes = table.boxes[casters]
-        self._fbo.use()
-        self._fbo.clear(depth=1.0)
         if not len(boxes):
+            self._fbo.clear(depth=1.0)
             return
         corners = np.stack([boxes[:, [3 * x, 3 * y + 1, 3 * z + 2]] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
         seen = corners.reshape(-1, 3) @ axes.T
         low, high = seen.min(axis=0), seen.max(axis=0)
         span = np.maximum(high - low, 1e-3) * 1.01
+        wide, edge = float(span[:2].max()), self._most
+        while edge > LEAST and 2.0 * wide <= texel * edge:
+            edge //= 2
+        self.texture, self._fbo = self._map(edge)
+        self._fbo.use()
+        self._fbo.clear(depth=1.0)
         middle = (low + high) / 2
         self._from_world = np.eye(4)
         self._from_world[:3, :3] = axes * (2.0 / span * (1, 1, -1))[:, None]
         self._from_world[:3, 3] = -middle * (2.0 / span * (1, 1, -1))
-        self.lift = 1.5 * float(span[:2].max()) / self._edge
+        self.texel = wide / edge
+        self.lift = 1.5 * self.texel
         self._program["u_light"] = _columns(self._of_camera(turn, origin))
         ctx = self._ctx
         ctx.enable_only(ctx.DEPTH_TEST)
