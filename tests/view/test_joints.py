@@ -40,3 +40,18 @@ def test_a_row_for_every_joint_that_moves_in_the_order_written(kinematics: Kinem
 
 def test_home_is_zero_or_the_nearest_limit(kinematics: Kinematics) -> None:
     assert home(kinematics) == {"turn": 0.0, "lift": 0.1, "elbow": 0.0}
+
+
+def test_planar_and_floating_joints_have_a_row_for_each_number(tmp_path: Path) -> None:
+    path = tmp_path / "toy.urdf"
+    path.write_text("""<robot name="toy"><link name="base"/><link name="a"/><link name="b"/>
+      <joint name="plane" type="planar"><parent link="base"/><child link="a"/></joint>
+      <joint name="free" type="floating"><parent link="a"/><child link="b"/></joint></robot>""")
+    kinematics = Kinematics(load(path))
+    rows = joint_rows(kinematics, home(kinematics))
+    assert [(row["name"], row["unit"]) for row in rows] == [
+        ("plane/x", "m"), ("plane/y", "m"), ("plane/theta", "rad"),
+        ("free/trans_x", "m"), ("free/trans_y", "m"), ("free/trans_z", "m"),
+        ("free/rot_x", ""), ("free/rot_y", ""), ("free/rot_z", ""), ("free/rot_w", ""),
+    ]  # fmt: skip
+    assert {row["name"]: row["position"] for row in rows}["free/rot_w"] == 1.0

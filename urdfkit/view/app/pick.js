@@ -12,6 +12,8 @@ export class Pick {
     this.ray = new THREE.Raycaster();
     this.down = null;
     this.hovered = null;
+    this.last = null;
+    this.rest = 0;
     this.pane.addEventListener("pointerdown", (event) => this.#down(event));
     this.pane.addEventListener("pointerup", (event) => this.#up(event));
     this.pane.addEventListener("pointermove", (event) => this.#move(event));
@@ -88,11 +90,19 @@ export class Pick {
     if (event.pointerType !== "mouse" || event.buttons) return;
     const waiting = this.last;
     this.last = event;
-    if (waiting) return;
-    requestAnimationFrame(() => {
+    if (!waiting) this.#soon();
+  }
+
+  // At most once a picture; where looking takes long (many triangles), it takes at most a quarter of the time.
+  #soon() {
+    requestAnimationFrame((now) => {
+      if (now < this.rest) return this.#soon();
       const last = this.last;
       this.last = null;
-      if (last) this.#hover(this.at(last), last);
+      if (!last) return;
+      const start = performance.now();
+      this.#hover(this.at(last), last);
+      this.rest = performance.now() + 3 * (performance.now() - start);
     });
   }
 

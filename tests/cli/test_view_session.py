@@ -1,0 +1,108 @@
+"""The session behind the viewer's page, without a page."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("pinocchio")
+pytest.importorskip("meshcat")
+
+from urdfkit.cli.findings import Findings
+from urdfkit.cli.view import CLICKED_POINT, Figure, Session, orders
+from urdfkit.errors import UrdfkitError
+from urdfkit.resources import find_model
+from urdfkit.view.export import Recording
+from urdfkit.view.orders import Order, check
+from urdfkit.view.protocol import Do, ProtocolError
+
+ROBOT = """<robot name="lab">
+  <link name="base"/><link name="arm"/><link name="kite"/>
+  <joint name="turn" type="revolute"><parent link="base"/><child link="arm"/>
+    <axis xyz="0 0 2"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="fly" type="floating"><parent link="base"/><child link="kite"/></joint>
+</robot>
+"""
+
+
+class Shown(Recording):
+    """Keeps the last poses, and every text."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.poses = np.zeros((0, 7))
+        self.said: dict[str, dict] = {}
+
+    def publish(self, time: float, poses: np.ndarray) -> None:
+        self.poses = poses
+
+    def declare(self, type: str, **values) -> None:
+        super().declare(type, **values)
+        self.said[type] = values
+
+    tell = declare
+
+
+@pytest.fixture
+def session(tmp_path: Path) -> Session:
+    path = tmp_path / "lab.urdf"
+    path.write_text(ROBOT)
+    model = find_model([str(path)])
+    made = Session(Shown(), model, Figure.read(model), Findings(model))
+    made.show()
+    return made
+
+
+def test_joints_move_links_and_unknown_ones_nothing(session: Session) -> None:
+    session.move({"turn": 0.5, "nothing": 1.0, "fly/trans_x": 2.0})
+    assert session.server.poses[1, 5] == pytest.approx(np.sin(0.25))
+    assert session.server.poses[2, :3] == pytest.approx([2, 0, 0])
+    assert session.server.said["joints"]["positions"]["fly/trans_x"] == 2.0
+    assert "nothing" not in session.positions
+
+
+def test_a_pose_that_is_none_is_not_taken(session: Session) -> None:
+    session.move({"fly/trans_x": 2.0})
+    session.move({"fly/rot_w": 0.0})  # then the quaternion is zero
+    assert session.positions["fly/rot_w"] == 1.0
+    assert session.server.poses[2, :3] == pytest.approx([2, 0, 0])
+
+
+def test_a_point_is_published_in_the_frame_of_its_link(session: Session, capsys) -> None:
+    heard = []
+    session.bus.subscribe(CLICKED_POINT, "geometry_msgs/msg/PointStamped", heard.append)
+    assert session.obey(Order(1, 1, "point", {"frame": "arm", "position": [1.0, 2.0, 3.0]})) == {}
+    (point,) = heard
+    assert (point.header.frame_id, point.point.x, point.point.y, point.point.z) == ("arm", 1.0, 2.0, 3.0)
+    assert "/clicked_point: 1 2 3 in arm" in capsys.readouterr().err
+    with pytest.raises(UrdfkitError, match="no frame"):
+        session.obey(Order(1, 2, "point", {"frame": "../arm", "position": [0.0, 0.0, 0.0]}))
+
+
+def test_a_fix_is_ordered_by_its_number(session: Session) -> None:
+    session.lint()
+    number = next(row["number"] for row in session.server.said["findings"]["findings"] if row["code"] == "J412")
+    assert session.obey(Order(1, 1, "fix", {"finding": number}))["done"].startswith("J412: ")
+    assert 'xyz="0 0 1"' in session.model.path.read_text()
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("fix", {}),
+        ("fix", {"finding": "1"}),
+        ("fix", {"finding": -1}),
+        ("fix", {"finding": 1.5}),
+        ("fix", {"finding": True}),
+        ("fix", {"finding": 1, "file": "/etc/passwd"}),
+        ("point", {"frame": "arm"}),
+        ("point", {"frame": "arm", "position": [0, 0]}),
+        ("point", {"frame": "arm", "position": [0, 0, 1e9]}),
+        ("point", {"frame": "a" * 1000, "position": [0, 0, 0]}),
+        ("point", {"frame": ["arm"], "position": [0, 0, 0]}),
+        ("save", {"path": "x"}),
+    ],
+)
+def test_orders_that_make_no_sense_are_refused(name: str, values: dict) -> None:
+    with pytest.raises(ProtocolError):
+        check(orders(), 1, Do(1, name, values))
