@@ -2,8 +2,8 @@
 
 Run it: ``python tests/bench/bench_pictures.py [--seconds 1] [--rounds 3] [--json]``. Everybody gets the same visuals,
 the same camera and one sun; before every picture a table in it is moved a little, as a robot would be. All take turns,
-and the best round of each counts. CPU seconds are those of all threads of the process. MuJoCo draws by the same OpenGL as
-our ``gl``; without a graphics card that is a driver that draws on the CPU. MuJoCo's default is four samples per pixel.
+and the best round of each counts. CPU seconds are those of all threads of the process. MuJoCo draws by the same OpenGL
+as our ``gl``; without a graphics card that is a driver that draws on the CPU. MuJoCo takes four samples by default.
 """
 
 from __future__ import annotations
