@@ -1,4 +1,4 @@
-// Hands on the wheel: keys and pad → axes, twenty times a second while something is held, and zero when it is let go.
+// Hands on the wheel: keys, pad, sliders and gamepad → axes, twenty times a second while something is held, and zero after.
 
 import { Pad } from "./pad.js";
 
@@ -6,22 +6,24 @@ const PERIOD = 50; // ms
 const SHIFTED = { "<": ",", ">": ".", ";": ",", ":": "." };
 
 export class Drive {
-  /** @param send called with {axes, speed, turn}; @param pause called for the pause key */
+  /** @param send called with {axes, speed, turn, robot}; @param pause called for the pause key */
   constructor(send, pause) {
     this.send = send;
     this.pause = pause;
     this.moves = {};
     this.factors = {};
+    this.robot = "";
     this.down = new Map(); // KeyboardEvent.code → key
     this.shift = false;
     this.stick = [0, 0];
+    this.held = new Map(); // what else is held: a name → [x, y, z, turn]
     this.timer = null;
     this.speed = new Speed("speed", "m/s");
     this.turn = new Speed("turn", "rad/s");
-    for (const speed of [this.speed, this.turn]) speed.input.addEventListener("input", () => this.#changed());
+    for (const speed of [this.speed, this.turn]) speed.input.addEventListener("input", () => this.changed());
     this.pad = new Pad((forward, left) => {
       this.stick = [forward, left];
-      this.#changed();
+      this.changed();
     });
   }
 
@@ -40,32 +42,48 @@ export class Drive {
     document.addEventListener("visibilitychange", () => document.hidden && this.release());
   }
 
+  /** Hold something that is neither key nor pad: axes [x, y, z, turn], each -1..1. */
+  hold(name, axes) {
+    if (axes.some(Boolean)) this.held.set(name, axes);
+    else if (!this.held.delete(name)) return;
+    this.changed();
+  }
+
+  /** Drive another robot from now on. */
+  take(robot) {
+    if (robot === this.robot) return;
+    this.release();
+    this.robot = robot;
+  }
+
   release() {
     this.down.clear();
+    this.held.clear();
     this.shift = false;
     if (this.pad.pointer !== null) this.pad.release();
     this.stick = [0, 0];
-    this.#changed();
+    this.released?.();
+    this.changed();
   }
 
   #keydown(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return this.release();
     const target = event.target instanceof Element ? event.target : document.body;
-    if (target.closest("input:not([type=range]):not([type=checkbox]), textarea, select")) return;
+    if (target.closest("input:not([type=range]):not([type=checkbox]), textarea, select") || document.querySelector("dialog[open]")) return;
     this.shift = event.shiftKey;
     const key = SHIFTED[event.key] ?? (event.key.length === 1 ? event.key.toLowerCase() : event.key);
-    if (event.key === "Shift") return this.#changed();
+    if (event.key === "Shift") return this.changed();
     const onControl = target.closest("input, button, summary, a");
     if (key.startsWith("Arrow") && onControl?.matches("input[type=range]")) return; // it moves the slider
     if (key === " " && onControl) return; // it presses the button
     if (key in this.moves) {
       event.preventDefault();
-      if (!event.repeat) this.down.set(event.code || key, key), this.#changed();
+      if (!event.repeat) this.down.set(event.code || key, key), this.changed();
     } else if (key in this.factors) {
       const [speed, turn] = this.factors[key];
       this.speed.scale(speed);
       this.turn.scale(turn);
-      this.#changed();
+      this.changed();
     } else if (key === "p") {
       if (!event.repeat) this.pause();
     } else if (key === "k" || key === " ") {
@@ -76,17 +94,16 @@ export class Drive {
 
   #keyup(event) {
     this.shift = event.shiftKey;
-    if (this.down.delete(event.code || event.key.toLowerCase()) || event.key === "Shift") this.#changed();
+    if (this.down.delete(event.code || event.key.toLowerCase()) || event.key === "Shift") this.changed();
     if (event.key === "Meta") this.release(); // macOS swallows the keyups of keys held with it
   }
 
   /** What is held now: x, y, z, turn, each -1..1. */
   axes() {
     const sum = [this.stick[0], this.shift ? this.stick[1] : 0, 0, this.shift ? 0 : this.stick[1]];
-    for (const key of this.down.values()) {
-      const [x, y, z, turn] = this.#direction(key);
-      sum[0] += x, sum[1] += y, sum[2] += z, sum[3] += turn;
-    }
+    const add = (axes) => axes.forEach((value, i) => (sum[i] += value));
+    for (const key of this.down.values()) add(this.#direction(key));
+    for (const axes of this.held.values()) add(axes);
     return sum.map((value) => Math.max(-1, Math.min(1, value)));
   }
 
@@ -97,7 +114,7 @@ export class Drive {
     return strafe && strafe !== move ? strafe : [move[0], move[3], move[2], 0];
   }
 
-  #changed() {
+  changed() {
     const axes = this.axes();
     const moving = axes.some(Boolean);
     if (moving || this.timer !== null) this.#send(axes);
@@ -106,7 +123,7 @@ export class Drive {
   }
 
   #send(axes) {
-    this.send({ axes, speed: this.speed.value, turn: this.turn.value });
+    this.send({ axes, speed: this.speed.value, turn: this.turn.value, robot: this.robot });
   }
 }
 

@@ -1,0 +1,52 @@
+// Time: pause, steps, speed, reset, and the readout of how it stands.
+
+import { fixed, h, icon } from "./dom.js";
+
+const $ = (id) => document.getElementById(id);
+const STEP = "M6 5v14l8-7zM17 5v14";
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10];
+
+export function clock(page) {
+  let me = null;
+  const say = (error) => page.toast(error.message, "error");
+  const steps = h("input", { type: "number", id: "steps", min: 1, max: 10000, value: 1, "aria-label": "Steps", title: "Steps" });
+  const step = h("button", { type: "button", id: "step", title: "Go on by so many steps", "aria-label": "Step", hidden: true }, icon(STEP), h("span", {}, "Step"));
+  const speed = h("select", { id: "factor", "aria-label": "Speed of time", title: "Speed of time" });
+  speed.append(...SPEEDS.map((factor) => h("option", { value: factor, selected: factor === 1 }, `×${factor}`)), h("option", { value: "" }, "max"));
+  steps.hidden = true;
+  $("reset").before(steps, step);
+  $("pause").before(speed);
+  step.addEventListener("click", () => {
+    page.connection.order("step", { steps: Math.max(1, Math.round(steps.valueAsNumber || 1)) }).catch(say);
+  });
+  speed.addEventListener("change", () => {
+    page.connection.order("speed", speed.value ? { factor: Number(speed.value) } : {}).catch(say);
+    speed.blur();
+  });
+  page.on("you", (message) => (me = message.client));
+  page.on("status", (message) => {
+    page.pose = message.robots[page.driven] ?? message.pose;
+    page.status = message;
+    const { x, y, yaw } = page.pose;
+    const quick = page.driven && message.robots[page.driven] ? message.robots[page.driven].speed : message.speed;
+    $("sim-time").textContent = `${message.time.toFixed(message.paused ? 3 : 1)} s`;
+    $("rtf").textContent = message.paused ? "paused" : `×${message.real_time_factor.toFixed(2)}`;
+    $("rtf").title = message.factor === null ? "as fast as it can" : `wanted: ×${message.factor}`;
+    $("position").textContent = `${fixed(x, 2)}, ${fixed(y, 2)} m`;
+    $("heading").textContent = `${fixed((yaw * 180) / Math.PI, 0)}°`;
+    $("velocity").textContent = `${fixed(quick, 2)} m/s`;
+    $("pause").querySelector("span").textContent = message.paused ? "Go on" : "Pause";
+    $("pause").setAttribute("aria-label", message.paused ? "Go on" : "Pause");
+    $("pause").setAttribute("aria-pressed", message.paused);
+    step.hidden = steps.hidden = !message.paused;
+    if (document.activeElement !== speed) speed.value = message.factor ?? "";
+    const other = message.driver !== null && message.driver !== me;
+    document.body.dataset.watching = other;
+    $("driver-other").hidden = !other;
+  });
+  $("reset").addEventListener("click", () => page.send("control", { action: "reset" }));
+  $("pause").addEventListener("click", () => {
+    const paused = $("pause").getAttribute("aria-pressed") === "true";
+    page.send("control", { action: paused ? "play" : "pause" });
+  });
+}
