@@ -158,8 +158,8 @@ def test_while_somebody_drives_nobody_else_changes_anything(client, page, doing,
 def test_too_many_orders_are_refused_not_piled_up(page, doing, text) -> None:
     from urdfkit.view.inbox import MAX_ORDERS
 
-    for number in range(MAX_ORDERS + 5):
-        do(page, number, "count", steps=1)
+    for k in range(MAX_ORDERS + 5):
+        do(page, k, "count", steps=1)
     assert "too much is waiting" in text(page, "answer")["error"]
     assert len(doing.inbox.take().orders) == MAX_ORDERS
 
@@ -180,9 +180,9 @@ def test_what_a_page_wants_it_gets_and_nothing_else(client, page, doing, text, u
     page.send('{"type":"watch","wanted":["sensor:/scan","topics"]}')
     until(lambda: doing.hub.wanted == {"sensor:/scan", "topics"})
     assert doing.hub.takes("sensor:/scan")
-    for number in range(20):
-        doing.sense("sensor:/scan", 0, float(number), 0, b"x" * 12)
-        doing.tell_who_wants("topics", "topics", rows=[number])
+    for k in range(20):
+        doing.sense("sensor:/scan", 0, float(k), 0, b"x" * 12)
+        doing.tell_who_wants("topics", "topics", rows=[k])
         doing.tell_who_wants("secret", "secret")
     doing.tell("status", end=True)
     kinds = []
@@ -206,8 +206,8 @@ def test_what_a_page_wants_it_gets_and_nothing_else(client, page, doing, text, u
 def test_frames_that_were_shown_make_room_for_the_newest(page, doing, until) -> None:
     page.send('{"type":"watch","wanted":["a"]}')
     until(lambda: doing.hub.takes("a"))
-    for number in range(50):
-        doing.sense("a", 0, float(number), 0, b"")
+    for k in range(50):
+        doing.sense("a", 0, float(k), 0, b"")
     seen = []
     while not seen or seen[-1] != 50:
         frame = page.recv()

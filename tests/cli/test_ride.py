@@ -1,0 +1,534 @@
+"""What a page may order of a simulation, done without a page: each order, its answer, and what it changes."""
+
+from __future__ import annotations
+
+import json
+import math
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("meshcat")
+pytest.importorskip("numba")
+
+from urdfkit.cli.sim.ride import loop
+from urdfkit.cli.sim.ride.loop import PARTS, Ride
+from urdfkit.cli.sim.ride.pace import FRAME, Pace
+from urdfkit.cli.sim.ride.part import Part
+from urdfkit.cli.sim.ride.values import as_json, number_at, numbers_in
+from urdfkit.cli.sim.ride.walls import walls
+from urdfkit.errors import SimulationError, UsageError
+from urdfkit.messages import from_fields
+from urdfkit.sim import Simulator
+from urdfkit.view.orders import check
+from urdfkit.view.protocol import Axes, Do
+
+
+class Wall:
+    now = 0.0
+
+    def __call__(self) -> float:
+        return self.now
+
+
+class Page:
+    """A server that keeps what it is told, and one page that wants what a test says."""
+
+    def __init__(self) -> None:
+        from urdfkit.view.driver import Driver
+        from urdfkit.view.inbox import Inbox
+
+        self.inbox, self.driver, self.orders = Inbox(), Driver(), {}
+        self.wanted: set[str] = set()
+        self.hub = SimpleNamespace(takes=lambda key: key in self.wanted, watchers=1)
+        self.said: dict[str, dict[str, Any]] = {}
+        self.streamed: list[dict[str, Any]] = []
+        self.sensed: dict[str, bytes] = {}
+        self.answers: list[tuple[str | None, dict[str, Any]]] = []
+        self.files: dict[str, bytes] = {}
+        self.poses: tuple[float, Any] = (0.0, None)
+        self.geometries = SimpleNamespace(add=lambda mesh: mesh.hash, keep_only=lambda names: None)
+        self.shown: list[list[str]] = []
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "hub.wanted":
+            return self.wanted
+        raise AttributeError(name)
+
+    def send(self, command: Any) -> None:
+        command.lower()
+
+    def show(self, *, nodes: list[str], draw: Any, **_: Any) -> None:
+        draw(self)
+        self.shown.append(nodes)
+
+    def publish(self, t: float, poses: Any) -> None:
+        self.poses = t, poses
+
+    def declare(self, type: str, **values: Any) -> None:
+        json.dumps(values, allow_nan=False)
+        self.said[type] = values
+
+    tell = declare
+
+    def tell_who_wants(self, key: str, type: str, **values: Any) -> None:
+        assert key in self.wanted
+        self.declare(type, **values)
+
+    def stream(self, key: str, type: str, **values: Any) -> None:
+        json.dumps(values, allow_nan=False)
+        self.streamed.append(values)
+
+    def sense(self, key: str, index: int, t: float, kind: int, content: bytes) -> None:
+        self.sensed[key] = content
+
+    def answer(self, order: Any, error: str | None = None, **values: Any) -> None:
+        json.dumps(values, allow_nan=False)
+        self.answers.append((error, values))
+
+    def hand_over(self, order: Any, name: str, content: bytes) -> None:
+        self.files[name] = content
+
+
+@pytest.fixture
+def made():
+    def make(robot: str = "simpleton", **options: Any) -> Ride:
+        wall, page = Wall(), Page()
+        page.hub.wanted = page.wanted
+        ride = Ride(Simulator(robot, note=lambda _: None, **options), page, clock=wall)  # type: ignore[arg-type]
+        ride.wall, ride.page = wall, page  # type: ignore[attr-defined]
+        page.driver._clock = wall
+        ride.pace.begin(0.0)
+        ride.show()
+        return ride
+
+    return make
+
+
+@pytest.fixture
+def ride(made):
+    return made()
+
+
+def spend(ride: Any, seconds: float) -> None:
+    for _ in range(round(seconds / FRAME)):
+        ride.wall.now += FRAME
+        ride.tick()
+
+
+def do(ride: Any, order: str, /, **values: Any) -> dict[str, Any]:
+    """Have something done; return the answer's values, or fail with its reason."""
+    ride.page.inbox.put_order(check(ride.page.orders, 1, Do(1, order, values)))
+    ride.tick()
+    error, found = ride.page.answers.pop()
+    if error is not None:
+        raise SimulationError(error)
+    return found
+
+
+def test_every_part_is_at_work(ride) -> None:
+    def below(kind: type) -> set[type]:
+        return {kind, *(each for one in kind.__subclasses__() for each in below(one))}
+
+    assert below(Part) - {Part} == set(PARTS)
+    assert set(ride.page.orders) == {name for part in ride.parts for name in part.takes}
+
+
+def test_steps_and_speed(ride) -> None:
+    ride.simulator.paused = True
+    assert do(ride, "step", steps=7)["time"] == pytest.approx(0.007)
+    ride.simulator.paused = False
+    with pytest.raises(SimulationError, match="pause it"):
+        do(ride, "step", steps=1)
+    do(ride, "speed", factor=0.25)
+    before = ride.simulator.t
+    spend(ride, 2.0)
+    assert ride.simulator.t - before == pytest.approx(0.5, abs=0.01)
+    assert ride.page.said["status"]["real_time_factor"] == pytest.approx(0.25, abs=0.02)
+    do(ride, "speed", factor=4.0)
+    before = ride.simulator.t
+    spend(ride, 1.0)
+    assert ride.simulator.t - before == pytest.approx(4.0, abs=0.05)
+
+
+def test_as_fast_as_it_can_fills_the_round_and_no_more() -> None:
+    wall = Wall()
+    pace = Pace(0.001, wall)
+    pace.factor = math.inf
+    t = 0.0
+    for _ in range(20):
+        steps = pace.steps(t)
+        pace.took(steps, 2e-6 * steps, t)  # a step takes two microseconds
+        t += steps * 0.001
+    assert steps == pytest.approx(0.75 * FRAME / 2e-6, rel=0.01)
+
+
+def test_topics_rates_and_the_last_message(ride) -> None:
+    ride.page.wanted |= {"topics", "echo:/simpleton/odom"}
+    spend(ride, 4.0)
+    rows = {row[0]: row for row in ride.page.said["topics"]["rows"]}
+    name, kind, count, rate, _ = rows["/simpleton/odom"]
+    assert kind == "nav_msgs/msg/Odometry"
+    assert rate == pytest.approx(ride.simulator.bus.topics[1].count / ride.simulator.t, rel=0.1)
+    assert count > 50
+    assert all("/msg/" in row[1] for row in rows.values())
+    assert ride.page.said["echo"]["message"]["child_frame_id"]
+    with pytest.raises(AssertionError):
+        ride.page.tell_who_wants("other", "x")
+
+
+def test_publishing_by_a_form(ride) -> None:
+    heard: list[Any] = []
+    ride.simulator.subscribe("/simpleton/cmd_vel", "geometry_msgs/msg/Twist", heard.append)
+    form = do(ride, "form", topic="/simpleton/cmd_vel", type="geometry_msgs/Twist")
+    assert form["message"]["linear"] == {"x": 0.0, "y": 0.0, "z": 0.0}
+    form["message"]["linear"]["x"] = 0.25
+    do(ride, "publish", topic="/simpleton/cmd_vel", type="geometry_msgs/msg/Twist", message=form["message"])
+    assert heard[-1].linear.x == 0.25
+    for topic, kind, message, line in (
+        ("/simpleton/cmd_vel", "std_msgs/msg/Bool", {}, "carries geometry_msgs/msg/Twist"),
+        ("/x", "geometry_msgs/msg/Twits", {}, "did you mean"),
+        ("/x", "geometry_msgs/msg/Twist", {"liner": {}}, "did you mean `linear`"),
+        ("/x", "geometry_msgs/msg/Twist", {"linear": {"x": "fast"}}, "float64"),
+        ("/", "geometry_msgs/msg/Twist", {}, "a topic has a name"),
+        ("/gazebo/delete_model", "gazebo_msgs/srv/DeleteModel_Request", {}, "no message type"),
+    ):
+        with pytest.raises(SimulationError, match=line):
+            do(ride, "publish", topic=topic, type=kind, message=message)
+
+
+def test_every_type_that_is_published_has_a_form(made) -> None:
+    ride = made("seven_dof_arm_with_rgbd")
+    ride.simulator.step(100)
+    for topic in ride.simulator.bus.topics:
+        if "/msg/" in topic.type and "image" not in topic.name and "points" not in topic.name:
+            form = do(ride, "form", topic=topic.name, type=topic.type)
+            from_fields(topic.type, form["message"])
+
+
+def test_a_curve_has_every_sample_from_when_it_is_wanted_until_it_is_not(ride) -> None:
+    key = "field:/simpleton/odom:pose.pose.position.x"
+    ride.page.wanted |= {key, "field:/simpleton/odom:pose.q", "field:/nowhere:x"}
+    topic = next(each for each in ride.simulator.bus.topics if each.name == "/simpleton/odom")
+    spend(ride, 0.1)
+    before = topic.count
+    ride.page.streamed.clear()
+    for _ in range(60):
+        ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
+        spend(ride, FRAME)
+    parts = [part for part in ride.page.streamed if part["curve"] == key]
+    t = [each for part in parts for each in part["t"]]
+    values = [each for part in parts for each in part["values"]]
+    assert t == sorted(t)
+    assert len(t) == pytest.approx(topic.count - before, abs=3)
+    assert values[-1] > 0.3
+    assert topic.subscribers
+    ride.page.wanted.clear()
+    spend(ride, 0.2)
+    assert not topic.subscribers
+
+
+def test_a_curve_of_nothing_says_so(ride) -> None:
+    ride.page.wanted |= {"field:/simpleton/odom:pose.pose.psition.x", "field:/nowhere:x"}
+    spend(ride, 0.3)
+    errors = {part["curve"]: part["error"] for part in ride.page.streamed}
+    assert "did you mean `position`" in errors["field:/simpleton/odom:pose.pose.psition.x"]
+    assert errors["field:/nowhere:x"] == "there is no topic /nowhere"
+
+
+def test_numbers_of_messages_by_path() -> None:
+    message = from_fields("sensor_msgs/msg/JointState", {"name": ["a", "b"], "position": [1.0, 2.0]})
+    assert number_at(message, "position[1]") == 2.0
+    assert math.isnan(number_at(message, "position[9]"))
+    assert "position[1]" in list(numbers_in(message))
+    assert "name[0]" not in list(numbers_in(message))
+    for path, line in (("position", "no number"), ("name[0]", "no number"), ("positon[0]", "did you mean"), ("[x]", "no path"), ("header[0]", "no array")):  # fmt: skip
+        with pytest.raises(UsageError, match=line):
+            number_at(message, path)
+
+
+def test_long_messages_are_cut_and_what_is_not_finite_can_be_said() -> None:
+    scan = from_fields("sensor_msgs/msg/LaserScan", {"ranges": [float("inf")] * 1000})
+    shown = as_json(scan)
+    assert shown["ranges"][0] == "inf"
+    assert shown["ranges"][-1] == "… 1000 in all"
+    image = from_fields("sensor_msgs/msg/Image", {"data": [0] * 5000})
+    assert as_json(image)["data"] == "5000 bytes"
+    json.dumps(shown, allow_nan=False)
+
+
+def test_objects_come_move_and_go(ride) -> None:
+    first = len(ride.page.shown[-1])
+    assert do(ride, "spawn", model="crate", pose=[1.0, 2.0, 0.0, 0.5]) == {"name": "crate"}
+    assert do(ride, "spawn", model="crate", pose=[3.0, 2.0, 0.0]) == {"name": "crate_1"}
+    assert len(ride.page.shown[-1]) == first + 2
+    where = do(ride, "where", name="crate")["pose"]
+    assert where == pytest.approx([1.0, 2.0, where[2], 0, 0, 0.5], abs=1e-3)
+    do(ride, "place", name="crate", pose=[-1.0, 0.0, 0.3, 0.0, 0.0, 1.0])
+    assert do(ride, "where", name="crate")["pose"][5] == pytest.approx(1.0, abs=0.01)
+    assert [each["name"] for each in ride.page.said["objects"]["objects"]][0] == "simpleton"
+    shown = len(ride.page.shown)
+    do(ride, "remove", name="crate")
+    assert len(ride.page.shown) == shown + 1
+    for order, values, line in (
+        ("remove", {"name": "simpleton"}, "cannot be removed"),
+        ("remove", {"name": "crait"}, "did you mean"),
+        ("spawn", {"model": "crait"}, "did you mean `crate`"),
+        ("spawn", {"model": "../../etc/passwd"}, "no name of a model"),
+        ("spawn", {"model": "model://crate"}, "no name of a model"),
+        ("spawn", {"model": "/etc"}, "no name of a model"),
+    ):
+        with pytest.raises(SimulationError, match=line):
+            do(ride, order, **values)
+
+
+def test_what_stands_and_is_moved_is_not_drawn_again(ride) -> None:
+    do(ride, "walls", corners=[[2, 0], [4, 0]])
+    shown = len(ride.page.shown)
+    do(ride, "place", name="walls", pose=[0.0, 1.0, 0.0])
+    assert len(ride.page.shown) == shown
+    names = [name.rpartition("%2F")[2] for name in ride.page.shown[-1]]
+    assert ride.page.poses[1][names.index("walls")][1] == pytest.approx(1.0)
+
+
+def test_walls_have_doors_one_can_drive_through(ride) -> None:
+    do(ride, "walls", corners=[[1, -2], [1, 2]], doors=[{"segment": 0, "at": 2.0, "width": 1.0}], height=2.4)
+    for _ in range(300):
+        ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
+        spend(ride, FRAME)
+    assert ride.simulator.state.base_pose[0] > 1.8  # through the door
+    ride._act("reset")
+    do(ride, "place", name="simpleton", pose=[0.0, 1.5, ride.simulator.state.base_pose[2]])
+    for _ in range(300):
+        ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
+        spend(ride, FRAME)
+    assert ride.simulator.state.base_pose[0] < 1.0  # against the wall
+
+
+@pytest.mark.parametrize(
+    ("corners", "doors", "line"),
+    [
+        ([[0, 0], [0, 0]], [], "two corners that are apart"),
+        ([[0, 0], [1, 0]], [{"segment": 1, "at": 0.5, "width": 0.5}], "there are 1"),
+        ([[0, 0], [1, 0]], [{"segment": 0, "at": 0.9, "width": 0.5}], "does not fit"),
+        ([[0, 0], [4, 0]], [{"segment": 0, "at": 1, "width": 1}, {"segment": 0, "at": 1.8, "width": 1}], "overlap"),
+    ],
+)
+def test_walls_that_cannot_be_built(corners: list, doors: list, line: str) -> None:
+    with pytest.raises(SimulationError, match=line):
+        walls("w", corners, doors)
+
+
+def test_the_world_is_saved_as_it_is(ride, tmp_path) -> None:
+    do(ride, "spawn", model="crate", pose=[1.0, 2.0, 0.0])
+    spend(ride, 0.5)
+    assert do(ride, "save", name="my world/..")["bytes"] > 500
+    ((name, content),) = ride.page.files.items()
+    assert name == "my_world___.sdf"
+    (tmp_path / name).write_bytes(content)
+    again = Simulator("simpleton", world=tmp_path / name, note=lambda _: None)
+    assert again.pose("crate")[:2] == pytest.approx((1.0, 2.0), abs=0.01)
+
+
+def test_arms_go_where_their_sliders_are_put(made) -> None:
+    ride = made("rrbot")
+    rows = {row["name"]: row for row in ride.page.said["arms"]["arms"]}
+    name = next(name for name in rows if "joint1" in name)
+    joint = rows[name]["joints"][0]
+    assert rows[name]["of"] == "position"
+    ride.page.wanted.add("arms")
+    do(ride, "arm", controller=name, joint=joint["name"], value=0.5)
+    spend(ride, 4.0)
+    now = ride.page.said["arms_now"]["values"][name][joint["name"]]
+    assert now == pytest.approx(0.5, abs=0.15)  # its PID has no integral: gravity pulls it a little off
+    do(ride, "controller", controller=name, running=False)
+    assert not {row["name"]: row for row in ride.page.said["arms"]["arms"]}[name]["running"]
+    with pytest.raises(SimulationError, match="no joint"):
+        do(ride, "arm", controller=name, joint="nothing", value=0.5)
+
+
+def test_a_trajectory_controller_takes_sliders_too(made) -> None:
+    ride = made("seven_dof_arm")
+    arms = ride.page.said["arms"]["arms"]
+    assert arms
+    for row in arms:
+        joint = row["joints"][0]
+        goal = 0.3 * joint["upper"] + 0.7 * joint["lower"] if row["of"] == "position" else 0.0
+        do(ride, "arm", controller=row["name"], joint=joint["name"], value=goal)
+        if row["of"] == "position":
+            spend(ride, 6.0)
+            assert ride.simulator.state.position(joint["name"]) == pytest.approx(goal, abs=0.1)
+
+
+def test_gravity_mass_friction_and_gains(made) -> None:
+    ride = made("rrbot")
+    do(ride, "gravity", gravity=[0, 0, -1.6])
+    assert ride.page.said["screws"]["gravity"] == [0.0, 0.0, -1.6]
+    row = next(row for row in ride.page.said["screws"]["rows"] if row["mass"] is not None)
+    do(ride, "mass", name=row["name"], link=row["link"], mass=3.5)
+    assert any(each["mass"] == 3.5 for each in ride.page.said["screws"]["rows"])
+    path = ride.page.said["screws"]["gains"][0]["path"]
+    do(ride, "gains", path=path, p=50, i=0, d=1)
+    assert ride.page.said["screws"]["gains"][0]["p"] == 50.0
+    with pytest.raises(SimulationError, match="did you mean|no link"):
+        do(ride, "mass", name=row["name"], link="nothing", mass=1)
+
+
+def test_a_push_lasts_as_long_as_it_is_held(ride) -> None:
+    name = do(ride, "spawn", model="ball", pose=[2.0, 0.0, 3.0])["name"]
+    mass = next(row["mass"] for row in ride.page.said["screws"]["rows"] if row["name"] == name)
+    do(ride, "gravity", gravity=[0, 0, 0])
+    before = ride.simulator.bodies[name].twist[0]
+    centre = list(ride.simulator.bodies[name].body.centre)
+    push = {"link": name, "force": [mass, 0, 0], "torque": [0, 0, 0], "at": centre}
+    do(ride, "push", **push)
+    spend(ride, 1.0)
+    gained = ride.simulator.bodies[name].twist[0] - before
+    assert gained == pytest.approx(0.3, abs=0.005)  # 0.3 s of 1 m/s², then nobody held it any more
+    do(ride, "push", **push)
+    do(ride, "let_go")
+    spend(ride, 0.5)
+    assert ride.simulator.bodies[name].twist[0] - before == pytest.approx(gained, abs=0.06)
+    with pytest.raises(SimulationError, match="did you mean"):
+        do(ride, "push", link="chasis", force=[0, 0, 1], torque=[0, 0, 0], at=[0, 0, 0])
+
+
+def test_forces_and_slip_are_told_while_they_are_wanted(ride) -> None:
+    spend(ride, 0.5)
+    assert not ride.page.sensed
+    ride.page.wanted |= {"contacts", "slip"}
+    spend(ride, 0.5)
+    forces = np.frombuffer(ride.page.sensed["contacts"], "<f4").reshape(-1, 6)
+    assert forces[:, 5].sum() == pytest.approx(1.55 * 9.81, rel=1e-3)
+    assert {link for link, _ in ride.page.said["slip"]["rows"]} == {"left_wheel", "right_wheel", "caster"}
+    ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
+    spend(ride, 0.3)
+    slip = dict(ride.page.said["slip"]["rows"])
+    assert slip["caster"] > 0.1 > 10 * slip["left_wheel"]  # the caster slides, the wheels roll
+
+
+def test_motion_is_recorded_and_shown_again(ride) -> None:
+    with pytest.raises(SimulationError, match="nothing has been recorded"):
+        do(ride, "replay", action="play")
+    do(ride, "record", on=True)
+    begun = ride.simulator.t
+    for _ in range(120):
+        ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0))
+        spend(ride, FRAME)
+    there = float(ride.page.poses[1][0][0])
+    do(ride, "record", on=False)
+    assert ride.page.said["tape"]["frames"] == pytest.approx(120, abs=5)
+    do(ride, "replay", action="show", at=begun)
+    assert ride.page.poses[1][0][0] == pytest.approx(0.0, abs=0.02)
+    now = ride.simulator.t
+    do(ride, "replay", action="play", speed=2.0)
+    spend(ride, 0.5)
+    half = ride.page.poses[1][0][0]
+    assert 0.2 * there < half < 0.8 * there
+    spend(ride, 1.0)
+    assert ride.page.poses[1][0][0] == pytest.approx(there, abs=0.05)
+    assert ride.simulator.t == now  # the simulation waited
+    do(ride, "replay", action="end")
+    spend(ride, 0.1)
+    assert ride.simulator.t > now
+
+
+def test_a_recording_ends_when_something_comes_or_time_begins_anew(ride) -> None:
+    do(ride, "record", on=True)
+    spend(ride, 0.2)
+    do(ride, "spawn", model="crate", pose=[2, 0, 0])
+    assert "something came or went" in ride.page.said["notice"]["text"]
+    with pytest.raises(SimulationError, match="came or went"):
+        do(ride, "replay", action="play")
+    do(ride, "record", on=True)
+    spend(ride, 0.2)
+    ride._act("reset")
+    spend(ride, 0.1)
+    assert "time began anew" in ride.page.said["notice"]["text"]
+
+
+def test_a_tape_has_an_end(ride, monkeypatch) -> None:
+    from urdfkit.cli.sim.ride import tape
+
+    monkeypatch.setattr(tape, "MOST_BYTES", 20_000)
+    do(ride, "record", on=True)
+    spend(ride, 3.0)
+    assert "the tape is full" in ride.page.said["notice"]["text"]
+    assert not ride.page.said["tape"]["recording"]
+
+
+def test_topics_are_recorded_to_a_file_that_the_page_gets(ride, tmp_path, monkeypatch) -> None:
+    from rosbags.rosbag2 import Reader
+
+    do(ride, "record", on=True, topics=True)
+    spend(ride, 0.5)
+    done = do(ride, "record", on=False)
+    (tmp_path / "a.mcap").write_bytes(ride.page.files["simpleton.mcap"])
+    with Reader(tmp_path / "a.mcap") as reader:
+        assert reader.message_count == done["messages"] > 20
+    monkeypatch.chdir(tmp_path)
+    do(ride, "record", on=True, topics=True)
+    spend(ride, 0.2)
+    ride.tape.close()  # as at the end of the program
+    assert (tmp_path / "simpleton.mcap").stat().st_size > 1000
+
+
+def test_several_robots_are_driven_one_at_a_time(ride) -> None:
+    name = do(ride, "spawn", model="mybot", pose=[2.0, 2.0, 0.0, 0.0])["name"]
+    assert {robot["name"] for robot in ride.page.said["teleop"]["robots"]} == {"simpleton", name}
+    before = ride.simulator.pose(name)[0]
+    for _ in range(60):
+        ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0, name))
+        spend(ride, FRAME)
+    assert ride.simulator.pose(name)[0] > before + 0.1
+    assert abs(ride.simulator.state.base_pose[0]) < 0.01
+    ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0))
+    spend(ride, 2.0)
+    assert abs(ride.simulator.robots[name].state.base_velocity[0]) < 0.02  # the other one was told to stop
+    ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0, "nobody"))
+    spend(ride, 0.1)  # harmless
+
+
+def test_random_orders_never_break_the_loop(ride) -> None:
+    import random
+
+    chance = random.Random(11)
+    texts = ["simpleton", "crate", "", "chassis", "nothing", "/x", "/simpleton/odom", "nav_msgs/msg/Odometry", "play"]
+
+    def anything() -> Any:
+        kind = chance.randrange(6)
+        if kind == 0:
+            return chance.choice(texts)
+        if kind == 1:
+            return chance.choice([0, 1, 2, 0.5, -1, 1e5])
+        if kind == 2:
+            return chance.choice([True, False])
+        if kind == 3:
+            return [chance.uniform(-2, 2) for _ in range(chance.choice([2, 3, 7]))]
+        return {} if kind == 4 else [[0, 0], [chance.uniform(-3, 3), 1]]
+
+    from urdfkit.view.protocol import ProtocolError
+
+    done = 0
+    for _ in range(3000):
+        name = chance.choice([each for each in ride.page.orders if each not in ("spawn", "save")])
+        schema = ride.page.orders[name]
+        keys = [*schema.values, *(key for key in schema.optional if chance.random() < 0.3)]
+        try:
+            order = check(ride.page.orders, 1, Do(1, name, {key: anything() for key in keys}))
+        except ProtocolError:
+            continue
+        ride.page.inbox.put_order(order)
+        ride.wall.now += FRAME
+        ride.tick()
+        done += 1
+    assert done > 200
+    assert loop.PARTS
+
+
+def test_a_fault_in_an_order_is_answered_in_a_line(ride) -> None:
+    with pytest.raises(SimulationError) as caught:
+        do(ride, "place", name="nothing", pose=[0, 0, 0])
+    assert "\n" not in str(caught.value)
