@@ -74,24 +74,25 @@ class Painter:
             samples: rays for the colour of each pixel in which something ends; depths and shapes are of one ray.
             deep: whether depths and shapes are wanted; here they come anyway.
         """
-        rgb, depths, hits = self._look(lens.directions, frame, near, far)
+        pixel = 1.0 / lens.focal_length
+        rgb, depths, hits = self._look(lens.directions, frame, near, far, pixel)
         if samples > 1:
-            self._smooth(lens, rgb, hits, samples, lambda rays: self._look(rays, frame, near, far)[0])
+            self._smooth(lens, rgb, hits, samples, lambda rays: self._look(rays, frame, near, far, pixel)[0])
         shape = (lens.height, lens.width)
         seen, depth, known = np.empty_like(rgb), np.empty(len(rgb), dtype=np.float32), np.empty_like(hits)
         seen[lens.order], depth[lens.order], known[lens.order] = rgb, depths, hits
         return Picture(seen.reshape(*shape, 3), depth.reshape(shape), known.reshape(shape))
 
     def _look(
-        self, directions: Array, frame: ArrayLike, near: float, far: float
+        self, directions: Array, frame: ArrayLike, near: float, far: float, pixel: float
     ) -> tuple[NDArray[np.uint8], Array, NDArray[np.int64]]:
-        """Return colours, depths along x and shapes for rays from the camera."""
+        """Return colours, depths along x and shapes for rays from the camera; a pixel is so wide at 1 m."""
         placed, count = np.asarray(frame, dtype=float), len(directions)
         rgb, depths = np.empty((count, 3), dtype=np.uint8), np.empty(count)
         hits = np.empty(count, dtype=np.int64)
         looker()(
             self.table.kernel_scene, self._cover, self._paint, self._lights, self._air,
-            np.concatenate([placed[:3, :3].ravel(), placed[:3, 3]]), directions, float(near),
+            np.concatenate([placed[:3, :3].ravel(), placed[:3, 3], [pixel]]), directions, float(near),
             float(min(far, FAR)), np.empty(SCRATCH), np.empty(DESK), rgb, depths, hits,
         )  # fmt: skip
         return rgb, depths, hits

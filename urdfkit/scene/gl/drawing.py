@@ -91,9 +91,14 @@ class Drawing:
         self.maps: tuple[str, ...] = ()
         self._textures, holed = [], []
         for start, width, height in textures.tolist():
-            content = texels[start : start + 4 * width * height]
-            texture = context.texture((width, height), 4, content.tobytes())
-            texture.filter = context.LINEAR, context.LINEAR
+            texture = context.texture((width, height), 4, texels[start : start + 4 * width * height].tobytes())
+            content, level = texels[start : start + 4 * width * height], 0
+            texture.build_mipmaps()  # makes room for them
+            while width > 1 or height > 1:
+                start += 4 * width * height
+                width, height, level = max(width // 2, 1), max(height // 2, 1), level + 1
+                texture.write(texels[start : start + 4 * width * height].tobytes(), level=level)
+            texture.filter = context.LINEAR_MIPMAP_LINEAR, context.LINEAR
             self._textures.append(texture)
             holed.append(bool((content[3::4] < 255).any()))
         self.batches = [

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from urdfkit.scene.rays.picture import DIRECTIONAL, SPOT
+from urdfkit.scene.rays.skin import FINEST
 
 STILL = ("s",)
 BOTH = ("s", "m")
@@ -49,6 +50,21 @@ class Kind:
         """Whether the colour, too, so that nothing but shadows is left to a pixel."""
         return self.early and self.plain and not self.textured and not self.deep
 
+
+_DYE = f"""in vec2 v_uv; uniform sampler2D u_texture;
+vec4 dyed() {{
+    // What is linear in the picture has exact differences: q, and places on the texture times q.
+    float q = 1.0 / v_point.x; vec2 at = v_uv * q, size = vec2(textureSize(u_texture, 0));
+    vec2 across = (dFdx(at) - v_uv * dFdx(q)) / q, down = (dFdy(at) - v_uv * dFdy(q)) / q;
+    float l = length(across * size), s = length(down * size);
+    if (s > l) {{ float r = l; l = s; s = r; across = down; }}
+    float count = clamp(ceil(l / max(s, 1.0)), 1.0, {FINEST}.0), level = log2(max(l / count, 1.0));
+    vec4 color = vec4(0.0);
+    for (float k = 0.5; k < count; k += 1.0)
+        color += textureLod(u_texture, v_uv + (k / count - 0.5) * across, level);
+    return color / count;
+}}"""
+"""As `scene.rays.skin.dye`."""
 
 _GAIN = """
 float gain{k}(vec3 n, vec3 p) {{ {body} }}"""
@@ -104,7 +120,7 @@ def vertex_shader(kind: Kind) -> str:
     elif colors:
         out.append("out vec3 v_normal;")
         body.append("v_normal = n;")
-    if kind.exact or kind.deep or (colors and not kind.early):
+    if kind.exact or kind.deep or kind.textured or (colors and not kind.early):
         out.append("out vec3 v_point;")
         body.append("v_point = q;")
     if kind.deep:
@@ -146,13 +162,13 @@ def fragment_shader(kind: Kind) -> str:
     """Return the fragment shader."""
     head, body = ["flat in vec4 v_color;" if kind.plain else "in vec4 v_color;"], ["vec4 color = v_color;"]
     if kind.textured:
-        head.append("in vec2 v_uv; uniform sampler2D u_texture;")
-        body.append("color *= texture(u_texture, v_uv);")
+        head.append(_DYE)
+        body.append("color *= dyed();")
     if kind.exact:
         head.append("uniform vec2 u_reach;")
         body.append("float far = length(v_point); if (far < u_reach.x || far > u_reach.y) discard;")
-    if kind.exact or kind.deep or not kind.early:
-        head.append("in vec3 v_point;")
+    if kind.exact or kind.deep or kind.textured or not kind.early:
+        head.insert(0, "in vec3 v_point;")
     if kind.deep:
         head.append("flat in float v_shape; out vec2 o_deep;")
         body.append("if (color.a <= 0.0) discard;\n    o_deep = vec2(v_point.x, v_shape);")

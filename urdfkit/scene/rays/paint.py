@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -28,13 +29,25 @@ def paint_of(table: RayTable) -> tuple[Any, ...]:
     skins = np.zeros((table.triangle_count if worn.any() else 1, SKIN), dtype=np.float32)
     for first, faces, mesh in table.meshes if worn.any() else ():
         skins[first : first + len(faces)] = skins_of(mesh, known)[faces]
-    texels = [texture.pixels.ravel() for _, texture in known.values()]
+    texels = [np.concatenate([level.ravel() for level in copies(texture.pixels)]) for _, texture in known.values()]
     starts = np.cumsum([0, *map(len, texels)])
     textures = np.array(
         [(start, *texture.pixels.shape[1::-1]) for start, (_, texture) in zip(starts, known.values(), strict=False)],
         dtype=np.int64,
     ).reshape(-1, 3)
     return colors, worn, skins, textures, np.concatenate(texels) if texels else np.zeros(4, dtype=np.uint8)
+
+
+def copies(pixels: NDArray[np.uint8]) -> Iterator[NDArray[np.uint8]]:
+    """Yield a texture and its smaller copies, halved until one texel is left; an odd last row or column is dropped."""
+    yield pixels
+    exact: NDArray[Any] = pixels.astype(np.float32)
+    while max(exact.shape[:2]) > 1:
+        for axis in (0, 1):
+            if (half := exact.shape[axis] // 2) > 0:
+                even, odd = (exact.take(np.arange(half) * 2 + k, axis=axis) for k in (0, 1))
+                exact = (even + odd) / 2
+        yield np.rint(exact).astype(np.uint8)
 
 
 def wears(mesh: TriMesh) -> bool:

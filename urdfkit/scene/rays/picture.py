@@ -13,9 +13,9 @@ from typing import Any
 
 from urdfkit.scene.rays.cast import load, walk
 from urdfkit.scene.rays.compilation import compiled
-from urdfkit.scene.rays.normals import normal, outwards, point
+from urdfkit.scene.rays.normals import normal, outwards, point, triangle_normal
 from urdfkit.scene.rays.packet import DX, FAR, HIT, OX, PART, REACH, WIDTH
-from urdfkit.scene.rays.skin import HUE, OPACITY, OWN, SMOOTH, TEXTURE, UV, between, place_in_triangle, texel
+from urdfkit.scene.rays.skin import HUE, OPACITY, OWN, SMOOTH, TEXTURE, UV, between, dye, place_in_triangle
 from urdfkit.scene.rays.solids import STRIDE
 from urdfkit.scene.rays.triangles import CORNERS
 
@@ -32,8 +32,9 @@ they have seen so far (three rows each) …"""
 SHAPE, GAIN, OPAQUE, LEFT, PAST, DEPTH, FIRST = (row * WIDTH for row in range(18, 25))
 """… which shape (-1: none), what of one light gets there, its opacity; how much of a ray goes on behind it, how long
 the ray has been; how far and which shape the first was."""
-DESK = 25 * WIDTH
-"""Numbers that a picture works on besides a packet's."""
+DYE = 25 * WIDTH
+DESK = DYE + 4
+"""Numbers that a picture works on besides a packet's: the last are a colour from a texture."""
 
 LAYERS = 16
 """Transparent surfaces that are seen behind each other."""
@@ -68,10 +69,11 @@ def look(
         cover: as `scene`, but without what casts no shadow: its kind is none.
         paint: colour and opacity of each shape, 0..1, shape (shapes, 4); what it takes from skins, shape (shapes,);
             skins of the triangles, shape (triangles, `SKIN`); where each texture begins, its width and height, shape
-            (textures, 3); texels.
+            (textures, 3); texels, each texture followed by its smaller copies.
         lights: `LIGHT` numbers each; shape (lights, `LIGHT`).
         air: light from everywhere and what is seen where nothing is, 0..1; shape (2, 3).
-        frame: rotation by rows and position of the camera, which looks along x.
+        frame: rotation by rows and position of the camera, which looks along x; and how wide a pixel is at a distance
+            of one [m/m].
         directions: of length 1 in the camera's frame; shape (n, 3).
         near: where rays begin to see [m].
         far: where they end [m].
@@ -93,7 +95,7 @@ def look(
                 desk[TOWARDS + row], desk[BLENT + row] = work[DX + row], 0.0
         walk(work, scene, near)
         for layer in range(LAYERS):
-            take_down(work, scene, paint, air, desk)
+            take_down(work, scene, paint, air, frame, desk)
             for light in range(len(lights)):
                 shine(work, cover, lights, light, desk)
             if not go_on(work, air, frame, desk, far, layer == LAYERS - 1):
@@ -108,7 +110,7 @@ def look(
 
 
 @compiled
-def take_down(work: Any, scene: Any, paint: Any, air: Any, desk: Any) -> None:
+def take_down(work: Any, scene: Any, paint: Any, air: Any, frame: Any, desk: Any) -> None:
     """Note what the packet met, before its rays are used for shadows."""
     shapes, _, _, _, _, _, _, _, corners = scene
     colors, worn, skins, textures, texels = paint
@@ -141,16 +143,56 @@ def take_down(work: Any, scene: Any, paint: Any, air: Any, desk: Any) -> None:
         if worn[shape] & OWN != 0:
             which = int(skins[part, TEXTURE])
             desk[OPAQUE + k] *= skins[part, OPACITY]
-            s, t = between(skins, part, UV, 2, u, v), between(skins, part, UV + 1, 2, u, v)
-            for c in range(4):
-                if which >= 0:
-                    found = texel(texels, textures[which, 0], textures[which, 1], textures[which, 2], s, t, c)
-                    if c == 3:
-                        desk[OPAQUE + k] *= found
-                    else:
-                        desk[COLOR + c * WIDTH + k] = found
-                elif c < 3:
+            if which < 0:
+                for c in range(3):
                     desk[COLOR + c * WIDTH + k] = between(skins, part, HUE + c, 3, u, v)
+                continue
+            s, t = between(skins, part, UV, 2, u, v), between(skins, part, UV + 1, 2, u, v)
+            across = cover(shapes, at, corners, skins, part, frame, desk, k, 1)
+            down = cover(shapes, at, corners, skins, part, frame, desk, k, 2)
+            color = desk[DYE : DYE + 4]
+            dye(texels, textures[which, 0], textures[which, 1], textures[which, 2], s, t, across, down, color)
+            for c in range(3):
+                desk[COLOR + c * WIDTH + k] = color[c]
+            desk[OPAQUE + k] *= color[3]
+
+
+@compiled
+def cover(
+    shapes: Any, at: int, corners: Any, skins: Any, part: int, frame: Any, desk: Any, k: int, axis: int
+) -> tuple[float, float]:
+    """Return how far on its texture the pixel beside (axis 1) or below that of ray `k` meets a plane.
+
+    Where a ray d meets a plane with normal n at the depth z along the camera's axis, the ray of the pixel that is a
+    step e away meets it about z (e - d (n·e) / (n·d)) from there.
+    """
+    nx, ny, nz = triangle_normal(corners, CORNERS * part)
+    nx, ny, nz = outwards(shapes, at, nx, ny, nz)
+    dx, dy, dz = desk[TOWARDS + k], desk[TOWARDS + WIDTH + k], desk[TOWARDS + 2 * WIDTH + k]
+    ahead = dx * frame[0] + dy * frame[3] + dz * frame[6]
+    facing = nx * dx + ny * dy + nz * dz
+    if ahead <= 0.0 or facing == 0.0:
+        return 0.0, 0.0
+    depth, step = desk[PAST + k] * ahead, frame[12]
+    ex, ey, ez = step * frame[axis], step * frame[3 + axis], step * frame[6 + axis]
+    share = (nx * ex + ny * ey + nz * ez) / facing
+    x, y, z = depth * (ex - share * dx), depth * (ey - share * dy), depth * (ez - share * dz)
+    # In the frame of the shape, and as parts of the triangle's second and third corner.
+    px = shapes[at] * x + shapes[at + 3] * y + shapes[at + 6] * z
+    py = shapes[at + 1] * x + shapes[at + 4] * y + shapes[at + 7] * z
+    pz = shapes[at + 2] * x + shapes[at + 5] * y + shapes[at + 8] * z
+    first = CORNERS * part
+    ax, ay, az = corners[first + 3], corners[first + 4], corners[first + 5]
+    bx, by, bz = corners[first + 6], corners[first + 7], corners[first + 8]
+    aa, ab, bb = ax * ax + ay * ay + az * az, ax * bx + ay * by + az * bz, bx * bx + by * by + bz * bz
+    pa, pb = px * ax + py * ay + pz * az, px * bx + py * by + pz * bz
+    under = aa * bb - ab * ab
+    if under <= 0.0:
+        return 0.0, 0.0
+    u, v = (bb * pa - ab * pb) / under, (aa * pb - ab * pa) / under
+    s = u * (skins[part, UV + 2] - skins[part, UV]) + v * (skins[part, UV + 4] - skins[part, UV])
+    t = u * (skins[part, UV + 3] - skins[part, UV + 1]) + v * (skins[part, UV + 5] - skins[part, UV + 1])
+    return s, t
 
 
 @compiled

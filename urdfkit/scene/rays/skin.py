@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import floor
+from math import ceil, floor, hypot, log2
 from typing import Any
 
 from urdfkit.scene.rays.compilation import compiled, inlined
@@ -13,6 +13,9 @@ SKIN = 26
 
 HUE, UV, TEXTURE, OPACITY = 9, 18, 24, 25
 """Where in a skin these begin."""
+
+FINEST = 8
+"""Places on a texture that a pixel takes its colour from, at most (Gazebo classic filters as anisotropically)."""
 
 SMOOTH, OWN = 1, 2
 """What a shape takes from its triangles' skins: normals; colours and textures."""
@@ -63,3 +66,56 @@ def texel(texels: Any, first: int, width: int, height: int, s: float, t: float, 
     c = texels[first + 4 * (y1 * width + x0) + channel]
     d = texels[first + 4 * (y1 * width + x1) + channel]
     return float(((1.0 - fy) * ((1.0 - fx) * a + fx * b) + fy * ((1.0 - fx) * c + fx * d)) / 255.0)
+
+
+@compiled
+def dye(
+    texels: Any,
+    first: int,
+    width: int,
+    height: int,
+    s: float,
+    t: float,
+    across: tuple[float, float],
+    down: tuple[float, float],
+    color: Any,
+) -> None:
+    """Take a colour from what a pixel covers of a texture.
+
+    Source: the OpenGL extension EXT_texture_filter_anisotropic: as many places along the longer side of what is covered
+    as the shorter goes into it, each as blurred as that.
+
+    Args:
+        texels: of all textures, each followed by its smaller copies, halved until one texel is left.
+        first: where this one begins.
+        width: of the texture [px].
+        height: of the texture [px].
+        s: to the right, 0..1.
+        t: upwards, 0..1.
+        across: how far the next pixel beside is on the texture.
+        down: how far the next one below.
+        color: becomes red, green, blue and opacity, 0..1; shape (4,).
+    """
+    long, short = hypot(across[0] * width, across[1] * height), hypot(down[0] * width, down[1] * height)
+    along_s, along_t = across
+    if short > long:
+        long, short = short, long
+        along_s, along_t = down
+    count = int(min(max(ceil(long / max(short, 1.0)), 1.0), FINEST))
+    level, lower = log2(max(long / count, 1.0)), 0
+    while lower + 1 <= level and (width > 1 or height > 1):
+        first += 4 * width * height
+        width, height = max(width // 2, 1), max(height // 2, 1)
+        lower += 1
+    part = level - lower if width > 1 or height > 1 else 0.0
+    after, wide, high = first + 4 * width * height, max(width // 2, 1), max(height // 2, 1)
+    for c in range(4):
+        color[c] = 0.0
+    for k in range(count):
+        shift = (k + 0.5) / count - 0.5
+        u, v = s + shift * along_s, t + shift * along_t
+        for c in range(4):
+            found = texel(texels, first, width, height, u, v, c)
+            if part > 0.0:
+                found += part * (texel(texels, after, wide, high, u, v, c) - found)
+            color[c] += found / count
