@@ -169,7 +169,7 @@ def test_topics_rates_and_the_last_message(ride) -> None:
     ride.page.wanted |= {"topics", "echo:/simpleton/odom"}
     spend(ride, 4.0)
     rows = {row[0]: row for row in ride.page.said["topics"]["rows"]}
-    name, kind, count, rate, _ = rows["/simpleton/odom"]
+    _, kind, count, rate, _ = rows["/simpleton/odom"]
     assert kind == "nav_msgs/msg/Odometry"
     assert rate == pytest.approx(ride.simulator.bus.topics[1].count / ride.simulator.t, rel=0.1)
     assert count > 50
@@ -244,7 +244,13 @@ def test_numbers_of_messages_by_path() -> None:
     assert math.isnan(number_at(message, "position[9]"))
     assert "position[1]" in list(numbers_in(message))
     assert "name[0]" not in list(numbers_in(message))
-    for path, line in (("position", "no number"), ("name[0]", "no number"), ("positon[0]", "did you mean"), ("[x]", "no path"), ("header[0]", "no array")):  # fmt: skip
+    for path, line in (
+        ("position", "no number"),
+        ("name[0]", "no number"),
+        ("positon[0]", "did you mean"),
+        ("[x]", "no path"),
+        ("header[0]", "no array"),
+    ):
         with pytest.raises(UsageError, match=line):
             number_at(message, path)
 
@@ -268,7 +274,7 @@ def test_objects_come_move_and_go(ride) -> None:
     assert where == pytest.approx([1.0, 2.0, where[2], 0, 0, 0.5], abs=1e-3)
     do(ride, "place", name="crate", pose=[-1.0, 0.0, 0.3, 0.0, 0.0, 1.0])
     assert do(ride, "where", name="crate")["pose"][5] == pytest.approx(1.0, abs=0.01)
-    assert [each["name"] for each in ride.page.said["objects"]["objects"]][0] == "simpleton"
+    assert ride.page.said["objects"]["objects"][0]["name"] == "simpleton"
     shown = len(ride.page.shown)
     do(ride, "remove", name="crate")
     assert len(ride.page.shown) == shown + 1
@@ -372,7 +378,7 @@ def test_gravity_mass_friction_and_gains(made) -> None:
     path = ride.page.said["screws"]["gains"][0]["path"]
     do(ride, "gains", path=path, p=50, i=0, d=1)
     assert ride.page.said["screws"]["gains"][0]["p"] == 50.0
-    with pytest.raises(SimulationError, match="did you mean|no link"):
+    with pytest.raises(SimulationError, match="no link `nothing`"):
         do(ride, "mass", name=row["name"], link="nothing", mass=1)
 
 

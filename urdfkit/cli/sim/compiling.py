@@ -1,8 +1,10 @@
-"""What is compiled before a ride begins, told in the terminal and on the page."""
+"""What takes its time before a ride begins, told in the terminal and on the page."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from urdfkit.cli.page import note
@@ -11,6 +13,8 @@ from urdfkit.cli.sim.kernel import SECONDS_RAYS
 if TYPE_CHECKING:
     from urdfkit.view.server import Server
 
+PATIENCE = 1.0
+"""Seconds that something may take without a word."""
 RAYS = f"compiling the ray kernels, some {SECONDS_RAYS} s, once per machine …"
 
 
@@ -44,3 +48,35 @@ def _compile(
 
     warmup(say)
     server.declare("progress", label=None)
+
+
+@contextmanager
+def progress(server: Server, label: str, first: Callable[[], None]) -> Iterator[None]:
+    """Say what is being done in the terminal and on the page, if it takes longer than `PATIENCE`.
+
+    Args:
+        server: the page.
+        label: what is being done.
+        first: called before it is said.
+    """
+    over, said = threading.Lock(), False
+
+    def say() -> None:
+        nonlocal said
+        with over:
+            if not timer.finished.is_set():
+                said = True
+                first()
+                note(label)
+                server.declare("progress", label=label)
+
+    timer = threading.Timer(PATIENCE, say)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+        with over:
+            if said:
+                server.declare("progress", label=None)

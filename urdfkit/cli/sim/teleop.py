@@ -6,7 +6,7 @@ import argparse
 
 from urdfkit.cli.page import Page, add_page_options, note, require_page, until_interrupted
 from urdfkit.cli.parser import add_model
-from urdfkit.cli.sim.compiling import compile_kernel, compile_rays
+from urdfkit.cli.sim.compiling import compile_kernel, compile_rays, progress
 from urdfkit.cli.sim.controllers import add_controllers
 from urdfkit.cli.sim.distro import add_distro
 from urdfkit.cli.sim.recording import add_record, recording
@@ -52,19 +52,22 @@ def run(arguments: argparse.Namespace) -> int:
         page = Page(server, host=arguments.host, browser=not arguments.no_browser)
         try:
             compile_kernel(server, page.open)
-            simulator = Simulator(
-                robot,
-                world=arguments.world,
-                ros_distro=arguments.ros_distro,
-                controllers=arguments.controllers,
-                renderer=arguments.renderer,
-                note=lambda text: note(f"urdfkit: {text}"),
-            )
-            ride = Ride(simulator, server)
+            with progress(server, "loading meshes, building the world …", page.open):
+                simulator = Simulator(
+                    robot,
+                    world=arguments.world,
+                    ros_distro=arguments.ros_distro,
+                    controllers=arguments.controllers,
+                    renderer=arguments.renderer,
+                    note=lambda text: note(f"urdfkit: {text}"),
+                )
+                ride = Ride(simulator, server)
+            with progress(server, "drawing …", page.open):
+                ride.show()
             if ride.sights.find():
                 compile_rays(server, page.open)
-                ride.sights.prepare()
-            ride.show()
+                with progress(server, "building the trees that sensors look through …", page.open):
+                    ride.sights.prepare()
             page.open()
             with recording(simulator, arguments.record) as ride.look:
                 note(KEYS if simulator.command_topics else "this robot has no drive that takes velocity commands")

@@ -1,0 +1,45 @@
+import time
+
+import pytest
+
+pytest.importorskip("meshcat")
+
+from urdfkit.cli.sim import compiling
+from urdfkit.cli.sim.compiling import progress
+
+
+class Page:
+    def __init__(self) -> None:
+        self.said: list[str | None] = []
+
+    def declare(self, type: str, *, label: str | None) -> None:
+        assert type == "progress"
+        self.said.append(label)
+
+
+def test_what_is_quick_is_not_mentioned(capfd) -> None:
+    page, opened = Page(), []
+    with progress(page, "drawing …", lambda: opened.append(1)):  # type: ignore[arg-type]
+        pass
+    assert (page.said, opened, capfd.readouterr().err) == ([], [], "")
+
+
+def test_what_takes_long_is_said_on_the_page_and_in_the_terminal_until_it_is_over(capfd, monkeypatch, until) -> None:
+    monkeypatch.setattr(compiling, "PATIENCE", 0.01)
+    page, opened = Page(), []
+    with progress(page, "drawing …", lambda: opened.append(1)):  # type: ignore[arg-type]
+        until(lambda: page.said)
+    assert page.said == ["drawing …", None]
+    assert opened == [1]
+    assert capfd.readouterr().err == "drawing …\n"
+    time.sleep(0.05)
+    assert page.said == ["drawing …", None]
+
+
+def test_an_error_ends_it_too(monkeypatch, until) -> None:
+    monkeypatch.setattr(compiling, "PATIENCE", 0.01)
+    page = Page()
+    with pytest.raises(ValueError, match="broken"), progress(page, "loading …", lambda: None):  # type: ignore[arg-type]
+        until(lambda: page.said)
+        raise ValueError("broken")
+    assert page.said == ["loading …", None]
