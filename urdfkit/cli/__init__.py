@@ -21,6 +21,7 @@ COMMANDS = {
     "new": "write description, Gazebo, control and bringup packages",
     "lint": "find and mend the defects of a URDF or xacro",
     "rule": "print the page of a lint rule, or the catalogue",
+    "lsp": "serve an editor: diagnostics, hover, definitions, completion, fixes",
     "expand": "xacro to URDF, without ROS installed",
     "info": "links, joints, mass, sensors, drives",
     "inertia": "compute masses and inertia from shapes, beside what is written",

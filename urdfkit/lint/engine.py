@@ -122,11 +122,7 @@ def run(entries: Iterable[Entry], options: Options, *, cached: bool = False, job
         UsageError: a code or the target is not known.
         ResourceError: an entry cannot be read, or a third-party rule cannot be imported.
     """
-    if options.target is not None and options.target not in TARGETS:
-        from urdfkit.errors import UsageError, did_you_mean
-
-        hint = did_you_mean(options.target, TARGETS) or f"; one of {', '.join(TARGETS)}"
-        raise UsageError(f"--target {options.target} is not known{hint}")
+    known_target(options.target)
     entries = list(entries)
     checker = Checker(options, cached=cached)
     found = {entry: known for entry in entries if (known := checker.known(entry)) is not None}
@@ -153,6 +149,20 @@ def _is_in_use(finding: Finding, used: set[str]) -> bool:
     codes = finding.message.split("`")[1::2]
     at = str(finding.span.start)
     return any(place.startswith(f"{at} ") and (not codes or place.split()[-1] in codes) for place in used)
+
+
+def known_target(name: str | None) -> str | None:
+    """Return the name of a target.
+
+    Raises:
+        UsageError: there is none of that name.
+    """
+    if name is not None and name not in TARGETS:
+        from urdfkit.errors import UsageError, did_you_mean
+
+        hint = did_you_mean(name, TARGETS) or f"; one of {', '.join(TARGETS)}"
+        raise UsageError(f"--target {name} is not known{hint}")
+    return name
 
 
 class Sources(dict[str, "Source"]):
@@ -231,6 +241,13 @@ class Checker:
 
     def check(self, entry: Entry) -> Found:
         """Lint one entry file and everything it includes."""
+        found, model = self.examine(entry)
+        if self.cache is not None:
+            self.cache.put(entry, found, model.expanded)
+        return found
+
+    def examine(self, entry: Entry) -> tuple[Found, Model]:
+        """Lint one entry file; return what was found, and the model it was found in."""
         options, note = self.options, ""
         if options.guess_target and options.target is None:
             from urdfkit.lint.target import guess
@@ -257,10 +274,7 @@ class Checker:
             only = {path.resolve() for path in entry.only}
             names = {name for name, path in files.items() if Path(path).resolve() in only}
             findings = [finding for finding in findings if finding.file in names]
-        found = Found(tuple(findings), files, note, used)
-        if self.cache is not None:
-            self.cache.put(entry, found, model.expanded)
-        return found
+        return Found(tuple(findings), files, note, used), model
 
     def _ask_source_rules(self, model: Model) -> Iterator[Finding]:
         sources = model.expanded.sources

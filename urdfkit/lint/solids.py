@@ -55,7 +55,8 @@ class Moments:
             density * value - mass * shift
             for value, shift in zip(self.second, (x * x, x * y, x * z, y * y, y * z, z * z), strict=True)
         )
-        rows: Rows = [[yy + zz, -xy, -xz], [-xy, xx + zz, -yz], [-xz, -yz, xx + yy]]
+        xy, xz, yz = 0.0 - xy, 0.0 - xz, 0.0 - yz  # not -0
+        rows: Rows = [[yy + zz, xy, xz], [xy, xx + zz, yz], [xz, yz, xx + yy]]
         if frame is not IDENTITY:
             rows = [
                 [sum(frame[k][i] * rows[k][n] * frame[n][j] for k in range(3) for n in range(3)) for j in range(3)]

@@ -1,0 +1,312 @@
+"""``urdfkit lsp`` with a client over pipes: what an editor asks, of files as they are typed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+WHEEL = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:property name="radius" value="${0.1 * 2}"/>
+  <xacro:macro name="wheel" params="side y:=0">
+    <link name="${side}_wheel">
+      <inertial>
+        <mass value="2"/>
+        <inertia ixx="0.03" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.04"/>
+      </inertial>
+      <collision><geometry><sphere radius="${radius}"/></geometry></collision>
+    </link>
+    <joint name="${side}_joint" type="continuous">
+      <parent link="base"/>
+      <child link="${side}_wheel"/>
+      <origin xyz="0 ${y} 0"/>
+      <axis xyz="0 1 0"/>
+    </joint>
+  </xacro:macro>
+</robot>
+"""
+
+ROBOT = """<?xml version="1.0"?>
+<!-- 🤖 -->
+<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="wheel.xacro"/>
+  <xacro:arg name="tall" default="true"/>
+  <link name="base"/>
+  <xacro:wheel side="left" y="0.2"/>
+  <xacro:wheel side="right" y="-0.2"/>
+  <link name="mast"/>
+  <joint name="mast_joint" type="fixed">
+    <parent link="base"/>
+    <child link="mast"/>
+  </joint>
+  <gazebo reference="mast"/>
+  <gazebo>
+    <plugin name="drive" filename="libgazebo_ros_diff_drive.so">
+      <leftJoint>left_joint</leftJoint>
+      <rightJoint>right_joint</rightJoint>
+      <wheelSeparation>0.4</wheelSeparation>
+      <wheelDiameter>${2 * radius}</wheelDiameter>
+    </plugin>
+  </gazebo>
+</robot>
+"""
+
+
+@pytest.fixture
+def cart(client):
+    client.close_all()
+    (client.folder / "package.xml").write_text("<package><name>p</name></package>")
+    (client.folder / "cart.urdf.xacro").write_text(ROBOT)
+    (client.folder / "wheel.xacro").write_text(WHEEL)
+    client.open("cart.urdf.xacro")
+    assert client.published("cart.urdf.xacro") == []
+    return client
+
+
+def codes(diagnostics: list[dict[str, Any]]) -> list[str]:
+    return [diagnostic["code"] for diagnostic in diagnostics]
+
+
+def test_what_is_typed_is_linted_before_it_is_saved(cart):
+    cart.change("cart.urdf.xacro", ROBOT.replace('<child link="mast"/>', '<child link="mats"/>'))
+    found = cart.published("cart.urdf.xacro")
+    assert codes(found) == ["T203", "T202"]
+    line = ROBOT[: ROBOT.index('<child link="mast"/>')].count("\n")
+    assert found[1]["range"]["start"] == {"line": line, "character": 11}
+    assert found[1]["severity"] == 1
+    cart.change("cart.urdf.xacro", ROBOT[: ROBOT.index("<gazebo>")])
+    assert codes(cart.published("cart.urdf.xacro")) == ["E001"]
+    cart.change("cart.urdf.xacro", ROBOT)
+    assert cart.published("cart.urdf.xacro") == []
+
+
+def test_an_included_file_counts_as_it_is_typed(cart):
+    cart.open("wheel.xacro")
+    assert cart.published("wheel.xacro") == []
+    cart.change("wheel.xacro", WHEEL.replace('<mass value="2"/>', '<mass value="-2"/>'))
+    (found,) = cart.published("wheel.xacro")
+    assert found["code"] == "I501"
+    assert [place["message"] for place in found["relatedInformation"]] == ["call of macro `wheel`"] * 2
+    assert found["relatedInformation"][0]["location"]["uri"] == cart.uri("cart.urdf.xacro")
+    cart.tell("textDocument/didClose", {"textDocument": {"uri": cart.uri("wheel.xacro")}})
+    assert cart.published("wheel.xacro") == []
+
+
+def hover(cart, name: str, text: str, mark: str) -> str:
+    found = cart.ask("textDocument/hover", cart.at(name, text, mark))
+    return found["contents"]["value"] if found is not None else ""
+
+
+def test_hover_shows_what_an_expression_comes_out_as(cart):
+    text = hover(cart, "cart.urdf.xacro", ROBOT, "${2 * rad|ius}")
+    assert text.startswith("`${radius}` = `0.2`\n\n---\n\n`${2 * radius}` = `0.4`\n")
+    assert hover(cart, "wheel.xacro", WHEEL, 'name="rad|ius"') == "`${radius}` = `0.2`"
+    assert "`${side}_wheel` = `left_wheel`, `right_wheel`" in hover(cart, "wheel.xacro", WHEEL, 'name="${si|de}_wheel"')
+
+
+def test_hover_shows_masses_parameters_and_the_page_of_a_rule(cart):
+    text = hover(cart, "wheel.xacro", WHEEL, '<mas|s value="2"/>')
+    assert "**link `left_wheel`**" in text
+    assert "mass 2 kg" in text
+    assert "principal moments 0.03, 0.03, 0.04 kg·m²" in text
+    assert "tensor 0.032, 0, 0, 0.032, 0, 0.032 kg·m²" in text
+    text = hover(cart, "cart.urdf.xacro", ROBOT, "<wheelSep|aration>")
+    assert "`<wheelSeparation>` of diff_drive (ros1): wheel separation [m], default" in text
+    bad = ROBOT.replace('type="fixed"', 'type="hinge"')
+    cart.change("cart.urdf.xacro", bad)
+    assert "# joint-type-unknown (J402)" in hover(cart, "cart.urdf.xacro", bad, 'type="hi|nge"')
+    assert hover(cart, "cart.urdf.xacro", bad, "<ro|bot name") == ""
+
+
+def places(found: list[dict[str, Any]]) -> list[tuple[str, int]]:
+    return sorted((place["uri"].rpartition("/")[2], place["range"]["start"]["line"] + 1) for place in found)
+
+
+def line_of(text: str, part: str) -> int:
+    return text[: text.index(part)].count("\n") + 1
+
+
+@pytest.mark.parametrize(
+    ("mark", "file", "part"),
+    [
+        ('<child link="ma|st"/>', "cart.urdf.xacro", '<link name="mast"/>'),
+        ('reference="m|ast"', "cart.urdf.xacro", '<link name="mast"/>'),
+        ("<leftJoint>left|_joint<", "wheel.xacro", "<joint name"),
+        ("<xacro:wh|eel side", "wheel.xacro", "<xacro:macro"),
+        ("${2 * rad|ius}", "wheel.xacro", "<xacro:property"),
+        ('filename="whe|el.xacro"', "wheel.xacro", "<robot"),
+    ],
+)
+def test_definitions(cart, mark, file, part):
+    found = cart.ask("textDocument/definition", cart.at("cart.urdf.xacro", ROBOT, mark))
+    assert places(found) == [(file, line_of({"wheel.xacro": WHEEL, "cart.urdf.xacro": ROBOT}[file], part))]
+
+
+def test_the_parameter_of_a_macro_is_defined_in_its_head(cart):
+    (found,) = cart.ask("textDocument/definition", cart.at("wheel.xacro", WHEEL, '"0 ${|y} 0"'))
+    assert found["range"]["start"] == {"line": 2, "character": WHEEL.splitlines()[2].index("y:=0")}
+
+
+def test_references_are_found_across_files_and_expansions(cart):
+    def references(file: str, text: str, mark: str, *, own: bool = True) -> list[tuple[str, int]]:
+        at = cart.at(file, text, mark)
+        return places(cart.ask("textDocument/references", {**at, "context": {"includeDeclaration": own}}))
+
+    assert references("wheel.xacro", WHEEL, '<parent link="ba|se"/>') == [
+        ("cart.urdf.xacro", line_of(ROBOT, '<link name="base"/>')),
+        ("cart.urdf.xacro", line_of(ROBOT, '<parent link="base"/>')),
+        ("wheel.xacro", line_of(WHEEL, '<parent link="base"/>')),
+    ]
+    assert references("cart.urdf.xacro", ROBOT, "<xacro:whe|el side", own=False) == [
+        ("cart.urdf.xacro", line_of(ROBOT, '<xacro:wheel side="left"')),
+        ("cart.urdf.xacro", line_of(ROBOT, '<xacro:wheel side="right"')),
+    ]
+    assert ("cart.urdf.xacro", line_of(ROBOT, "<wheelDiameter>")) in references("wheel.xacro", WHEEL, "{rad|ius}")
+
+
+def applied(text: str, edits: list[dict[str, Any]]) -> str:
+    lines = text.splitlines(keepends=True)
+
+    def offset(position: dict[str, int]) -> int:
+        return sum(map(len, lines[: position["line"]])) + position["character"]
+
+    for edit in sorted(edits, key=lambda e: offset(e["range"]["start"]), reverse=True):
+        start, end = offset(edit["range"]["start"]), offset(edit["range"]["end"])
+        text = text[:start] + edit["newText"] + text[end:]
+    return text
+
+
+@pytest.mark.parametrize(
+    ("mark", "name", "words"),
+    [
+        ('<link name="ma|st"/>', "pole", ("mast", "pole")),
+        ("<xacro:whe|el side", "roller", ("xacro:wheel", "xacro:roller")),
+        ("${2 * rad|ius}", "half", (None, None)),
+        ('<parent link="ba|se"/>', "body", ('"base"', '"body"')),
+    ],
+)
+def test_renaming_changes_every_place_and_nothing_else(cart, mark, name, words):
+    at = cart.at("cart.urdf.xacro", ROBOT, mark)
+    assert cart.ask("textDocument/prepareRename", at) is not None
+    changes = cart.ask("textDocument/rename", {**at, "newName": name})["changes"]
+    robot = applied(ROBOT, changes.get(cart.uri("cart.urdf.xacro"), []))
+    wheel = applied(WHEEL, changes.get(cart.uri("wheel.xacro"), []))
+    old, new = words
+    if name == "half":
+        assert wheel == WHEEL.replace('name="radius"', 'name="half"').replace("${radius}", "${half}")
+        assert robot == ROBOT.replace("2 * radius", "2 * half")
+    elif name == "pole":
+        assert robot == ROBOT.replace('"mast"', '"pole"')
+        assert wheel == WHEEL
+    elif name == "roller":
+        assert robot == ROBOT.replace(old, new)
+        assert wheel == WHEEL.replace('name="wheel"', 'name="roller"')
+    else:
+        assert (robot, wheel) == (ROBOT.replace(old, new), WHEEL.replace(old, new))
+
+
+@pytest.mark.parametrize(
+    ("file", "mark", "name", "message"),
+    [
+        ("cart.urdf.xacro", "<leftJoint>left|_joint<", "l", "made by the expression `${side}_joint`"),
+        ("cart.urdf.xacro", '<link name="ma|st"/>', "base", "there is a link `base` already"),
+        ("cart.urdf.xacro", '<link name="ma|st"/>', 'a"b', "is no name for a link"),
+        ("cart.urdf.xacro", "<?xml ver|sion", "x", "nothing here can be renamed"),
+        ("wheel.xacro", '"0 ${|y} 0"', "z", "is the parameter of a macro"),
+    ],
+)
+def test_what_cannot_be_renamed_is_refused(cart, file, mark, name, message):
+    at = cart.at(file, {"wheel.xacro": WHEEL, "cart.urdf.xacro": ROBOT}[file], mark)
+    with pytest.raises(AssertionError) as caught:
+        cart.ask("textDocument/rename", {**at, "newName": name})
+    assert message in str(caught.value)
+
+
+def labels(cart, text: str, mark: str) -> list[str]:
+    cart.change("cart.urdf.xacro", text)
+    return [item["label"] for item in cart.ask("textDocument/completion", cart.at("cart.urdf.xacro", text, mark))]
+
+
+@pytest.mark.parametrize(
+    ("typed", "mark", "some", "none"),
+    [
+        ("<lin", "<lin|", {"link", "joint", "xacro:property", "xacro:wheel"}, {"visual"}),
+        ('<link name="x"><v', "<v|", {"visual", "inertial"}, {"link"}),
+        ('<joint name="x" ty', 'name="x" ty|', {"type"}, {"name"}),
+        ('<joint name="x" type="', '"x" type="|', {"fixed", "continuous"}, {"base"}),
+        ('<joint name="x"><child link="m', '<child link="m|', {"mast", "left_wheel"}, {"mast_joint"}),
+        ('<joint name="x"><mimic joint="', '<mimic joint="|', {"left_joint", "mast_joint"}, {"mast"}),
+        ("<xacro:wheel ", "<xacro:wheel |\n", {"side", "y"}, {"name"}),
+        ('<link name="${ra', '"${ra|', {"radius"}, {"link"}),
+        ('<link name="$(arg ', "$(arg |", {"tall"}, set()),
+        ('<xacro:include filename="', '<xacro:include filename="|\n', {"wheel.xacro"}, {"package.xml"}),
+        (
+            '<gazebo><plugin name="p" filename="libgazebo_ros_diff_drive.so"><wheel',
+            'so"><wheel|',
+            {"wheelSeparation"},
+            {"link"},
+        ),
+        (
+            '<gazebo><plugin name="p" filename="libgazebo_ros_diff_drive.so"><leftJoint></leftJoint>',
+            'so"><leftJoint>|<',
+            {"left_joint"},
+            {"mast"},
+        ),
+    ],
+)
+def test_completion(cart, typed, mark, some, none):
+    text = ROBOT.replace("  <gazebo reference", f"  {typed}\n  <gazebo reference")
+    found = labels(cart, text, mark)
+    assert some <= set(found)
+    assert not none & set(found)
+
+
+def test_what_is_completed_replaces_what_was_typed(cart):
+    text = ROBOT.replace("  <gazebo reference", '  <joint name="x"><child link="ma\n  <gazebo reference')
+    cart.change("cart.urdf.xacro", text)
+    at = cart.at("cart.urdf.xacro", text, 'link="ma|\n')
+    items = {item["label"]: item for item in cart.ask("textDocument/completion", at)}
+    assert applied(text, [items["mast"]["textEdit"]]) == text.replace('link="ma\n', 'link="mast\n')
+
+
+def test_fixes_are_quick(cart):
+    text = ROBOT.replace('<xacro:wheel side="left"', '<wheel side="left"')
+    cart.change("cart.urdf.xacro", text)
+    found = cart.published("cart.urdf.xacro")[0]
+    asked = {
+        "textDocument": {"uri": cart.uri("cart.urdf.xacro")},
+        "range": found["range"],
+        "context": {"diagnostics": []},
+    }
+    (action,) = cart.ask("textDocument/codeAction", asked)
+    assert (action["title"], action["isPreferred"], action["kind"]) == ("Write `xacro:wheel` [X102]", True, "quickfix")
+    assert applied(text, action["edit"]["changes"][cart.uri("cart.urdf.xacro")]) == ROBOT
+
+
+def test_a_file_that_is_no_robot_and_one_that_was_never_saved_do_no_harm(cart):
+    (cart.folder / "world.xacro").write_text("<sdf/>")
+    cart.open("world.xacro")
+    assert cart.published("world.xacro") == []
+    cart.tell(
+        "textDocument/didOpen",
+        {"textDocument": {"uri": "untitled:1", "languageId": "xml", "version": 1, "text": "<robot"}},
+    )
+    at = {"textDocument": {"uri": "untitled:1"}, "position": {"line": 0, "character": 2}}
+    assert cart.ask("textDocument/hover", at) is None
+    assert cart.ask("textDocument/completion", at) == []
+
+
+def test_a_target_that_is_none():
+    from urdfkit.cli import main
+
+    assert main(["lsp", "--target", "gazebo"]) == 2
+
+
+def test_without_pygls_it_says_what_to_install(monkeypatch, capsys):
+    import sys
+
+    from urdfkit.cli import main
+
+    monkeypatch.setitem(sys.modules, "pygls.lsp.server", None)
+    assert main(["lsp"]) == 2
+    assert capsys.readouterr().err == "urdfkit: lsp needs pygls: pip install 'urdfkit[lsp]'\n"

@@ -1,0 +1,122 @@
+"""``urdfkit lsp``: a language server for URDF and xacro, on standard input and output."""
+
+from __future__ import annotations
+
+import argparse
+import gc
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from urdfkit.errors import MissingDependencyError
+
+if TYPE_CHECKING:
+    from pygls.lsp.server import LanguageServer
+
+    from urdfkit.lint.engine import Options
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments."""
+    parser.epilog = "examples:\n  urdfkit lsp\n  urdfkit lsp --target ros2"
+    parser.add_argument("--target", metavar="NAME", help="as for urdfkit lint (default: guessed from package.xml)")
+    parser.add_argument(
+        "--package-path", action="append", default=[], metavar="DIR", help="look for packages here too (repeatable)"
+    )
+    parser.add_argument("--stdio", action="store_true", help="speak on standard input and output, as it does anyway")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Serve until the editor ends it.
+
+    Raises:
+        MissingDependencyError: pygls is not installed.
+        UsageError: there is no such target, or a setting makes no sense.
+    """
+    try:
+        import pygls.lsp.server  # noqa: F401
+    except ImportError as error:
+        raise MissingDependencyError("lsp needs pygls: pip install 'urdfkit[lsp]'") from error
+    gc.set_threshold(200_000)  # trees come and go whole; looking for cycles in them takes longer than to make them
+    server_for(_options(arguments)).start_io()
+    return 0
+
+
+def _options(arguments: argparse.Namespace) -> Options:
+    from urdfkit.lint.engine import Options, known_target
+    from urdfkit.lint.settings import find
+
+    settings = find(Path.cwd())
+    target = arguments.target or settings.target
+    named = None if target == "any" else known_target(target)
+    folders = (*map(Path, arguments.package_path), *settings.package_path)
+    return Options(settings.select, settings.ignore, named, settings.arguments, folders, guess_target=target is None)
+
+
+def server_for(options: Options) -> LanguageServer:
+    """Return the server, ready to be started."""
+    from lsprotocol import types
+    from pygls.lsp.server import LanguageServer
+
+    from urdfkit import __version__
+    from urdfkit.cli.lsp.session import Session
+    from urdfkit.lint.editor.project import Project
+
+    server = LanguageServer("urdfkit", __version__, text_document_sync_kind=types.TextDocumentSyncKind.Incremental)
+    session = Session(server, Project(options))
+
+    @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
+    def opened(params: types.DidOpenTextDocumentParams) -> None:
+        session.changed(params.text_document.uri)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_CHANGE)
+    def changed(params: types.DidChangeTextDocumentParams) -> None:
+        session.changed(params.text_document.uri)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_SAVE)
+    def saved(params: types.DidSaveTextDocumentParams) -> None:
+        session.project.forget()
+        session.changed(params.text_document.uri)
+
+    @server.feature(types.TEXT_DOCUMENT_DID_CLOSE)
+    def closed(params: types.DidCloseTextDocumentParams) -> None:
+        session.closed(params.text_document.uri)
+
+    @server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
+    def watched(_: types.DidChangeWatchedFilesParams) -> None:
+        session.project.forget()
+        session.publish_all()
+
+    @server.feature(types.TEXT_DOCUMENT_HOVER)
+    def hover(params: types.HoverParams) -> types.Hover | None:
+        return session.hover(params.text_document.uri, params.position)
+
+    @server.feature(types.TEXT_DOCUMENT_DEFINITION)
+    def definition(params: types.DefinitionParams) -> list[types.Location]:
+        return session.definition(params.text_document.uri, params.position)
+
+    @server.feature(types.TEXT_DOCUMENT_REFERENCES)
+    def references(params: types.ReferenceParams) -> list[types.Location]:
+        own = params.context.include_declaration
+        return session.references(params.text_document.uri, params.position, with_definition=own)
+
+    @server.feature(types.TEXT_DOCUMENT_PREPARE_RENAME)
+    def prepare_rename(params: types.PrepareRenameParams) -> types.Range | None:
+        return session.renamable(params.text_document.uri, params.position)
+
+    @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
+    def rename(params: types.RenameParams) -> types.WorkspaceEdit:
+        return session.rename(params.text_document.uri, params.position, params.new_name)
+
+    @server.feature(
+        types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=["<", '"', "'", " ", "{", "/", ":"])
+    )
+    def completion(params: types.CompletionParams) -> list[types.CompletionItem]:
+        return session.completion(params.text_document.uri, params.position)
+
+    @server.feature(
+        types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(code_action_kinds=[types.CodeActionKind.QuickFix])
+    )
+    def actions(params: types.CodeActionParams) -> list[types.CodeAction]:
+        return session.actions(params.text_document.uri, params.range)
+
+    return server

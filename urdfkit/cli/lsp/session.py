@@ -1,0 +1,235 @@
+"""Session: what an editor asks, answered from a project."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lsprotocol import types
+
+from urdfkit.cli.lsp.protocol import diagnostic, offset_of, path_of, position_of, range_of
+from urdfkit.description.reading import read_source, shown_path
+from urdfkit.errors import UrdfkitError
+
+if TYPE_CHECKING:
+    from pygls.lsp.server import LanguageServer
+
+    from urdfkit.description.source import Source, Span
+    from urdfkit.lint.editor.cursor import Cursor
+    from urdfkit.lint.editor.project import Analysis, Project
+    from urdfkit.lint.finding import Edit
+
+PAUSE = 0.02
+"""Seconds that texts rest before they are looked at: keys that follow each other closely count once."""
+
+_KINDS = {
+    "element": types.CompletionItemKind.Class,
+    "attribute": types.CompletionItemKind.Property,
+    "name": types.CompletionItemKind.Reference,
+    "value": types.CompletionItemKind.EnumMember,
+    "file": types.CompletionItemKind.File,
+    "parameter": types.CompletionItemKind.Field,
+}
+
+
+class Session:
+    """What an editor asks, in its own words: URIs, lines from 0, columns in UTF-16.
+
+    Args:
+        server: what speaks to the editor.
+        project: what is known of its files.
+    """
+
+    def __init__(self, server: LanguageServer, project: Project) -> None:
+        self.server, self.project = server, project
+        self._waiting: dict[str, asyncio.TimerHandle] = {}
+        self._published: set[str] = set()
+
+    def changed(self, uri: str) -> None:
+        """Take the text of a document; publish what is found once it rests."""
+        path = path_of(uri)
+        if path is None:
+            return
+        self.project.set_text(path, self.server.workspace.get_text_document(uri).source)
+        if uri in self._waiting:
+            self._waiting[uri].cancel()
+        self._waiting[uri] = asyncio.get_running_loop().call_later(PAUSE, self._publish, uri)
+
+    def closed(self, uri: str) -> None:
+        """Let the file on disk count again."""
+        path = path_of(uri)
+        if (timer := self._waiting.pop(uri, None)) is not None:
+            timer.cancel()
+        if path is not None:
+            self.project.set_text(path, None)
+            self._show(uri, [])
+            self.publish_all()
+
+    def publish_all(self) -> None:
+        """Publish what is found in every open document."""
+        for text in list(self.project.texts):
+            self._publish(Path(text).as_uri())
+
+    def _publish(self, uri: str) -> None:
+        self._waiting.pop(uri, None)
+        path = path_of(uri)
+        if path is None or str(path) not in self.project.texts:
+            return
+        for file, findings in self.project.findings(path).items():
+            its = uri if file == path else file.as_uri()
+            source = self._source(file)
+            self._show(its, [diagnostic(finding, source) for finding in findings if finding.file == source.file])
+
+    def _show(self, uri: str, diagnostics: list[types.Diagnostic]) -> None:
+        if diagnostics or uri in self._published:
+            self._published.add(uri)
+            self.server.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, diagnostics))
+        elif path_of(uri) is not None and str(path_of(uri)) in self.project.texts:
+            self.server.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
+
+    def _source(self, file: Path) -> Source:
+        return read_source(file, shown_as=shown_path(file), texts=self.project.texts)
+
+    def _at(self, uri: str, position: types.Position) -> tuple[list[Analysis], Cursor, Path] | None:
+        from urdfkit.lint.editor.cursor import Cursor
+
+        path = path_of(uri)
+        if path is None:
+            return None
+        self.project.set_text(path, self.server.workspace.get_text_document(uri).source)
+        analyses = [analysis for analysis in self.project.analyses(path) if analysis.model is not None]
+        for analysis in analyses:
+            assert analysis.model is not None
+            document = analysis.model.document(shown_path(path))
+            if document.source.text or len(analyses) == 1:
+                return analyses, Cursor(document, offset_of(document.source, position)), path
+        return None
+
+    def hover(self, uri: str, position: types.Position) -> types.Hover | None:
+        """Say what there is to say about a place."""
+        from urdfkit.lint.editor.hover import hover
+
+        found = self._at(uri, position)
+        if found is None:
+            return None
+        analyses, cursor, path = found
+        model = analyses[0].model
+        assert model is not None
+        findings = self.project.findings(path)[path]
+        entry = model.expanded.path
+        pieces = hover(model, cursor, findings, lambda at, text: self.project.probe(entry, path, at, text))
+        if not pieces:
+            return None
+        return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, "\n\n---\n\n".join(pieces)))
+
+    def definition(self, uri: str, position: types.Position) -> list[types.Location]:
+        """Return where what is under the cursor is defined, or the file it names."""
+        from urdfkit.lint.editor.navigate import definitions, file_at
+
+        found = self._at(uri, position)
+        if found is None:
+            return []
+        spans: dict[Span, None] = {}
+        for analysis in found[0]:
+            model = analysis.model
+            assert model is not None
+            if (file := file_at(model, found[1])) is not None:
+                start = types.Position(0, 0)
+                return [types.Location(file.as_uri(), types.Range(start, start))]
+            spans.update(dict.fromkeys(definitions(model, found[1])))
+        return self._locations(spans)
+
+    def references(self, uri: str, position: types.Position, *, with_definition: bool) -> list[types.Location]:
+        """Return every place that names what is under the cursor."""
+        from urdfkit.lint.editor.navigate import references
+
+        found = self._at(uri, position)
+        if found is None:
+            return []
+        models = [analysis.model for analysis in found[0] if analysis.model is not None]
+        return self._locations(references(models, found[1], with_definition=with_definition))
+
+    def renamable(self, uri: str, position: types.Position) -> types.Range | None:
+        """Return the name under the cursor that can be changed."""
+        from urdfkit.lint.editor.navigate import renamable
+
+        found = self._at(uri, position)
+        model = found[0][0].model if found is not None else None
+        one = renamable(model, found[1]) if found is not None and model is not None else None
+        return range_of(found[1].document.source, one.span) if found is not None and one is not None else None
+
+    def rename(self, uri: str, position: types.Position, name: str) -> types.WorkspaceEdit:
+        """Return the edits that call what is under the cursor something else."""
+        from pygls.exceptions import JsonRpcInvalidParams
+
+        from urdfkit.lint.editor.navigate import rename
+
+        found = self._at(uri, position)
+        models = [analysis.model for analysis in found[0] if analysis.model is not None] if found is not None else []
+        if found is None or not models:
+            raise JsonRpcInvalidParams("there is no model to rename in")
+        try:
+            return self._edit(rename(models, found[1], name))
+        except UrdfkitError as error:
+            raise JsonRpcInvalidParams(str(error)) from None
+
+    def completion(self, uri: str, position: types.Position) -> list[types.CompletionItem]:
+        """Return what fits at a place."""
+        from urdfkit.lint.editor.complete import fits
+
+        found = self._at(uri, position)
+        model = found[0][0].known if found is not None else None
+        if found is None or model is None:
+            return []
+        cursor = found[1]
+        items: dict[tuple[str, str], types.CompletionItem] = {}
+        for fit in fits(model, cursor):
+            start = position_of(cursor.document.source, cursor.offset - fit.typed)
+            edit = types.TextEdit(types.Range(start, position), fit.label)
+            items.setdefault(
+                (fit.label, fit.detail),
+                types.CompletionItem(fit.label, kind=_KINDS[fit.kind], detail=fit.detail or None, text_edit=edit),
+            )
+        return list(items.values())
+
+    def actions(self, uri: str, within: types.Range) -> list[types.CodeAction]:
+        """Return the fixes of what is found in a range."""
+        path = path_of(uri)
+        if path is None:
+            return []
+        self.project.set_text(path, self.server.workspace.get_text_document(uri).source)
+        source = self._source(path)
+        found = []
+        for finding in self.project.findings(path)[path]:
+            shown = diagnostic(finding, source)
+            span = shown.range
+            if finding.fix is None or span.end < within.start or within.end < span.start:
+                continue
+            guess = "" if finding.fix.safety == "safe" else " (a guess)"
+            found.append(
+                types.CodeAction(
+                    f"{finding.fix.title}{guess} [{finding.code}]",
+                    kind=types.CodeActionKind.QuickFix,
+                    diagnostics=[shown],
+                    is_preferred=finding.fix.safety == "safe",
+                    edit=self._edit(finding.fix.edits),
+                )
+            )
+        return found
+
+    def _locations(self, spans: Iterable[Span]) -> list[types.Location]:
+        found = []
+        for span in spans:
+            file = Path.cwd() / span.file
+            found.append(types.Location(file.as_uri(), range_of(self._source(file), span)))
+        return found
+
+    def _edit(self, edits: Iterable[Edit]) -> types.WorkspaceEdit:
+        changes: dict[str, list[Any]] = {}
+        for edit in edits:
+            file = Path.cwd() / edit.span.file
+            change = types.TextEdit(range_of(self._source(file), edit.span), edit.text)
+            changes.setdefault(file.as_uri(), []).append(change)
+        return types.WorkspaceEdit(changes=changes)

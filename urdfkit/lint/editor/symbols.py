@@ -1,0 +1,173 @@
+"""Symbols: what in the files of a model has a name, where it is defined and where it is used.
+
+Links, joints and materials are known after expansion: a name made of ``${prefix}_wheel`` leads to the line in the
+macro. Macros, properties and arguments are known as they are written.
+"""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.description.source import Position, Span
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.element import Element
+    from urdfkit.lint.model import Model
+    from urdfkit.lint.syntax import Document, Tag
+
+EXPANDED = ("link", "joint", "material")
+"""Kinds of symbols that are known after expansion."""
+
+REFERENCES = {
+    ("parent", "link"): "link",
+    ("child", "link"): "link",
+    ("mimic", "joint"): "joint",
+    ("gazebo", "reference"): "part",
+    ("joint", "name"): "joint",
+    ("material", "name"): "material",
+}
+"""Element and attribute → what it names; ``part`` is a link or a joint."""
+
+
+@record
+class Occurrence:
+    """One place that names something.
+
+    Attributes:
+        kind: ``link``, ``joint``, ``material``, ``macro``, ``property``, ``argument`` or ``file``.
+        name: what it is called, after expansion where that changes it.
+        span: the name as written, or the expression that makes it.
+        defines: whether it is the definition.
+        written: what is written there.
+    """
+
+    kind: str
+    name: str
+    span: Span
+    defines: bool
+    written: str
+
+
+def of_model(model: Model) -> list[Occurrence]:
+    """Return every occurrence in the files of a model."""
+    found = dict.fromkeys(_expanded(model))
+    macros = set(model.expanded.macros)
+    for file in model.expanded.sources:
+        found.update(dict.fromkeys(_written(model.document(file), macros)))
+    return list(found)
+
+
+def _expanded(model: Model) -> Iterator[Occurrence]:
+    root = model.expanded.root
+    if root is None:
+        return
+    robot = model.robot
+    pending: list[tuple[Element, bool]] = [(child, True) for child in root.children]
+    while pending:
+        element, is_top = pending.pop()
+        is_visual = element.tag in ("link", "visual")
+        pending += [(child, False) for child in element.children] if element.children else []
+        name = element.get("name")
+        if is_top and element.tag in ("link", "joint") and name:
+            yield from _at(model, element, "name", element.tag, name, defines=True)
+            continue
+        if element.tag == "material" and name and (is_top or not is_visual):
+            defines = any(child.tag in ("color", "texture") for child in element.children)
+            yield from _at(model, element, "name", "material", name, defines=defines)
+            continue
+        for (tag, attribute), kind in REFERENCES.items():
+            value = element.get(attribute) if element.tag == tag and tag != "material" else None
+            if value:
+                known = "joint" if kind == "part" and value not in robot.link_by_name else kind
+                yield from _at(model, element, attribute, "link" if known == "part" else known, value)
+    if robot.gazebo:
+        from urdfkit.lint.gazebo import references
+
+        for text, element, parameter, _ in references(model, ("joint", "link", "frame")):
+            kind = "joint" if parameter.names == "joint" else "link"
+            yield from _text(model, element, kind, text)
+
+
+def _at(
+    model: Model, element: Element, attribute: str, kind: str, name: str, *, defines: bool = False
+) -> Iterator[Occurrence]:
+    position = element.origin.position
+    tag = model.tag(position)
+    written = tag.attributes.get(attribute) if tag is not None else None
+    if written is not None:
+        span = model.document(position.file).source.span(written.value_start, written.value_end)
+        yield Occurrence(kind, name, span, defines, written.value)
+
+
+def _text(model: Model, element: Element, kind: str, name: str) -> Iterator[Occurrence]:
+    position = element.origin.position
+    tag = model.tag(position)
+    if tag is None or tag.close is None or tag.children:
+        return
+    source = model.document(position.file).source
+    text = source.text[tag.end : tag.close]
+    start = tag.end + (text.find(name) if name in text else len(text) - len(text.lstrip()))
+    end = start + (len(name) if name in text else len(text.strip()))
+    yield Occurrence(kind, name, source.span(start, end), False, source.text[start:end])
+
+
+def _written(document: Document, macros: set[str]) -> Iterator[Occurrence]:
+    source = document.source
+
+    def occurrence(kind: str, name: str, start: int, *, defines: bool = False) -> Occurrence:
+        return Occurrence(kind, name, source.span(start, start + len(name)), defines, name)
+
+    for tag in document.walk():
+        plain = tag.name.removeprefix("xacro:")
+        attributes = tag.attributes
+        named = attributes.get("name")
+        kind = {"macro": "macro", "property": "property", "arg": "argument"}.get(plain)
+        if kind is not None and named is not None and tag.name.startswith("xacro:"):
+            name = named.value.removeprefix("xacro:")
+            yield occurrence(kind, name, named.value_end - len(name), defines=True)
+        elif plain in macros and (tag.name.startswith("xacro:") or tag.name not in _URDF):
+            yield occurrence("macro", plain, tag.start + 1 + len(tag.name) - len(plain))
+            if tag.close is not None:
+                yield occurrence("macro", plain, tag.close + 2 + len(tag.name) - len(plain))
+        if plain == "include" and "filename" in attributes:
+            written = attributes["filename"]
+            span = source.span(written.value_start, written.value_end)
+            yield Occurrence("file", written.value, span, False, written.value)
+    comments = document.comments
+    for found in re.finditer(r"\$\{([^{}]*)\}|\$\((arg|eval)\s+([^()]*)\)", source.text):
+        if any(start <= found.start() < end for start, end, _ in comments):
+            continue
+        if found[2] == "arg":
+            yield occurrence("argument", found[3].strip(), found.start(3))
+            continue
+        group = 1 if found[1] is not None else 3
+        for word in re.finditer(r"(?<![\w.'\"])[A-Za-z_]\w*(?![\w'\"(])", found[group]):
+            if word[0] not in _PYTHON:
+                yield occurrence("property", word[0], found.start(group) + word.start())
+
+
+_URDF = frozenset(("link", "joint", "material", "origin", "visual", "collision", "inertial", "gazebo", "transmission"))
+_PYTHON = frozenset(
+    ("and", "or", "not", "if", "else", "in", "is", "for", "lambda", "True", "False", "None", "pi", "e", "xacro", "math")
+)
+
+
+def position_of(span: Span) -> Position:
+    """Return where a span begins."""
+    return Position(span.file, span.line, span.column)
+
+
+def parameters_around(tag: Tag | None) -> dict[str, tuple[int, int]]:
+    """Return the parameters of the macros around a tag: name → where it is written, as offsets."""
+    found: dict[str, tuple[int, int]] = {}
+    above = [tag, *tag.ancestors()] if tag is not None else []
+    for outer in above:
+        params = outer.attributes.get("params") if outer.name.removeprefix("xacro:") == "macro" else None
+        for word in re.finditer(r"(?:^|\s)\**([^\s:=,;*]+)", params.value) if params is not None else ():
+            start = params.value_start + word.start(1) if params is not None else 0
+            found.setdefault(word[1], (start, start + len(word[1])))
+    return found
