@@ -26,6 +26,10 @@ class Palette:
         for material in (*robot.materials, *inside):
             if material is not None and material.name and material.rgba is not None:
                 self._named.setdefault(material.name, material.rgba)
+        self._textures: dict[str, str] = {}
+        for material in robot.materials:
+            if material.name and material.texture:
+                self._textures.setdefault(material.name, material.texture)
         self._gazebo: dict[str, Rgba] = {}
         self._clear: dict[str, float] = {}
         for block in robot.gazebo:
@@ -37,6 +41,12 @@ class Palette:
     def opacity(self, link: str) -> float:
         """Return what the ``<transparency>`` of a link's ``<gazebo>`` block leaves, 0..1; 1 where there is none."""
         return 1.0 - self._clear.get(link, 0.0)
+
+    def texture(self, visual: Visual) -> str | None:
+        """Return the ``<texture>`` of a visual's material, as written; None where it has none."""
+        if visual.material is None:
+            return None
+        return self._textures.get(visual.material.name or "") or visual.material.texture
 
     def of(self, link: str, visual: Visual) -> Rgba | None:
         """Return the colour of a visual, components in 0..1; None where nothing says one."""

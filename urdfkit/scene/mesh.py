@@ -86,9 +86,9 @@ class MeshLoader:
     """
 
     def __init__(self) -> None:
-        self._known: dict[tuple[str, str, Vector, str], tuple[TriMesh, dict[Path, tuple[int, int]]]] = {}
+        self._known: dict[tuple[str, str, Vector, str, bool], tuple[TriMesh, dict[Path, tuple[int, int]]]] = {}
 
-    def load(self, path: Path, scale: Vector = (1.0, 1.0, 1.0)) -> TriMesh:
+    def load(self, path: Path, scale: Vector = (1.0, 1.0, 1.0), *, places: bool = False) -> TriMesh:
         """Return the triangles of a file.
 
         A COLLADA file is brought to metres by its ``<unit meter="…">``; its ``<up_axis>`` is ignored, as RViz and
@@ -97,6 +97,7 @@ class MeshLoader:
         Args:
             path: the mesh file.
             scale: factors along x, y, z.
+            places: keep what the file says of places on a texture, though it may name none.
 
         Raises:
             ResourceError: the file is missing, too large, no mesh, a Git LFS pointer or broken.
@@ -110,11 +111,11 @@ class MeshLoader:
         content = _read(path)
         side_files = b"".join(_side_files(path, content))
         beside = str(path.parent) if _PULLS.search(content) or side_files else ""
-        key = (hashlib.sha256(content + side_files).hexdigest(), path.suffix.lower(), scale, beside)
+        key = (hashlib.sha256(content + side_files).hexdigest(), path.suffix.lower(), scale, beside, places)
         known = self._known.get(key)
         if known is None or not is_as_read(known[1]):
             files = Beside(path, MAX_BYTES)
-            known = self._known[key] = _parse(path, content, scale, files), files.read
+            known = self._known[key] = _parse(path, content, scale, files, places), files.read
         return known[0]
 
 
@@ -151,7 +152,7 @@ def _side_files(path: Path, content: bytes) -> Iterator[bytes]:
                 continue
 
 
-def _parse(path: Path, content: bytes, scale: Vector, beside: Beside) -> TriMesh:
+def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bool) -> TriMesh:
     try:
         import trimesh
     except ImportError as error:
@@ -169,7 +170,7 @@ def _parse(path: Path, content: bytes, scale: Vector, beside: Beside) -> TriMesh
         reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
         raise ResourceError(f"mesh {path.name} cannot be read: {reason}") from error
     factor = metres_per_unit(content) if suffix == ".dae" else 1.0
-    mesh = _merge(path, parts, np.array(scale, dtype=float) * factor)
+    mesh = _merge(path, parts, np.array(scale, dtype=float) * factor, places)
     return replace(mesh, missing=tuple(dict.fromkeys(beside.missing))) if beside.missing else mesh
 
 
@@ -186,7 +187,7 @@ def _parts(scene: Any) -> Iterator[tuple[Any, Any]]:
             yield geometry, np.asarray(transform, dtype=float)
 
 
-def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64]) -> TriMesh:
+def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64], places: bool) -> TriMesh:
     """Flatten the parts into one mesh, scaled; vertices that agree in everything become one."""
     vertices, faces, normals, colors, uvs, wrapped = [], [], [], [], [], []
     textures: dict[str, Texture] = {}
@@ -204,7 +205,7 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64])
         normals.append(_normals(part, linear))
         colors.append(_colors(part))
         texture = _texture(part)
-        uvs.append(None if texture is None else np.asarray(part.visual.uv, dtype=float))
+        uvs.append(_places(part) if places or texture is not None else None)
         if texture is not None:
             textures.setdefault(texture.hash, texture)
         wrapped.append(np.full(len(triangles), -1 if texture is None else list(textures).index(texture.hash)))
@@ -223,18 +224,18 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64])
             np.full((len(v), 4), 255, np.uint8) if c is None else c for v, c in zip(vertices, colors, strict=True)
         ]
         columns.append(np.ascontiguousarray(np.concatenate(filled)).view(np.float32))
-    if textures:
+    if has_places := any(uv is not None for uv in uvs):
         columns.insert(1, np.concatenate(
             [np.zeros((len(v), 2)) if uv is None else uv for v, uv in zip(vertices, uvs, strict=True)]
         ).astype(np.float32) + np.float32(0))  # fmt: skip
     rows, index = _unique(np.ascontiguousarray(np.hstack(columns)))
-    bare = 5 if textures else 3  # columns before the normals
+    bare = 5 if has_places else 3  # columns before the normals
     return TriMesh(
         vertices=np.ascontiguousarray(rows[:, :3]),
         faces=np.ascontiguousarray(index[np.concatenate(faces)].astype(np.int32)),
         normals=np.ascontiguousarray(rows[:, bare : bare + 3]) if has_normals else None,
         colors=np.ascontiguousarray(rows[:, -1:]).view(np.uint8).reshape(-1, 4) if has_colors else None,
-        uv=np.ascontiguousarray(rows[:, 3:5]) if textures else None,
+        uv=np.ascontiguousarray(rows[:, 3:5]) if has_places else None,
         textures=tuple(textures.values()),
         face_textures=np.concatenate(wrapped).astype(np.int32) if textures else None,
     )
@@ -274,12 +275,19 @@ def _colors(part: Any) -> NDArray[np.uint8] | None:
     return None
 
 
-def _texture(part: Any) -> Texture | None:
-    """Return the picture on a part, where it has one and says where on it its vertices are."""
+def _places(part: Any) -> NDArray[np.float64] | None:
+    """Return where on a texture the vertices of a part are; None where nothing says so."""
     if part.visual.kind != "texture" or part.visual.uv is None or len(part.visual.uv) != len(part.vertices):
         return None
+    found = np.asarray(part.visual.uv, dtype=float)
+    return found if np.isfinite(found).all() else None
+
+
+def _texture(part: Any) -> Texture | None:
+    """Return the picture on a part, where it has one and says where on it its vertices are."""
+    if _places(part) is None:
+        return None
     try:
-        found = texture_of(part.visual.material)
+        return texture_of(part.visual.material)
     except (OSError, ValueError, SyntaxError):  # what Pillow raises for broken pictures
         return None
-    return found if np.isfinite(part.visual.uv).all() else None

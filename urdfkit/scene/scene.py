@@ -19,6 +19,7 @@ from urdfkit.scene.colors import DEFAULT, Palette, Rgba
 from urdfkit.scene.labels import labels_of
 from urdfkit.scene.mesh import MeshLoader, TriMesh
 from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.wrap import Wrapper
 
 Role = Literal["visual", "collision"]
 
@@ -105,7 +106,7 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
         ResourceError: a mesh is missing or broken (`strict`), with the place where it is named.
     """
     meshes = meshes or MeshLoader()
-    palette = Palette(robot)
+    palette, wrapper = Palette(robot), Wrapper(lambda name: _resolve(robot, name))
     links = robot.link_by_name_in_order()
     retros, labels = _laser_retros(robot), labels_of(robot)
     shapes: list[Shape] = []
@@ -120,21 +121,28 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
                 name += "_"
             names.add(name)
             mesh = None
+            picture = palette.texture(item) if isinstance(item, Visual) else None
             if isinstance(item.geometry, Mesh):
                 try:
-                    mesh = _load(robot, item, item.geometry, meshes)
+                    mesh = _load(robot, item, item.geometry, meshes, places=bool(picture))
                 except ResourceError as error:
                     if strict:
                         raise
                     problems.append(LeftOut(name, link.name, role, error))
                     continue
             color = palette.of(link.name, item) if isinstance(item, Visual) else None
+            covered = wrapper.wrapped(item.geometry, mesh, picture) if picture else None
+            mesh = covered or mesh
             rgba = color or DEFAULT
             if role == "visual" and (opacity := palette.opacity(link.name)) < 1.0:
                 rgba = (*rgba[:3], rgba[3] * opacity)
             placed = pose_matrix(item.origin)
             retro, label = retros.get(link.name, 0.0), labels.get(link.name, labels.get("", 0))
-            shapes.append(Shape(name, link.name, role, item.geometry, placed, rgba, bool(color), mesh, retro, label))
+            shapes.append(
+                Shape(
+                    name, link.name, role, item.geometry, placed, rgba, bool(color and not covered), mesh, retro, label
+                )
+            )
     return Scene(tuple(link.name for link in links), tuple(shapes), tuple(problems))
 
 
@@ -157,7 +165,9 @@ def _items(link: Link) -> list[tuple[Role, int, Visual | Collision]]:
     return [*found, *(("collision", k, item) for k, item in enumerate(link.collisions))]
 
 
-def _load(robot: Robot, item: Visual | Collision, geometry: Mesh, meshes: MeshLoader) -> TriMesh:
+def _load(
+    robot: Robot, item: Visual | Collision, geometry: Mesh, meshes: MeshLoader, *, places: bool = False
+) -> TriMesh:
     """Return the triangles of a mesh.
 
     Raises:
@@ -166,7 +176,7 @@ def _load(robot: Robot, item: Visual | Collision, geometry: Mesh, meshes: MeshLo
     element = next((e for e in item.element.walk() if e.tag == "mesh"), item.element)
     position = element.origin.position
     try:
-        return meshes.load(_resolve(robot, geometry.uri), geometry.scale)
+        return meshes.load(_resolve(robot, geometry.uri), geometry.scale, places=places)
     except ResourceError as error:
         raise ResourceError(error.message, position=position) from error
 

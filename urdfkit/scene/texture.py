@@ -51,19 +51,42 @@ def texture_of(material: Any) -> Texture | None:
     picture = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
     if picture is None:
         return None
-    if picture.width * picture.height > MAX_PIXELS:
-        raise ValueError(f"a texture of {picture.width} × {picture.height} pixels is not read")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        while max(picture.size) > MAX_EDGE:
-            picture = picture.reduce(2)
-        pixels = np.array(picture.convert("RGBA"))
+    pixels = _pixels(picture)
     factor = getattr(material, "baseColorFactor", None)
     if factor is not None:
         scale = np.asarray(factor, dtype=float)
         scale = scale / (255.0 if np.asarray(factor).dtype.kind in "ui" else 1.0)
         pixels = np.rint(pixels * np.append(scale, 1.0)[:4]).astype(np.uint8)
     return Texture(pixels)
+
+
+def read_texture(path: Path) -> Texture:
+    """Return the picture in a file.
+
+    Raises:
+        OSError: it is not there, or broken.
+        ValueError: it is too large.
+    """
+    from PIL import Image
+
+    with Image.open(path) as picture:
+        return Texture(_pixels(picture))
+
+
+def _pixels(picture: Any) -> NDArray[np.uint8]:
+    """Return red, green, blue and opacity of a picture, made smaller where it is large.
+
+    Raises:
+        OSError: it is broken.
+        ValueError: it is too large.
+    """
+    if picture.width * picture.height > MAX_PIXELS:
+        raise ValueError(f"a texture of {picture.width} × {picture.height} pixels is not read")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        while max(picture.size) > MAX_EDGE:
+            picture = picture.reduce(2)
+        return np.array(picture.convert("RGBA"))
 
 
 class Beside(dict[str, bytes]):

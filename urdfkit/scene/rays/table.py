@@ -207,6 +207,8 @@ def _is_endless(shape: Shape) -> bool:
 def _numbers(shape: Shape) -> tuple[int, tuple[float, float, float], Array]:
     """Return the kind of a shape, its size as the kernels take it, and how its frame is turned against its own."""
     straight = np.eye(3)
+    if shape.mesh is not None:
+        return solids.MESH, (0.0, 0.0, 0.0), straight
     match shape.geometry:
         case Box(size=(x, y, z)):
             return solids.BOX, (x / 2, y / 2, z / 2), straight
