@@ -135,5 +135,6 @@ function middle(page, link) {
   const node = page.scene.byLink.get(link);
   if (!node) return null;
   node.userData.middle ??= page.scene.middle(link);
+  node.updateWorldMatrix(true, false);
   return node.localToWorld(node.userData.middle.clone());
 }

@@ -67,6 +67,7 @@ export class Labels {
   /** The place of a link's frame, or of a point in it, in the world. */
   at(link, local = [0, 0, 0]) {
     const node = this.page.scene.byLink.get(link);
+    node?.updateWorldMatrix(true, false); // it may have moved since the last picture
     return node ? node.localToWorld(new THREE.Vector3(...local)) : null;
   }
 }
