@@ -534,6 +534,21 @@ def test_random_orders_never_break_the_loop(ride) -> None:
     assert loop.PARTS
 
 
+def test_after_a_divergence_nothing_falls_over_and_reset_starts_again(ride) -> None:
+    ride.simulator._stage.engine._arrays["v"][:] = 1e200
+    spend(ride, 0.1)
+    assert "diverged" in ride.page.said["fault"]["message"]
+    with pytest.raises(SimulationError, match="Reset starts again"):
+        do(ride, "gravity", gravity=[0, 0, 0])
+    ride.page.inbox.put_action("play")
+    spend(ride, 0.1)
+    assert ride.simulator.paused
+    ride.page.inbox.put_action("reset")
+    spend(ride, 0.2)
+    assert ride.page.said["fault"]["message"] is None
+    assert ride.simulator.t == pytest.approx(0.2, abs=0.03)
+
+
 def test_a_fault_in_an_order_is_answered_in_a_line(ride) -> None:
     with pytest.raises(SimulationError) as caught:
         do(ride, "place", name="nothing", pose=[0, 0, 0])

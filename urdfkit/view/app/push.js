@@ -26,12 +26,13 @@ export class Push {
     for (const end of ["pointerup", "pointercancel"]) pane.addEventListener(end, (event) => this.#up(event), { capture: true });
     addEventListener("blur", () => this.release());
     page.on("lost", () => this.release());
+    page.on("screws", ({ rows }) => this.#suit(rows));
     page.on("poses", () => this.grip && this.#pull());
   }
 
   #panel() {
     this.panel = this.page.panels.add({ id: "push", title: "Push", icon: PUSH, modes: ["sim"], order: 37 });
-    this.strength = h("input", { id: "push-strength", type: "range", min: 0, max: 4, step: 0.01, value: 2 });
+    this.strength = h("input", { id: "push-strength", type: "range", min: -1, max: 4, step: 0.01, value: 1 });
     this.words = h("output", { for: "push-strength" });
     const say = () => (this.words.textContent = `${short(this.gain, this.gain < 10 ? 1 : 0)} ${this.torque ? "N·m" : "N"}/m`);
     this.strength.addEventListener("input", say);
@@ -44,6 +45,17 @@ export class Push {
     const hold = h("button.wide", { type: "button", id: "push-hold", onclick: () => this.page.tools.hold(this.page.tools.held === "push" ? null : "push") }, "Take the tool in hand");
     this.panel.body.append(hold, h("div.checks", {}, kind("force", "Force, at the point"), kind("torque", "Torque")), h("label.field", {}, "Strength ", this.words, this.strength), this.now);
     say();
+  }
+
+  // At first, what pulls a robot of this mass with 4 m/s² for every metre.
+  #suit(rows) {
+    if (this.suited) return;
+    const robot = rows.filter(({ name, link }) => link && name === rows[0].name);
+    const mass = robot.reduce((sum, row) => sum + (row.mass ?? 0), 0);
+    this.suited = mass > 0;
+    if (!this.suited) return;
+    this.strength.value = Math.log10(4 * mass);
+    this.strength.dispatchEvent(new Event("input"));
   }
 
   /** Newtons (or newton metres) for each metre that is pulled. */

@@ -27,6 +27,7 @@ export function screws(page) {
   function number(value, label, changed) {
     const input = h("input", { type: "number", step: "any", min: 0, value: short(value, 6), "aria-label": label });
     input.addEventListener("change", () => changed(input.valueAsNumber, input));
+    input.addEventListener("keydown", (event) => event.key === "Enter" && input.blur());
     return input;
   }
 
@@ -41,7 +42,10 @@ export function screws(page) {
     });
     const pick = h("select", { "aria-label": "Gravity of", id: "planet" }, h("option", { value: "" }, "…"));
     for (const name of Object.keys(PLANETS)) pick.append(h("option", { value: PLANETS[name] }, name));
-    pick.addEventListener("change", () => pick.value && order("gravity", { gravity: [0, 0, Number(pick.value)] }));
+    pick.addEventListener("change", () => {
+      pick.blur(); // so that the numbers beside it may change
+      order("gravity", { gravity: [0, 0, Number(pick.value)] });
+    });
     gravity.replaceChildren(...inputs, pick);
   }
 

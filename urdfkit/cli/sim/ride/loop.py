@@ -66,6 +66,7 @@ class Ride:
         self.simulator, self.server = simulator, server
         self._clock, self._sleep = clock, sleep
         self._driven = ""
+        self._failed = False
         self._reported = -math.inf
         self.look: Callable[[], None] = lambda: None  # for topics that have come up, where there is a recording
         self.pace = Pace(simulator.dt, clock)
@@ -121,16 +122,19 @@ class Ride:
         simulator = self.simulator
         if action == "reset":
             simulator.reset()
-            simulator.paused = False
+            simulator.paused = self._failed = False
             self.server.declare("fault", message=None)
             for part in self.parts:
                 part.forget()
             self.show()
         else:
-            simulator.paused = action == "pause"
+            simulator.paused = action == "pause" or self._failed
         self.pace.restart(simulator.t)
 
     def _do(self, order: Order) -> None:
+        if self._failed:  # nothing in it is a number any more
+            self.server.answer(order, "the simulation has diverged; Reset starts again")
+            return
         try:
             found = self._takes[order.name][1](order)
         except (UrdfkitError, OSError) as error:
@@ -139,7 +143,7 @@ class Ride:
             self.server.answer(order, **(found or {}))
 
     def _fail(self, error: SimulationError) -> None:
-        self.simulator.paused = True
+        self.simulator.paused = self._failed = True
         note(f"urdfkit: {error}")
         self.server.declare("fault", message=f"{error}; Reset starts again")
 
@@ -177,6 +181,8 @@ class Ride:
 
     def _report(self) -> None:
         simulator, now = self.simulator, self._clock()
+        if self._failed:
+            return
         if simulator.revision != self.figures.revision:  # something came or went
             self.show()
         poses = self.figures.poses()
