@@ -30,6 +30,7 @@ test: $(VENV)/.test
 
 bench: $(VENV)/.bench
 	$(BIN)/python tests/bench/bench_lint.py
+	$(BIN)/python tests/bench/bench_lsp.py
 	$(BIN)/urdfkit sim bench $(ARGS)
 
 fidelity: $(VENV)/.bench

@@ -77,6 +77,7 @@ def _prepare(cls: Any, eq: bool, order: bool) -> Any:
     cls._record_defaults = defaults
     cls._record_factories = factories
     cls._record_hidden = frozenset(hidden)
+    cls._record_post = getattr(cls, "__post_init__", None)
     cls.__match_args__ = cls._record_names  # type: ignore[misc]
     cls.__dataclass_fields__ = _Fields()
     cls.__init__ = _init
@@ -118,6 +119,11 @@ def _init(self: Any, *args: Any, **kwargs: Any) -> None:
     cls = type(self)
     names = cls._record_names
     values = self.__dict__
+    if not kwargs and len(args) == len(names):  # by far the most frequent: thousands of places for each file
+        values.update(zip(names, args))  # noqa: B905 - the count is checked above
+        if cls._record_post is not None:
+            cls._record_post(self)
+        return
     if cls._record_defaults:
         values.update(cls._record_defaults)
     values.update(zip(names, args))  # noqa: B905 - the count is checked below
@@ -128,9 +134,8 @@ def _init(self: Any, *args: Any, **kwargs: Any) -> None:
     doubled = args and kwargs and not kwargs.keys().isdisjoint(names[: len(args)])
     if doubled or len(args) > len(names) or len(values) != len(names):
         _refuse(cls, args, kwargs)
-    post = getattr(self, "__post_init__", None)
-    if post is not None:
-        post()
+    if cls._record_post is not None:
+        cls._record_post(self)
 
 
 def _refuse(cls: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:

@@ -36,7 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
         import pygls.lsp.server  # noqa: F401
     except ImportError as error:
         raise MissingDependencyError("lsp needs pygls: pip install 'urdfkit[lsp]'") from error
-    gc.set_threshold(200_000)  # trees come and go whole; looking for cycles in them takes longer than to make them
+    gc.disable()  # see Session
     server_for(_options(arguments)).start_io()
     return 0
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,8 +22,14 @@ if TYPE_CHECKING:
     from urdfkit.lint.editor.project import Analysis, Project
     from urdfkit.lint.finding import Edit
 
-PAUSE = 0.02
+PAUSE = 0.005
 """Seconds that texts rest before they are looked at: keys that follow each other closely count once."""
+
+IDLE = 1.0
+"""Seconds without a key after which memory is tidied up: trees that point at each other, of texts that are past."""
+
+MOST = 100
+"""Looks at a text after which it is tidied up all the same."""
 
 _KINDS = {
     "element": types.CompletionItemKind.Class,
@@ -46,6 +53,8 @@ class Session:
         self.server, self.project = server, project
         self._waiting: dict[str, asyncio.TimerHandle] = {}
         self._published: set[str] = set()
+        self._tidying: asyncio.TimerHandle | None = None
+        self._looks = 0
 
     def changed(self, uri: str) -> None:
         """Take the text of a document; publish what is found once it rests."""
@@ -77,10 +86,22 @@ class Session:
         path = path_of(uri)
         if path is None or str(path) not in self.project.texts:
             return
+        self._tidy_later()
         for file, findings in self.project.findings(path).items():
             its = uri if file == path else file.as_uri()
             source = self._source(file)
             self._show(its, [diagnostic(finding, source) for finding in findings if finding.file == source.file])
+
+    def _tidy_later(self) -> None:
+        """Look for cyclic garbage when nobody types: in the middle it would take longer than what is waited for."""
+        self._looks += 1
+        if self._tidying is not None:
+            self._tidying.cancel()
+        self._tidying = asyncio.get_running_loop().call_later(0.0 if self._looks > MOST else IDLE, self._tidy)
+
+    def _tidy(self) -> None:
+        self._tidying, self._looks = None, 0
+        gc.collect()
 
     def _show(self, uri: str, diagnostics: list[types.Diagnostic]) -> None:
         if diagnostics or uri in self._published:

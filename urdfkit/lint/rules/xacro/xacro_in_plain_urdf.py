@@ -61,7 +61,7 @@ class XacroInPlainUrdf(SourceRule):
             is_lost_call = binds and allowed is not None and tag.name not in allowed and ":" not in tag.name
             if (
                 tag.name.startswith("xacro:")
-                or re.search(r"\$\{[^{}]*\}", start_tag)
+                or ("${" in start_tag and re.search(r"\$\{[^{}]*\}", start_tag))
                 or (is_lost_call and tag.attributes)
             ):
                 yield self.at(
