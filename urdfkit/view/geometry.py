@@ -20,6 +20,9 @@ triangle 3 × uint32, and per vertex 4 × uint8 colour if there are any."""
 CREASE = np.deg2rad(35.0)
 """Neighbouring faces that meet at less than this angle are shaded as one smooth surface [rad]."""
 
+FACTORS = (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x27D4EB2F165667C5)
+"""Odd numbers without a pattern, as hashes use them."""
+
 
 class GeometryStore:
     """Packed meshes by content hash. Filled by the caller's thread, read by the server's."""
@@ -102,8 +105,10 @@ def crease(
     if len(faces) == 0:
         return np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
     # STL has no shared vertices: merge what is in the same place first.
-    places, where = np.unique(vertices.astype(np.float32), axis=0, return_inverse=True)
-    faces = where.reshape(-1)[faces]
+    vertices = vertices.astype(np.float32) + np.float32(0)  # there is one zero, not two
+    kept, where = unique_rows(vertices.view(np.uint32))
+    places = vertices[kept]
+    faces = where[faces]
     area, flat = _flat(places[faces])
 
     # All pairs (corner, corner) that share a vertex, by sorting corners by vertex and pairing at growing distance.
@@ -129,5 +134,24 @@ def crease(
     normals = np.divide(normals, size, out=np.tile([0.0, 0.0, 1.0], (len(normals), 1)), where=size > 0)
 
     corners = np.hstack([corner_vertex[:, None], np.round(normals * 32767).astype(np.int64)])
-    _, kept, index = np.unique(corners, axis=0, return_index=True, return_inverse=True)
+    kept, index = unique_rows(corners)
     return places[corner_vertex[kept]].astype(float), normals[kept], index.reshape(-1, 3)
+
+
+def unique_rows(rows: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the first place of each different row of integers, and for each row which of those it is like.
+
+    Rows are told apart by a number made of their entries, which sorts much faster than rows do; should two different
+    rows ever have the same number, they are sorted as rows.
+
+    Args:
+        rows: shape (n, k).
+    """
+    factors = np.array(
+        [0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x27D4EB2F165667C5], dtype=np.uint64
+    )
+    keys = (rows.astype(np.int64).view(np.uint64) * factors[: rows.shape[1]]).sum(axis=1, dtype=np.uint64)
+    _, first, where = np.unique(keys, return_index=True, return_inverse=True)
+    if not np.array_equal(rows[first[where]], rows):
+        _, first, where = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    return first, where.reshape(-1)

@@ -48,7 +48,7 @@ export function findings(page) {
     for (const finding of known) for (const link of finding.links) links.set(link, [...(links.get(link) ?? []), finding]);
     badges = [...links].filter(([link]) => page.scene.byLink.has(link)).map(([link, found]) => {
       const words = `${found.length} finding${found.length > 1 ? "s" : ""} on ${link}`;
-      const badge = h("button.badge", { type: "button", title: words, "aria-label": words }, String(found.length));
+      const badge = h("button.badge", { type: "button", title: words, "aria-label": words }, h("span", {}, String(found.length)));
       badge.dataset.tone = worst(found);
       badge.dataset.link = link;
       badge.addEventListener("click", () => about(link));

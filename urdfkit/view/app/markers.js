@@ -114,10 +114,10 @@ export class Markers {
     this.#hang("inertia", node, mark);
   }
 
+  // A mark that is not shown does not hang there: it would count for the size of its link.
   #hang(kind, node, mark) {
-    mark.visible = false;
+    mark.userData.node = node;
     this.made[kind].push(mark);
-    node.add(mark);
   }
 
   clear() {
@@ -132,7 +132,8 @@ export class Markers {
     const sizes = { frames: 0.22 * radius, axes: 0.24 * radius, com: 0.035 * radius };
     for (const [kind, marks] of Object.entries(this.made)) {
       for (const mark of marks) {
-        mark.visible = this.shown[kind];
+        if (!this.shown[kind]) mark.parent?.remove(mark);
+        else if (!mark.parent) mark.userData.node.add(mark);
         if (!mark.userData.own) mark.scale.setScalar(sizes[kind]);
       }
     }

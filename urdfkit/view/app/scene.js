@@ -87,6 +87,8 @@ export class Scene {
         mesh.receiveShadow = true;
         this.viewer.set_object(path, mesh);
         if (path[3] in this.groups) this.#style(mesh);
+        const node = this.byLink.get(this.owner(mesh));
+        if (node) delete node.userData.middle; // it has another middle now
         this.arrived?.(mesh);
         this.stage.dirty();
       })
