@@ -81,8 +81,8 @@ REFUSED = {
         ": link `c` is the child of two joints",
     ),
     "two roots": (robot(*map(link, "abc"), joint("ab", "a", "b")), ": 2 root links: `c` is joined to nothing"),
-    "missing mesh": (
-        arm(body(), '<collision><geometry><mesh filename="arm.stl"/></geometry></collision>'),
+    "no collision left, for want of its mesh": (
+        robot(link("base", body(), '<collision><geometry><mesh filename="arm.stl"/></geometry></collision>')),
         ": no file arm.stl",
     ),
     "mimics in a circle": (
