@@ -115,3 +115,22 @@ def test_a_file_that_cannot_be_read_is_a_fault_and_no_error(robot: Path) -> None
     found = findings.look()
     assert found["findings"] == []
     assert "lab.urdf" in found["fault"]
+
+
+def test_the_settings_of_the_project_hold_here_too(robot: Path) -> None:
+    (robot.parent / "urdfkit.toml").write_text('ignore = ["I5"]\n[per-file-ignores]\n"*.urdf" = ["J412"]\n')
+    _, rows = look(robot)
+    assert not {"J412", "I503"} & set(rows)
+    (robot.parent / "urdfkit.toml").write_text("nonsense = 1\n")
+    findings, rows = look(robot)
+    assert rows == {}
+    assert "nonsense" in findings.look()["fault"]
+
+
+def test_findings_are_those_of_the_linter() -> None:
+    from urdfkit.lint import lint
+
+    for name in ("artoo", "simpleton"):
+        model = find_model([name])
+        assert Findings(model).look()["findings"] == []  # linted for what its package is built for
+    assert lint(model.path) == []

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.engine import Options, Outcome
     from urdfkit.lint.entries import Entry
     from urdfkit.lint.finding import Finding, Fix
+    from urdfkit.lint.settings import Settings
     from urdfkit.resources import ModelArgument
 
 LINES = 12
@@ -43,15 +44,18 @@ class Findings:
 
         self._known = {}
         try:
-            outcome = run(self._entries(), self._options())
+            settings = self._settings()
+            outcome = run(self._entries(), self._options(settings))
         except UrdfkitError as error:
             return {"findings": [], "rules": {}, "fault": str(error)}
         rows = []
         for finding in outcome.findings:
+            if _is_ignored(finding, settings):
+                continue
             self._known[self._next] = finding
             rows.append(self._row(self._next, finding, outcome))
             self._next += 1
-        return {"findings": rows, "rules": _pages({finding.code for finding in outcome.findings}), "fault": None}
+        return {"findings": rows, "rules": _pages({row["code"] for row in rows}), "fault": None}
 
     def mend(self, number: int) -> str:
         """Apply the safe fix of one finding: linted in memory first, then written beside the file and moved.
@@ -77,7 +81,7 @@ class Findings:
             raise UsageError("others can reach this page, so it changes no files; run `urdfkit lint --fix`")
         fixed = fix(
             self._entries(),
-            self._options(),
+            self._options(self._settings()),
             within=may_be_changed([self.model.path]),
             only=lambda finding: finding == wanted,
         )
@@ -94,11 +98,24 @@ class Findings:
         here, path = Path.cwd(), self.model.path.absolute()
         return [Entry(path.relative_to(here) if path.is_relative_to(here) else path)]
 
-    def _options(self) -> Options:
+    def _settings(self) -> Settings:
+        from urdfkit.lint.settings import find
+
+        return find(self.model.path)
+
+    def _options(self, settings: Settings) -> Options:
+        """Return how ``urdfkit lint`` would look at this model, with the arguments it is shown with."""
         from urdfkit.lint.engine import Options
 
-        folders = tuple(Path(folder) for folder in self.model.package_path)
-        return Options(arguments=self.model.arguments, package_path=folders)
+        target, ours = settings.target, tuple(Path(folder) for folder in self.model.package_path)
+        return Options(
+            settings.select,
+            settings.ignore,
+            None if target == "any" else target,
+            self.model.arguments,
+            (*ours, *settings.package_path),
+            guess_target=target is None,
+        )
 
     def _row(self, number: int, finding: Finding, outcome: Outcome) -> dict[str, Any]:
         source = outcome.sources.get(finding.file)
@@ -113,6 +130,12 @@ class Findings:
                 "may": self.may_write and finding.fix.safety == "safe",
             }
         return row
+
+
+def _is_ignored(finding: Finding, settings: Settings) -> bool:
+    path = Path(finding.file)
+    rules = settings.per_file.items()
+    return any(finding.code.startswith(codes) and settings.matches(path, pattern) for pattern, codes in rules)
 
 
 def _lines(source: Source | None, span: Span) -> list[str]:
