@@ -290,6 +290,36 @@ def test_objects_come_move_and_go(ride) -> None:
             do(ride, order, **values)
 
 
+def test_what_comes_and_goes_for_an_hour_leaves_nothing_behind() -> None:
+    from urdfkit.view.server import Server
+
+    server = Server("sim", port=0)  # not started: nobody looks, but what is kept for pages is kept
+    ride = Ride(Simulator("simpleton", note=lambda _: None), server, clock=Wall())
+    try:
+        ride.show()
+        sizes = []
+        for k in range(6):
+            for model in ("coke_can", "chair", "crate"):
+                ride.simulator.spawn(model, (2.0, 0.3 * k, 0.0), name=model)
+                ride.tick()
+            for model in ("coke_can", "chair", "crate"):
+                ride.simulator.remove(model)
+                ride.tick()
+            server._loop.call_soon(server._loop.stop)
+            server._loop.run_forever()  # what was posted is done
+            kept = sum(len(frame) for frame in server.hub.snapshot())
+            sizes.append((len(server.hub._scene), len(server.geometries), kept // 64))
+        assert len(set(sizes[1:])) == 1
+    finally:
+        server.stop()
+
+
+def test_a_pose_frame_of_thirty_links_is_below_a_kilobyte() -> None:
+    from urdfkit.view.protocol import pack_poses
+
+    assert len(pack_poses(1, 0.0, np.zeros((30, 7)))) == 856
+
+
 def test_what_stands_and_is_moved_is_not_drawn_again(ride) -> None:
     do(ride, "walls", corners=[[2, 0], [4, 0]])
     shown = len(ride.page.shown)

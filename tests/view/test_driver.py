@@ -69,3 +69,29 @@ def test_one_drives_and_the_others_watch(driver: Driver, clock: Clock) -> None:
     assert driver.axes == BACK
     clock.now += DEADMAN + 0.01
     assert driver.offer(1, AHEAD)
+
+
+def test_while_one_page_drives_another_may_not_change_anything() -> None:
+    now = [0.0]
+    driver = Driver(clock=lambda: now[0])
+    assert driver.may(1)
+    assert driver.may(2)
+    driver.offer(1, AHEAD)
+    assert driver.may(1)
+    assert not driver.may(2)
+    now[0] += DEADMAN + 0.01
+    assert driver.may(2)
+
+
+def test_who_moves_an_arm_drives_for_a_while() -> None:
+    now = [0.0]
+    driver = Driver(clock=lambda: now[0])
+    driver.touch(1)
+    assert (driver.holder, driver.axes) == (1, None)
+    driver.touch(2)
+    assert driver.holder == 1
+    assert not driver.offer(2, AHEAD)
+    now[0] += DEADMAN + 0.01
+    assert driver.offer(2, AHEAD)
+    driver.touch(2)  # does not take the wheel out of its hands
+    assert driver.axes == AHEAD

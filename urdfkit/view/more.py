@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from urdfkit.view.nodes import geometry_of, link_path, material
+from urdfkit.view.nodes import SharedGeometry, geometry_of, link_path, material
 
 if TYPE_CHECKING:
     from urdfkit.scene import Shape
@@ -22,7 +22,7 @@ def draw_more(
     Args:
         shapes: to be added.
         window: takes meshcat commands by ``send``.
-        geometries: takes the meshes; none is forgotten, as what was taken out may come again.
+        geometries: takes the meshes; none is forgotten, see `forget_others`.
         instead_of: bodies whose shapes are taken out first.
     """
     import meshcat  # after `nodes`, which knows what it warns of
@@ -40,3 +40,9 @@ def draw_more(
         node = root[f"{where.lstrip('/')}/{number}"]
         node.set_object(geometry, material(shape))
         node.set_transform(np.asarray(shape.placement, dtype=float) @ inner)
+
+
+def forget_others(shapes: Iterable[Shape], geometries: GeometryStore) -> None:
+    """Forget all meshes but those of these shapes."""
+    used = (geometry_of(shape, geometries)[0] for shape in shapes)
+    geometries.keep_only({geometry.name for geometry in used if isinstance(geometry, SharedGeometry)})

@@ -127,7 +127,10 @@ export class Connection {
     if (this.socket?.readyState === WebSocket.CLOSED) this.connect();
   }
 
+  // Twice in a row: after a long picture this may run before what has come meanwhile is heard.
   #watch() {
-    if (this.open && performance.now() - this.heard > SILENCE && !document.hidden) this.socket.close();
+    const silent = this.open && performance.now() - this.heard > SILENCE && !document.hidden;
+    if (silent && this.silent) this.socket.close();
+    this.silent = silent;
   }
 }

@@ -39,7 +39,7 @@ class Figures:
     def show(self) -> None:
         """Put the robots and what else the world holds on the page, where they are."""
         from urdfkit.scene import Scene
-        from urdfkit.view.more import draw_more
+        from urdfkit.view.more import draw_more, forget_others
         from urdfkit.view.nodes import draw, link_path
 
         simulator, first = self._simulator, self.revision < 0
@@ -71,6 +71,9 @@ class Figures:
                     server.geometries,
                     instead_of=[BODY + name for name in gone],
                 )
+                if gone:
+                    rest = (each for some in shapes.values() for each in some)
+                    forget_others((*simulator.scene.shapes, *rest), server.geometries)
 
         self._server.show(
             name=simulator.name,

@@ -1,0 +1,395 @@
+"""The simulation's page in a real browser: everything a person can click, on one server that is reset between tests."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Visits
+
+pytest.importorskip("meshcat")
+pytest.importorskip("numba")
+pytestmark = pytest.mark.browser
+
+SIZE = {"width": 1000, "height": 640}
+TIME = "parseFloat(document.getElementById('sim-time').textContent)"
+X = "urdfkit.link().position.x"
+
+
+@pytest.fixture(scope="module")
+def served(serve_for_all):
+    return serve_for_all("sim", "teleop", "simpleton")
+
+
+@pytest.fixture(scope="module")
+def opened(served, browser):
+    """One page for all tests: opening one takes longer than most of them."""
+    visits = Visits(browser)
+    page = visits.open(served.url, viewport=SIZE)
+    yield page, visits
+    visits.contexts[0].close()
+
+
+@pytest.fixture
+def page(opened, until):
+    """The page, with the simulation at its start, all panels closed and nothing in hand."""
+    page, visits = opened
+    visits.problems.clear()
+    page.bring_to_front()
+    page.mouse.up()
+    page.evaluate("document.activeElement?.blur(); urdfkit.page.tools.hold(null); urdfkit.page.select(null)")
+    page.evaluate(
+        "for (const { id, open } of urdfkit.page.panels.all.values()) if (open) urdfkit.page.panels.close(id)"
+    )
+    page.evaluate("urdfkit.page.following = true; urdfkit.page.fit()")
+    page.evaluate("urdfkit.page.status.time = Infinity")
+    page.locator("#reset").click()
+    until(lambda: page.evaluate("urdfkit.page.status.time < 1e9 && Math.abs(urdfkit.page.status.pose.x) < 1e-3"))
+    yield page
+    assert visits.problems == []
+
+
+@pytest.fixture
+def until(until):
+    """As everywhere, with patience for a busy machine."""
+    return lambda condition, seconds=60.0: until(condition, seconds)
+
+
+def order(page, order: str, /, **values):
+    return page.evaluate("([name, values]) => urdfkit.connection.order(name, values)", [order, values])
+
+
+def names(page) -> list[str]:
+    return page.evaluate("urdfkit.objects.objects.map(({ name }) => name)")
+
+
+def put_down(page) -> None:
+    """Remove everything but the robot and the ground."""
+    for name in names(page):
+        if name not in ("simpleton", "ground_plane", "sun"):
+            order(page, "remove", name=name)
+
+
+def spot(page, x: float, y: float, z: float = 0.0) -> tuple[float, float]:
+    """Return where in the window a place of the world is seen."""
+    found = page.evaluate(
+        """([x, y, z]) => {
+          const { stage } = urdfkit;
+          const box = stage.pane.getBoundingClientRect();
+          stage.viewer.camera.updateMatrixWorld();
+          const at = stage.viewer.scene.localToWorld(new MeshCat.THREE.Vector3(x, y, z)).project(stage.viewer.camera);
+          return [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height];
+        }""",
+        [x, y, z],
+    )
+    return found[0], found[1]
+
+
+def look_from_above(page, distance: float = 7.0) -> None:
+    page.evaluate(
+        """(distance) => {
+          const { stage } = urdfkit;
+          urdfkit.page.following = false;
+          stage.viewer.controls.target.set(0, 0, 0);
+          stage.viewer.camera.position.set(-0.01, distance, 0.4 * distance);
+          stage.viewer.controls.update();
+          stage.dirty();
+        }""",
+        distance,
+    )
+    page.wait_for_timeout(100)
+
+
+def test_step_and_speed(page, keep, until) -> None:
+    page.get_by_role("button", name="Pause").click()
+    until(lambda: page.locator("#rtf").inner_text() == "paused")
+    page.wait_for_timeout(150)
+    before = page.evaluate(TIME)
+    page.locator("#steps").fill("25")
+    page.get_by_role("button", name="Step", exact=True).click()
+    until(lambda: page.evaluate(TIME) == pytest.approx(before + 0.025, abs=1e-9))
+    keep(page, "step")
+    page.get_by_role("button", name="Go on").click()
+    page.locator("#factor").select_option("0.25")
+    until(lambda: 0.2 < float(page.locator("#rtf").inner_text().lstrip("×").replace("paused", "0")) < 0.3)
+    page.locator("#factor").select_option("")
+    until(lambda: float(page.locator("#rtf").inner_text().lstrip("×")) > 3)
+    keep(page, "fast")
+    page.locator("#factor").select_option("1")
+    until(lambda: 0.8 < float(page.locator("#rtf").inner_text().lstrip("×")) < 1.2)
+
+
+def test_sliders_that_stay_and_stop(page, keep, until) -> None:
+    page.locator("#open-drive").click()
+    page.get_by_text("Sliders that stay").click()
+    page.locator("#steer-forward").fill("60")
+    until(lambda: page.evaluate(X) > 0.15)
+    page.locator("#steer-turn").fill("-50")
+    until(lambda: page.evaluate("urdfkit.link().quaternion.z") < -0.1)
+    keep(page, "steering")
+    page.get_by_role("button", name="Stop", exact=True).click()
+    assert page.locator("#steer-forward").input_value() == "0"
+    until(lambda: page.locator("#velocity").inner_text() == "0.00 m/s")
+
+
+def test_a_gamepad_drives(page, until) -> None:
+    page.evaluate(
+        """() => {
+          window.pad = { connected: true, id: "Test Pad (STANDARD)", axes: [0, -1, 0, 0], buttons: [] };
+          Object.defineProperty(navigator, "getGamepads", { value: () => [window.pad] });
+          dispatchEvent(new Event("gamepadconnected"));
+        }"""
+    )
+    until(lambda: page.evaluate(X) > 0.2)
+    assert "Test Pad" in page.locator("#gamepad").text_content()
+    page.evaluate("window.pad.axes[1] = 0.05")  # within the dead zone: let go
+    until(lambda: page.locator("#velocity").inner_text() == "0.00 m/s")
+    page.evaluate("window.pad.connected = false")
+    until(lambda: "press one of its buttons" in page.locator("#gamepad").text_content())
+
+
+def test_topics_are_listed_looked_at_plotted_and_published_to(page, keep, until) -> None:
+    page.locator("#open-topics").click()
+    odom = page.locator("[data-topic='/simpleton/odom']")
+    until(lambda: re.fullmatch(r"\d+ Hz", odom.locator(".rate").inner_text() or ""))
+    page.locator("#topic-filter").fill("odom")
+    until(lambda: not page.locator("[data-topic='/clock']").is_visible())
+    odom.get_by_role("button").click()
+    until(lambda: "child_frame_id" in page.locator(".message").inner_text())
+    keep(page, "topic")
+    page.locator("#numbers summary").click()
+    page.get_by_role("button", name="pose.pose.position.x", exact=True).click()
+    page.locator("#open-topics").click()  # the plot, which is pinned, stays beside it
+    page.locator("#topic-filter").fill("cmd_vel")
+    page.locator("[data-topic='/simpleton/cmd_vel']").get_by_role("button").click()
+    page.locator("#publish summary").click()
+    page.get_by_label("linear.x").fill("0.4")
+    page.get_by_role("button", name="Publish", exact=True).click()
+    until(lambda: page.evaluate(X) > 0.1)
+    curve = "[...urdfkit.plots.curves.values()][0].curve"
+    until(lambda: page.evaluate(f"{curve}.values.at(-1)") > 0.1)
+    keep(page, "publish")
+
+
+def test_plots_zoom_stand_still_and_follow_again(page, keep, until) -> None:
+    page.locator("#open-plots").click()
+    for path in ("twist.twist.linear.x", "twist.twist.angular.z", "pose.pose.position.x"):
+        page.locator("#plot-path").fill(f"/simpleton/odom:{path}")
+        page.locator("#plot-form button").click()
+    page.locator("#plot-path").fill("/simpleton/odom:twist.twist.linear.q")
+    page.locator("#plot-form button").click()
+    until(lambda: page.locator(".legend").get_by_text("no field `q`").is_visible())
+    page.keyboard.down("w")
+    page.keyboard.down("a")
+    page.wait_for_timeout(1200)
+    page.keyboard.up("w")
+    page.keyboard.up("a")
+    until(lambda: page.evaluate("[...urdfkit.plots.curves.values()][0].curve.t.length") > 40)
+    box = page.locator("#plot").bounding_box()
+    page.mouse.move(box["x"] + box["width"] * 0.7, box["y"] + 60)
+    page.mouse.wheel(0, -800)
+    until(lambda: page.evaluate("urdfkit.plots.plot.span") < 5)
+    page.locator("#plot-pause").click()
+    assert page.evaluate("urdfkit.plots.plot.paused")
+    end = page.evaluate("urdfkit.plots.plot.end")
+    keep(page, "plot")
+    page.mouse.move(box["x"] + box["width"] * 0.5, box["y"] + 60)
+    page.mouse.down()
+    page.mouse.move(box["x"] + box["width"] * 0.8, box["y"] + 60, steps=3)
+    page.mouse.up()
+    assert page.evaluate("urdfkit.plots.plot.end") < end - 0.3
+    page.locator("#plot").dblclick()
+    assert not page.evaluate("urdfkit.plots.plot.paused")
+    page.get_by_label("Remove /simpleton/odom:pose.pose.position.x").click()
+    until(lambda: page.evaluate("urdfkit.connection.wanted.has('field:/simpleton/odom:pose.pose.position.x')") is False)
+
+
+def test_objects_are_inserted_moved_turned_and_deleted(page, keep, until) -> None:
+    put_down(page)
+    look_from_above(page)
+    page.locator("#open-world").click()
+    page.locator("#library-filter").fill("crate")
+    page.get_by_role("option", name="crate", exact=True).click()
+    page.mouse.click(*spot(page, 1.0, 0.8))
+    until(lambda: "crate" in names(page))
+    page.get_by_role("option", name="crate", exact=True).click()  # put it down
+    until(lambda: page.evaluate("urdfkit.scene.byLink.has('world/crate')"))
+    where = order(page, "where", name="crate")["pose"]
+    assert where[:2] == [pytest.approx(1.0, abs=0.05), pytest.approx(0.8, abs=0.05)]
+    page.mouse.click(*spot(page, 1.0, 0.8, 0.3))
+    until(lambda: page.locator(".object h3").inner_text() == "crate")
+    page.get_by_label("yaw of crate").fill("45")
+    page.get_by_label("yaw of crate").press("Enter")
+    until(lambda: order(page, "where", name="crate")["pose"][5] == pytest.approx(math.pi / 4, abs=0.02))
+    page.get_by_role("button", name="Move by hand").click()
+    handle = spot(page, *order(page, "where", name="crate")["pose"][:3])
+    page.wait_for_timeout(200)
+    page.mouse.move(*handle)
+    page.mouse.down()
+    goal = spot(page, -1.0, 1.0, order(page, "where", name="crate")["pose"][2])
+    page.mouse.move(*goal, steps=5)
+    keep(page, "moving")
+    page.mouse.up()
+    until(lambda: order(page, "where", name="crate")["pose"][0] < -0.7)
+    keep(page, "moved")
+    page.keyboard.press("Delete")
+    until(lambda: "crate" not in names(page))
+    assert not page.evaluate("urdfkit.scene.byLink.has('world/crate')")
+
+
+def test_walls_with_a_door_are_drawn_and_the_world_is_saved(page, keep, until, tmp_path: Path) -> None:
+    put_down(page)
+    look_from_above(page, 9.0)
+    page.locator("#open-world").click()
+    page.locator("#draw-walls").click()
+    for corner in ((-1.5, -1.2), (1.8, -1.2), (1.8, 1.5)):
+        page.mouse.click(*spot(page, *corner))
+    page.locator("#wall-door-mode").click()
+    page.mouse.click(*spot(page, 0.3, -1.2))
+    keep(page, "drawing")
+    page.locator("#wall-build").click()
+    until(lambda: "walls" in names(page))
+    until(lambda: page.evaluate("urdfkit.scene.byLink.has('world/walls')"))
+    page.keyboard.press("Escape")
+    page.wait_for_timeout(300)
+    keep(page, "walls")
+    with page.expect_download() as download:
+        page.locator("#save-world").click()
+    file = tmp_path / "saved.sdf"
+    download.value.save_as(file)
+    from urdfkit.description.world import load_world
+
+    saved = load_world(file)
+    walls = next(model for model in saved.models if model.name == "walls")
+    assert walls.static
+    assert len(walls.links[0].collisions) == 4  # one wall in two pieces and a lintel, one whole
+    order(page, "remove", name="walls")
+
+
+def test_parameters_are_changed_while_it_runs(page, keep, until) -> None:
+    page.locator("#open-screws").click()
+    page.get_by_label("Gravity of").select_option(label="none")
+    until(lambda: page.get_by_label("gravity along z").input_value() == "0")
+    page.locator("#screw-filter").fill("chassis")
+    mass = page.locator("tr[data-of='simpleton/chassis']").get_by_label("mass of chassis")
+    before = float(mass.input_value())
+    mass.fill(str(2 * before))
+    mass.press("Enter")
+    page.locator("#screw-filter").fill("chass")  # drawn anew, from what the simulation says
+    until(lambda: float(mass.input_value()) == 2 * before)
+    keep(page, "physics")
+    page.get_by_label("Gravity of").select_option(label="Earth")
+    order(page, "mass", name="simpleton", link="chassis", mass=before)
+    until(lambda: page.get_by_label("gravity along z").input_value() == "-9.81")
+
+
+def test_a_link_is_pushed_with_the_mouse(page, keep, until) -> None:
+    page.locator("#open-push").click()
+    page.locator("#push-hold").click()
+    page.locator("#push-strength").fill("1.7")
+    start = page.evaluate("[urdfkit.link().position.x, urdfkit.link().position.y]")
+    at = spot(page, 0.0, 0.0, 0.1)
+    page.mouse.move(*at)
+    page.mouse.down()
+    page.mouse.move(at[0] + 80, at[1] - 30, steps=5)
+    until(lambda: page.evaluate("urdfkit.push.grip !== null"))
+    until(lambda: math.dist(start, page.evaluate("[urdfkit.link().position.x, urdfkit.link().position.y]")) > 0.004)
+    keep(page, "push")
+    assert re.search(r"[\d.]+ N$", page.locator("#push-now").inner_text())
+    page.mouse.up()
+    assert page.evaluate("urdfkit.push.grip") is None
+    page.get_by_label("Torque").check()
+    assert "N·m/m" in page.locator("output[for=push-strength]").inner_text()
+    page.keyboard.press("Escape")
+    assert page.evaluate("urdfkit.page.tools.held") is None
+
+
+def test_contact_forces_slip_and_trails_are_drawn(page, keep, until) -> None:
+    page.locator("#open-show").click()
+    page.get_by_label("Contact forces").check()
+    page.get_by_label("Wheel slip").check()
+    # A wheel carries 5.30 N, the caster 4.60 N: 1.55 kg in all.
+    until(lambda: page.evaluate("urdfkit.arrows.contacts.longest") == pytest.approx(5.3, abs=0.05))
+    assert page.evaluate("urdfkit.arrows.contacts.count") == 3
+    page.keyboard.down("w")
+    page.keyboard.down("a")
+    until(lambda: page.evaluate("urdfkit.trails.real.count") > 20)
+    page.keyboard.up("w")
+    page.keyboard.up("a")
+    assert page.evaluate("urdfkit.trails.believed.count") > 5
+    assert page.locator(".slips [data-link]").count() >= 2
+    keep(page, "forces")
+    page.get_by_label("Contact forces").uncheck()
+    page.get_by_label("Wheel slip").uncheck()
+    until(lambda: not page.evaluate("urdfkit.connection.wanted.has('contacts')"))
+
+
+def test_what_was_recorded_is_shown_again_and_topics_are_saved(page, keep, until, tmp_path: Path) -> None:
+    from rosbags.rosbag2 import Reader
+
+    page.locator("#open-tape").click()
+    page.get_by_label("and every topic").check()
+    page.locator("#record").click()
+    until(lambda: "Recording" in page.locator("#tape-words").inner_text())
+    page.keyboard.down("w")
+    until(lambda: page.evaluate(X) > 0.4)
+    page.keyboard.up("w")
+    with page.expect_download() as download:
+        page.locator("#record").click()
+    download.value.save_as(tmp_path / "ride.mcap")
+    with Reader(tmp_path / "ride.mcap") as reader:
+        assert {"/clock", "/simpleton/odom"} <= set(reader.topics)
+    until(lambda: page.locator("#replay-play").is_visible())
+    here = page.evaluate(X)
+    page.locator("#replay-at").evaluate(
+        "(slider) => { slider.value = slider.min; slider.dispatchEvent(new Event('input', { bubbles: true })); }"
+    )
+    until(lambda: page.evaluate(X) < 0.05)
+    assert page.locator("#replaying").is_visible()
+    page.locator("#replay-play").click()
+    until(lambda: page.evaluate(X) > 0.1)
+    keep(page, "replay")
+    page.locator("#replay-end").click()
+    until(lambda: not page.locator("#replaying").is_visible())
+    until(lambda: page.evaluate(X) == pytest.approx(here, abs=0.3))
+
+
+def test_a_second_robot_is_inserted_and_driven(page, keep, until) -> None:
+    put_down(page)
+    page.locator("#open-drive").click()
+    assert order(page, "spawn", model="mybot", pose=[1.2, 1.2, 0.0, 0.0])["name"] == "mybot"
+    until(lambda: page.locator("#driven").is_visible())
+    page.locator("#driven").select_option("mybot")
+    start = page.evaluate("urdfkit.link(urdfkit.page.followed).position.x")
+    first = page.evaluate(X)
+    page.keyboard.down("w")
+    until(lambda: page.evaluate("urdfkit.link(urdfkit.page.followed).position.x") > start + 0.15)
+    keep(page, "two-robots")
+    page.keyboard.up("w")
+    assert page.evaluate(X) == pytest.approx(first, abs=0.02)
+    order(page, "remove", name="mybot")
+    until(lambda: not page.locator("#driven").is_visible())
+
+
+def test_who_drives_keeps_others_from_changing_things(page, served, visits, until) -> None:
+    other = visits.open(served.url, viewport={"width": 640, "height": 480})
+    page.bring_to_front()
+    page.keyboard.down("w")
+    until(lambda: other.locator("#driver-other").is_visible())
+    ask = "urdfkit.connection.order('gravity', { gravity: [0, 0, -9.81] }).catch((error) => error.message)"
+    until(lambda: "somebody else is driving" in str(other.evaluate(ask)))
+    page.keyboard.up("w")
+
+
+def test_a_phone_shows_the_panels_as_a_sheet(served, visits, keep, until) -> None:
+    phone = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
+    page = visits.open(served.url, color_scheme="dark", **phone)
+    for panel in ("topics", "world", "tape"):
+        page.locator(f"#open-{panel}").tap()
+        until(lambda panel=panel: page.locator(f"#panel-{panel}").is_visible())
+        keep(page, f"phone-{panel}")
+    wide = page.evaluate("document.documentElement.scrollWidth")
+    assert wide <= 390
