@@ -1,5 +1,6 @@
 """The session behind the viewer's page, without a page."""
 
+import time
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from urdfkit.cli.view import CLICKED_POINT, Figure, Session, orders
 from urdfkit.errors import UrdfkitError
 from urdfkit.resources import find_model
 from urdfkit.view.export import Recording
+from urdfkit.view.inbox import Wishes
 from urdfkit.view.orders import Order, check
 from urdfkit.view.protocol import Do, ProtocolError
 
@@ -84,6 +86,30 @@ def test_a_fix_is_ordered_by_its_number(session: Session) -> None:
     number = next(row["number"] for row in session.server.said["findings"]["findings"] if row["code"] == "J412")
     assert session.obey(Order(1, 1, "fix", {"finding": number}))["done"].startswith("J412: ")
     assert 'xyz="0 0 1"' in session.model.path.read_text()
+
+
+def test_pages_hear_something_before_they_take_the_line_for_lost(session: Session, monkeypatch) -> None:
+    class EndedError(Exception):
+        pass
+
+    start = time.monotonic()
+
+    class Inbox:
+        looks = 0
+
+        def wait(self, timeout: float) -> Wishes:
+            self.looks += 1
+            monkeypatch.setattr("time.monotonic", lambda: start + self.looks * timeout)
+            if self.looks * timeout > 6.0:  # the page's patience, connection.js
+                raise EndedError
+            return Wishes()
+
+    heard = []
+    session.server.inbox = Inbox()
+    session.server.tell = lambda kind, **values: heard.append(kind)
+    with pytest.raises(EndedError):
+        session.run()
+    assert heard.count("alive") >= 3
 
 
 @pytest.mark.parametrize(

@@ -65,8 +65,10 @@ def run(arguments: argparse.Namespace) -> int:
         page = Page(server, host=arguments.host, browser=not arguments.no_browser)
         try:
             session = Session(server, model, figure, Findings(model, may_write=is_loopback(arguments.host)))
+            server.declare("progress", label="Preparing shapes")
+            page.open()  # the browser starts while shapes are made ready
             session.show()
-            page.open()
+            server.declare("progress", label=None)
             session.run()
         finally:
             server.stop()

@@ -7,7 +7,7 @@ import { compose } from "./pose.js";
 
 const THREE = MeshCat.THREE;
 const HAND = "M12 2v20M2 12h20M12 2l-3 3M12 2l3 3M12 22l-3-3M12 22l3-3M2 12l3-3M2 12l3 3M22 12l-3-3M22 12l-3 3";
-const SIZE = 0.14; // of the picture's height
+const SIZE = 0.14; // of the picture's height, or width where that is less
 
 export class Dragging {
   constructor(page) {
@@ -51,7 +51,7 @@ export class Dragging {
     this.gizmo.position.copy(this.viewer.scene.worldToLocal(at.clone()));
     const { camera } = this.viewer;
     const height = camera.isOrthographicCamera ? (2 * camera.userData.halfHeight) / camera.zoom : 2 * camera.position.distanceTo(at) * Math.tan((camera.fov * Math.PI) / 360);
-    this.gizmo.scale.setScalar(SIZE * height);
+    this.gizmo.scale.setScalar(SIZE * height * Math.min(1, this.page.stage.aspect));
   }
 
   #down(event) {
