@@ -39,6 +39,14 @@ def arm(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.fixture(scope="module")
+def arm_served(serve_for_all, tmp_path_factory: pytest.TempPathFactory):
+    """The arm, served for all tests that leave its file alone; where its joints stand is anybody's guess."""
+    path = tmp_path_factory.mktemp("arm") / "arm.urdf"
+    path.write_text(ARM.format(length=0.4))
+    return serve_for_all("view", str(path))
+
+
 def slide(page, joint: str, value: float) -> None:
     """Move a slider as a person's hand does: the value, then the event."""
     page.locator(f"#joint-{joint}").evaluate(
@@ -48,12 +56,15 @@ def slide(page, joint: str, value: float) -> None:
 
 
 @pytest.mark.browser
-def test_a_slider_moves_a_link(serve, visits, keep, until, arm: Path) -> None:
-    served = serve("view", str(arm))
-    page = visits.open(served.url)
-    assert page.url == f"{served.origin}/"  # the key is gone from the address
+def test_a_slider_moves_a_link(arm_served, visits, keep, until) -> None:
+    page = visits.open(arm_served.url)
+    assert page.url == f"{arm_served.origin}/"  # the key is gone from the address
     assert page.title() == "arm · urdfkit"
     assert page.locator("#robot-name").inner_text() == "arm"
+    slide(page, "shoulder", 0)
+    slide(page, "slide", 0)
+    until(lambda: page.evaluate(Y_OF_UPPER) == pytest.approx(0, abs=1e-9))
+    page.wait_for_timeout(50)  # a picture later
     before = page.screenshot()
     keep(page, "open")
 
@@ -67,12 +78,12 @@ def test_a_slider_moves_a_link(serve, visits, keep, until, arm: Path) -> None:
     assert page.screenshot() != before
     keep(page, "slider")
     assert visits.problems == []
-    assert all(url.startswith((served.origin, "data:", "blob:")) for url in visits.requests)
+    assert all(url.startswith((arm_served.origin, "data:", "blob:")) for url in visits.requests)
 
 
 @pytest.mark.browser
-def test_typing_zero_filter_and_keys(serve, visits, keep, until, arm: Path) -> None:
-    page = visits.open(serve("view", str(arm)).url)
+def test_typing_zero_filter_and_keys(arm_served, visits, keep, until) -> None:
+    page = visits.open(arm_served.url)
     number = page.get_by_label("shoulder [rad]")
     number.fill("0.5")
     number.press("Enter")
@@ -89,8 +100,8 @@ def test_typing_zero_filter_and_keys(serve, visits, keep, until, arm: Path) -> N
 
 
 @pytest.mark.browser
-def test_what_is_shown_can_be_chosen(serve, visits, keep, until, arm: Path) -> None:
-    page = visits.open(serve("view", str(arm)).url)
+def test_what_is_shown_can_be_chosen(arm_served, visits, keep, until) -> None:
+    page = visits.open(arm_served.url)
     shown = "(role) => urdfkit.scene.viewer.scene_tree.find(['robot', 'links', 'upper', role]).object.visible"
     assert page.evaluate(shown, "visual")
     assert not page.evaluate(shown, "collision")
@@ -163,11 +174,10 @@ def test_a_mesh_used_four_times_is_fetched_once(serve, visits, keep, until, tmp_
 
 
 @pytest.mark.browser
-def test_nobody_gets_in_without_the_key(serve, visits, keep, arm: Path) -> None:
-    served = serve("view", str(arm))
-    visits.open(served.url)
+def test_nobody_gets_in_without_the_key(arm_served, visits, keep) -> None:
+    visits.open(arm_served.url)
     other = visits.open("about:blank", ready=False)
-    answer = other.goto(f"{served.origin}/")
+    answer = other.goto(f"{arm_served.origin}/")
     assert answer is not None
     assert answer.status == 403
     assert "needs its key" in other.content()
@@ -175,22 +185,21 @@ def test_nobody_gets_in_without_the_key(serve, visits, keep, arm: Path) -> None:
 
 
 @pytest.mark.browser
-def test_several_pages_see_the_same(serve, visits, until, arm: Path) -> None:
-    served = serve("view", str(arm))
-    one, two = visits.open(served.url), visits.open(served.url)
+def test_several_pages_see_the_same(arm_served, visits, until) -> None:
+    one, two = visits.open(arm_served.url), visits.open(arm_served.url)
     slide(one, "shoulder", -0.6)
     until(lambda: two.evaluate(Y_OF_UPPER) == pytest.approx(math.sin(-0.3), abs=1e-6))
     until(lambda: two.get_by_label("shoulder [rad]").input_value() == "-0.600")
-    late = visits.open(served.url)
+    late = visits.open(arm_served.url)
     until(lambda: late.get_by_label("shoulder [rad]").input_value() == "-0.600")
     assert late.evaluate(Y_OF_UPPER) == pytest.approx(math.sin(-0.3), abs=1e-6)
 
 
 @pytest.mark.browser
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_a_phone(serve, visits, keep, until, arm: Path, scheme: str) -> None:
+def test_a_phone(arm_served, visits, keep, until, scheme: str) -> None:
     phone = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
-    page = visits.open(serve("view", str(arm)).url, color_scheme=scheme, **phone)
+    page = visits.open(arm_served.url, color_scheme=scheme, **phone)
     keep(page, f"phone-{scheme}")
     page.get_by_role("button", name="Joints", exact=True).tap()
     slide(page, "shoulder", 0.5)
@@ -205,8 +214,8 @@ def test_a_phone(serve, visits, keep, until, arm: Path, scheme: str) -> None:
 
 
 @pytest.mark.browser
-def test_the_page_is_found_again_after_the_line_broke(serve, visits, until, arm: Path) -> None:
-    page = visits.open(serve("view", str(arm)).url)
+def test_the_page_is_found_again_after_the_line_broke(arm_served, visits, until) -> None:
+    page = visits.open(arm_served.url)
     page.evaluate("urdfkit.connection.socket.close()")
     page.wait_for_selector("#state[data-state=lost]")
     page.wait_for_selector("#state[data-state=connected]")
@@ -258,9 +267,8 @@ def test_bad_input_is_one_line_and_exit_2(arm: Path, capfd, words: list[str], ex
     assert "Traceback" not in output.err
 
 
-def test_a_busy_port_names_a_free_one(serve, arm: Path, capfd) -> None:
-    served = serve("view", str(arm))
-    port = served.origin.rsplit(":", 1)[1]
+def test_a_busy_port_names_a_free_one(arm_served, arm: Path, capfd) -> None:
+    port = arm_served.origin.rsplit(":", 1)[1]
     assert main(["view", str(arm), "--port", port, "--no-browser"]) == 2
     assert capfd.readouterr().err.startswith(f"urdfkit: port {port} is busy; ")
 
