@@ -504,6 +504,13 @@ def test_topics_are_recorded_to_a_file_that_the_page_gets(ride, tmp_path, monkey
     (tmp_path / "a.mcap").write_bytes(ride.page.files["simpleton.mcap"])
     with Reader(tmp_path / "a.mcap") as reader:
         assert reader.message_count == done["messages"] > 20
+        assert not any("image_raw" in topic for topic in reader.topics)
+    do(ride, "record", on=True, topics=True, pictures=True)
+    spend(ride, 0.1)
+    assert do(ride, "record", on=False)["messages"] > 5
+    (tmp_path / "b.mcap").write_bytes(ride.page.files["simpleton.mcap"])
+    with Reader(tmp_path / "b.mcap") as reader:
+        assert any("image_raw" in topic for topic in reader.topics)
     monkeypatch.chdir(tmp_path)
     do(ride, "record", on=True, topics=True)
     spend(ride, 0.2)

@@ -331,7 +331,7 @@ def test_what_was_recorded_is_shown_again_and_topics_are_saved(page, keep, until
     from rosbags.rosbag2 import Reader
 
     page.locator("#open-tape").click()
-    page.get_by_label("and every topic").check()
+    page.get_by_label("and topics, as an MCAP file").check()
     page.locator("#record").click()
     until(lambda: "Recording" in page.locator("#tape-words").inner_text())
     page.keyboard.down("w")

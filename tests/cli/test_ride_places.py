@@ -16,8 +16,9 @@ SIZE = {"width": 800, "height": 520}
 
 def test_an_arm_is_moved_by_its_sliders_and_a_depth_camera_gives_a_cloud(serve, visits, keep, until) -> None:
     page = visits.open(serve("sim", "teleop", "seven_dof_arm_with_rgbd").url, viewport=SIZE)
-    room = [[-1.5, -1.5], [1.5, -1.5], [1.5, 1.5], [-1.5, 1.5], [-1.5, -1.5]]
-    page.evaluate("(corners) => urdfkit.connection.order('walls', { corners, height: 1.2 })", room)
+    ceiling = "urdfkit.connection.order('walls', { corners: [[-1, 0], [1, 0]], thickness: 2, height: 0.1 })"
+    name = page.evaluate(ceiling)["name"]  # the camera looks up
+    page.evaluate("(name) => urdfkit.connection.order('place', { name, pose: [0, 0, 2.2] })", name)
     page.locator("#open-arms").click()
     until(lambda: page.locator(".real").first.inner_text().startswith("is at"), 60)
     row = page.locator(".controller li").first
@@ -29,7 +30,7 @@ def test_an_arm_is_moved_by_its_sliders_and_a_depth_camera_gives_a_cloud(serve, 
     until(lambda: abs(float(row.locator(".real").inner_text().split()[2]) - 0.4) < 0.1, 60)
     keep(page, "arms")
     assert joint
-    page.locator("#open-sensors").click()
+    page.evaluate("urdfkit.page.panels.open('sensors')")
     clouds = "urdfkit.sensors.shown.filter((each) => each.kinds.includes(3))"
     assert page.evaluate(f"{clouds}.length") >= 1
     assert not page.evaluate(f"{clouds}[0].on")  # a camera's cloud waits until it is asked for

@@ -10,7 +10,10 @@ export function tape(page) {
   const panel = page.panels.add({ id: "tape", title: "Record", icon: TAPE, modes: ["sim"], order: 28 });
   const say = (error) => page.toast(error.message, "error");
   const order = (name, values) => page.connection.order(name, values).catch(say);
-  const topics = check("and every topic, as an MCAP file", { id: "record-topics" });
+  const topics = check("and topics, as an MCAP file", { id: "record-topics", changed: (on) => (pictures.label.hidden = !on) });
+  const pictures = check("pictures and clouds too", { id: "record-pictures", title: "Every picture is taken in full size then: this can be slower than real time" });
+  pictures.label.classList.add("inside");
+  pictures.label.hidden = true;
   const record = h("button.wide.record", { type: "button", id: "record", "aria-pressed": "false" }, "Record");
   const words = h("p.quiet", { role: "status", id: "tape-words" }, "Nothing recorded yet.");
   const slider = h("input", { type: "range", id: "replay-at", min: 0, max: 1, step: "any", value: 0, "aria-label": "Place on the recording" });
@@ -20,12 +23,12 @@ export function tape(page) {
   const replay = h("div.replay", { hidden: true }, h("h3", {}, "Replay"), slider, h("div.row", {}, play, speed, h("span.space"), end));
   const banner = h("p", { id: "replaying", role: "status", hidden: true }, "Replay");
   document.getElementById("stage").append(banner);
-  panel.body.append(record, topics.label, words, replay);
+  panel.body.append(record, topics.label, pictures.label, words, replay);
   let state = { recording: false, frames: 0 };
   let grabbed = false;
 
   record.addEventListener("click", () => {
-    if (!state.recording) return order("record", { on: true, topics: topics.box.checked });
+    if (!state.recording) return order("record", { on: true, topics: topics.box.checked, pictures: pictures.box.checked });
     return order("record", { on: false }).then((done) => {
       if (done?.messages) page.toast(done.file ? `${done.messages} messages in ${done.file}` : `${done.messages} messages, ${(done.bytes / 1e6).toFixed(1)} MB`, "good");
     });
@@ -42,10 +45,10 @@ export function tape(page) {
     const length = message.end - message.begin;
     record.textContent = message.recording ? "Stop" : "Record";
     record.setAttribute("aria-pressed", message.recording);
-    topics.box.disabled = message.recording;
+    topics.box.disabled = pictures.box.disabled = message.recording;
     panel.badge(message.recording ? "●" : null, "error");
     words.textContent = message.recording
-      ? `Recording: ${length.toFixed(1)} s${message.topics ? ", with every topic" : ""}.`
+      ? `Recording: ${length.toFixed(1)} s${message.topics ? ", with topics" : ""}.`
       : message.frames ? `${length.toFixed(1)} s recorded.` : "Nothing recorded yet.";
     replay.hidden = message.recording || !message.frames;
     Object.assign(slider, { min: message.begin, max: message.end });

@@ -16,11 +16,14 @@ from urdfkit.view.orders import Order, Schema, choice, flag, number
 
 if TYPE_CHECKING:
     from urdfkit.bridges.recorder import Recorder
+    from urdfkit.bus import Bus, Topic
 
 MOST_BYTES = 96 * 1024 * 1024
 """Of a tape; it stops there."""
 MOST_HANDED = 48 * 1024 * 1024
 """Largest recording that is given to the page; a larger one is left in the folder that urdfkit was started in."""
+LARGE = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/PointCloud")
+"""Types of messages that are recorded only where that is asked for."""
 FRAME_RATE = 60.0
 """Frames of a simulated second that are kept [Hz]."""
 
@@ -51,7 +54,7 @@ class Tape(Part):
         """The orders it takes."""
         replay = {"at": number(0), "speed": number(0.05, 20)}
         return {
-            "record": (Schema({"on": flag}, {"topics": flag}), self._record),
+            "record": (Schema({"on": flag}, {"topics": flag, "pictures": flag}), self._record),
             "replay": (Schema({"action": choice("show", "play", "pause", "end")}, replay), self._replay),
         }
 
@@ -106,7 +109,8 @@ class Tape(Part):
             from urdfkit.bridges.recorder import Recorder
 
             folder = self._folder.enter_context(TemporaryDirectory())
-            self._recorder = Recorder(self.simulator.bus, Path(folder) / "ride.mcap", lambda: self.simulator.t)
+            bus: Any = self.simulator.bus if order.values.get("pictures") else WithoutPictures(self.simulator.bus)
+            self._recorder = Recorder(bus, Path(folder) / "ride.mcap", lambda: self.simulator.t)
         self._recording = True
         self.show()
         return None
@@ -209,3 +213,20 @@ class Tape(Part):
         if self._recorder is not None:
             self._leave(self._recorder, f"{self.simulator.name}.mcap")
         self._folder.close()
+
+
+class WithoutPictures:
+    """A bus as a recorder sees it that is to leave out what is large.
+
+    Args:
+        bus: the whole.
+    """
+
+    def __init__(self, bus: Bus) -> None:
+        self._bus = bus
+        self.subscribe = bus.subscribe
+
+    @property
+    def topics(self) -> tuple[Topic, ...]:
+        """The others."""
+        return tuple(topic for topic in self._bus.topics if topic.type not in LARGE)
