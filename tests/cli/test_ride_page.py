@@ -393,3 +393,22 @@ def test_a_phone_shows_the_panels_as_a_sheet(served, visits, keep, until) -> Non
         keep(page, f"phone-{panel}")
     wide = page.evaluate("document.documentElement.scrollWidth")
     assert wide <= 390
+
+
+def test_measuring_and_publishing_a_point(page, keep, until) -> None:
+    page.get_by_role("button", name="Pause").click()
+    look_from_above(page)
+    page.get_by_role("button", name="Measure between two points").click()
+    page.mouse.click(*spot(page, 1.0, 1.0))
+    page.mouse.click(*spot(page, 1.0, -1.0))
+    until(lambda: page.locator(".measure-label").count() == 1)
+    length = re.fullmatch(r"([\d.]+) m", page.locator(".measure-label").inner_text())
+    assert length is not None
+    assert float(length[1]) == pytest.approx(2.0, abs=0.02)  # a pixel is about a centimetre
+    page.get_by_role("button", name="Publish a point").click()
+    page.mouse.click(*spot(page, -1.0, 1.0))
+    until(lambda: re.fullmatch(r"Published -(1|0\.99).* in world", page.locator("#toast").inner_text()))
+    keep(page, "measure")
+    page.locator("#open-measure").click() if page.locator("#panel-measure").is_hidden() else None
+    page.get_by_role("button", name="Clear", exact=True).click()
+    page.keyboard.press("Escape")

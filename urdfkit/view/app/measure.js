@@ -9,6 +9,7 @@ const RULER = "M3 16L16 3l5 5L8 21zM7 12l2 2M10 9l3 3M13 6l2 2";
 const POINT = "M12 21s7-6.2 7-11.5a7 7 0 1 0-14 0C5 14.8 12 21 12 21zM12 7.5a2 2 0 1 0 0 4a2 2 0 0 0 0-4z";
 const CLOSE = "M6 6l12 12M18 6L6 18";
 const COLOUR = 0xe0399b;
+const WORLD = "world"; // the frame of a simulation's grid
 
 class Points {
   constructor(page) {
@@ -40,7 +41,7 @@ class Points {
 
 export function measure(page) {
   const points = new Points(page);
-  const panel = page.panels.add({ id: "measure", title: "Measure", icon: RULER, modes: ["view"], order: 47 });
+  const panel = page.panels.add({ id: "measure", title: "Measure", icon: RULER, order: 47 });
   const hint = h("p.quiet", {}, "Take the ruler or the pin on the stage, then click on the robot or the ground. Near a corner, the corner is taken.");
   const list = h("ol.measures");
   const clear = h("button", { type: "button", hidden: true, onclick: () => (items.slice().forEach(remove), (first = null)) }, "Clear");
@@ -55,8 +56,8 @@ export function measure(page) {
     page.stage.pane.style.cursor = held ? "crosshair" : "";
     if (held && !page.panels.narrow.matches) page.panels.open("measure");
   };
-  page.tools.tool({ id: "measure", title: "Measure between two points", icon: RULER, modes: ["view"], order: 20, take: taken });
-  page.tools.tool({ id: "point", title: "Publish a point", icon: POINT, modes: ["view"], order: 30, take: taken });
+  page.tools.tool({ id: "measure", title: "Measure between two points", icon: RULER, order: 20, take: taken });
+  page.tools.tool({ id: "point", title: "Publish a point", icon: POINT, order: 30, take: taken });
   page.shortcut({ key: "d", does: "measure a distance", group: "Tools", run: () => page.tools.hold("measure") });
   page.shortcut({ key: "b", does: "publish a point", group: "Tools", run: () => page.tools.hold("point") });
   page.on("click3d", (hit) => {
@@ -80,15 +81,26 @@ export function measure(page) {
 
   async function publish(point) {
     add([point]);
-    const frame = point.link ?? page.cameras.fixed ?? "";
-    const named = frame || page.robot.kinematics.root;
-    const place = point.link ? point.local : point.point;
+    const { order, values, place, frame } = page.mode === "sim" ? inWorld(point) : onLink(point);
     try {
-      await page.connection.order("point", { frame: named, position: place });
-      page.toast(`Published ${place.map((x) => short(x, 4)).join(", ")} in ${named}`, "good");
+      await page.connection.order(order, values);
+      page.toast(`Published ${place.map((x) => short(x, 4)).join(", ")} in ${frame}`, "good");
     } catch (error) {
       page.toast(error.message, "error");
     }
+  }
+
+  function onLink({ link, local, point }) {
+    const frame = link ?? (page.cameras.fixed || page.robot.kinematics.root);
+    const place = link ? local : point;
+    return { order: "point", values: { frame, position: place }, place, frame };
+  }
+
+  // A simulation has topics to publish to; what is clicked may be anybody's, so the point is the world's.
+  function inWorld({ point: place }) {
+    const [x, y, z] = place;
+    const message = { header: { frame_id: WORLD }, point: { x, y, z } };
+    return { order: "publish", values: { topic: "/clicked_point", type: "geometry_msgs/msg/PointStamped", message }, place, frame: WORLD };
   }
 
   function add(which) {
@@ -131,7 +143,7 @@ export function measure(page) {
   function describe({ points: which, label, text }) {
     const [a, b] = which.map((point) => points.at(point));
     if (!b) {
-      const frame = page.cameras.fixed || page.robot?.kinematics.root;
+      const frame = page.cameras.fixed || page.robot?.kinematics.root || WORLD;
       label.textContent = a.map((x) => short(x)).join(", ");
       text.textContent = `${which[0].link ?? "ground"}: ${a.map((x) => short(x, 4)).join("  ")} m in ${frame}`;
       return;
