@@ -153,6 +153,37 @@ def test_steps_and_speed(ride) -> None:
     assert ride.simulator.t - before == pytest.approx(4.0, abs=0.05)
 
 
+def test_steps_that_would_keep_everybody_waiting_are_done_in_part(ride, monkeypatch) -> None:
+    step = ride.simulator.step
+
+    def slow(steps: int) -> None:
+        step(steps)
+        ride.wall.now += 0.01 * steps
+
+    monkeypatch.setattr(ride.simulator, "step", slow)
+    ride.simulator.paused = True
+    with pytest.raises(SimulationError, match="100 of 300 steps are done"):
+        do(ride, "step", steps=300)
+
+
+def test_orders_that_take_long_are_spread_over_rounds(ride, monkeypatch) -> None:
+    take = ride._do
+
+    def slow(order: Any) -> None:
+        ride.wall.now += 0.02
+        take(order)
+
+    monkeypatch.setattr(ride, "_do", slow)
+    for k in range(10):
+        order = check(ride.page.orders, 1, Do(k, "where", {"name": "simpleton"}))
+        ride.page.inbox.put_order(order)
+    ride.tick()
+    assert len(ride.page.answers) == 3
+    for _ in range(3):
+        ride.tick()
+    assert len(ride.page.answers) == 10
+
+
 def test_as_fast_as_it_can_fills_the_round_and_no_more() -> None:
     wall = Wall()
     pace = Pace(0.001, wall)
@@ -193,6 +224,7 @@ def test_publishing_by_a_form(ride) -> None:
         ("/x", "geometry_msgs/msg/Twist", {"liner": {}}, "did you mean `linear`"),
         ("/x", "geometry_msgs/msg/Twist", {"linear": {"x": "fast"}}, "float64"),
         ("/", "geometry_msgs/msg/Twist", {}, "a topic has a name"),
+        ("/x", "std_msgs/msg/UInt8MultiArray", {"data": [2**40]}, "cannot take that message"),
         ("/gazebo/delete_model", "gazebo_msgs/srv/DeleteModel_Request", {}, "no message type"),
     ):
         with pytest.raises(SimulationError, match=line):

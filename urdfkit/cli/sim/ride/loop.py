@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections import deque
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -35,6 +36,8 @@ if TYPE_CHECKING:
 
 STATUS = 0.1
 """Seconds between status lines on the page."""
+PATIENCE = 0.05
+"""Seconds of a round that orders may take; what is left is done in the next."""
 PARTS: tuple[type[Part], ...] = (Transport, Topics, Curves, Objects, Arms, Screws, Hands, Forces, Tape)
 """What the page can do beside driving; a test fails if one is missing here."""
 
@@ -67,6 +70,7 @@ class Ride:
         self._clock, self._sleep = clock, sleep
         self._driven = ""
         self._failed = False
+        self._orders: deque[Order] = deque()
         self._reported = -math.inf
         self.look: Callable[[], None] = lambda: None  # for topics that have come up, where there is a recording
         self.pace = Pace(simulator.dt, clock)
@@ -109,8 +113,10 @@ class Ride:
         wishes = self.server.inbox.take()
         for action in wishes.actions:
             self._act(action)
-        for order in wishes.orders:
-            self._do(order)
+        self._orders.extend(wishes.orders)
+        begin = self._clock()
+        while self._orders and self._clock() - begin <= PATIENCE:
+            self._do(self._orders.popleft())
         if not self.tape.playing:
             self._steer()
             if not self.simulator.paused:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from collections import deque
 
 from urdfkit.cli.sim.ride.part import Done, Part, Takes
@@ -99,7 +100,11 @@ class Topics(Part):
         if len(absolute(name)) < 2:
             raise UsageError("a topic has a name, such as /cmd_vel")
         self._require_message(absolute(name), kind)
-        self.simulator.bus.publish(name, kind, from_fields(kind, order.values["message"]))
+        try:
+            self.simulator.bus.publish(name, kind, from_fields(kind, order.values["message"]))
+        except (ArithmeticError, LookupError, TypeError, ValueError, struct.error) as error:
+            # A number that its field cannot hold, or that a listener makes nothing of: no reason to end the simulation.
+            raise UsageError(f"`{name}` cannot take that message: {error}") from error
         return None
 
     def _require_message(self, name: str, kind: str) -> None:

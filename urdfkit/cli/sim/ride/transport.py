@@ -13,7 +13,9 @@ if TYPE_CHECKING:
     from urdfkit.cli.sim.ride.pace import Pace
 
 MOST_STEPS = 10_000
-"""At one order: more would keep everybody waiting."""
+"""At one order."""
+CHUNK, LONGEST = 50, 1.0
+"""Steps between two looks at the clock, and seconds that one order of steps may take: everybody waits for it."""
 
 
 class Transport(Part):
@@ -36,8 +38,14 @@ class Transport(Part):
     def _step(self, order: Order) -> Done:
         if not self.simulator.paused:
             raise SimulationError("the simulation runs: pause it to go by steps")
-        self.simulator.step(order.values["steps"])
+        wanted, done, begin = order.values["steps"], 0, self.clock()
+        while done < wanted and self.clock() - begin < LONGEST:
+            chunk = min(CHUNK, wanted - done)
+            self.simulator.step(chunk)
+            done += chunk
         self.pace.restart(self.simulator.t)
+        if done < wanted:
+            raise SimulationError(f"{done} of {wanted} steps are done, which took {LONGEST:g} s; order the rest anew")
         return {"time": self.simulator.t}
 
     def _speed(self, order: Order) -> Done:
