@@ -229,6 +229,7 @@ def test_refusals_are_logged_without_the_key(client, server, caplog) -> None:
 
 def test_missing_meshcat_is_one_line(monkeypatch) -> None:
     from urdfkit.errors import MissingDependencyError
+
     monkeypatch.setattr(web, "find_spec", lambda name: None)
     with pytest.raises(MissingDependencyError, match=r"pip install 'urdfkit\[view\]'"):
         web.meshcat_bundle()

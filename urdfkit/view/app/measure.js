@@ -6,7 +6,7 @@ import { copyText } from "./inspector.js";
 
 const THREE = MeshCat.THREE;
 const RULER = "M3 16L16 3l5 5L8 21zM7 12l2 2M10 9l3 3M13 6l2 2";
-const POINT = "M12 21s7-6.2 7-11.5a7 7 0 1 0-14 0C5 14.8 12 21 12 21zM12 7.5a2 2 0 1 0 0 4a2 2 0 0 0 0-4z";
+const POINT = "M12 10a2 2 0 1 0 0 4a2 2 0 0 0 0-4zM7.8 7.8a6 6 0 0 0 0 8.4M16.2 7.8a6 6 0 0 1 0 8.4M5 5a10 10 0 0 0 0 14M19 5a10 10 0 0 1 0 14";
 const CLOSE = "M6 6l12 12M18 6L6 18";
 const COLOUR = 0xe0399b;
 const WORLD = "world"; // the frame of a simulation's grid
@@ -42,7 +42,7 @@ class Points {
 export function measure(page) {
   const points = new Points(page);
   const panel = page.panels.add({ id: "measure", title: "Measure", icon: RULER, order: 47 });
-  const hint = h("p.quiet", {}, "Take the ruler or the pin on the stage, then click on the robot or the ground. Near a corner, the corner is taken.");
+  const hint = h("p.quiet", {}, "Take the ruler, or the dot with waves, on the stage; then click on the robot or the ground. Near a corner, the corner is taken.");
   const list = h("ol.measures");
   const clear = h("button", { type: "button", hidden: true, onclick: () => (items.slice().forEach(remove), (first = null)) }, "Clear");
   panel.tools.append(clear);
