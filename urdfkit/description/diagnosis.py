@@ -28,7 +28,7 @@ _UNUSED_BLOCK = r'Unused block "(.*)"'
 _CONDITIONAL = r'Xacro conditional "(.*)" evaluated to "(.*)", which'
 _CIRCULAR = r"circular variable definition: ([^\n]*)"
 _FORWARDED = r"Undefined property to forward: (\S+)"
-_MISSING_ATTRIBUTE = r"(\S+): missing attribute '(.*)'"
+_MISSING_ATTRIBUTE = r"(?<!\S)(\S+): missing attribute '(.*)'"
 
 
 def fault_of(error: BaseException, run: Run, caught_in: FrameType | None = None) -> Fault:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from functools import partial
 from pathlib import Path
 from xml.parsers import expat
@@ -27,6 +27,12 @@ MAX_BYTES = 64 * 2**20
 
 MAX_DEPTH = 200
 """A description is refused when its elements are nested deeper; people's nest less than 20 deep."""
+
+MAX_VALUE = 100_000
+"""A description is refused when an attribute has more characters; people's have some hundreds."""
+
+MAX_ATTRIBUTES = 1_000
+"""A description is refused when an element has more attributes; people's have less than 20."""
 
 STAMP = "urdfkit.origin"
 """The key under which the elements of a minidom carry their `Stamp` (as DOM user data)."""
@@ -87,8 +93,11 @@ def document_of(source: Source) -> Element:
     texts: list[list[str]] = [[]]
     parser = expat.ParserCreate()
     parser.buffer_text = True
+    is_large = len(source.text) > MAX_VALUE
 
     def start(tag: str, attributes: dict[str, str]) -> None:
+        if is_large:
+            _refuse_excess(source, parser, tag, attributes.values())
         line, column = parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
         starts.append((tag, attributes, Origin(Position(file, line, column))))
         families.append([])
@@ -125,7 +134,9 @@ def stamped_document(source: Source, on_clone: Any, *, namespaces: bool = True) 
     """
     from urdfkit.description.stamping import PrefixBlindBuilder, StampingBuilder
 
-    builder = (StampingBuilder if namespaces else PrefixBlindBuilder)(source.file, on_clone, partial(_too_deep, source))
+    kind = StampingBuilder if namespaces else PrefixBlindBuilder
+    check = partial(_refuse_excess, source) if len(source.text) > MAX_VALUE else None
+    builder = kind(source.file, on_clone, partial(_too_deep, source), check)
     parser = builder.getParser()
     parser.EntityDeclHandler = lambda name, *_: _refuse_entity(source, parser, name)
     inherited: Any = parser.StartDoctypeDeclHandler
@@ -220,6 +231,16 @@ def _here(source: Source, parser: Any) -> Position:
 
 def _too_deep(source: Source, parser: Any) -> NoReturn:
     raise XmlError(f"elements are nested deeper than {MAX_DEPTH}", position=_here(source, parser))
+
+
+def _refuse_excess(source: Source, parser: Any, tag: str, values: Collection[str]) -> None:
+    if len(values) > MAX_ATTRIBUTES:
+        message = f"<{tag}> has {len(values)} attributes; at most {MAX_ATTRIBUTES} are read"
+        raise XmlError(message, position=_here(source, parser))
+    longest = max(map(len, values), default=0)
+    if longest > MAX_VALUE:
+        message = f"an attribute of <{tag}> has {longest} characters; at most {MAX_VALUE} are read"
+        raise XmlError(message, position=_here(source, parser))
 
 
 def _refuse_entity(source: Source, parser: Any, name: str) -> NoReturn:

@@ -19,10 +19,17 @@ class _Stamping(ExpatBuilder):
         file: the name to stamp.
         on_clone: DOM user data handler of the stamps.
         too_deep: called with the parser when elements nest too deep; raises.
+        check: called with the parser, the tag and the values of its attributes for every element, before it is made.
     """
 
-    def __init__(self, file: str, on_clone: Any, too_deep: Callable[[Any], None]) -> None:
-        self._file, self._on_clone, self._too_deep = file, on_clone, too_deep
+    def __init__(
+        self,
+        file: str,
+        on_clone: Any,
+        too_deep: Callable[[Any], None],
+        check: Callable[[Any, str, Any], None] | None = None,
+    ) -> None:
+        self._file, self._on_clone, self._too_deep, self._check = file, on_clone, too_deep, check
         self._depth = 0
         super().__init__()
 
@@ -32,6 +39,8 @@ class _Stamping(ExpatBuilder):
 
     def start_element_handler(self, name: str, attributes: Any) -> None:
         """Stamp the element."""
+        if self._check is not None:
+            self._check(self.getParser(), name.rpartition(" ")[2], attributes[1::2])
         super().start_element_handler(name, attributes)
         parser = self.getParser()
         stamp = (self._file, parser.CurrentLineNumber, parser.CurrentColumnNumber + 1, ())

@@ -19,7 +19,7 @@ _IGNORE_MARKS = frozenset(("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"))
 _MAX_DEPTH = 12
 
 # Compiled on first use: to lint one named file takes none of the last four.
-_COMMENT = r"(?s)<!--.*?-->"
+_COMMENT = r"(?s)<!--.*?(?:-->|\Z)"  # one that is never closed is looked at once
 _ROOT = r"<(robot)\b((?:\"[^\"]*\"|'[^']*'|[^>\"'])*)>|<[A-Za-z_]"
 _NAMED = r"(?<![\w:])name\s*="
 _INCLUDE = r"<(?:xacro:)?include\b[^<>]*?filename\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from urdfkit.record import record
 
-_COMMENT = r"(?s)<!--.*?-->"
+_COMMENT = r"(?s)<!--.*?(?:-->|\Z)"
 _BUILD = r"<build(?:tool_depend|_type)\b[^>]*>\s*([\w.-]+)\s*<"
 _NEEDS = r"<(?:\w*depend|name)\b[^>]*>\s*([\w.-]+)\s*<"
 

@@ -24,6 +24,8 @@ _RESET = "\x1b[0m"
 _STYLES = {"error": "\x1b[1;31m", "warning": "\x1b[1;33m", "info": "\x1b[1;36m", "bold": "\x1b[1m", "dim": "\x1b[34m"}
 _TAB = "    "
 _LISTED_CALLS = 4
+_LONG = 400
+"""Columns to which a source line is cut where the output is no terminal."""
 
 
 class TextReport:
@@ -75,8 +77,8 @@ class TextReport:
         shown = line.rstrip().replace("\t", _TAB)
         start, length = _columns(before), max(_columns(marked), 1)
         number = str(span.line)
-        if self.width is not None:
-            shown, start, length = _cut(shown, start, length, max(self.width - len(number) - 3, 20))
+        if self.width is not None or len(shown) > _LONG:
+            shown, start, length = _cut(shown, start, length, max((self.width or _LONG) - len(number) - 3, 20))
         bar = self._styled("|", "dim")
         caret = self._styled("^" * length, finding.severity)
         return [

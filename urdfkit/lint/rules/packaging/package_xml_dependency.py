@@ -57,7 +57,7 @@ class PackageXmlDependency(RobotRule):
         package = next((f for f in model.expanded.path.absolute().parents if (f / "package.xml").is_file()), None)
         if package is None:
             return
-        manifest = re.sub(r"(?s)<!--.*?-->", "", (package / "package.xml").read_text("utf-8", "replace"))
+        manifest = re.sub(r"(?s)<!--.*?(?:-->|\Z)", "", (package / "package.xml").read_text("utf-8", "replace"))
         named = set(re.findall(r"<(?:\w*depend|name)\b[^>]*>\s*([\w.-]+)\s*<", manifest))
         for file, source in model.expanded.sources.items():
             uses = "$(find" in source.text or "package://" in source.text

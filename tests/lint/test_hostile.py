@@ -1,0 +1,103 @@
+"""Files that mean harm, or are broken beyond sense: refused in one line, or linted, in little time and memory.
+
+``python tests/bench/fuzz_lint.py`` tries twenty thousand.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import resource
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+BENCH = Path(__file__).parents[1] / "bench" / "fuzz_lint.py"
+XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+MANY = " ".join(f'a{n}=""' for n in range(20_000))
+ENTITIES = '<!ENTITY a0 "ha">' + "".join('<!ENTITY a{} "{}">'.format(n, f"&a{n - 1};" * 10) for n in range(1, 10))
+
+HOSTILE = {
+    "a bomb of entities.urdf": (f"<!DOCTYPE r [{ENTITIES}]><robot name='r'>&a9;</robot>", "declares the entity `a0`"),
+    "an external entity.urdf": ('<!DOCTYPE r SYSTEM "file:///etc/passwd"><robot/>', "external entities are refused"),
+    "nesting.urdf": (f"<robot name='r'>{'<a>' * 10_000}{'</a>' * 10_000}</robot>", "nested deeper than 200"),
+    "nesting.xacro": (f"<robot name='r'>{'<a>' * 10_000}{'</a>' * 10_000}</robot>", "nested deeper than 200"),
+    "value.urdf": (f"<robot name='{'x' * 10_000_000}'/>", "has 10000000 characters; at most 100000 are read"),
+    "value.xacro": (f"<robot name='{'${1}' * 2_500_000}'/>", "has 10000000 characters; at most 100000 are read"),
+    "attributes.urdf": (f"<robot {MANY}/>", "has 20000 attributes"),
+    "attributes.xacro": (f"<robot {MANY}/>", "has 20000 attributes"),
+    "cycle.xacro": (
+        f"<robot {XACRO}><xacro:include filename='cycle.xacro'/></robot>",
+        "without end: cycle.xacro → cycle",
+    ),
+    "macro.xacro": (
+        f"<robot {XACRO}><xacro:macro name='m'><xacro:m/><xacro:m/></xacro:macro><xacro:m/></robot>",
+        "macro `m` calls itself without end",
+    ),
+    "quotes.urdf": ("<robot name='r'><link name=\"a" + '" x="' * 300_000, "E001"),
+    "comments.urdf": ("<robot name='r'><!--" + "<!-- " * 300_000, "E001"),
+    "blanks.urdf": (f"<robot name='r'><link {' ' * 2_000_000}", "E001"),
+    "brackets.urdf": ("<" * 500_000, "E001"),
+    "dollars.xacro": (f"<robot {XACRO} name='r'><link name='a'/>{'${' * 20_000}</robot>", "X125"),
+}
+
+
+def limits() -> None:
+    resource.setrlimit(resource.RLIMIT_AS, (600 * 10**6, 600 * 10**6))
+    resource.setrlimit(resource.RLIMIT_CPU, (5, 5))
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_hostile_files_are_refused_in_a_line(name, tmp_path):
+    text, message = HOSTILE[name]
+    (tmp_path / name).write_text(text)
+    done = subprocess.run(
+        [sys.executable, "-m", "urdfkit", "lint", "--no-cache", name],
+        cwd=tmp_path,
+        preexec_fn=limits,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (1, "")
+    (line,) = [line for line in done.stdout.splitlines() if message in line]
+    assert len(line) < 300
+    assert max(map(len, done.stdout.splitlines())) < 500
+
+
+@pytest.fixture(scope="module")
+def bench():
+    found = importlib.util.spec_from_file_location("fuzz_lint", BENCH)
+    assert found is not None
+    assert found.loader is not None
+    module = importlib.util.module_from_spec(found)
+    found.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize("first", range(0, 200, 50))
+def test_broken_files_bring_no_traceback(bench, first):
+    counts, failures, _ = bench.work((first, first + 50, ""))
+    assert failures == []
+    assert counts.total() == 50
+
+
+def test_a_fault_of_ours_and_a_hang_are_noticed(bench, monkeypatch, tmp_path):
+    path = tmp_path / "r.urdf"
+    path.write_text("<robot name='r'/>")
+    assert bench.judged(path) == "found"
+
+    def broken(*_):
+        raise KeyError("x")
+
+    monkeypatch.setattr(bench, "run", broken)
+    assert "KeyError" in bench.judged(path)
+
+    def endless(*_):
+        while True:
+            pass
+
+    monkeypatch.setattr(bench, "SECONDS", 0.05)
+    monkeypatch.setattr(bench, "run", endless)
+    assert bench.judged(path).startswith("more than 0.05 s")
