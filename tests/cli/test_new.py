@@ -87,20 +87,21 @@ def test_maintainer_is_asked_of_git(place, monkeypatch):
 
 def test_quiet_prints_what_was_written_only(place, capsys):
     assert main(["new", "robot", "scout", "-q"]) == 0
-    assert capsys.readouterr().out.splitlines() == ["scout_description  14 files", "scout_gazebo  8 files"]
+    assert capsys.readouterr().out.splitlines() == ["scout_description  15 files", "scout_gazebo  8 files"]
 
 
 def test_questions_on_a_terminal(place, monkeypatch):
-    typed = ["Scout", "scout", "lunar", "noetic", "", "", "", "", "0.1"]
+    typed = ["Scout", "scout", "lunar", "noetic", "", "", "", "", "", "0.1"]
     shown = type_in(monkeypatch, *typed, *[""] * 10)
     assert main(["new", "robot"]) == 0
     text = shown.getvalue()
     assert "did you mean `scout`" in text
     assert "`lunar` is not available" in text
-    assert "Radius of a wheel [m] = 0.075: " in text
-    assert "Drive" not in text  # there is but one
+    assert "Radius of a wheel or ball [m] = 0.075: " in text
+    assert "Drive (diff, skid, ackermann, omni, none) = diff: " in text
+    assert "axle" not in text  # that is for other drives
     assert (place / "scout_gazebo/launch/scout.launch").is_file()
-    assert '"wheel_radius" value="0.1"' in (place / "scout_description/urdf/scout.urdf.xacro").read_text()
+    assert '"wheel_radius" value="0.1"' in (place / "scout_description/urdf/drive.xacro").read_text()
 
 
 def test_what_was_given_is_not_asked(place, monkeypatch):
@@ -132,7 +133,22 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
         (["robot", "scout_description"], "did you mean `scout`?"),
         (["robot", "scout", "--ros", "humble"], "--ros `humble` is not available; there is: jazzy, kilted, noetic"),
         (["robot", "scout", "--ros", "noetc"], "did you mean `noetic`?"),
-        (["robot", "scout", "--drive", "skid"], "--drive `skid` is not available; there is: diff"),
+        (
+            ["robot", "scout", "--drive", "skdi"],
+            "--drive `skdi` is not available; did you mean `skid`.*: diff, skid, ack",
+        ),
+        (
+            ["robot", "scout", "--drive", "omni", "--wheel-torque", "2"],
+            "--wheel-torque is for --drive diff or ackermann",
+        ),
+        (["robot", "scout", "--wheel-base", "2"], "--wheel-base is for --drive skid or ackermann or omni"),
+        (["robot", "car", "--drive", "ackermann", "--ros", "noetic"], "has no Ackermann drive for ROS 1: --ros jazzy"),
+        (
+            ["robot", "car", "--drive", "omni", "--wheel-base", "0.1"],
+            "the wheels would touch each other: --wheel-base",
+        ),
+        (["robot", "scout", "--drive", "skid", "--wheel-base", "0.5"], "it would hardly turn"),
+        (["robot", "scout", "--drive", "skid", "--base-height", "0.4"], "it would tip over when it starts"),
         (["robot", "scout", "--arm", "6"], "--arm is not available yet; there is: --ros, --drive, .*--license"),
         (["robot", "scout", "--sensor", "lidar"], "--sensor is not available yet"),
         (["robot", "scout", "--gripper"], "--gripper is not available yet"),

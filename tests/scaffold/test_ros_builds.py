@@ -81,7 +81,9 @@ def test_catkin(workspace, with_xacro):
     """A new robot and all robots of ROS 1 that we ship, in one workspace."""
     require("catkin catkin-lint python3-roslaunch rospack-tools", "catkin_make", "catkin_lint", "roslaunch", "rospack")
     src = workspace / "src"
-    assert main(["new", "robot", "scout", "--ros", "noetic", "--into", "src", "--yes"]) == 0
+    new = {"scout": "diff", "skidder": "skid", "glider": "omni", "stander": "none"}
+    for name, drive in new.items():
+        assert main(["new", "robot", name, "--ros", "noetic", "--drive", drive, "--into", "src", "--yes"]) == 0
     robots = shipped("catkin")
     assert len(robots) >= 6
     for package in (package for packages in robots.values() for package in packages):
@@ -90,7 +92,7 @@ def test_catkin(workspace, with_xacro):
     run(workspace, "catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3 install")
     share = workspace / "install/share"
     stub_gazebo_ros(share)
-    commands, names = [], ["scout", *robots]
+    commands, names = [], [*new, *robots]
     for name in names:
         assert (share / f"{name}_description/urdf/{name}.urdf.xacro").is_file()
         assert list((share / f"{name}_gazebo/worlds").glob("*.world"))
@@ -110,12 +112,14 @@ def test_colcon(workspace):
         "cmake",
         modules=("colcon_ros", "colcon_cmake", "colcon_recursive_crawl", "ament_package"),
     )
-    assert main(["new", "robot", "scout", "--ros", "jazzy", "--into", "src", "--yes"]) == 0
+    new = {"scout": "diff", "skidder": "skid", "car": "ackermann", "glider": "omni", "stander": "none"}
+    for name, drive in new.items():
+        assert main(["new", "robot", name, "--drive", drive, "--into", "src", "--yes"]) == 0
     robots = shipped("ament_cmake")
     assert len(robots) >= 3
     for package in (package for packages in robots.values() for package in packages):
         shutil.copytree(package, workspace / "src" / package.name)
-    count = 2 + sum(len(packages) for packages in robots.values())
+    count = 2 * len(new) + sum(len(packages) for packages in robots.values())
     assert f"{count} packages finished" in run(workspace, "colcon build")
     for name, packages in robots.items():
         for package in packages:

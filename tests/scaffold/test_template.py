@@ -103,3 +103,86 @@ def test_broken_toml(tmp_path, text, message):
 def test_no_toml(tmp_path):
     with pytest.raises(ResourceError, match=r"template\.toml: No such file"):
         load_template(tmp_path)
+
+
+SEVERAL = """
+summary = "a thing"
+[[question]]
+name = "colour"
+prompt = "Colour"
+kind = "choice"
+choices = ["red", "blue"]
+default = "red"
+[[question]]
+name = "part"
+prompt = "Part"
+kind = "choices"
+choices = ["arm", "leg", "eye"]
+default = ""
+[[question]]
+name = "depth"
+prompt = "Depth of the blue"
+kind = "number"
+default = "1"
+when = { colour = ["blue"] }
+[[word]]
+name = "tone"
+by = "colour"
+says = { red = "warm", blue = "cold, @depth@" }
+[[word]]
+name = "bone"
+by = "part"
+says = { arm = "ulna", leg = "femur" }
+[[check]]
+holds = "depth < 3"
+otherwise = "too deep"
+when = { part = ["eye"] }
+[[layer]]
+folder = "all"
+[[layer]]
+folder = "more"
+append = true
+when = { part = ["leg", "eye"] }
+"""
+
+
+@pytest.fixture
+def several(tmp_path):
+    """A template with a question of several answers, words, and a layer that goes behind."""
+    folder = tmp_path / "template"
+    (folder / "all").mkdir(parents=True)
+    (folder / "all/a").write_text("@colour@ is @tone@\n  <@part@>\n<@part@ of @colour@>\n@bone@\nend\n")
+    (folder / "more").mkdir()
+    (folder / "more/a").write_text("more\n")
+    (folder / "template.toml").write_text(SEVERAL)
+    return load_template(folder)
+
+
+@pytest.mark.parametrize(
+    ("given", "text"),
+    [
+        ({}, "red is warm\nend\n"),
+        ({"part": "arm"}, "red is warm\n  <arm>\n<arm of red>\nulna\nend\n"),
+        (
+            {"part": "eye arm", "colour": "blue", "depth": "2"},
+            "blue is cold, 2\n  <arm>\n  <eye>\n<arm of blue>\n<eye of blue>\nulna\nend\nmore\n",
+        ),
+    ],
+)
+def test_lines_come_once_for_each_answer(several, tmp_path, given, text):
+    assert several.render(several.answers(given), tmp_path) == [Path("a")]
+    assert (tmp_path / "a").read_text() == text
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"depth": "2"}, "--depth is for --colour blue"),
+        ({"part": "arm arm"}, "--part `arm` is given twice"),
+        ({"part": "leg, am"}, "--part `am` is not available; did you mean `arm`"),
+        ({"part": "eye", "colour": "blue", "depth": "4"}, "too deep"),
+    ],
+)
+def test_what_several_answers_may_not_be(several, given, message):
+    with pytest.raises(UsageError, match=message):
+        several.answers(given)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from urdfkit.errors import UrdfkitError, UsageError
 from urdfkit.resources import templates_dir
-from urdfkit.scaffold import Question, Template, create, load_template, template_names
+from urdfkit.scaffold import Question, Template, applies, create, load_template, template_names
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -54,7 +54,11 @@ def run(arguments: argparse.Namespace) -> int:
         if getattr(arguments, f"later_{option}") is not None:
             there = ", ".join(question.option for question in template.questions if question.kind != "package")
             raise UsageError(f"--{option} is not available yet; there is: {there}")
-    given = {q.name: value for q in template.questions if (value := getattr(arguments, q.name)) is not None}
+    given = {
+        question.name: " ".join(value) if isinstance(value, list) else value
+        for question in template.questions
+        if (value := getattr(arguments, question.name)) is not None
+    }
     into = Path(arguments.into)
     for name, answer in given.items():
         template.question(name).accept(answer)
@@ -71,13 +75,14 @@ def run(arguments: argparse.Namespace) -> int:
 def _add(parser: argparse.ArgumentParser, question: Question) -> None:
     unit = f" [{question.unit}]" if question.unit else ""
     choices = f": {', '.join(question.choices)}" if question.choices else ""
-    default = "" if question.default is None else f" (default: {question.default.removeprefix('=').strip()})"
+    default = f" (default: {question.default.removeprefix('=').strip()})" if question.default else ""
     text = f"{question.prompt}{unit}{choices}{default}{'; ' if question.help else ''}{question.help}".replace("%", "%%")
     if question.default is None:
         parser.add_argument(question.name, nargs="?", metavar=question.name.upper(), help=text)
     else:
         metavar = question.unit or question.name.upper()
-        parser.add_argument(question.option, dest=question.name, metavar=metavar, help=text)
+        action = "append" if question.kind == "choices" else "store"
+        parser.add_argument(question.option, dest=question.name, metavar=metavar, action=action, help=text)
 
 
 def _ask(template: Template, given: dict[str, str]) -> dict[str, str]:
@@ -85,7 +90,8 @@ def _ask(template: Template, given: dict[str, str]) -> dict[str, str]:
     found = dict(given)
     for question in template.questions:
         default = question.default_given(found)
-        if question.name in given or not question.ask or len(question.choices) == 1:
+        asked = question.ask and len(question.choices) != 1 and applies(question.when, found)
+        if question.name in given or not asked:
             found.setdefault(question.name, default or "")
             continue
         while question.name not in found:
@@ -94,7 +100,7 @@ def _ask(template: Template, given: dict[str, str]) -> dict[str, str]:
                 found[question.name] = question.accept(answer or default or "")
             except UsageError as error:
                 print(f"  {error}", file=sys.stderr)
-    return {question.name: found[question.name] for question in template.questions if question.ask}
+    return {q.name: found[q.name] for q in template.questions if q.ask and applies(q.when, found)}
 
 
 def _answered(question: Question, default: str | None) -> str:

@@ -2,7 +2,16 @@
 
 from urdfkit.scaffold.names import check_package_name, sanitised
 from urdfkit.scaffold.new import create
-from urdfkit.scaffold.question import Question
+from urdfkit.scaffold.question import Question, applies
 from urdfkit.scaffold.template import Template, load_template, template_names
 
-__all__ = ["Question", "Template", "check_package_name", "create", "load_template", "sanitised", "template_names"]
+__all__ = [
+    "Question",
+    "Template",
+    "applies",
+    "check_package_name",
+    "create",
+    "load_template",
+    "sanitised",
+    "template_names",
+]

@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from urdfkit.errors import UsageError, did_you_mean
 from urdfkit.scaffold.expression import value_of
 from urdfkit.scaffold.names import check_package_name
+
+When = Mapping[str, tuple[str, ...]]
+"""Which answers something is for, by question."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,11 +32,12 @@ class Question:
         suffixes: what the packages' names end in.
         help: one more line for ``--help``.
         ask: whether a person is asked, or the default goes without saying.
+        when: the answers to earlier questions that it is asked for.
     """
 
     name: str
     prompt: str
-    kind: Literal["package", "choice", "number", "text"]
+    kind: Literal["package", "choice", "choices", "number", "text"]
     default: str | None = None
     unit: str = ""
     choices: tuple[str, ...] = ()
@@ -42,6 +46,7 @@ class Question:
     suffixes: tuple[str, ...] = ()
     help: str = ""
     ask: bool = True
+    when: When = field(default_factory=dict)
 
     @property
     def option(self) -> str:
@@ -75,12 +80,26 @@ class Question:
             return check_package_name(answer, suffixes=self.suffixes)
         if self.kind == "number":
             return self._number(answer)
-        if self.kind == "choice" and answer not in self.choices:
-            near = did_you_mean(answer, self.choices)
-            raise UsageError(f"{self.option} `{answer}` is not available{near}; there is: {', '.join(self.choices)}")
+        if self.kind == "choices":
+            return self._several(answer.replace(",", " ").split())
+        if self.kind == "choice":
+            return self._choice(answer)
         if self.kind == "text" and not re.fullmatch(self.pattern, answer):
             raise UsageError(f"{self.option} `{answer}` cannot be written into the files: {self._text_rule()}")
         return answer
+
+    def _choice(self, answer: str) -> str:
+        if answer not in self.choices:
+            near = did_you_mean(answer, self.choices)
+            raise UsageError(f"{self.option} `{answer}` is not available{near}; there is: {', '.join(self.choices)}")
+        return answer
+
+    def _several(self, answers: list[str]) -> str:
+        """Return them in the order of the choices, with spaces between."""
+        for answer in answers:
+            if answers.count(self._choice(answer)) > 1:
+                raise UsageError(f"{self.option} `{answer}` is given twice; one of each")
+        return " ".join(choice for choice in self.choices if choice in answers)
 
     def _text_rule(self) -> str:
         return (
@@ -100,6 +119,16 @@ class Question:
         if not least <= value <= greatest:
             raise UsageError(f"{self.option} {answer}{unit} is out of range: {least:g} to {greatest:g}{unit}")
         return f"{value:.10g}"
+
+
+def applies(when: When, answers: Mapping[str, str]) -> bool:
+    """Return whether the answers are among those that something is for.
+
+    Args:
+        when: what it is for; of a question that takes several answers, one of them is enough.
+        answers: answers by question.
+    """
+    return all(answers[name] in values or set(answers[name].split()) & set(values) for name, values in when.items())
 
 
 def numbers(answers: Mapping[str, str]) -> dict[str, float]:

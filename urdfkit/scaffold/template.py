@@ -2,12 +2,12 @@
 
 The syntax clashes neither with xacro's ``${…}`` and ``$(…)`` nor with XML, Python, YAML or CMake, so a template file
 is read, checked and highlighted as what it will be. There are no conditions inside files: layers are laid over each
-other, each by the answers it is for.
+other, each by the answers it is for. A line with the placeholder of a question that takes several answers comes once
+for each of them.
 """
 
 from __future__ import annotations
 
-import re
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -17,35 +17,50 @@ from typing import Any
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
 from urdfkit.resources import templates_dir
 from urdfkit.scaffold.expression import holds
-from urdfkit.scaffold.question import Question, numbers
+from urdfkit.scaffold.filling import fill, repeat_lines
+from urdfkit.scaffold.question import Question, When, applies, numbers
 
 if sys.version_info >= (3, 11):
     import tomllib
 else:
     import tomli as tomllib  # type: ignore[import-not-found, unused-ignore]
 
-_PLACEHOLDER = re.compile(r"@([a-z][a-z0-9_]*)@")
 BUILT_IN = ("year", "into")
 """Placeholders that nobody is asked for: the year of a copyright, the folder that is written to."""
-
-When = Mapping[str, tuple[str, ...]]
 
 
 @dataclass(frozen=True, slots=True)
 class Layer:
-    """A folder of files that goes `into` some folders of the result, if the answers are among `when`."""
+    """A folder of files that goes `into` some folders of the result, if the answers are among `when`.
+
+    With `append`, what a file holds goes behind what the layers before have written into the file of that name.
+    """
 
     folder: Path
     into: tuple[str, ...]
     when: When
+    append: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """A placeholder that nobody is asked for: what it says follows `by` the answer to a question.
+
+    By a question that takes several answers it is several words, one for each answer that has one.
+    """
+
+    name: str
+    by: str
+    says: Mapping[str, str]
 
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """A comparison that has to hold between the answers, and what is wrong otherwise."""
+    """A comparison that has to hold between the answers if they are among `when`, and what is wrong otherwise."""
 
     holds: str
     otherwise: str
+    when: When
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +81,7 @@ class Template:
         summary: what it makes, in a line.
         questions: what it asks, in order.
         asks_later: options that are planned; named in the error when they are used.
+        words: placeholders that follow from the answers.
         layers: what it writes.
         checks: what has to hold between the answers.
         next: what to do with the result.
@@ -75,6 +91,7 @@ class Template:
     summary: str
     questions: tuple[Question, ...]
     asks_later: tuple[str, ...]
+    words: tuple[Word, ...]
     layers: tuple[Layer, ...]
     checks: tuple[Check, ...]
     next: tuple[Next, ...]
@@ -106,17 +123,21 @@ class Template:
             self.question(name)
         found: dict[str, str] = {}
         for question in self.questions:
+            if question.name in given and not applies(question.when, found):
+                raise UsageError(f"{question.option} is for {_options(question.when)}")
             answer = given.get(question.name, question.default_given(found))
             if answer is None:
                 raise UsageError(f"{question.prompt[0].lower()}{question.prompt[1:]} is missing")
             found[question.name] = question.accept(answer)
         for check in self.checks:
-            if not holds(check.holds, numbers(found)):
+            if applies(check.when, found) and not holds(check.holds, numbers(found)):
                 raise UsageError(check.otherwise)
         return found
 
     def files(self, answers: Mapping[str, str]) -> Iterator[tuple[Path, Path]]:
         """Yield every file that is written: where it comes from, and its path in the result.
+
+        What is appended comes after what it is appended to, with the same path.
 
         Args:
             answers: answers by question, with the built-in ones.
@@ -126,13 +147,13 @@ class Template:
         """
         written: dict[Path, Path] = {}
         for layer in self.layers:
-            if not _applies(layer.when, answers):
+            if not applies(layer.when, answers):
                 continue
             for source in _sources(layer.folder):
                 for folder in layer.into:
                     name = fill(f"{folder}/{source.relative_to(layer.folder).as_posix()}", answers, where=str(source))
                     target = Path(name)
-                    if target in written:
+                    if target in written and not layer.append:
                         raise ResourceError(f"template: {source} and {written[target]} both become {target}")
                     written[target] = source
                     yield source, target
@@ -150,19 +171,34 @@ class Template:
         Raises:
             ResourceError: the template is wrong, or the folder cannot be written.
         """
-        targets = []
+        several, answers = self._said(answers)
+        targets: dict[Path, None] = {}
         for source, target in self.files(answers):
             try:
-                text = source.read_text(encoding="utf-8")
+                text = repeat_lines(source.read_text(encoding="utf-8"), several)
                 (folder / target).parent.mkdir(parents=True, exist_ok=True)
-                with (folder / target).open("w", encoding="utf-8", newline="\n") as file:
+                with (folder / target).open("a" if target in targets else "w", encoding="utf-8", newline="\n") as file:
                     file.write(fill(text, answers, where=str(source)))
             except OSError as error:
                 raise ResourceError(f"cannot write {folder / target}: {error.strerror}") from error
             except UnicodeDecodeError as error:
                 raise ResourceError(f"template: {source} is not UTF-8: {error.reason}") from error
-            targets.append(target)
-        return targets
+            targets[target] = None
+        return list(targets)
+
+    def _said(self, answers: Mapping[str, str]) -> tuple[dict[str, tuple[str, ...]], dict[str, str]]:
+        """Return what has several values, and the answers with the words that follow from them."""
+        several = {q.name: tuple(answers[q.name].split()) for q in self.questions if q.kind == "choices"}
+        single = dict(answers)
+        for word in self.words:
+            where = f"{self.folder}/template.toml"
+            if word.by in several:
+                several[word.name] = tuple(word.says[answer] for answer in several[word.by] if answer in word.says)
+            elif answers[word.by] in word.says:
+                single[word.name] = fill(word.says[answers[word.by]], single, where=where)
+            else:
+                raise ResourceError(f"{where}: word `{word.name}` says nothing for {word.by} `{answers[word.by]}`")
+        return several, single
 
     def next_steps(self, answers: Mapping[str, str]) -> list[tuple[str, list[str]]]:
         """Return commands to go on with, in groups: a title (empty for the first) and the lines.
@@ -174,38 +210,17 @@ class Template:
             ResourceError: the template is wrong.
         """
         where = f"{self.folder}/template.toml"
+        _, answers = self._said(answers)
         return [
             (fill(step.title, answers, where=where), [fill(line, answers, where=where) for line in step.commands])
             for step in self.next
-            if _applies(step.when, answers)
+            if applies(step.when, answers)
         ]
 
 
 def _sources(folder: Path) -> list[Path]:
     # pip compiles the launch files among our data, too.
     return sorted(path for path in folder.rglob("*") if path.is_file() and "__pycache__" not in path.parts)
-
-
-def fill(text: str, answers: Mapping[str, str], *, where: str) -> str:
-    """Return `text` with every ``@name@`` replaced.
-
-    Args:
-        text: of a file, or its path.
-        answers: what the names stand for.
-        where: named in the error.
-
-    Raises:
-        ResourceError: a placeholder is unknown.
-    """
-
-    def answer(match: re.Match[str]) -> str:
-        if match[1] not in answers:
-            line = text.count("\n", 0, match.start()) + 1
-            column = match.start() - text.rfind("\n", 0, match.start())
-            raise ResourceError(f"{where}:{line}:{column}: no question `{match[1]}`{did_you_mean(match[1], answers)}")
-        return answers[match[1]]
-
-    return _PLACEHOLDER.sub(answer, text)
 
 
 def template_names() -> list[str]:
@@ -243,12 +258,14 @@ def _template(folder: Path, table: dict[str, Any]) -> Template:
     return Template(
         folder=folder,
         summary=table["summary"],
-        questions=tuple(Question(**_tuples(entry)) for entry in table.get("question", ())),
+        questions=tuple(Question(**_tuples(entry) | {"when": _when(entry)}) for entry in table.get("question", ())),
         asks_later=tuple(table.get("asks_later", ())),
+        words=tuple(Word(**entry) for entry in table.get("word", ())),
         layers=tuple(
-            Layer(folder / entry["folder"], tuple(entry.get("into", (".",))), _when(entry)) for entry in table["layer"]
+            Layer(folder / entry["folder"], tuple(entry.get("into", (".",))), _when(entry), entry.get("append", False))
+            for entry in table["layer"]
         ),
-        checks=tuple(Check(**entry) for entry in table.get("check", ())),
+        checks=tuple(Check(entry["holds"], entry["otherwise"], _when(entry)) for entry in table.get("check", ())),
         next=tuple(
             Next(entry.get("title", ""), tuple(entry["commands"]), _when(entry)) for entry in table.get("next", ())
         ),
@@ -263,5 +280,5 @@ def _when(entry: dict[str, Any]) -> When:
     return {name: tuple(values) for name, values in entry.get("when", {}).items()}
 
 
-def _applies(when: When, answers: Mapping[str, str]) -> bool:
-    return all(answers[name] in values for name, values in when.items())
+def _options(when: When) -> str:
+    return " and ".join(f"--{name.replace('_', '-')} {' or '.join(values)}" for name, values in when.items())

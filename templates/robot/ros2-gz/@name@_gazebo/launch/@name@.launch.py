@@ -1,7 +1,4 @@
-"""Gazebo with the robot in it: ros2 launch @name@_gazebo @name@.launch.py.
-
-Then drive it: ros2 run teleop_twist_keyboard teleop_twist_keyboard
-"""
+"""Gazebo with the robot in it: ros2 launch @name@_gazebo @name@.launch.py."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
