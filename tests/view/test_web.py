@@ -1,10 +1,12 @@
 """Who is let in, what is served, what a page may say: as anybody on the network could try it."""
 
 import contextlib
+import gzip
 import http.client
 import json
 import logging
 import random
+import re
 import struct
 from urllib.parse import urlsplit
 
@@ -117,6 +119,24 @@ def test_the_page_and_all_it_asks_for_is_there_and_small(client) -> None:
         assert answer.status == 200, name
         wire += len(answer.body)
     assert wire < 1_500_000
+
+
+def test_files_come_packed_and_plain_the_same(client) -> None:
+    client.log_in()
+    for name in ("app.js", "style.css", "meshcat.js"):
+        small, plain = client.get(f"/app/{name}", Accept_Encoding="gzip, br"), client.get(f"/app/{name}")
+        assert small.headers["content-encoding"] == "gzip"
+        assert "content-encoding" not in plain.headers
+        assert gzip.decompress(small.body) == plain.body
+        assert small.headers["vary"] == plain.headers["vary"] == "Accept-Encoding"
+
+
+def test_the_page_names_its_modules_at_the_top(client) -> None:
+    text = client.log_in().get("/").body.decode()
+    named = re.findall(r'<link rel="modulepreload" href="/app/([\w.-]+)">', text.partition("</head>")[0])
+    assert {"app.js", "view.js", "scene.js"} <= set(named)
+    for name in named:
+        assert client.get(f"/app/{name}").status == 200
 
 
 def test_a_key_that_is_no_text_is_refused(client) -> None:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import gzip
 import itertools
 import logging
+from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -31,6 +33,8 @@ COMPLAINTS = 10
 APP = Path(__file__).parent / "app"
 TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 MESHCAT = "meshcat.js"
+OFFLINE = "offline.js"
+"""The module that only a page in one file begins with."""
 
 log = logging.getLogger("urdfkit.view")
 
@@ -153,7 +157,21 @@ class Page(Guarded):
             self.refuse("This browser has not shown the key yet, or urdfkit was started anew since.")
         else:
             self.set_header("Content-Type", "text/html; charset=utf-8")
-            self.finish((APP / "index.html").read_bytes())
+            self.finish(page())
+
+
+def page() -> str:
+    """Return the page, with all its modules named at the top, so that a browser need not find one through another."""
+    text = (APP / "index.html").read_text("utf-8")
+    modules = sorted(path.name for path in APP.glob("*.js") if path.name != OFFLINE)
+    links = "".join(f'  <link rel="modulepreload" href="/app/{name}">\n' for name in modules)
+    return text.replace("</head>", f"{links}</head>", 1)
+
+
+@lru_cache(maxsize=256)
+def packed(path: Path, _changed: int) -> bytes:
+    """Return a file as gzip packs it; the second argument is when it was changed, so that an old one is not kept."""
+    return gzip.compress(path.read_bytes(), 6, mtime=0)
 
 
 class AppFile(Guarded):
@@ -173,7 +191,11 @@ class AppFile(Guarded):
         if path is None:
             raise HTTPError(404)
         self.set_header("Content-Type", f"{TYPES[path.suffix]}; charset=utf-8")
-        self.finish(path.read_bytes())
+        if "gzip" in self.request.headers.get("Accept-Encoding", ""):
+            self.set_header("Content-Encoding", "gzip")
+            self.finish(packed(path, path.stat().st_mtime_ns))
+        else:
+            self.finish(path.read_bytes())
 
 
 class Geometry(Guarded):
