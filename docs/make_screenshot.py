@@ -18,18 +18,24 @@ from playwright.sync_api import Page, sync_playwright
 IMAGES = Path(__file__).parent / "images"
 CHROMIUM = "/usr/bin/chromium"
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--use-angle=swiftshader", "--no-first-run"]
-ARC = 2.5
-"""How far to drive before the picture is taken [s]."""
+DRIVE = 1.6
+"""How long to drive before the picture is taken [s]."""
 
 
 def drive(page: Page) -> None:
-    """Drive Simpleton an arc."""
+    """Drive Simpleton among cylinders, with the forces at its wheels, what it sees, and its speeds plotted."""
     page.wait_for_selector("#progress", state="hidden", timeout=180_000)
-    page.locator("#keys summary").click()
+    page.evaluate("urdfkit.page.panels.close('drive')")
+    page.evaluate("document.getElementById('show-contacts').click()")
+    page.evaluate("urdfkit.plots.add('/simpleton/odom', 'twist.twist.linear.x')")
+    page.evaluate("urdfkit.plots.add('/simpleton/odom', 'twist.twist.angular.z')")
+    page.evaluate("urdfkit.page.panels.open('sensors')")
     page.locator("#robot-name").click()  # the keys belong to the page again
     page.keyboard.down("w")
-    page.keyboard.down("a")
-    time.sleep(ARC)
+    time.sleep(DRIVE)
+    page.keyboard.up("w")
+    page.keyboard.down("d")
+    time.sleep(DRIVE / 4)
 
 
 def look(page: Page) -> None:
@@ -45,7 +51,7 @@ def look(page: Page) -> None:
 
 
 PICTURES: dict[str, tuple[list[str], Callable[[Page], None]]] = {
-    "simpleton": (["sim", "teleop", "simpleton"], drive),
+    "simpleton": (["sim", "teleop", "simpleton", "--world", "cylinders"], drive),
     "viewing": (["view", "artoo"], look),
 }
 

@@ -464,6 +464,7 @@ def test_a_push_lasts_as_long_as_it_is_held(ride) -> None:
 
 
 def test_forces_and_slip_are_told_while_they_are_wanted(ride) -> None:
+    do(ride, "spawn", model="crate", pose=[2.0, 2.0, 0.0])  # which touches the ground, but is no robot
     spend(ride, 0.5)
     assert not ride.page.sensed
     ride.page.wanted |= {"contacts", "slip"}

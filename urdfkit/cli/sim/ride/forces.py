@@ -1,4 +1,4 @@
-"""Contact forces as arrows, and how fast what touches slides; while a page shows them."""
+"""Contact forces of robots as arrows, and how fast what they touch slides; while a page shows them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ class Forces(Part):
         if not (forces or slides) or not self.is_due(PERIOD):
             return
         simulator = self.simulator
-        contacts = simulator.state.contacts
+        links = self._links()
+        contacts = tuple(each for each in simulator.state.contacts if each.a in links or each.b in links)
         if forces:
             rows = np.array([(*each.position, *each.force) for each in contacts]).reshape(-1, 6)
             self.server.sense(FORCES, 0, simulator.t, ARROWS, _packed(rows))
@@ -39,6 +40,15 @@ class Forces(Part):
             for each in found:
                 fastest[each.link] = max(fastest.get(each.link, 0.0), each.speed)
             self.server.tell_who_wants(SLIPS, SLIPS, rows=[[link, round(v, 5)] for link, v in sorted(fastest.items())])
+
+    def _links(self) -> set[str]:
+        """Return what contacts call the links of robots: without the robot's name those of the first."""
+        robots = list(self.simulator.robots.values())
+        found = set(robots[0].kinematics.link_names)
+        for robot in robots[1:]:
+            if robot.has_plugins:
+                found.update(f"{robot.name}::{link}" for link in robot.kinematics.link_names)
+        return found
 
 
 def _packed(rows: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> bytes:
