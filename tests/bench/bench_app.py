@@ -135,8 +135,8 @@ def frames(seconds: float) -> None:
     alone.stop()
     late = sorted(1000 * each for each in found["late"])
     print(
-        f"frames: {len(late) / seconds:.1f}/s delivered of {count / wall:.1f}/s sent (target 60), {found['size']} bytes "
-        f"(1000), latency p50 {late[len(late) // 2]:.1f} ms p95 {late[int(0.95 * len(late))]:.1f} ms (30), CPU "
+        f"frames: {len(late) / seconds:.1f}/s delivered of {count / wall:.1f}/s sent (target 60), {found['size']} "
+        f"bytes (1000), latency p50 {late[len(late) // 2]:.1f} ms p95 {late[int(0.95 * len(late))]:.1f} ms (30), CPU "
         f"{1000 * cpu / count:.2f} ms per round in all, {1000 * (cpu - idle * wall) / count:.2f} ms of it for the "
         "watcher (0.5)"
     )

@@ -39,7 +39,12 @@ def test_what_takes_long_is_said_on_the_page_and_in_the_terminal_until_it_is_ove
 def test_an_error_ends_it_too(monkeypatch, until) -> None:
     monkeypatch.setattr(compiling, "PATIENCE", 0.01)
     page = Page()
-    with pytest.raises(ValueError, match="broken"), progress(page, "loading …", lambda: None):  # type: ignore[arg-type]
-        until(lambda: page.said)
-        raise ValueError("broken")
+
+    def break_down() -> None:
+        with progress(page, "loading …", lambda: None):  # type: ignore[arg-type]
+            until(lambda: page.said)
+            raise ValueError("broken")
+
+    with pytest.raises(ValueError, match="broken"):
+        break_down()
     assert page.said == ["loading …", None]

@@ -12,14 +12,16 @@ from urdfkit.view.orders import Schema, number, text, tree
 
 FRAMES = 10_000
 KINDS = ("joints", "axes", "control", "ack", "seen", "watch", "do", "hello", "", "__proto__", None, 7)
-KEYS = ("positions", "axes", "speed", "turn", "robot", "action", "sequence", "key", "wanted", "number", "order", "values")
+KEYS = (
+    "positions", "axes", "speed", "turn", "robot", "action", "sequence", "key", "wanted", "number", "order", "values",
+)  # fmt: skip
 
 
 def value(chance: random.Random, depth: int = 2) -> object:
     """Return anything JSON can say, and some that it should not."""
     simple = (
-        None, True, False, 0, -1, 1.5, 2**31, 2**64, 1e308, float("nan"), float("inf"), "", "lift", "x" * 300, "\x00", "é",
-        "move", "play", "sensor:/scan",
+        None, True, False, 0, -1, 1.5, 2**31, 2**64, 1e308, float("nan"), float("inf"), "", "lift", "x" * 300, "\x00",
+        "é", "move", "play", "sensor:/scan",
     )  # fmt: skip
     kind = chance.randrange(6 if depth else 4)
     if kind == 4:
