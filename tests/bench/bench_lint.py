@@ -1,43 +1,72 @@
 """``urdfkit lint FILE`` beside ``xacro FILE | check_urdf``: whole processes, in turns, on the same file.
 
-Run it as ``python tests/bench/bench_lint.py [FILE] [RUNS]``; check_urdf is in Debian's liburdfdom-tools.
+Run it as ``python tests/bench/bench_lint.py [FILE] [RUNS]``, or with ``--sizes [RUNS]`` on ten chains of 4 to 1,200
+links; check_urdf is in Debian's liburdfdom-tools.
 """
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import resource
 import shutil
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
 HERE = Path(__file__).parent
 
 
+SIZES = (4, 10, 20, 50, 100, 200, 400, 600, 900, 1200)
+"""Links of the ten chains that ``--sizes`` measures."""
+
+
 def main() -> int:
-    file = sys.argv[1] if len(sys.argv) > 1 else str(HERE / "ten_links.urdf.xacro")
-    runs = int(sys.argv[2]) if len(sys.argv) > 2 else 40
-    bin_folder = Path(sys.executable).parent
+    sizes = "--sizes" in sys.argv
+    words = [word for word in sys.argv[1:] if word != "--sizes"]
     check_urdf = shutil.which("check_urdf") or "/usr/bin/check_urdf"
     if not Path(check_urdf).is_file():
         print("check_urdf is not installed: apt install liburdfdom-tools", file=sys.stderr)
         return 2
-    ours = [str(bin_folder / "urdfkit"), "lint", file]
+    if not sizes:
+        file = words[0] if words else str(HERE / "ten_links.urdf.xacro")
+        compared(file, int(words[1]) if len(words) > 1 else 40, check_urdf)
+        return 0
+    found = importlib.util.spec_from_file_location("bench_lsp", HERE / "bench_lsp.py")
+    assert found is not None
+    assert found.loader is not None
+    bench = importlib.util.module_from_spec(found)
+    found.loader.exec_module(bench)
+    with tempfile.TemporaryDirectory() as folder:
+        for links in SIZES:
+            path = Path(folder) / f"chain_{links}.urdf.xacro"
+            path.write_text(bench.robot(links, "1.0", form="macro"))
+            print(f"{links} links")
+            compared(str(path), int(words[0]) if words else 10, check_urdf)
+    return 0
+
+
+def compared(file: str, runs: int, check_urdf: str) -> None:
+    """Run both on a file in turns, ours without and with what it remembers, and print medians and ratios."""
+    bin_folder = Path(sys.executable).parent
+    ours = [str(bin_folder / "urdfkit"), "lint", "--quiet", file]
     theirs = f"'{bin_folder}/xacro' '{file}' | '{check_urdf}' /dev/stdin"
     assert subprocess.run(ours, capture_output=True, check=False).returncode == 0, "the file is expected to be clean"
     assert b"Successfully Parsed" in subprocess.run(theirs, shell=True, capture_output=True, check=True).stdout
-    timings: dict[str, list[tuple[float, float]]] = {"ours": [], "theirs": []}
+    commands = {"anew": [*ours, "--no-cache"], "again": ours, "theirs": ["sh", "-c", theirs]}
+    timings: dict[str, list[tuple[float, float]]] = {who: [] for who in commands}
     for _ in range(runs):
-        timings["ours"].append(measured(ours))
-        timings["theirs"].append(measured(["sh", "-c", theirs]))
+        for who, command in commands.items():
+            timings[who].append(measured(command))
     for index, kind in enumerate(("wall", "cpu")):
-        own, other = (statistics.median(pair[index] for pair in timings[who]) for who in ("ours", "theirs"))
-        times = f"urdfkit lint {own * 1e3:6.1f} ms   xacro | check_urdf {other * 1e3:6.1f} ms"
-        print(f"{kind:4s}  {times}   ratio {own / other:.2f}")
-    return 0
+        anew, again, other = (statistics.median(pair[index] for pair in timings[who]) for who in commands)
+        times = (
+            f"urdfkit lint {anew * 1e3:7.1f} ms, again {again * 1e3:6.1f} ms   xacro | check_urdf {other * 1e3:7.1f} ms"
+        )
+        print(f"{kind:4s}  {times}   ratio {anew / other:.2f}, again {again / other:.2f}")
 
 
 def measured(command: list[str]) -> tuple[float, float]:

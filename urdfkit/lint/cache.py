@@ -107,8 +107,9 @@ class Cache:
         """
         environment: dict[str, str | None] = {}
         packages = expanded.packages
+        failed = any(fault.kind in ("bad-expression", "conditional", "other") for fault in expanded.faults)
         for text in (source.text for source in expanded.sources.values()):
-            if re.search(_UNSEEN, text) or ("load_yaml" in text and expanded.faults):
+            if re.search(_UNSEEN, text) or ("load_yaml" in text and failed):
                 return  # A YAML file that is not there may come.
             if "env" in text:
                 environment.update((name, os.environ.get(name)) for name in re.findall(_ENVIRONMENT, text))
