@@ -6,10 +6,11 @@ import hashlib
 from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
-from types import FunctionType
 from typing import Any, TypeVar, cast
 
 import numba
+
+from urdfkit.compilation import compile_or_load, own_sources
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -33,32 +34,15 @@ def compiled(function: Function) -> Function:
 
 @lru_cache
 def load_compiled(function: Callable[..., Any], arguments: tuple[Any, ...]) -> Callable[..., Any]:
-    """Compile a function for these types of arguments, or load what was compiled before.
-
-    numba finds a function's cache by its name and checks the file it is in, not those of the functions it calls. So the
-    name carries a digest of them all: no change of a source can meet a stale kernel.
-
-    Args:
-        function: plain Python, written for numba.
-        arguments: their numba types.
-    """
-    named = FunctionType(function.__code__, function.__globals__, function.__name__)
-    named.__qualname__ = f"{function.__name__}_{sources_digest()[:16]}"
-    try:
-        dispatcher = numba.njit(named, cache=True, **OPTIONS)
-        dispatcher.compile(arguments)
-    except (RuntimeError, OSError, EOFError, ValueError, TypeError, AttributeError):
-        # No writable place for the cache, or a broken one: compile for this process alone.
-        dispatcher = numba.njit(named, **OPTIONS)
-        dispatcher.compile(arguments)
-    dispatcher.disable_compile()
-    return cast(Callable[..., Any], dispatcher)
+    """Compile a function for these numba types of arguments, or load what was compiled before."""
+    compiled = compile_or_load(function, arguments, digest=sources_digest(), options=OPTIONS)
+    return cast(Callable[..., Any], compiled)
 
 
 @lru_cache(maxsize=1)
 def sources_digest() -> str:
     """Return a digest of the kernels' sources."""
-    digest = hashlib.sha256()
+    digest = hashlib.sha256(own_sources())
     for name in KERNEL_MODULES:
         digest.update((Path(__file__).parent / f"{name}.py").read_bytes())
     return digest.hexdigest()

@@ -6,7 +6,6 @@ import hashlib
 from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
-from types import FunctionType
 from typing import Any
 
 KERNEL_MODULES = (
@@ -54,7 +53,7 @@ def world_kernel() -> Kernel:
 
 def announcement(*, world: bool = False) -> str:
     """Return what to say before a compilation: which kernel, and about how long it takes [CPU s, measured]."""
-    what, seconds = (" for worlds that hold bodies", 170) if world else ("", 75)
+    what, seconds = (" for worlds that hold bodies", 70) if world else ("", 28)
     return f"compiling the physics kernel{what}, once, about {seconds} s …"
 
 
@@ -85,7 +84,9 @@ def warmup(progress: Progress | None = None, *, world: bool = False) -> bool:
 
 def sources_digest() -> str:
     """Return a digest of the kernel's sources."""
-    digest = hashlib.sha256()
+    from urdfkit.compilation import own_sources
+
+    digest = hashlib.sha256(own_sources())
     for name in KERNEL_MODULES:
         digest.update((Path(__file__).parent / f"{name}.py").read_bytes())
     return digest.hexdigest()
@@ -102,25 +103,14 @@ def world_digest() -> str:
 
 @lru_cache
 def load_compiled(function: Callable[..., int], arguments: tuple[str, ...], *, digest: str | None = None) -> Kernel:
-    """Compile a function for these types of arguments, or load what was compiled before.
-
-    numba finds a function's cache by its name and checks the file it is in, not those of the functions it calls. So the
-    name carries a digest of them all: no change of a source can meet a stale kernel.
-    """
+    """Compile a function for these types of arguments, or load what was compiled before."""
     import numba
 
+    from urdfkit.compilation import compile_or_load
     from urdfkit.sim.engine.compilation import OPTIONS
 
     types = {"floats": numba.float64[::1], "integers": numba.int64[::1], "count": numba.int64, "flag": numba.boolean}
-    named = FunctionType(function.__code__, function.__globals__, function.__name__)
-    named.__qualname__ = f"{function.__name__}_{(digest or sources_digest())[:16]}"
     signature = tuple(types[name] for name in arguments)
-    try:
-        dispatcher = numba.njit(named, cache=True, **OPTIONS)
-        dispatcher.compile(signature)
-    except (RuntimeError, OSError, EOFError, ValueError, TypeError, AttributeError):
-        # No writable place for the cache, or a broken one: compile for this process alone.
-        dispatcher = numba.njit(named, **OPTIONS)
-        dispatcher.compile(signature)
-    dispatcher.disable_compile()
-    return dispatcher  # type: ignore[no-any-return]
+    return compile_or_load(  # type: ignore[no-any-return]
+        function, signature, digest=digest or sources_digest(), options=OPTIONS
+    )

@@ -1,0 +1,57 @@
+"""Compiled functions in numba's cache."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import urdfkit
+
+SCRIPT = """
+import numba, numpy as np
+from numba.core import event
+from urdfkit.compilation import compile_or_load
+from urdfkit.compilation.whole import Program
+
+@numba.njit
+def half(value):
+    if value < 0.0:
+        raise ValueError("below zero")
+    return value / 2.0
+
+def work(values):
+    return half(values[0])
+
+class Listener(event.Listener):
+    def on_start(self, event):
+        print("compiling", event.data["dispatcher"].py_func.__name__)
+    def on_end(self, event):
+        pass
+
+with event.install_listener("numba:compile", Listener()):
+    compiled = compile_or_load(work, (numba.float64[::1],), digest="{digest}", options={{}})
+print(compiled(np.array([3.0])))
+try:
+    compiled(np.array([-3.0]))
+except ValueError as error:
+    print(error)
+"""
+
+
+def run(folder: Path, digest: str) -> list[str]:
+    script = folder / "probe.py"
+    if not script.exists() or digest not in script.read_text():
+        script.write_text(SCRIPT.format(digest=digest))
+    paths = [str(Path(urdfkit.__file__).parents[1]), os.environ.get("PYTHONPATH", "")]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
+    environment["NUMBA_CACHE_DIR"] = str(folder / "cache")
+    command = [sys.executable, "-W", "error", str(script)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
+    return done.stdout.splitlines()
+
+
+def test_a_second_process_compiles_nothing(tmp_path):
+    assert run(tmp_path, "one") == ["compiling work", "compiling half", "1.5", "below zero"]
+    assert run(tmp_path, "one") == ["1.5", "below zero"]
