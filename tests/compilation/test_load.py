@@ -52,6 +52,24 @@ def run(folder: Path, digest: str) -> list[str]:
     return done.stdout.splitlines()
 
 
+def test_what_earlier_sources_were_compiled_to_is_removed(tmp_path):
+    old, new = "0123456789abcdef", "fedcba9876543210"
+    run(tmp_path, old)
+    folder = next((tmp_path / "cache").iterdir())
+    kept = [
+        folder / f"other.work_{old}-1.py311.nbi",
+        folder / f"probe.work_{old}-1.py27.nbi",
+        folder / "probe.work.nbi",
+    ]
+    for path in kept:
+        path.touch()
+    assert run(tmp_path, new)[0] == "compiling work"
+    assert all(path.exists() for path in kept)
+    there = {path.name for path in folder.iterdir()} - {path.name for path in kept}
+    assert len(there) == 2
+    assert all(f"probe.work_{new}-" in name for name in there)
+
+
 def test_a_second_process_compiles_nothing(tmp_path):
     assert run(tmp_path, "one") == ["compiling work", "compiling half", "1.5", "below zero"]
     assert run(tmp_path, "one") == ["1.5", "below zero"]

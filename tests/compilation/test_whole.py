@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import math
 
 import numba
@@ -101,20 +102,23 @@ def test_an_error_in_a_part_is_raised():
 def test_nothing_of_numba_stays_changed():
     target = cpu_target.target_context
     subroutines = set(target.cached_internal_func)
-    before = set(vars(target)), set(vars(target.codegen()))
+    changed = target, target.codegen(), cpu_target.typing_context
+    before = [set(vars(each)) for each in changed]
     whole(work)
     with pytest.raises(numba.TypingError), whole_program("wrong"):
         numba.njit(lambda x: x.nothing, **OPTIONS).compile(FLOATS)
-    assert (set(vars(target)), set(vars(target.codegen()))) == before
+    assert [set(vars(each)) for each in changed] == before
+    assert gc.isenabled()
     assert set(target.cached_internal_func) == subroutines
 
 
 @pytest.mark.parametrize("broken", ["finalize", "get_pointer_to_function"])
-def test_where_numba_is_made_otherwise_it_compiles_as_it_does(monkeypatch, broken):
+def test_where_numba_is_made_otherwise_it_compiles_as_it_does(monkeypatch, tmp_path, broken):
     def fail(*arguments):
         raise AttributeError("no such thing in this numba")
 
     monkeypatch.setattr(Program, broken, fail)
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
     compiled = compile_or_load(other, FLOATS, digest=f"broken {broken}", options=OPTIONS)
     assert compiled(np.array([3.0, 4.0])) == 5.0 + math.sqrt(10.0)
     assert not isinstance(compiled.overloads[FLOATS].library, Program)

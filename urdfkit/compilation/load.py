@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
+import sys
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from types import FunctionType
 from typing import Any
@@ -31,6 +34,8 @@ def compile_or_load(
     named.__qualname__ = f"{function.__name__}_{digest[:16]}"
     try:
         dispatcher = _compile(named, arguments, cache=True, **options)
+        if dispatcher.stats.cache_misses:
+            _forget_stale(Path(dispatcher.stats.cache_path), function, digest)
     except BROKEN_CACHE:
         dispatcher = _compile(named, arguments, **options)
     dispatcher.disable_compile()
@@ -45,10 +50,24 @@ def _compile(named: FunctionType, arguments: tuple[Any, ...], **options: Any) ->
         dispatcher = numba.njit(named, **options)
         with whole_program(named.__qualname__):
             dispatcher.compile(arguments)
+    except OSError:
+        raise  # the cache could not be written: nothing is wrong with what was to be there
     except Exception:  # anything: it reaches into numba's inner parts, and a mistake in `named` is met again below
         dispatcher = numba.njit(named, **options)
         dispatcher.compile(arguments)
     return dispatcher
+
+
+def _forget_stale(folder: Path, function: Callable[..., Any], digest: str) -> None:
+    """Remove what earlier sources of a function were compiled to by this version of Python."""
+    stem = re.escape(f"{Path(function.__code__.co_filename).stem}.{function.__name__}")
+    version = f"py{sys.version_info[0]}{sys.version_info[1]}{getattr(sys, 'abiflags', '')}"
+    cached = re.compile(rf"{stem}_([0-9a-f]{{16}})-\d+\.{version}\.(nbi|\d+\.nbc)")
+    for path in folder.iterdir():
+        found = cached.fullmatch(path.name)
+        if found and found[1] != digest[:16]:
+            with suppress(OSError):
+                path.unlink()
 
 
 def own_sources() -> bytes:

@@ -4,18 +4,23 @@ numba optimises a function and turns it into machine code as soon as it has been
 callers, which are optimised with it once more: what lies five calls deep is optimised five times, and emitted as often.
 Here the functions that are called wait, and only the outermost is optimised and emitted, with all of them in it.
 
-This changes nothing in numba itself, but two objects of one process while it lasts: the code generator and the target
-that make a function of Python into one of the machine. It was checked with the numba versions in `CHECKED`.
+Besides, what an operator or a function of numba's own takes and returns is asked once for the same types, not at each
+of its thousands of places, and no garbage is collected: most objects live as long as the compilation.
+
+This changes nothing in numba itself, but three objects of one process while it lasts: the code generator, the target
+and the typing context that make a function of Python into one of the machine. The versions of numba that it was
+checked with are in `CHECKED`; where one is made otherwise, `load` compiles as numba does.
 """
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
 from llvmlite import binding
-from numba.core import event
+from numba.core import event, types
 from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import cpu_target
@@ -25,10 +30,7 @@ CHECKED = ("0.68.1",)
 
 
 class Part(JITCodeLibrary):  # type: ignore[misc]
-    """The code of a function that others call: it waits, as it was lowered, for the program it is part of."""
-
-    def _optimize_functions(self, module: Any) -> None:
-        module.data_layout = self._codegen._data_layout
+    """The code of a function that others call: simplified alone, it waits for the program that it is part of."""
 
     def finalize(self) -> None:
         """Be ready to be linked; nothing is optimised or emitted."""
@@ -43,9 +45,6 @@ class Part(JITCodeLibrary):  # type: ignore[misc]
 
 class Program(JITCodeLibrary):  # type: ignore[misc]
     """The code of the function that is called from Python, and of all that it calls."""
-
-    def _optimize_functions(self, module: Any) -> None:
-        module.data_layout = self._codegen._data_layout
 
     def finalize(self) -> None:
         """Link every part once, then optimise and emit them all.
@@ -62,8 +61,7 @@ class Program(JITCodeLibrary):  # type: ignore[misc]
         for function in self.get_defined_functions():
             if function.name not in outside:
                 function.linkage = binding.Linkage.internal
-        passes, builder = self._codegen._module_pass_manager()
-        passes.run(self._final_module, builder)
+        self._optimize_final_module()
         self._final_module.verify()
         self._finalize_final_module()
 
@@ -97,10 +95,21 @@ def whole_program(entry: str) -> Iterator[None]:
     with global_compiler_lock:
         target = cpu_target.target_context
         codegen = target.codegen()
+        typing = cpu_target.typing_context
+        collecting = gc.isenabled()
         subroutines = target.cached_internal_func
         known = set(subroutines)
         environments: list[tuple[str, Any]] = []
         compiled: list[Any] = []
+        resolved: dict[tuple[Any, ...], Any] = {}
+
+        def resolve_function_type(function: Any, arguments: Any, named: Any) -> Any:
+            if named or not isinstance(function, types.Function):
+                return type(typing).resolve_function_type(typing, function, arguments, named)
+            key = (function, tuple(arguments))
+            if key not in resolved:
+                resolved[key] = type(typing).resolve_function_type(typing, function, arguments, named)
+            return resolved[key]
 
         def create_library(name: str, **options: Any) -> Any:
             return (Program if name == entry else Part)(codegen, name, **options)
@@ -123,12 +132,16 @@ def whole_program(entry: str) -> Iterator[None]:
         codegen.set_env = lambda name, environment: environments.append((name, environment))
         target.create_cpython_wrapper = create_cpython_wrapper
         target.create_cfunc_wrapper = create_cfunc_wrapper
+        typing.resolve_function_type = resolve_function_type
+        gc.disable()
         try:
             with event.install_listener("numba:compile", Listener()):
                 yield
         finally:
             del codegen.create_library, codegen.set_env
-            del target.create_cpython_wrapper, target.create_cfunc_wrapper
+            del target.create_cpython_wrapper, target.create_cfunc_wrapper, typing.resolve_function_type
+            if collecting:
+                gc.enable()
             for key in set(subroutines) - known:
                 del subroutines[key]
             for dispatcher in compiled:

@@ -16,7 +16,7 @@ from urdfkit.scene import MeshLoader, Role, Scene, Shape
 from urdfkit.scene.labels import label_of
 from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.placement import pose_matrices, pose_matrix
-from urdfkit.scene.rays import RayTable, warmup
+from urdfkit.scene.rays import RayTable, announcement, warmup
 from urdfkit.scene.renderer import TakesPictures, check, painter_of
 from urdfkit.scene.world import shapes_of_link
 from urdfkit.sim.placing import seven
@@ -159,7 +159,7 @@ class View:
     def table(self, role: Role, layout: Layout) -> RayTable:
         """Return what rays meet, the visuals or the collisions, where it was."""
         if role not in self._tables:
-            warmup(lambda count: None if count else self._note("compiling the ray kernels, once, about 25 s …"))
+            warmup(lambda count: None if count else self._note(announcement()))
             self._tables[role] = RayTable(self.scene, self.scene.with_role(role))
         table = self._tables[role]
         table.place(self.poses(layout))

@@ -8,14 +8,12 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from urdfkit.cli.page import note
-from urdfkit.cli.sim.kernel import SECONDS_RAYS
 
 if TYPE_CHECKING:
     from urdfkit.view.server import Server
 
 PATIENCE = 1.0
 """Seconds that something may take without a word."""
-RAYS = f"compiling the ray kernels, some {SECONDS_RAYS} s, once per machine …"
 
 
 def compile_kernel(server: Server, first: Callable[[], None]) -> None:
@@ -32,9 +30,9 @@ def compile_kernel(server: Server, first: Callable[[], None]) -> None:
 
 def compile_rays(server: Server, first: Callable[[], None]) -> None:
     """Compile what sensors see by if it has not been; see `compile_kernel`."""
-    from urdfkit.scene.rays import warmup
+    from urdfkit.scene.rays import announcement, warmup
 
-    _compile(warmup, RAYS, server, first)
+    _compile(warmup, announcement(), server, first)
 
 
 def _compile(

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from typing import TextIO
 
-SECONDS_RAYS = 25
-"""About how long the compilation of the kernels that sensors see by takes."""
-
 
 def prepare_rays(out: TextIO) -> bool:
     """Make sure that the kernels that sensors see by are compiled and loaded; return whether they had to be compiled.
@@ -14,10 +11,9 @@ def prepare_rays(out: TextIO) -> bool:
     Args:
         out: where to announce a compilation.
     """
-    from urdfkit.scene.rays import warmup
+    from urdfkit.scene.rays import announcement, warmup
 
-    about = f"compiling the ray kernels, once, about {SECONDS_RAYS} s …"
-    return warmup(lambda functions: None if functions else print(about, file=out, flush=True))
+    return warmup(lambda functions: None if functions else print(announcement(), file=out, flush=True))
 
 
 def prepare_kernel(out: TextIO, *, world: bool = False) -> bool:

@@ -10,7 +10,7 @@ Two levels: a tree over the shapes, refitted when they move, and one per mesh, b
 through them sixteen at a time (see `packet`).
 """
 
-from urdfkit.scene.rays.kernels import warmup
+from urdfkit.scene.rays.kernels import announcement, warmup
 from urdfkit.scene.rays.table import Hits, RayTable
 
-__all__ = ["Hits", "RayTable", "warmup"]
+__all__ = ["Hits", "RayTable", "announcement", "warmup"]

@@ -28,8 +28,11 @@ def inlined(function: Function) -> Function:
 
 
 def compiled(function: Function) -> Function:
-    """Compile a function that kernels call."""
-    return cast(Function, numba.njit(function, **OPTIONS))
+    """Compile a function that kernels call.
+
+    Unless told, numba makes it part of its callers where it is first called by one that is `inlined`.
+    """
+    return cast(Function, numba.njit(function, forceinline=False, **OPTIONS))
 
 
 @lru_cache

@@ -104,8 +104,13 @@ def builder() -> Callable[..., Any]:
     return load_compiled(build, (f[:, ::1], i[::1], f[:, ::1], i[:, ::1], i, f[::1]))
 
 
+def announcement() -> str:
+    """Return what to say before a compilation: of what, and about how long it takes [CPU s, measured]."""
+    return "compiling the ray kernels, once, about 10 s …"
+
+
 def warmup(progress: Progress | None = None) -> bool:
-    """Make the kernels ready to run; return whether they had to be compiled rather than loaded.
+    """Make the kernels ready to run; return whether they had to be compiled (see `announcement`) or were loaded.
 
     Args:
         progress: called with 0 before a compilation starts and with a growing count while it runs.
