@@ -5,6 +5,12 @@ from __future__ import annotations
 from math import asin, atan2, cos, sin
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+NOWHERE = np.zeros(3)
+"""A place that does not matter."""
+
 
 def rotate(quaternion: Any, vector: Any) -> tuple[float, float, float]:
     """Return v + 2w(u × v) + 2u × (u × v), the vector turned by the unit quaternion (u, w)."""
@@ -32,6 +38,16 @@ def from_rpy(roll: float, pitch: float, yaw: float) -> tuple[float, float, float
     about_y = (0.0, sin(pitch / 2), 0.0, cos(pitch / 2))
     about_z = (0.0, 0.0, sin(yaw / 2), cos(yaw / 2))
     return product(about_z, product(about_y, about_x))
+
+
+def from_matrix(R: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the quaternion x y z w of a rotation matrix, shape (4,).
+
+    ``pin.Quaternion(R)`` keeps its 80 bytes for ever (Pinocchio 4.1): with every step or message, that adds up.
+    """
+    import pinocchio as pin
+
+    return np.array(pin.SE3ToXYZQUAT(pin.SE3(np.ascontiguousarray(R), NOWHERE))[3:])
 
 
 def to_rpy(quaternion: Any) -> tuple[float, float, float]:

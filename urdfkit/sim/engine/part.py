@@ -130,7 +130,7 @@ class Part:
         s = self._arrays["s"][at : at + 7]
         rotation = pin.Quaternion(s[3:].copy())
         s[:3] += rotation.matrix() @ by[:3]
-        s[3:] = (rotation * pin.Quaternion(pin.exp3(by[3:]))).normalized().coeffs()
+        s[3:] = (rotation * pin.Quaternion(pin.exp3_quat(by[3:]))).normalized().coeffs()
 
     def put(self, q: Array | None = None, v: Array | None = None) -> None:
         """Put the robot at `q`, `v` (neutral, zero); targets stay.

@@ -18,7 +18,7 @@ def move(a: Arrays, s: Array, v: Array, dt: float) -> None:
         at, d = a["first_s"][b], a["first_v"][b]
         if kind == FREE:
             before = pin.Quaternion(s[at + 3 : at + 7].copy())
-            after = before * pin.Quaternion(pin.exp3(v[d + 3 : d + 6] * dt))
+            after = before * pin.Quaternion(pin.exp3_quat(v[d + 3 : d + 6] * dt))
             after.normalize()
             linear = before.matrix() @ v[d : d + 3]
             s[at : at + 3] += dt * linear
@@ -45,7 +45,7 @@ def go(a: Arrays, s_first: Array, dq: Array) -> None:
         n = 1 if kind < PLANAR else 3
         a["s"][at : at + n] = s_first[at : at + n] + dq[d : d + n]
         if kind == FREE:
-            turned = pin.Quaternion(s_first[at + 3 : at + 7].copy()) * pin.Quaternion(pin.exp3(dq[d + 3 : d + 6]))
+            turned = pin.Quaternion(s_first[at + 3 : at + 7].copy()) * pin.Quaternion(pin.exp3_quat(dq[d + 3 : d + 6]))
             a["s"][at + 3 : at + 7] = turned.normalized().coeffs()
 
 

@@ -18,6 +18,7 @@ from urdfkit.errors import SimulationError
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.parameters import Parameters
 from urdfkit.sim.plugin import Setup
+from urdfkit.sim.rotation import from_matrix
 from urdfkit.sim.sensors.carried import Carried, Ride
 from urdfkit.sim.sensors.drift import drifting
 from urdfkit.sim.sensors.motion import Moment
@@ -102,9 +103,7 @@ class Imu(Carried):
         return self._err(true, ride)
 
     def _message(self, felt: Felt) -> Any:
-        import pinocchio as pin
-
-        quaternion = pin.Quaternion(felt.rotation).coeffs() + felt.shaken
+        quaternion = from_matrix(felt.rotation) + felt.shaken
         quaternion = quaternion / np.linalg.norm(quaternion)
         kind = message_type("geometry_msgs/msg/Quaternion")
         orientation, turning, pulled = (np.diag(each).ravel() for each in self._variances)

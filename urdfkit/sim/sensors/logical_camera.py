@@ -13,6 +13,7 @@ from urdfkit.messages import header, message_type
 from urdfkit.scene.placement import pose_matrices
 from urdfkit.sensor_messages import GZ_LOGICAL_IMAGE, GZ_LOGICAL_MODEL
 from urdfkit.sim.parameters import Parameters
+from urdfkit.sim.rotation import from_matrix
 from urdfkit.sim.sensors.mounted import Mounted
 from urdfkit.sim.sensors.values import number
 
@@ -80,9 +81,7 @@ class GzLogicalCamera(Mounted):
 
 
 def _pose(placement: Array) -> Any:
-    import pinocchio as pin
-
-    turn = pin.Quaternion(np.ascontiguousarray(placement[:3, :3])).coeffs()
+    turn = from_matrix(placement[:3, :3])
     return message_type("geometry_msgs/msg/Pose")(
         message_type("geometry_msgs/msg/Point")(*placement[:3, 3].tolist()),
         message_type("geometry_msgs/msg/Quaternion")(*turn.tolist()),

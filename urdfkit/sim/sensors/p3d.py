@@ -14,7 +14,7 @@ from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.messages import ODOMETRY, header, message_type, twist
 from urdfkit.sim.parameters import Parameters
 from urdfkit.sim.plugin import Sensor, Setup
-from urdfkit.sim.rotation import from_rpy, product
+from urdfkit.sim.rotation import from_matrix, from_rpy, product
 from urdfkit.sim.sensors.motion import Moment, Motion
 from urdfkit.sim.topics import Topics
 
@@ -79,13 +79,11 @@ class P3d(Sensor):
         return Motion(back @ motion.rotation, back @ arm, back @ linear, back @ (motion.angular - there.angular))
 
     def _message(self, now: Moment, turn: int) -> Any:
-        import pinocchio as pin
-
         motion = self._seen_from_there(now, now.motion(self._link, np.eye(4)))
         random = np.random.Generator(np.random.Philox(key=[self._key, turn]))
         shaken = self._noise * random.standard_normal((2, 3))
         x, y, z = (motion.position + self._offset).tolist()
-        quaternion = product(self._turn, pin.Quaternion(motion.rotation).coeffs())
+        quaternion = product(self._turn, from_matrix(motion.rotation))
         covariance = np.diag([self._noise**2] * 6).ravel()
         pose = message_type("geometry_msgs/msg/Pose")(
             message_type("geometry_msgs/msg/Point")(x, y, z), message_type("geometry_msgs/msg/Quaternion")(*quaternion)
