@@ -35,6 +35,13 @@ SEARCHES = 8
 """Most places along a step that are looked at."""
 ENOUGH = 1e-9
 """Velocity [m/s or rad/s] by which rounds may still differ."""
+MORE_ROUNDS = 40
+"""Most rounds where each comes nearer: an arm between a wall and what drives it there takes about twenty."""
+NEARER, STUCK = 0.98, 8
+"""By which factor a round comes nearer than all before, and how many that do not are borne: more are a contradiction.
+
+Where slips and impulses drive each other, rounds go about their goal in a spiral, five or so away from it at a time.
+"""
 
 
 @inlined
@@ -264,17 +271,21 @@ def leave_wedged(floats: Any, integers: Any, rows: int) -> None:
 
 @compiled
 def give_way(
-    floats: Any, integers: Any, root: int, rows: int, n: int, rounds: int, hardness: float, balance: float
+    floats: Any, integers: Any, root: int, rows: int, n: int, rounds: int, more: bool, hardness: float, balance: float
 ) -> float:
     """Go on from velocities and impulses for some rounds of convex problems; return by how much they are still off.
 
-    Afterwards ``state`` is for `try_states`; ``before`` is spent.
+    Where `more`, it goes on while that helps. Afterwards ``state`` is for `try_states`; ``before`` is spent.
     """
-    off = 0.0
+    off, least, stuck = 0.0, math.inf, 0
     set_out(floats, integers, rows, hardness)
-    for _ in range(rounds):
+    for k in range(MORE_ROUNDS if more else rounds):
         descend(floats, integers, root, rows, n, balance)
         off = take_over(floats, integers, rows)
         if off <= ENOUGH:
+            break
+        stuck = 0 if off < NEARER * least else stuck + 1
+        least = min(least, off)
+        if k + 1 >= rounds and stuck >= STUCK:
             break
     return off

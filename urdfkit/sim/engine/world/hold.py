@@ -236,11 +236,11 @@ def try_from_anywhere(floats: Any, integers: Any, root: int, rows: int, n: int, 
     for stage in range(3):
         feel(floats, integers, rows)
         if stage == 0:
-            give_way(floats, integers, root, rows, n, 1, 1e-4, 1e-2)
+            give_way(floats, integers, root, rows, n, 1, False, 1e-4, 1e-2)
         elif stage == 1:
-            give_way(floats, integers, root, rows, n, 3, 1e-3, 1e-4)
+            give_way(floats, integers, root, rows, n, 3, False, 1e-3, 1e-4)
         else:
-            off = give_way(floats, integers, root, rows, n, 6, 1e-3, 1e-6)
+            off = give_way(floats, integers, root, rows, n, 6, True, 1e-3, 1e-6)
             if off > WEDGED:
                 leave_wedged(floats, integers, rows)
                 for d in range(n):
@@ -248,9 +248,9 @@ def try_from_anywhere(floats: Any, integers: Any, root: int, rows: int, n: int, 
                 for k in range(rows):
                     x[k] = 0.0
                 feel(floats, integers, rows)
-                give_way(floats, integers, root, rows, n, 2, 1e-4, 1e-2)
+                give_way(floats, integers, root, rows, n, 2, False, 1e-4, 1e-2)
                 feel(floats, integers, rows)
-                give_way(floats, integers, root, rows, n, 6, 1e-3, 1e-6)
+                give_way(floats, integers, root, rows, n, 6, True, 1e-3, 1e-6)
         feel(floats, integers, rows)
         for d in range(n):
             kept[d] = speed[d]
