@@ -72,7 +72,6 @@ def carry_over(before: Engine, old: Made, after: Engine, new: Made) -> None:
     _remember_pairs(a, b, shapes)
     for count in (STEPS, ITERATED):
         b["counts"][count] = a["counts"][count]
-    after.t, after.steps = before.t, before.steps
     after._evaluate()
 
 

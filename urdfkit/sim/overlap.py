@@ -40,7 +40,7 @@ def note_overlaps(engine: Engine, links: Collection[str], note: Callable[[str], 
 def touching(engine: Engine) -> tuple[Contact, ...]:
     """Return what touches at present, which a step finds out; what the step did is undone."""
     blocks = engine._arrays.floats, engine._arrays.integers
-    kept, t, steps = [_in_use(block) for block in blocks], engine.t, engine.steps
+    kept = [_in_use(block) for block in blocks]
     try:
         engine.step()
         return engine.contacts()
@@ -49,7 +49,6 @@ def touching(engine: Engine) -> tuple[Contact, ...]:
     finally:
         for block, before in zip(blocks, kept, strict=True):
             _restore(block, before)
-        engine.t, engine.steps = t, steps
 
 
 def _in_use(block: NDArray[Any]) -> dict[int, NDArray[Any]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -15,7 +15,6 @@ from urdfkit.kinematics import Kinematics
 from urdfkit.scene import Scene, scene_of
 from urdfkit.sim.controllers.switching import Controllers
 from urdfkit.sim.engine import Engine, Ground, Member, Surface
-from urdfkit.sim.engine.arrays import FOUND_CONTACTS
 from urdfkit.sim.engine.part import Part
 from urdfkit.sim.installed import Installed, install
 from urdfkit.sim.left_out import remark_left_out
@@ -28,7 +27,6 @@ from urdfkit.sim.schedule import NEVER, Ticks
 from urdfkit.sim.spawn import Spawn
 from urdfkit.sim.state import State
 from urdfkit.sim.surfaces import surfaces_of
-from urdfkit.sim.views import numbers
 
 Array = NDArray[np.float64]
 
@@ -142,9 +140,8 @@ class SimulatedRobot:
             part.motor_effort,
             part.applied,
             Servos(*(getattr(part, name) for name in SERVO_ARRAYS)),
-            self._set_base_velocity,
+            part.set_base_velocity,
         )
-        self._found, self._against = (numbers(engine._arrays[name]) for name in ("counts", "contact_against"))
         if hasattr(self, "state"):
             self.state.attach(engine, part)
             self.motors.attach(*handles)
@@ -153,13 +150,6 @@ class SimulatedRobot:
             self.state.step = engine.steps
             self.motors = Motors(self.kinematics, *handles)
         self._approach = Ticks(APPROACH_RATE, engine.dt)
-
-    def _set_base_velocity(self, twist: Sequence[float]) -> None:
-        """Set the floating base's twist, see `Part.set_base_velocity`."""
-        touching = self._against[: self._found[FOUND_CONTACTS]].tolist()
-        if max(touching, default=-1) < 0:  # nothing but the ground: nothing to be taken back for
-            self.part._given = None
-        self.part.set_base_velocity(twist)
 
     def install(self, setup: Setup, *, seed: int) -> None:
         """Set its plugins to work, and publish what nobody has to ask for.

@@ -49,6 +49,11 @@ def test_another_digest_means_another_cache():
     assert one.__qualname__ != other.__qualname__
 
 
+def test_a_call_goes_straight_to_what_was_compiled():
+    # numba's dispatcher looks at the types of all arguments in each call.
+    assert not hasattr(load_compiled(tiny, ("floats", "integers"), digest="straight"), "overloads")
+
+
 def test_digest_follows_the_sources():
     assert len(sources_digest()) == len(world_digest()) == 64
     assert sources_digest() != world_digest()

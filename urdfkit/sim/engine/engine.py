@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.scene import Shape
-from urdfkit.sim.engine.arrays import ITERATED, OVERFULL
+from urdfkit.sim.engine.arrays import ITERATED, OVERFULL, STEPS
 from urdfkit.sim.engine.body import AT_ORIGIN, Body, Member
 from urdfkit.sim.engine.loose import Loose
 from urdfkit.sim.engine.model import fill, touching
@@ -57,8 +57,6 @@ class Engine(Part):
 
     Attributes:
         dt: [s].
-        t: simulated time [s].
-        steps: steps since the last `reset`.
         robots: all robots, each a `Part`; the first is this one.
         bodies: name → `Loose`, for each body that is free.
     """
@@ -84,8 +82,6 @@ class Engine(Part):
             raise SimulationError(f"a step of {dt:g} s is no step; it must be positive")
         self.ground = ground
         self.dt = float(dt)
-        self.t = 0.0
-        self.steps = 0
         bolted_at = AT_ORIGIN if base is None else base
         own = Member(kinematics, shapes, surfaces or {}, bolted_at, self_collide, weightless=weightless)
         self._members = (own, *others)
@@ -126,6 +122,17 @@ class Engine(Part):
         self.reset()
 
     @property
+    def steps(self) -> int:
+        """How many steps it made since the last `reset`."""
+        # Counted by the kernel: where each step is a call, Python's own counting would be felt.
+        return int(self._counts[STEPS])
+
+    @property
+    def t(self) -> float:
+        """Simulated time [s]."""
+        return self.steps * self.dt
+
+    @property
     def iterated(self) -> int:
         """How many steps since `reset` needed the iterative contact solver."""
         return int(self._arrays["counts"][ITERATED])
@@ -143,7 +150,6 @@ class Engine(Part):
         a["memory"][:] = a["effort"][:] = a["tau"][:] = 0.0
         a["counts"][:] = a["asleep"][:] = 0
         a["still"][:] = 0.0
-        self.t, self.steps = 0.0, 0
         self._evaluate()
 
     def step(self, n: int = 1) -> None:
@@ -153,10 +159,7 @@ class Engine(Part):
             SimulationError: the state stopped being finite; names the joint and the time. Or more touches at once than
                 there is room for.
         """
-        done = self._advance(self._floats, self._integers, n, False)
-        self.steps = steps = self.steps + done
-        self.t = steps * self.dt
-        if done < n:
+        if self._advance(self._floats, self._integers, n, False) < n:
             raise SimulationError(self._divergence())
 
     def wake(self) -> None:

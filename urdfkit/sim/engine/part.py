@@ -13,6 +13,7 @@ from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, STEPS, Arrays
 from urdfkit.sim.engine.state import configuration, positions, set_configuration
+from urdfkit.sim.views import numbers
 
 Array = NDArray[np.float64]
 
@@ -56,6 +57,7 @@ class Part:
         self._own_v, self._own_effort, self._own_tau = a["v"], a["effort"], a["tau"]
         self._v, self._effort, self._tau = _read_only(a["v"]), _read_only(a["effort"]), _read_only(a["tau"])
         self._given: tuple[int, Array] | None = None
+        self._counts, self._against = numbers(arrays["counts"]), numbers(arrays["contact_against"])
 
     @property
     def q(self) -> Array:
@@ -107,7 +109,7 @@ class Part:
         if len(twist) != 6 or not all(math.isfinite(part) for part in twist):
             raise SimulationError(f"a twist is six finite numbers, not {tuple(twist)}")
         v = np.array(twist, dtype=float)
-        step, given = int(self._arrays["counts"][STEPS]), self._given
+        step, given = self._counts[STEPS], self._given
         if given is not None and given[0] == step - 1 and self._met_something():
             dt = float(self._arrays["numbers"][DT])
             # Linear velocities stay constant in space while the base turns.
@@ -119,7 +121,10 @@ class Part:
 
     def _met_something(self) -> bool:
         """Return whether the robot touched anything but the ground in the last step."""
-        a, n = self._arrays, int(self._arrays["counts"][FOUND_CONTACTS])
+        n = self._counts[FOUND_CONTACTS]
+        if max(self._against[:n].tolist(), default=-1) < 0:
+            return False
+        a = self._arrays
         tree_of = np.append(a["body_tree"], -1)
         mine = (tree_of[a["contact_body"][:n]] == self._tree) | (tree_of[a["contact_other"][:n]] == self._tree)
         return bool((mine & (a["contact_against"][:n] >= 0)).any())

@@ -103,7 +103,11 @@ def world_digest() -> str:
 
 @lru_cache
 def load_compiled(function: Callable[..., int], arguments: tuple[str, ...], *, digest: str | None = None) -> Kernel:
-    """Compile a function for these types of arguments, or load what was compiled before."""
+    """Compile a function for these types of arguments, or load what was compiled before.
+
+    What is returned is the compiled function itself, not numba's dispatcher before it, which looks at the types of all
+    arguments in each call and takes longer over it than over the call. Arrays of other types are not noticed.
+    """
     import numba
 
     from urdfkit.compilation import compile_or_load
@@ -111,6 +115,5 @@ def load_compiled(function: Callable[..., int], arguments: tuple[str, ...], *, d
 
     types = {"floats": numba.float64[::1], "integers": numba.int64[::1], "count": numba.int64, "flag": numba.boolean}
     signature = tuple(types[name] for name in arguments)
-    return compile_or_load(  # type: ignore[no-any-return]
-        function, signature, digest=digest or sources_digest(), options=OPTIONS
-    )
+    dispatcher = compile_or_load(function, signature, digest=digest or sources_digest(), options=OPTIONS)
+    return dispatcher.overloads[signature].entry_point  # type: ignore[no-any-return]
