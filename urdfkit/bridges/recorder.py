@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from urdfkit.bus import Bus, Subscription, Topic
 
 SUFFIX = ".mcap"
+STEM = "recording"
+"""What a recording is called until it is moved into place."""
 
 
 class Recorder:
@@ -62,9 +64,10 @@ class Recorder:
         except ImportError as error:
             raise MissingDependencyError("recording needs rosbags, 0.11 or newer: pip install -U rosbags") from error
         self._types = typestore()
-        # rosbags writes a folder with the file in it; only the file is kept.
-        folder = self._files.enter_context(staging(self.path.absolute().parent)) / self.path.stem
-        self._written = folder / f"{self.path.stem}{SUFFIX}"
+        # rosbags writes a folder with the file in it; only the file is kept. Its name is written into it, too: always
+        # the same one, so that what a recording is called changes nothing in it.
+        folder = self._files.enter_context(staging(self.path.absolute().parent)) / STEM
+        self._written = folder / f"{STEM}{SUFFIX}"
         try:
             self._writer = Writer(folder, version=9, storage_plugin=StoragePlugin.MCAP)
             self._writer.open()
