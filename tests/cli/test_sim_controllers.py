@@ -55,3 +55,13 @@ def test_errors_are_one_line_with_their_place(run: Callable[..., Any], tmp_path:
     assert code == 2
     assert "cannot read" in err
     assert "Traceback" not in err
+
+
+def test_a_file_that_nothing_reads_is_said_to_be_one(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "own.yaml"
+    path.write_text(OWN)
+    assert main(["sim", "run", "diff_wheeled_robot", "--for", "0.01", "--controllers", str(path)]) == 0
+    said = capsys.readouterr().err
+    assert f"has no plugin that runs controllers: {path} configures nothing" in said
+    assert main(["sim", "run", "rrbot", "--for", "0.01", "--controllers", str(path)]) == 0
+    assert "configures nothing" not in capsys.readouterr().err

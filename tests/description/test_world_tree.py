@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 from urdfkit.description.robot import Pose
-from urdfkit.description.world import load_world
+from urdfkit.description.world import load_world, to_sdf
 from urdfkit.description.world.poses import compose, difference
 from urdfkit.description.world.tree import groups_of, tree_of
+from urdfkit.errors import DescriptionError, SimulationError
 
 WORLD = """<sdf version="1.9"><world name="w"><model name="m"><pose>5 0 0 0 0 0</pose>{inside}</model></world></sdf>"""
 JOINT = """<joint name="{name}" type="{kind}"><pose>{pose}</pose><parent>{parent}</parent><child>{child}</child>
@@ -64,3 +65,54 @@ def test_plugins_of_a_nested_model_find_their_joints(tmp_path: Path) -> None:
     assert tree.prefix == "car::"
     assert set(tree.robot.joint_by_name) == {"j"}
     assert [plugin.name for block in tree.robot.gazebo for plugin in block.plugins] == ["p"]
+
+
+def mimic(name: str, leader: str, more: str = "") -> str:
+    written = f'<mimic joint="{leader}">{more}</mimic></axis>'
+    return joint(name, "a", f"{name}_link").replace("</axis>", written) + f'<link name="{name}_link"/>'
+
+
+FOLLOWS = "<multiplier>-2</multiplier><offset>0.1</offset><reference>0.05</reference>"
+
+
+def test_a_joint_that_follows_another(tmp_path: Path) -> None:
+    leader = '<link name="a"/><link name="b"/>' + joint("j", "a", "b")
+    path = tmp_path / "again.sdf"
+    for written in (
+        model(tmp_path, leader + mimic("k", "j", FOLLOWS)),
+        model(tmp_path, f'<model name="in">{leader}{mimic("k", "j", FOLLOWS)}</model>'),
+    ):
+        found = tree_of(written, groups_of(written)[0]).robot.joint_by_name["k"].mimic
+        assert (found.joint, found.multiplier, found.offset) == ("j", -2.0, pytest.approx(0.2))
+        world = load_world(tmp_path / "w.sdf")
+        path.write_text(to_sdf(world))
+        assert load_world(path) == world
+
+
+@pytest.mark.parametrize(
+    ("inside", "says"),
+    [
+        (
+            mimic("k", "jj"),
+            "follows `jj`, which is no joint that moves with it; did you mean `j`?",
+        ),
+        (mimic("k", "fix") + joint("fix", "world", "a", kind="fixed"), "`k` of model `m` follows `fix`, which is no"),
+        (mimic("k", "l") + mimic("l", "k"), "joint `k` of model `m` follows itself, by `k`, `l`"),
+    ],
+)
+def test_a_joint_that_follows_what_cannot_be(tmp_path: Path, inside: str, says: str) -> None:
+    written = model(tmp_path, '<link name="a"/><link name="b"/>' + joint("j", "a", "b") + inside)
+    with pytest.raises(SimulationError) as error:
+        tree_of(written, groups_of(written)[0])
+    assert says in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("element", "says"),
+    [("<mimic/>", "does not say which joint it follows"), ('<mimic joint="j" axis="axis2"/>', "only <axis> can be")],
+)
+def test_a_mimic_that_cannot_be_read(tmp_path: Path, element: str, says: str) -> None:
+    with pytest.raises(DescriptionError, match=says):
+        model(
+            tmp_path, '<link name="a"/><link name="b"/>' + joint("j", "a", "b").replace("</axis>", element + "</axis>")
+        )

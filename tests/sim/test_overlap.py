@@ -50,3 +50,31 @@ def test_looking_changes_nothing(world: Path) -> None:
     assert simulator.state.q.tobytes() + simulator.state.v.tobytes() == before
     assert simulator.t == 0.0
     assert simulator.state.contacts == ()
+
+
+def spawned(height: float) -> list[str]:
+    notes: list[str] = []
+    simulator = Simulator("simpleton", note=notes.append)
+    simulator.run(0.1)
+    before = simulator.state.q.tobytes()
+    simulator.spawn("crate", (3.0, 0.0, height), name="box")
+    assert simulator.state.q.tobytes() == before
+    assert simulator.t == pytest.approx(0.1)
+    return [note for note in notes if "deep" in note]
+
+
+def test_a_body_that_is_put_into_the_ground() -> None:
+    (note,) = spawned(-0.2)
+    assert re.fullmatch(r"`box` starts 200 mm deep in `ground_plane`; put `box` elsewhere", note)
+
+
+def test_a_body_that_is_put_on_the_ground() -> None:
+    assert spawned(0.0) == []
+
+
+def test_a_robot_that_is_put_into_another(world: Path) -> None:
+    notes: list[str] = []
+    simulator = Simulator("simpleton", world=world, note=notes.append)
+    simulator.spawn("simpleton", Spawn(x=2.0), name="other")
+    (note,) = [note for note in notes if "deep" in note]
+    assert re.fullmatch(r"`other::\w+` starts 200 mm deep in `wall`; put `other` elsewhere", note)

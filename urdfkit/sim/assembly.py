@@ -40,6 +40,7 @@ class Assembly:
     Attributes:
         world: as it was read, with what was added and without what was removed.
         engine: what moves everything.
+        provider: who computes the dynamics.
         revision: how often it was made anew.
         still: body → pose, of those that do not move.
     """
@@ -64,7 +65,7 @@ class Assembly:
         require_no_joints(world)
         self.world = world
         self.revision = 0
-        self._dt, self._provider, self._sleep, self._note = dt, provider, sleep, note
+        self._dt, self.provider, self._sleep, self._note = dt, provider, sleep, note
         self._make = Entries(note, package_path)
         self._entries: dict[str, Entry] = {first.name: Entry(None, (first,), {first.name: IDENTITY})}
         things: list[WorldModel | WorldRobot] = [*world.models, *world.robots]
@@ -217,7 +218,7 @@ class Assembly:
                 bodies += bodies_of_model(entry.thing, self._make.meshes, is_ground=is_ground)
         first = robots[0]
         together = bool(bodies or robots[1:] or first.self_collide)
-        if self._provider == "compiled":
+        if self.provider == "compiled":
             about = announcement(world=together)
             warmup(lambda count: None if count else self._note(about), world=together)
         engine = Engine(
@@ -228,7 +229,7 @@ class Assembly:
             ground=ground,
             surfaces=first.surfaces,
             base=first.base.tolist(),
-            provider=self._provider,
+            provider=self.provider,
             self_collide=first.self_collide,
             weightless=first.weightless,
             others=[robot.member for robot in robots[1:]],

@@ -23,6 +23,9 @@ from urdfkit.sim.spawn import Spawn
 PROVIDERS = ("compiled", "pinocchio")
 """Who can compute the dynamics."""
 
+STRONGEST = 1e4
+"""Gravity beyond any that robots stand in [m/s²]: the Sun's is 274, and in a step of 1 ms it gives 10 m/s."""
+
 SINGULAR = 1e-9
 """Least eigenvalue of a mass matrix, scaled to ones on its diagonal, of a robot that can be simulated."""
 
@@ -61,6 +64,8 @@ def the_world(world: World | str | Path, gravity: Sequence[float] | None, packag
     if gravity is None:
         return found
     x, y, z = vector(gravity, 3, "gravity", "m/s²")
+    if max(abs(x), abs(y), abs(z)) > STRONGEST:
+        raise SimulationError(f"gravity of {max(x, y, z, key=abs):g} m/s² makes no sense; the Earth's is 0,0,-9.81")
     return replace(found, gravity=(x, y, z))
 
 

@@ -146,7 +146,7 @@ class Motors:
         damping: float,
         position: float = 0.0,
         velocity: float = 0.0,
-        effort: float = inf,
+        effort: float | None = None,
         integral: Gains | None = None,
         feedforward: float = 0.0,
         anew: bool = False,
@@ -161,7 +161,7 @@ class Motors:
             damping: [N·m·s/rad] or [N·s/m].
             position: [rad] or [m].
             velocity: [rad/s] or [m/s].
-            effort: limit of the whole [N·m] or [N].
+            effort: limit of the whole [N·m] or [N]; the joint's ``<limit effort>`` when None.
             integral: gain and bounds of the integral part; of the error of velocity where there is no stiffness.
             feedforward: a further part [N·m] or [N].
             anew: forget the integral up to now.
@@ -170,6 +170,7 @@ class Motors:
             SimulationError: no such joint, or a value that is no finite number or negative where that makes no sense.
         """
         index = self._checked(joint)
+        effort = self.limit(joint) if effort is None else effort
         values = (stiffness, damping, position, velocity)
         if not all(map(isfinite, values)) or stiffness < 0 or damping < 0 or not effort >= 0:
             raise SimulationError(f"joint `{joint}`: no servo can do {values} with effort {effort}")

@@ -1,4 +1,4 @@
-"""Whether a robot starts inside something: no push out of it would be what the user had in mind, so they are told."""
+"""Whether something starts inside something else: no push out would be what the user had in mind, so they are told."""
 
 from __future__ import annotations
 
@@ -18,13 +18,14 @@ PART = 1 << 15
 """Entries of a block that are looked at together."""
 
 
-def note_overlaps(engine: Engine, links: Collection[str], note: Callable[[str], None]) -> None:
+def note_overlaps(engine: Engine, links: Collection[str], note: Callable[[str], None], *, newcomer: str = "") -> None:
     """Note what a robot starts inside of, the deepest of its links for each thing.
 
     Args:
         engine: at the start; left as it was.
-        links: the robot's.
+        links: the robot's; or names of bodies.
         note: tells the user something.
+        newcomer: what they are of, where that has come into a running world; the robot it is about otherwise.
     """
     deepest: dict[str, tuple[float, str]] = {}
     for contact in touching(engine):
@@ -32,9 +33,10 @@ def note_overlaps(engine: Engine, links: Collection[str], note: Callable[[str], 
             link, thing = (contact.a, contact.b) if contact.a in links else (contact.b, contact.a)
             deepest[thing] = max(deepest.get(thing, (0.0, "")), (contact.depth, link))
     for thing, (depth, link) in deepest.items():
-        note(
-            f"link `{link}` starts {1000 * depth:.0f} mm deep in `{thing}`; start the robot elsewhere (--spawn, Spawn)"
-        )
+        what, where = f"link `{link}`", "start the robot elsewhere (--spawn, Spawn)"
+        if newcomer:
+            what, where = f"`{link}`", f"put `{newcomer}` elsewhere"
+        note(f"{what} starts {1000 * depth:.0f} mm deep in `{thing}`; {where}")
 
 
 def touching(engine: Engine) -> tuple[Contact, ...]:

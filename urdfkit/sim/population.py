@@ -16,6 +16,7 @@ from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.scene import Scene, Shape
 from urdfkit.sim.arrivals import Arrival, arrival
 from urdfkit.sim.given import Named, nearest
+from urdfkit.sim.overlap import note_overlaps
 from urdfkit.sim.placing import pose_of, seven
 from urdfkit.sim.plugin import Setup
 from urdfkit.sim.pushes import Target, steps_of
@@ -139,7 +140,12 @@ class Population:
             self._install(each)
             each.begin()
             each.publish_fixed()
-        self._stage.engine._evaluate()
+        engine = self._stage.engine
+        engine._evaluate()
+        if self._stage.provider == "compiled":
+            links = [f"{each.name}::{link}" for each in entry.robots for link in each.kinematics.link_names]
+            loose = [name for name in entry.offsets if name in self._stage.loose]
+            note_overlaps(engine, {*links, *loose}, self.note, newcomer=thing.name)
         return thing.name
 
     def remove(self, name: str) -> None:

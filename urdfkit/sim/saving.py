@@ -7,7 +7,7 @@ its joints at zero. Velocities are lost.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -66,7 +66,8 @@ def _model(stage: Stage, entry: Entry, model: WorldModel, note: Callable[[str], 
             continue
         poses = dict(zip(robot.kinematics.link_names, robot.state.link_poses(), strict=True))
         where |= {tree.prefix + name: between(whole, pose_from(poses[name])) for name in tree.links}
-        turned |= {tree.prefix + joint: robot.state.position(joint) for joint in robot.kinematics.joint_names}
+        joints = (*robot.kinematics.joint_names, *robot.kinematics.mimic_names)
+        turned |= {tree.prefix + joint: robot.state.position(joint) for joint in joints}
     return replace(_moved(model, "", IDENTITY, where, turned), pose=_unless_near(whole, model.pose))
 
 
@@ -80,19 +81,24 @@ def _moved(
         else link
         for link in model.links
     ]
-    joints = [_shifted(joint, turned.get(prefix + joint.name, 0.0)) for joint in model.joints]
+    joints = [_shifted(joint, prefix, turned) for joint in model.joints]
     nested = [
         _moved(inner, f"{prefix}{inner.name}::", compose(around, inner.pose), where, turned) for inner in model.models
     ]
     return replace(model, links=tuple(links), joints=tuple(joints), models=tuple(nested))
 
 
-def _shifted(joint: WorldJoint, by: float) -> WorldJoint:
-    """Return a joint whose zero is where it stands now."""
-    if not by or not joint.axes:
+def _shifted(joint: WorldJoint, prefix: str, turned: Mapping[str, float]) -> WorldJoint:
+    """Return a joint whose zero is where it stands now, as is that of a joint that it follows."""
+    if not joint.axes:
         return joint
-    first = joint.axes[0]
-    return replace(joint, axes=(replace(first, lower=first.lower - by, upper=first.upper - by), *joint.axes[1:]))
+    by, first = turned.get(prefix + joint.name, 0.0), joint.axes[0]
+    if by:
+        first = replace(first, lower=first.lower - by, upper=first.upper - by)
+    if (mimic := first.mimic) is not None:
+        reference = mimic.reference - turned.get(prefix + mimic.joint, 0.0)
+        first = replace(first, mimic=replace(mimic, offset=mimic.offset - by, reference=reference))
+    return replace(joint, axes=(first, *joint.axes[1:]))
 
 
 def _unless_near(found: Pose, written: Pose) -> Pose:

@@ -135,6 +135,8 @@ class Simulator(Population):
         for each in self.robots.values():
             self._install(each)
         self.controllers = first.controllers
+        if controllers and not any(each.plugins.controllers for each in self.robots.values() if each.has_plugins):
+            self.note(f"robot `{self.name}` has no plugin that runs controllers: {controllers[0]} configures nothing")
         self._shared: tuple[Publication, ...] = (Clock(self.bus, dt), ModelStates(self.bus, dt, self))
         self._calls: list[tuple[int, int, float, Callable[[], None]]] = []
         self._call_number = 0

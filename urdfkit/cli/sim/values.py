@@ -129,13 +129,15 @@ def joint_starts(text: str) -> tuple[dict[str, float], dict[str, float]]:
 
 
 def _assignments(text: str) -> list[tuple[str, str]]:
-    found = []
+    found: dict[str, str] = {}
     for word in text.split(","):
         name, equals, value = word.partition("=")
         if not equals or not name.strip():
             raise argparse.ArgumentTypeError(f"`{word}` is not NAME=VALUE")
-        found.append((name.strip(), value.strip()))
-    return found
+        if name.strip() in found:
+            raise argparse.ArgumentTypeError(f"`{text}` names `{name.strip()}` twice")
+        found[name.strip()] = value.strip()
+    return list(found.items())
 
 
 class TopicMessage(NamedTuple):

@@ -2,7 +2,7 @@
 
 from urdfkit.description.world.edit import add_model, move_model, remove_model
 from urdfkit.description.world.library import model_names, world_names
-from urdfkit.description.world.model import WorldAxis, WorldInertial, WorldJoint, WorldLink, WorldModel
+from urdfkit.description.world.model import WorldAxis, WorldInertial, WorldJoint, WorldLink, WorldMimic, WorldModel
 from urdfkit.description.world.reader import load_model, load_world
 from urdfkit.description.world.save import model_to_sdf, save_world, to_sdf
 from urdfkit.description.world.shape import Cone, Ellipsoid, Kept, Light, Plane, Surface, WorldGeometry, WorldShape
@@ -25,6 +25,7 @@ __all__ = [
     "WorldInertial",
     "WorldJoint",
     "WorldLink",
+    "WorldMimic",
     "WorldModel",
     "WorldRobot",
     "WorldShape",

@@ -68,6 +68,23 @@ class WorldLink(Written):
 
 
 @record
+class WorldMimic:
+    """Position = multiplier · (position of `joint` − reference) + offset.
+
+    Attributes:
+        joint: of the same model, or ``nested::joint``.
+        multiplier: of the other joint's way.
+        offset: [rad] or [m].
+        reference: position of the other joint [rad] or [m].
+    """
+
+    joint: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+    reference: float = 0.0
+
+
+@record
 class WorldAxis:
     """An axis of a joint; `xyz` is of the joint's frame, not normalised. What is not limited is infinite.
 
@@ -81,6 +98,7 @@ class WorldAxis:
         friction: dry friction [N·m] or [N].
         spring_stiffness: [N·m/rad] or [N/m].
         spring_reference: where the spring rests [rad] or [m].
+        mimic: the joint that it follows.
     """
 
     xyz: Vector = (0.0, 0.0, 1.0)
@@ -92,6 +110,7 @@ class WorldAxis:
     friction: float = 0.0
     spring_stiffness: float = 0.0
     spring_reference: float = 0.0
+    mimic: WorldMimic | None = None
 
 
 @record(eq=False)

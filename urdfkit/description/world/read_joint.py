@@ -8,7 +8,7 @@ from urdfkit.description.element import Element
 from urdfkit.description.robot import Pose, Vector
 from urdfkit.description.world.context import Context
 from urdfkit.description.world.frames import Scope
-from urdfkit.description.world.model import WorldAxis, WorldJoint
+from urdfkit.description.world.model import WorldAxis, WorldJoint, WorldMimic
 from urdfkit.description.world.poses import compose, rotate, rotation_of, transpose
 from urdfkit.description.world.shape import keep
 from urdfkit.description.world.values import boolean, name_of, raw_pose, scalar, text, vector, wrong
@@ -69,9 +69,6 @@ def _link(joint: Element, tag: str, scope: Scope) -> str:
 
 def _axis(context: Context, element: Element, scope: Scope, child: str, pose: Pose) -> WorldAxis:
     remark_unknown(context, element)
-    if (mimic := element.find("mimic")) is not None:
-        leader = f" with joint `{mimic.get('joint')}`" if mimic.get("joint") else ""
-        context.note(mimic, f"<mimic> is not simulated: the joint does not move{leader}, but on its own")
     limit, dynamics = element.find("limit"), element.find("dynamics")
     lower, upper = (
         _limit(scalar(limit, tag, sign * inf, infinite=True)) for tag, sign in (("lower", -1), ("upper", 1))
@@ -88,6 +85,22 @@ def _axis(context: Context, element: Element, scope: Scope, child: str, pose: Po
         scalar(dynamics, "friction", 0.0),
         scalar(dynamics, "spring_stiffness", 0.0),
         scalar(dynamics, "spring_reference", 0.0),
+        None if (mimic := element.find("mimic")) is None else _mimic(mimic),
+    )
+
+
+def _mimic(element: Element) -> WorldMimic:
+    """Read a ``<mimic>``; the equation is sdformat's (1.11/joint.sdf)."""
+    leader = element.get("joint") or ""
+    if not leader:
+        raise wrong(element, 'a <mimic> does not say which joint it follows; write joint="NAME"')
+    if (axis := element.get("axis") or "axis") != "axis":
+        raise wrong(element, f"a <mimic> follows `{axis}` of joint `{leader}`; only <axis> can be followed")
+    return WorldMimic(
+        leader,
+        scalar(element, "multiplier", 1.0),
+        scalar(element, "offset", 0.0),
+        scalar(element, "reference", 0.0),
     )
 
 

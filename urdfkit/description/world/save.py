@@ -71,9 +71,10 @@ def save_world(world: World, path: str | Path) -> None:
 
 
 def _version(models: Sequence[WorldModel], joints: Sequence[WorldJoint]) -> str:
-    """Return the oldest version from 1.9 on that knows what is written: joints of a world since 1.10, cones 1.11."""
+    """Return the oldest version from 1.9 on that knows all: joints of a world since 1.10, cones and mimic 1.11."""
     shapes = (s for model in models for _, _, link in model.all_links() for s in (*link.collisions, *link.visuals))
-    if any(isinstance(shape.geometry, Cone) for shape in shapes):
+    axes = (axis for model in models for _, joint in model.all_joints() for axis in joint.axes)
+    if any(isinstance(shape.geometry, Cone) for shape in shapes) or any(axis.mimic is not None for axis in axes):
         return "1.11"
     return "1.10" if joints else VERSION
 
@@ -255,3 +256,7 @@ def _axis(out: Markup, axis: WorldAxis) -> None:
     with out.some("dynamics"):
         for tag in ("damping", "friction", "spring_reference", "spring_stiffness"):
             out.number(tag, getattr(axis, tag), 0.0)
+    if axis.mimic is not None:
+        with out.inside("mimic", joint=axis.mimic.joint):
+            for tag in ("multiplier", "offset", "reference"):
+                out.put(tag, figure(getattr(axis.mimic, tag)))

@@ -19,6 +19,7 @@ from urdfkit.description.robot import (
     Joint,
     Limit,
     Link,
+    Mimic,
     Plugin,
     Pose,
     Robot,
@@ -29,7 +30,7 @@ from urdfkit.description.source import Origin, Position
 from urdfkit.description.world.model import WorldAxis, WorldJoint, WorldLink, WorldModel
 from urdfkit.description.world.poses import IDENTITY, between, compose
 from urdfkit.description.world.shape import Kept
-from urdfkit.errors import SimulationError
+from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.record import record
 
 MOVES = ("revolute", "continuous", "prismatic")
@@ -228,11 +229,37 @@ class _Builder:
         direction = (-x, -y, -z) if reverse else axis.xyz
         offset = between(frame, end) if reverse or joint.pose != IDENTITY else IDENTITY
         carried = child if offset == IDENTITY else f"{name}_frame"
-        self.joints.append(_moving(name, joint, axis, direction, parent, carried, between(start, frame), element))
+        mimic = self._mimic(prefix, joint, axis, element)
+        origin = between(start, frame)
+        self.joints.append(_moving(name, joint, axis, direction, parent, carried, origin, mimic, element))
         if carried != child:
             self.links.append(Link(carried, None, (), (), element))
             self.joints.append(_plain(f"{name}_frame_joint", "fixed", carried, child, offset, element))
         self._add(beyond)
+
+    def _mimic(self, prefix: str, joint: WorldJoint, axis: WorldAxis, element: Element) -> Mimic | None:
+        """Return the joint that a joint follows, as URDF has it."""
+        if axis.mimic is None:
+            return None
+        known = {before + other.name: other for before, other in self._group.joints}
+        met, leader = [prefix + joint.name], prefix + axis.mimic.joint
+        while leader not in met:
+            found = known.get(leader)
+            if found is None or found.type == "fixed" or not found.axes:
+                hint = did_you_mean(leader, [name for name, each in known.items() if each.type != "fixed"])
+                raise self._cannot(joint, f"follows `{leader}`, which is no joint that moves with it{hint}")
+            if found.axes[0].mimic is None:
+                break
+            met.append(leader)
+            leader = leader[: len(leader) - len(found.name)] + found.axes[0].mimic.joint
+        else:
+            raise self._cannot(joint, f"follows itself, by {', '.join(f'`{name}`' for name in met)}")
+        name, own = prefix + axis.mimic.joint, axis.mimic
+        name = name.removeprefix(self._prefix)
+        return Mimic(name, own.multiplier, own.offset - own.multiplier * own.reference, element)
+
+    def _cannot(self, joint: WorldJoint, what: str) -> SimulationError:
+        return SimulationError(f"joint `{joint.name}` of model `{self._model.name}` {what}", position=joint.position)
 
     def _add(self, name: str) -> None:
         link = self._written[name]
@@ -259,13 +286,14 @@ def _moving(
     parent: str,
     child: str,
     origin: Pose,
+    mimic: Mimic | None,
     element: Element,
 ) -> Joint:
     endless = isinf(axis.lower) and isinf(axis.upper)
     kind = "continuous" if joint.type != "prismatic" and endless else joint.type.replace("continuous", "revolute")
     limit = Limit(axis.lower, axis.upper, _written(axis.effort), _written(axis.velocity), element)
     dynamics = Dynamics(axis.damping, axis.friction, element)
-    return Joint(name, kind, parent, child, origin, direction, limit, dynamics, None, None, None, element)
+    return Joint(name, kind, parent, child, origin, direction, limit, dynamics, mimic, None, None, element)
 
 
 def _written(limit: float) -> float | None:
