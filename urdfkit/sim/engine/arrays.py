@@ -135,6 +135,7 @@ FLOATS: dict[str, Size] = {
     "feedforward": ("d",),
     "integral": ("d",),
     "i_part": ("d",),
+    "turn": ("b", "2"),
 }
 
 INTEGERS: dict[str, Size] = {

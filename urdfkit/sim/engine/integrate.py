@@ -8,12 +8,7 @@ from typing import Any
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
-from urdfkit.sim.engine.spatial import rotate, scale, turn_of
-
-SMALL = 2.5e-3
-"""Square of half an angle [rad²] below which these series, of sin(x)/x and cos(x), are exact to rounding."""
-SINE = (-1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362880.0)
-COSINE = (-0.5, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40320.0)
+from urdfkit.sim.engine.spatial import SMALL, little_turn, rotate, scale, turn_of
 
 
 @inlined
@@ -22,8 +17,7 @@ def turned_by(x: float, y: float, z: float, w: float, turn: Any) -> Any:
     turn = scale(0.5, turn)
     square = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2]
     if square < SMALL:
-        share = 1.0 + square * (SINE[0] + square * (SINE[1] + square * (SINE[2] + square * SINE[3])))
-        e = 1.0 + square * (COSINE[0] + square * (COSINE[1] + square * (COSINE[2] + square * COSINE[3])))
+        share, e = little_turn(square)
     else:
         half = math.sqrt(square)
         share, e = math.sin(half) / half, math.cos(half)

@@ -18,6 +18,7 @@ from urdfkit.sim.engine.body import Body, Member
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
 from urdfkit.sim.engine.limits import PASSING, WHIRLING
 from urdfkit.sim.engine.parts import find_candidates, find_contacts, find_impulses
+from urdfkit.sim.engine.reference_exchange import exchange
 from urdfkit.sim.engine.reference_motion import go, inward, move, outward
 from urdfkit.sim.engine.reference_servo import grow_integrals, servo_effort, servos, set_integral_parts
 from urdfkit.sim.engine.reference_trees import Tree, free_model, model_of
@@ -260,20 +261,23 @@ class Reference:
                 J = self._point_jacobian(int(a["contact_body"][k]), point, axes)
                 if a["contact_other"][k] >= 0:
                     J = J - self._point_jacobian(int(a["contact_other"][k]), point, axes)
-                along, across, normal = a["contact_frame"][k].reshape(3, 3) @ J
+                frame = a["contact_frame"][k].reshape(3, 3)
                 a["contact_row"][k] = -1
-                if normal @ normal <= MOBILITY * (J * J).sum():
+                if np.square(frame[2] @ J).sum() <= MOBILITY * (J * J).sum():
                     continue
-                gap = a["contact_gap"][k] - 0.5 * dt * (normal @ v)
+                gap = a["contact_gap"][k] - 0.5 * dt * (frame[2] @ J @ v)
+                moved = exchange(a, k, axes)
+                along, across, normal = frame @ (J + moved)
+                late = -frame @ moved @ v
                 ground = a["contact_against"][k] < 0
                 slot = first_slot + 3 * int(a["contact_feature"][k]) if ground else first_pair_slot + 3 * k
                 a["contact_row"][k] = len(rows)
                 mu = a["contact_mu"][k] if rubs else 0.0
-                bias = max(recovery(gap, dt), -FASTEST_RECOVERY)
+                bias = max(recovery(gap, dt), -FASTEST_RECOVERY) + late[2]
                 rows.append(Row(normal, bias, 0.0, np.inf, mu, slot, number, k))
                 if rubs:
-                    rows.append(Row(along, 0.0, -np.inf, np.inf, 0.0, slot + 1, number))
-                    rows.append(Row(across, 0.0, -np.inf, np.inf, 0.0, slot + 2, number))
+                    rows.append(Row(along, late[0], -np.inf, np.inf, 0.0, slot + 1, number))
+                    rows.append(Row(across, late[1], -np.inf, np.inf, 0.0, slot + 2, number))
         return rows
 
     def _point_jacobian(self, body: int, point: Array, axes: list[Array]) -> Array:

@@ -12,6 +12,7 @@ from typing import Any
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.dynamics import solve_transposed, solve_transposed_by_four
+from urdfkit.sim.engine.exchange import exchange
 from urdfkit.sim.engine.linear import gram_row
 from urdfkit.sim.engine.spatial import add, cross, dot, load_spatial, load_vector, sub
 
@@ -40,9 +41,9 @@ def recovery_speed(gap: float, dt: float) -> float:
 
 @inlined
 def open_row(
-    floats: Any, integers: Any, row: int, width: int, tree: int, b: float, lo: float, hi: float, at: int
+    floats: Any, integers: Any, row: int, clear: int, width: int, tree: int, b: float, lo: float, hi: float, at: int
 ) -> None:
-    """Clear a row and give it its tree (-1: there is but one), bias, bounds and slot."""
+    """Give a row its tree (-1: there is but one), bias, bounds and slot; clear it, and more in all, if need be."""
     Y = field(floats, integers, At.Y)
     bias = field(floats, integers, At.row_bias)
     low = field(floats, integers, At.low)
@@ -51,7 +52,7 @@ def open_row(
     slot = field(integers, integers, At.slot)
     row_a = field(integers, integers, At.row_a)
     row_b = field(integers, integers, At.row_b)
-    for d in range(row * width, (row + 1) * width):
+    for d in range(row * width, (row + clear) * width):
         Y[d] = 0.0
     bias[row], low[row], high[row], mu[row], slot[row] = b, lo, hi, 0.0, at
     if tree >= 0:
@@ -89,7 +90,7 @@ def joint_rows(floats: Any, integers: Any, rows: int, tree: int, dofs: int, widt
         target = mimic_offset[k] + (factor * s[dof_s[m]] if m >= 0 else 0.0)
         b = min(FASTEST_JOINT, max(-FASTEST_JOINT, RECOVERY * (s[dof_s[d]] - target) / dt))
         at = 2 * dofs + k
-        open_row(floats, integers, rows, width, row_tree, b, -math.inf, math.inf, at)
+        open_row(floats, integers, rows, 1, width, row_tree, b, -math.inf, math.inf, at)
         Y[rows * width + d - first] = 1.0
         if m >= 0:
             Y[rows * width + m - first] = -factor
@@ -105,7 +106,7 @@ def joint_rows(floats: Any, integers: Any, rows: int, tree: int, dofs: int, widt
             b = 0.0
         else:
             continue
-        open_row(floats, integers, rows, width, row_tree, b, -hold * dt, hold * dt, d)
+        open_row(floats, integers, rows, 1, width, row_tree, b, -hold * dt, hold * dt, d)
         Y[rows * width + d - first] = 1.0
         rows += 1
     for d in range(first, beyond):
@@ -118,7 +119,7 @@ def joint_rows(floats: Any, integers: Any, rows: int, tree: int, dofs: int, widt
             gap, sign = upper[d] - position, -1.0
         if gap < near or pressed[d] != 0:
             b = recovery_speed(gap, dt)
-            open_row(floats, integers, rows, width, row_tree, b, 0.0, math.inf, dofs + d)
+            open_row(floats, integers, rows, 1, width, row_tree, b, 0.0, math.inf, dofs + d)
             Y[rows * width + d - first] = sign
             rows += 1
     return rows
@@ -193,11 +194,11 @@ def contact_rows(
                 if alone or contact_against[here] < 0
                 else first_pair_slot + 3 * here
             )
-            open_row(floats, integers, rows, width, tree, 0.0, 0.0, math.inf, at)
+            open_row(floats, integers, rows, 3 if rubbing == 1 else 1, width, tree, 0.0, 0.0, math.inf, at)
             mu[rows] = contact_mu[here]
             if rubbing == 1:
                 for j in range(1, 3):
-                    open_row(floats, integers, rows + j, width, tree, 0.0, -math.inf, math.inf, at + j)
+                    open_row(floats, integers, rows + j, 0, width, tree, 0.0, -math.inf, math.inf, at + j)
             point = load_vector(contact_point, here)
             first = load_vector(contact_frame, 3 * here)
             second = load_vector(contact_frame, 3 * here + 1)
@@ -244,6 +245,8 @@ def contact_rows(
                 continue
             # The gap was taken at the end of the step, if the velocity stays; its half is where the velocity changes.
             bias[rows] = max(recovery_speed(contact_gap[here] - 0.5 * dt * speed, dt), -FASTEST_RECOVERY)
+            if other >= 0 and body_tree[other] != tree:
+                exchange(floats, integers, here, rows, rubbing == 1, width, dt)
             rows += 3 if rubbing == 1 else 1
     return rows
 

@@ -17,6 +17,10 @@ Vector = tuple[float, float, float]
 Spatial = tuple[Vector, Vector]
 ZERO: Vector = (0.0, 0.0, 0.0)
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+SMALL = 2.5e-3
+"""Square of an angle [rad²] below which these series, of sin(x)/x and cos(x), are exact to rounding."""
+SINE = (-1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362880.0)
+COSINE = (-0.5, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40320.0)
 
 
 @inlined
@@ -102,9 +106,28 @@ def tensor_turned(R: Any, T: Any) -> Any:
 
 
 @inlined
-def turn_about(axis: Vector, angle: float) -> Any:
-    """Return the rotation by `angle` about a unit axis (Rodrigues)."""
-    s, c = math.sin(angle), math.cos(angle)
+def little_turn(square: float) -> tuple[float, float]:
+    """Return sin(x)/x and cos(x) of a small angle, of its square."""
+    return (
+        1.0 + square * (SINE[0] + square * (SINE[1] + square * (SINE[2] + square * SINE[3]))),
+        1.0 + square * (COSINE[0] + square * (COSINE[1] + square * (COSINE[2] + square * COSINE[3]))),
+    )
+
+
+@inlined
+def turned_further(sine: float, cosine: float, angle: float) -> tuple[float, float]:
+    """Return sine and cosine of an angle that is larger by `angle`, most often a small one."""
+    if angle * angle < SMALL:
+        share, c = little_turn(angle * angle)
+        s = share * angle
+    else:
+        s, c = math.sin(angle), math.cos(angle)
+    return sine * c + cosine * s, cosine * c - sine * s
+
+
+@inlined
+def turn_about(axis: Vector, s: float, c: float) -> Any:
+    """Return the rotation about a unit axis by an angle of this sine and cosine (Rodrigues)."""
     x, y, z = axis
     k = 1.0 - c
     return (

@@ -13,6 +13,7 @@ KERNEL_MODULES = (
     "collide",
     "compilation",
     "dynamics",
+    "exchange",
     "flight",
     "friction",
     "guess",
