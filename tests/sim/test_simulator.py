@@ -339,3 +339,14 @@ def test_a_link_without_mass_may_carry_one_about_another_axis(tmp_path: Path) ->
     ]
     with pytest.raises(SimulationError, match=r"r\.urdf:3:1: link `l1` has no <inertial>, but joint `j1` moves it"):
         Simulator(chain(tmp_path / "s.urdf", "zxx").rename(tmp_path / "r.urdf"))
+
+
+def test_a_servo_keeps_to_the_effort_limit_of_its_joint() -> None:
+    arm = Simulator("rrbot", world="void", gravity=(0, 0, 0), note=lambda text: None)
+    arm.controllers.stop("joint1_position_controller", "joint2_position_controller")
+    joint = next(name for name in arm.kinematics.joint_names if arm.motors.limit(name) < 1e6)
+    most = arm.motors.limit(joint)
+    for effort, expected in ((None, most), (0.5 * most, 0.5 * most)):
+        arm.motors.servo(joint, stiffness=1e6, damping=1.0, position=1.0, effort=effort)
+        arm.step()
+        assert arm.state.effort(joint) == pytest.approx(expected)

@@ -96,17 +96,28 @@ def test_an_inertia_that_nothing_has_is_refused_with_its_place(world) -> None:
     Simulator("simpleton", world=world(crate.replace("<static>false", "<static>true")))
 
 
-def test_a_mimic_joint_of_sdf_is_noted_with_its_place(world) -> None:
+def test_a_mimic_joint_of_sdf_follows_also_when_it_was_saved(world, tmp_path: Path) -> None:
     inertia = "<inertial><mass>1</mass></inertial>"
     axis = "<axis><xyz>0 0 1</xyz>{}</axis><parent>link</parent><child>{}</child></joint>"
     more = f'<link name="a">{inertia}</link><link name="b">{inertia}</link><joint name="j" type="revolute">'
     more += axis.format("", "a") + '<joint name="k" type="revolute">'
-    more += axis.format('<mimic joint="j"><multiplier>2</multiplier></mimic>', "b")
+    more += axis.format('<mimic joint="j"><multiplier>2</multiplier><reference>0.1</reference></mimic>', "b")
     notes: list[str] = []
-    Simulator("simpleton", world=world(box("door", "3 0 0.1 0 0 0", more=more)), note=notes.append)
-    (note,) = [each for each in notes if "mimic" in each]
-    assert "probe.world:" in note
-    assert "<mimic> is not simulated: the joint does not move with joint `j`, but on its own" in note
+    simulator = Simulator("simpleton", world=world(box("door", "3 0 0.1 0 0 0", more=more)), note=notes.append)
+    assert not [each for each in notes if "mimic" in each]
+    simulator.robots["door"].motors.drive("j", 0.5, 10.0)
+    simulator.run(2.0)
+    state = simulator.robots["door"].state
+    j, k = state.position("j"), state.position("k")
+    assert 0.8 < j < 1.0
+    assert k == pytest.approx(2.0 * (j - 0.1), abs=1e-6)
+    simulator.save_world(tmp_path / "after.sdf")
+    again = Simulator("simpleton", world=tmp_path / "after.sdf", note=notes.append)
+    again.robots["door"].motors.drive("j", -0.5, 10.0)
+    again.run(1.0)
+    state = again.robots["door"].state
+    # Both are zero where they were saved.
+    assert state.position("k") == pytest.approx(2.0 * state.position("j"), abs=1e-6)
 
 
 def test_a_wall_stops_a_robot_with_all_the_force_its_wheels_have(world) -> None:
