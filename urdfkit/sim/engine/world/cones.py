@@ -33,15 +33,6 @@ STEPS = 30
 """Most steps of Newton's method in a round."""
 SEARCHES = 8
 """Most places along a step that are looked at."""
-ENOUGH = 1e-9
-"""Velocity [m/s or rad/s] by which rounds may still differ."""
-MORE_ROUNDS = 40
-"""Most rounds where each comes nearer: an arm between a wall and what drives it there takes about twenty."""
-NEARER, STUCK = 0.98, 8
-"""By which factor a round comes nearer than all before, and how many that do not are borne: more are a contradiction.
-
-Where slips and impulses drive each other, rounds go about their goal in a spiral, five or so away from it at a time.
-"""
 
 
 @inlined
@@ -189,7 +180,7 @@ def descend(floats: Any, integers: Any, root: int, rows: int, n: int, balance: f
 
 @inlined
 def take_over(floats: Any, integers: Any, rows: int) -> float:
-    """Make the impulses of a round those so far, and correct for its slips; return by how much velocities are off."""
+    """Make the impulses of a round those so far; return by how much velocities, or the correction, are off."""
     low = field(floats, integers, At.low)
     high = field(floats, integers, At.high)
     mu = field(floats, integers, At.mu)
@@ -207,8 +198,7 @@ def take_over(floats: Any, integers: Any, rows: int) -> float:
             off = max(off, max(abs(p - x[k]), max(abs(a - x[k + 1]), abs(b - x[k + 2]))) / D)
             x[k], x[k + 1], x[k + 2] = p, a, b
             slip = mu[k] * math.sqrt(w[k + 1] * w[k + 1] + w[k + 2] * w[k + 2])
-            w[k] += slip - s[k]
-            s[k] = slip
+            off = max(off, abs(slip - s[k]))
             k += 3
             continue
         p = min(high[k], max(low[k], z))
@@ -219,8 +209,8 @@ def take_over(floats: Any, integers: Any, rows: int) -> float:
 
 
 @inlined
-def set_out(floats: Any, integers: Any, rows: int, hardness: float) -> None:
-    """Give rows one stiffness for each contact, and their velocities, corrected, at the velocities of now."""
+def set_out(floats: Any, integers: Any, rows: int, hardness: float, corrected: bool) -> None:
+    """Give rows one stiffness for each contact, and their velocities at the velocities of now, corrected or not."""
     mu = field(floats, integers, At.mu)
     g = field(floats, integers, At.slip)
     w = field(floats, integers, At.y)
@@ -239,8 +229,9 @@ def set_out(floats: Any, integers: Any, rows: int, hardness: float) -> None:
                 if stiffness[j] > 0.0:
                     least = min(least, stiffness[j])
             stiffness[k] = stiffness[k + 1] = stiffness[k + 2] = hardness * least
-            s[k] = mu[k] * math.sqrt(w[k + 1] * w[k + 1] + w[k + 2] * w[k + 2])
-            w[k] += s[k]
+            if corrected:
+                s[k] = mu[k] * math.sqrt(w[k + 1] * w[k + 1] + w[k + 2] * w[k + 2])
+                w[k] += s[k]
             k += 3
         else:
             stiffness[k] *= hardness
@@ -267,25 +258,3 @@ def leave_wedged(floats: Any, integers: Any, rows: int) -> None:
             continue
         g[k] += taken
         bias[k] += taken
-
-
-@compiled
-def give_way(
-    floats: Any, integers: Any, root: int, rows: int, n: int, rounds: int, more: bool, hardness: float, balance: float
-) -> float:
-    """Go on from velocities and impulses for some rounds of convex problems; return by how much they are still off.
-
-    Where `more`, it goes on while that helps. Afterwards ``state`` is for `try_states`; ``before`` is spent.
-    """
-    off, least, stuck = 0.0, math.inf, 0
-    set_out(floats, integers, rows, hardness)
-    for k in range(MORE_ROUNDS if more else rounds):
-        descend(floats, integers, root, rows, n, balance)
-        off = take_over(floats, integers, rows)
-        if off <= ENOUGH:
-            break
-        stuck = 0 if off < NEARER * least else stuck + 1
-        least = min(least, off)
-        if k + 1 >= rounds and stuck >= STUCK:
-            break
-    return off

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import At
+from urdfkit.sim.engine.arrays import WIDTH, At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.guess import HOLDS, SLIDES
 from urdfkit.sim.engine.linear import eliminate_and_solve
@@ -23,6 +23,28 @@ from urdfkit.sim.engine.world.products import push_row, row_speed
 
 STIFFNESS = 1e6
 """Stiffness of a row that holds, over the inverse of what it feels of the masses."""
+
+
+@inlined
+def feel(floats: Any, integers: Any, rows: int) -> None:
+    """Give every row that holds its stiffness, from what it feels of the masses."""
+    width = integers[WIDTH]
+    tree_dof = field(integers, integers, At.tree_dof)
+    dof_row = field(integers, integers, At.dof_row)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    Y = field(floats, integers, At.Y)
+    M = field(floats, integers, At.M)
+    stiffness = field(floats, integers, At.g)
+    for k in range(rows):
+        felt, at = 0.0, k * width
+        for side in range(2):
+            tree = row_a[k] if side == 0 else row_b[k]
+            if tree >= 0:
+                for d in range(tree_dof[tree], tree_dof[tree + 1]):
+                    felt += Y[at] * Y[at] / M[dof_row[d] + d]
+                    at += 1
+        stiffness[k] = STIFFNESS / felt if felt > 0.0 else 0.0
 
 
 @inlined
