@@ -106,7 +106,7 @@ def builder() -> Callable[..., Any]:
 
 def announcement() -> str:
     """Return what to say before a compilation: of what, and about how long it takes [CPU s, measured]."""
-    return "compiling the ray kernels, once, about 10 s …"
+    return "compiling the ray kernels, once, about 15 s …"
 
 
 def warmup(progress: Progress | None = None) -> bool:

@@ -54,7 +54,7 @@ def world_kernel() -> Kernel:
 
 def announcement(*, world: bool = False) -> str:
     """Return what to say before a compilation: which kernel, and about how long it takes [CPU s, measured]."""
-    what, seconds = (" for worlds that hold bodies", 45) if world else ("", 20)
+    what, seconds = (" for worlds that hold bodies", 50) if world else ("", 22)
     return f"compiling the physics kernel{what}, once, about {seconds} s …"
 
 
