@@ -50,11 +50,22 @@ def centre_velocity(floats: Any, integers: Any, shape: int, body: int) -> Any:
 
 
 @inlined
+def first_of_pair(integers: Any, k: int) -> int:
+    """Return the number of the first contact between the same two shapes."""
+    contact_shape = field(integers, integers, At.contact_shape)
+    contact_against = field(integers, integers, At.contact_against)
+    while k > 0 and contact_shape[k - 1] == contact_shape[k] and contact_against[k - 1] == contact_against[k]:
+        k -= 1
+    return k
+
+
+@inlined
 def wandering(floats: Any, integers: Any, k: int, point: Any, other_point: Any) -> Any:
     """Return how fast the place where two shapes touch moves through the world [m/s].
 
     Under a ball it goes with the ball, between two with what is nearer its middle; at a corner with the corner. Where
-    it is halfway a load on it has no arm to a ball that rolls, which would brake it.
+    it is halfway a load on it has no arm to a ball that rolls, which would brake it. Where they touch at several
+    points, all go with the first: rows of more points than it takes would contradict each other otherwise.
 
     Args:
         floats: block of the arrays.
@@ -118,7 +129,7 @@ def exchange(floats: Any, integers: Any, k: int, row: int, rubs: bool, width: in
     tree, other = body_tree[contact_body[k]], body_tree[contact_other[k]]
     if tree_floats[tree] == 0 or tree_floats[other] == 0:
         return
-    point = load_vector(contact_point, k)
+    point = load_vector(contact_point, first_of_pair(integers, k))
     other_point = add(point, sub(load_vector(contact_origin, tree), load_vector(contact_origin, other)))
     # How far the place goes in the second half of the step; a base is placed where it will be by then.
     way = scale(0.5 * dt, wandering(floats, integers, k, point, other_point))

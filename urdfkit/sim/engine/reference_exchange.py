@@ -35,6 +35,9 @@ def exchange(a: Arrays, k: int, axes: list[Array]) -> Array:
 def wandering(a: Arrays, k: int, trees: list[int]) -> Array:
     """Return how fast the place where two shapes touch moves through the world [m/s]."""
     speeds, radii = [], []
+    # All points where they touch go with the first.
+    while k > 0 and all(a[name][k - 1] == a[name][k] for name in ("contact_shape", "contact_against")):
+        k -= 1
     for tree, body, shape in zip(
         trees, ("contact_body", "contact_other"), ("contact_shape", "contact_against"), strict=True
     ):
