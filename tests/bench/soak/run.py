@@ -49,7 +49,10 @@ def soak(robot: str, *, minutes: float, seed: int, world: str = "house") -> Foun
             passed = second + part * LOOK
             driver.drive(passed, resting=resting)
             try:
-                simulator.step(round(LOOK / simulator.dt))
+                for _ in range(watch.glances):
+                    simulator.step(round(LOOK / watch.glances / simulator.dt))
+                    if watch.glances > 1:
+                        watch.glance()
             except SimulationError as error:
                 found.fault("diverged", passed, str(error))
                 found.factor = found.simulated / (time.process_time() - cpu)

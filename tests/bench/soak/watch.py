@@ -21,6 +21,8 @@ SUNK = 0.01
 """How far a robot or body may be below the floor [m]."""
 DEEP = 0.005
 """How deep a contact may be [m]."""
+FAST, GLANCES = 1.0, 10
+"""Speed [m/s] from which on ways are looked at so often in a look: what whips round a door's jamb takes no chord."""
 BEYOND_LIMIT = 1e-3
 """How far a joint may be beyond its limit [rad or m]."""
 OFF_UNIT = 1e-9
@@ -50,7 +52,8 @@ class Watch:
 
     def begin(self) -> None:
         """Forget where everything was."""
-        self._before = self._points()
+        self._before = self._seen = self._points()
+        self.glances = 1
         self._energy = math.inf
         self._place = np.array(self.simulator.state.base_pose[:3])
         self._speed = 1.0
@@ -67,15 +70,12 @@ class Watch:
         if not np.isfinite(now).all():
             found.fault("not finite", t, "a pose is not finite")
             return
-        names = [simulator.kinematics.link_names[i] for i in self._solid] + list(simulator.bodies)
-        for point, wall in self.walls.crossed(self._before, now):
-            found.fault(
-                "through a wall", t, f"{names[point]} through {self.walls.names[wall]} at {now[point].round(3)}"
-            )
+        self.glance(now)
         links = len(self._solid)
         moved = np.linalg.norm(now - self._before, axis=1) / LOOK
         self._speed = max(0.9 * self._speed, 1.0, 2.0 * float(moved[:links].max(initial=0.0)))
         self._before = now
+        self.glances = GLANCES if moved.max(initial=0.0) > FAST else 1
         energy = 0.0
         for name, body in simulator.bodies.items():
             speed, its = _motion(body)
@@ -89,6 +89,17 @@ class Watch:
         place = np.array(simulator.state.base_pose[:3])
         found.travelled += float(np.linalg.norm(place - self._place))
         self._place = place
+
+    def glance(self, now: Array | None = None) -> None:
+        """Look at the ways of all middles since the last glance, which are now at `now` (n, 3), as asked if None."""
+        now = self._points() if now is None else now
+        if np.array_equal(now, self._seen):
+            return
+        names = [self.simulator.kinematics.link_names[i] for i in self._solid] + list(self.simulator.bodies)
+        for point, wall in self.walls.crossed(self._seen, now):
+            text = f"{names[point]} through {self.walls.names[wall]} at {now[point].round(3)}"
+            self.found.fault("through a wall", self.simulator.t, text)
+        self._seen = now
 
     def check(self) -> None:
         """Look at everything else."""
