@@ -97,3 +97,21 @@ def test_other_sizes(robot_template, tmp_path, drive, sizes):
     command = (0.4, 0, 0.2)
     x, y = ridden(path, command).link_poses()[0, :2]
     assert math.dist((x, y), ideal(command)[:2]) <= 0.016
+
+
+@pytest.mark.parametrize(
+    ("ros", "drive", "sensors", "command"),
+    [
+        ("jazzy", "diff", "lidar3d depth", (0.5, 0, 0.5)),
+        ("noetic", "skid", "lidar lidar3d camera depth imu gps", (0.5, 0, 0)),
+        ("jazzy", "skid", "imu gps", (0, 0, 0.5)),  # what is heavier on one side turns about that
+        ("kilted", "ackermann", "lidar gps", (0.5, 0, 0.5)),
+        ("noetic", "omni", "camera imu", (0.3, 0.2, 0.5)),
+    ],
+)
+def test_drives_with_sensors_on_it(robot_template, tmp_path, ros, drive, sensors, command):
+    path = made(robot_template, tmp_path, ros=ros, drive=drive, sensor=sensors)
+    x, y, _, _, _, qz, qw = ridden(path, command).link_poses()[0]
+    there = ideal(command)
+    assert math.dist((x, y), there[:2]) < 0.02
+    assert math.remainder(2 * math.atan2(qz, qw) - there[2], 2 * math.pi) == pytest.approx(0, abs=0.02)

@@ -33,10 +33,11 @@ BUILT_IN = ("year", "into")
 class Layer:
     """A folder of files that goes `into` some folders of the result, if the answers are among `when`.
 
+    With ``@question@`` in the folder's name it is the folder of that answer, of several answers each one's.
     With `append`, what a file holds goes behind what the layers before have written into the file of that name.
     """
 
-    folder: Path
+    folder: str
     into: tuple[str, ...]
     when: When
     append: bool = False
@@ -149,14 +150,26 @@ class Template:
         for layer in self.layers:
             if not applies(layer.when, answers):
                 continue
-            for source in _sources(layer.folder):
+            for home, source in self._sources(layer, answers):
                 for folder in layer.into:
-                    name = fill(f"{folder}/{source.relative_to(layer.folder).as_posix()}", answers, where=str(source))
+                    name = fill(f"{folder}/{source.relative_to(home).as_posix()}", answers, where=str(source))
                     target = Path(name)
                     if target in written and not layer.append:
                         raise ResourceError(f"template: {source} and {written[target]} both become {target}")
                     written[target] = source
                     yield source, target
+
+    def _sources(self, layer: Layer, answers: Mapping[str, str]) -> Iterator[tuple[Path, Path]]:
+        """Yield the files of a layer, each with the folder of the layer it lies in."""
+        several, _ = self._said(answers)
+        for name in repeat_lines(f"{layer.folder}\n", several).splitlines():
+            home = self.folder / fill(name, answers, where=f"{self.folder}/template.toml")
+            if not home.is_dir():
+                raise ResourceError(f"template: no folder {home}")
+            # pip compiles the launch files among our data, too.
+            for path in sorted(home.rglob("*")):
+                if path.is_file() and "__pycache__" not in path.parts:
+                    yield home, path
 
     def render(self, answers: Mapping[str, str], folder: Path) -> list[Path]:
         """Write the files into `folder`.
@@ -218,11 +231,6 @@ class Template:
         ]
 
 
-def _sources(folder: Path) -> list[Path]:
-    # pip compiles the launch files among our data, too.
-    return sorted(path for path in folder.rglob("*") if path.is_file() and "__pycache__" not in path.parts)
-
-
 def template_names() -> list[str]:
     """Return the names of the templates we ship, sorted.
 
@@ -262,7 +270,7 @@ def _template(folder: Path, table: dict[str, Any]) -> Template:
         asks_later=tuple(table.get("asks_later", ())),
         words=tuple(Word(**entry) for entry in table.get("word", ())),
         layers=tuple(
-            Layer(folder / entry["folder"], tuple(entry.get("into", (".",))), _when(entry), entry.get("append", False))
+            Layer(entry["folder"], tuple(entry.get("into", (".",))), _when(entry), entry.get("append", False))
             for entry in table["layer"]
         ),
         checks=tuple(Check(entry["holds"], entry["otherwise"], _when(entry)) for entry in table.get("check", ())),
