@@ -32,8 +32,10 @@ def test_gravity_pulls_as_told_and_wakes_what_sleeps(box) -> None:
     z = box.state.base_pose[2]
     box.step(1000)
     assert box.state.base_pose[2] - z == pytest.approx(0.75, rel=1e-3)
-    with pytest.raises(SimulationError, match="gravity"):
-        tuning.set_gravity((0.0, 0.0, float("nan")))
+    for much in (float("nan"), float("inf"), 2e4):
+        with pytest.raises(SimulationError, match="gravity"):
+            tuning.set_gravity((0.0, 0.0, much))
+    assert tuning.gravity == (0.0, 0.0, 1.5)
 
 
 def test_a_heavier_link_is_pushed_less_far_and_turns_less(box) -> None:

@@ -17,6 +17,7 @@ from urdfkit.kinematics.build import spatial_inertia
 from urdfkit.sim.controllers.pid import Gains
 from urdfkit.sim.engine import Surface
 from urdfkit.sim.given import nearest, number, three
+from urdfkit.sim.loading import STRONGEST
 
 if TYPE_CHECKING:
     from urdfkit.sim.controllers.joint import Follower
@@ -68,8 +69,8 @@ class Tuning:
             SimulationError: these are not three finite numbers.
         """
         x, y, z = three(gravity, "gravity", "m/s²")
-        if not all(map(isfinite, (x, y, z))):
-            raise SimulationError(f"gravity is {x:g} {y:g} {z:g} m/s²; it must be three finite numbers")
+        if not max(abs(x), abs(y), abs(z)) <= STRONGEST or not all(map(isfinite, (x, y, z))):
+            raise SimulationError(f"gravity of {x:g} {y:g} {z:g} m/s² makes no sense; the Earth's is 0 0 -9.81")
         stage = self._population._stage
         stage.world = replace(stage.world, gravity=(x, y, z))
         stage.engine._arrays["gravity"][:] = x, y, z
