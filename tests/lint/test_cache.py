@@ -67,6 +67,18 @@ def test_whatever_was_read_or_looked_for_counts(package, what):
     assert lint(package).cached == 1
 
 
+def test_the_content_of_meshes_counts(package):
+    mesh = Path("p/meshes/b.stl")
+    mesh.parent.mkdir()
+    mesh.write_text("solid b\nendsolid b\n")
+    before = lint(package)
+    assert lint(package).cached == 1
+    mesh.write_text("version https://git-lfs.github.com/spec/v1\n")
+    after = lint(package)
+    assert after.cached == 0
+    assert [f.message for f in after.findings] != [f.message for f in before.findings]
+
+
 def test_a_touched_file_is_the_same_file(package):
     lint(package)
     os.utime(package, (1, 1))

@@ -74,7 +74,7 @@ def test_the_nearest_file_counts_and_the_repository_is_the_end(tmp_path):
 def test_what_is_not_known_is_said_in_one_line(tmp_path, text, message):
     file = tmp_path / "urdfkit.toml"
     file.write_text(text)
-    with pytest.raises(UsageError, match="urdfkit.toml") as caught:
+    with pytest.raises(UsageError, match=r"urdfkit\.toml") as caught:
         read(file)
     assert message in str(caught.value)
     assert str(file) in str(caught.value)
