@@ -38,7 +38,7 @@ def type_in(monkeypatch, *lines):
 @pytest.mark.parametrize("ros", ["jazzy", "kilted", "noetic"])
 def test_result_lints_clean_and_loads(place, capsys, ros):
     assert main(["new", "robot", "scout", "--ros", ros]) == 0
-    assert sorted(path.name for path in place.iterdir()) == ["scout_description", "scout_gazebo"]
+    assert sorted(path.name for path in place.iterdir()) == ["scout_bringup", "scout_description", "scout_gazebo"]
     assert [str(finding) for finding in lint([place])] == []
     robot = load(find_model([str(place / "scout_description")]).path)
     assert robot.name == "scout"
@@ -46,7 +46,7 @@ def test_result_lints_clean_and_loads(place, capsys, ros):
     assert {"left_wheel_joint", "right_wheel_joint", "caster_joint"} <= set(robot.joint_by_name)
     printed = capsys.readouterr().out
     assert "urdfkit sim teleop scout_description" in printed
-    assert ("roslaunch scout_gazebo scout.launch" in printed) == (ros == "noetic")
+    assert ("roslaunch scout_bringup scout.launch" in printed) == (ros == "noetic")
 
 
 def test_no_placeholder_survives(place):
@@ -70,7 +70,7 @@ def test_dimensions_arrive(place):
 def test_maintainer_and_license(place):
     options = ["--maintainer", "Ada O'Hara", "--email", "ada@example.org", "--license", "MIT"]
     assert main(["new", "robot", "scout", *options]) == 0
-    for package in ("scout_description", "scout_gazebo"):
+    for package in ("scout_description", "scout_gazebo", "scout_bringup"):
         manifest = (place / package / "package.xml").read_text()
         assert '<maintainer email="ada@example.org">Ada O\'Hara</maintainer>' in manifest
         assert "<license>MIT</license>" in manifest
@@ -87,7 +87,11 @@ def test_maintainer_is_asked_of_git(place, monkeypatch):
 
 def test_quiet_prints_what_was_written_only(place, capsys):
     assert main(["new", "robot", "scout", "-q"]) == 0
-    assert capsys.readouterr().out.splitlines() == ["scout_description  15 files", "scout_gazebo  8 files"]
+    assert capsys.readouterr().out.splitlines() == [
+        "scout_bringup  7 files",
+        "scout_description  15 files",
+        "scout_gazebo  8 files",
+    ]
 
 
 def test_questions_on_a_terminal(place, monkeypatch):
@@ -148,7 +152,10 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
             "the wheels would touch each other: --wheel-base",
         ),
         (["robot", "scout", "--drive", "skid", "--wheel-base", "0.5"], "it would hardly turn"),
-        (["robot", "scout", "--drive", "skid", "--base-height", "0.4"], "it would tip over when it starts"),
+        (
+            ["robot", "scout", "--drive", "skid", "--base-height", "0.2", "--wheel-base", "0.25"],
+            "it would tip over when it starts",
+        ),
         (["robot", "scout", "--arm", "6"], "--arm is not available yet; there is: --ros, --drive, .*--license"),
         (["robot", "scout", "--sensor", "lidra"], "--sensor `lidra` is not available; did you mean `lidar`"),
         (["robot", "scout", "--sensor", "imu", "--sensor", "imu"], "--sensor `imu` is given twice; one of each"),

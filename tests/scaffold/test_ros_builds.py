@@ -124,7 +124,7 @@ def test_colcon(workspace):
     assert len(robots) >= 3
     for package in (package for packages in robots.values() for package in packages):
         shutil.copytree(package, workspace / "src" / package.name)
-    count = 2 * len(new) + sum(len(packages) for packages in robots.values())
+    count = 3 * len(new) + sum(len(packages) for packages in robots.values())
     assert f"{count} packages finished" in run(workspace, "colcon build")
     for name, packages in robots.items():
         for package in packages:

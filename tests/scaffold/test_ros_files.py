@@ -69,7 +69,15 @@ def launch_modules(monkeypatch):
     return kinds
 
 
-@pytest.mark.parametrize("path", ["scout_description/launch/display.launch.py", "scout_gazebo/launch/scout.launch.py"])
+@pytest.mark.parametrize(
+    "path",
+    [
+        "scout_description/launch/display.launch.py",
+        "scout_gazebo/launch/scout.launch.py",
+        "scout_bringup/launch/scout.launch.py",
+        "scout_bringup/launch/teleop.launch.py",
+    ],
+)
 def test_ros2_launch_files(robots, launch_modules, path):
     launched(robots["jazzy"], path, launch_modules)
 
@@ -108,7 +116,15 @@ def launched(folder, path, launch_modules):
             assert made.args[0] in declared
 
 
-@pytest.mark.parametrize("path", ["scout_description/launch/display.launch", "scout_gazebo/launch/scout.launch"])
+@pytest.mark.parametrize(
+    "path",
+    [
+        "scout_description/launch/display.launch",
+        "scout_gazebo/launch/scout.launch",
+        "scout_bringup/launch/scout.launch",
+        "scout_bringup/launch/teleop.launch",
+    ],
+)
 def test_ros1_launch_files(robots, path):
     folder = robots["noetic"]
     root = ET.parse(folder / path).getroot()

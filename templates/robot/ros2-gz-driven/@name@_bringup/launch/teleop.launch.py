@@ -1,0 +1,32 @@
+"""Drive with a joystick: ros2 launch @name@_bringup teleop.launch.py.
+
+A keyboard needs a terminal of its own: ros2 run teleop_twist_keyboard teleop_twist_keyboard
+"""
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    """Read the joystick and turn its axes into commands while its button is held."""
+    return LaunchDescription([
+        DeclareLaunchArgument("speed", default_value="0.5", description="At full deflection [m/s]."),
+        DeclareLaunchArgument("turn", default_value="1.0", description="At full deflection [rad/s]."),
+        DeclareLaunchArgument("button", default_value="0", description="Number of the button to hold."),
+        Node(package="joy", executable="joy_node"),
+        Node(
+            package="teleop_twist_joy",
+            executable="teleop_node",
+            parameters=[
+                {
+                    "axis_linear.x": 1,
+                    "axis_angular.yaw": 0,
+                    "scale_linear.x": LaunchConfiguration("speed"),
+                    "scale_angular.yaw": LaunchConfiguration("turn"),
+                    "enable_button": LaunchConfiguration("button"),
+                }
+            ],
+        ),
+    ])
