@@ -50,6 +50,7 @@ class Project:
         self._entries: dict[Path, Sequence[Entry]] = {}
         self._analyses: dict[Entry, Analysis] = {}
         self._last: dict[Entry, Model] = {}
+        self._checker: Checker | None = None
         self._packages = Packages(options.package_path)
 
     def set_text(self, path: Path, text: str | None) -> None:
@@ -123,8 +124,11 @@ class Project:
         if entry not in self._analyses:
             options = Options(**{**self.options.__dict__, "texts": dict(self.texts)})
             try:
-                checker = Checker(options)
-                checker.packages = self._packages
+                if self._checker is None:  # it looks through the installed packages for rules: once is enough
+                    self._checker = Checker(options)
+                checker = self._checker
+                checker.options, checker.packages = options, self._packages
+                checker.sources.clear()
                 found, model = checker.examine(entry)
                 files = {name: Path(path) for name, path in found.files.items()}
                 findings = tuple(merged(found.findings))
