@@ -89,7 +89,7 @@ def test_quiet_prints_what_was_written_only(place, capsys):
     assert main(["new", "robot", "scout", "-q"]) == 0
     assert capsys.readouterr().out.splitlines() == [
         "scout_bringup  7 files",
-        "scout_description  15 files",
+        "scout_description  16 files",
         "scout_gazebo  8 files",
     ]
 
@@ -164,6 +164,8 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
         (["robot", "scout", "--gripper"], "--gripper is not available yet"),
         (["robot", "scout", "--wheel-raduis", "1"], "did you mean `--wheel-radius`?"),
         (["robot", "scout", "--wheel-radius", "5cm"], r"--wheel-radius `5cm` is no number \(in m\)"),
+        (["robot", "scout", "--mass", "400"], "no material is that heavy: --mass"),
+        (["robot", "scout", "--mass", "0.01"], "nothing is that light: --mass"),
         (["robot", "scout", "--mass", "-1"], "--mass -1 kg is out of range"),
         (["robot", "scout", "--wheel-separation", "0.2"], "the wheels would be inside the base: --wheel-separation"),
         (["robot", "scout", "--wheel-torque", "9"], "it would tip over when it starts or brakes"),
@@ -188,6 +190,50 @@ def test_nothing_is_overwritten(place, capsys):
     assert main(["new", "robot", "scout"]) == 2
     assert capsys.readouterr().err == "urdfkit: scout_gazebo is already there; nothing is overwritten\n"
     assert [path.name for path in place.iterdir()] == ["scout_gazebo"]
+
+
+def written(folder):
+    return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_the_same_again_from_a_file(place):
+    options = ["--drive", "skid", "--sensor", "camera,lidar", "--mass", "7", "--maintainer", "Ada O'Hara, \\ 2nd"]
+    assert main(["new", "robot", "scout", *options, "--into", "one"]) == 0
+    kept = place / "one/scout_description/urdfkit-new.toml"
+    assert 'sensor = ["lidar", "camera"]\n' in kept.read_text()
+    assert "wheel_torque" not in kept.read_text()
+    assert main(["new", "robot", "--from", str(kept), "--into", "two"]) == 0
+    assert written(place / "one") == written(place / "two")
+
+
+def test_options_come_before_the_file(place):
+    (place / "car.toml").write_text('name = "car"\ndrive = "skid"\nwheel_base = 0.3\nmass = 8\nsensor = ["imu"]\n')
+    assert main(["new", "robot", "cart", "--from", "car.toml", "--drive", "diff"]) == 0
+    robot = load(find_model(["cart_description"]).path)
+    assert robot.link_by_name["base_link"].inertial.mass == 8
+    assert {"imu_link", "caster"} <= set(robot.link_by_name)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (None, r"--from a\.toml: No such file"),
+        ("name = ", r"--from a\.toml: Invalid"),
+        ('name = "ox"\nmass = -2\n', r"a\.toml: --mass -2 kg is out of range"),
+        ('nmae = "x"\n', r"a\.toml: no question `nmae`; did you mean `name`"),
+        ("mass = true\n", r"a\.toml: `mass` is neither a text nor a number"),
+        ('template = "world"\n', r"is for `urdfkit new world`, not for `urdfkit new robot`"),
+        ("mass = 3\n", "name of the robot is missing"),
+    ],
+)
+def test_a_wrong_file_is_one_line(place, capsys, text, message):
+    if text is not None:
+        (place / "a.toml").write_text(text)
+    assert main(["new", "robot", "--from", "a.toml"]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert re.search(message, error), error
+    assert [path.name for path in place.iterdir()] == ([] if text is None else ["a.toml"])
 
 
 def test_the_checker_finds_what_the_linter_does(place):

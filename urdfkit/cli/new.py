@@ -10,7 +10,7 @@ from pathlib import Path
 
 from urdfkit.errors import UrdfkitError, UsageError
 from urdfkit.resources import templates_dir
-from urdfkit.scaffold import Question, Template, applies, create, load_template, template_names
+from urdfkit.scaffold import Question, Template, applies, create, load_template, read_recipe, template_names
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -34,6 +34,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
             _add(kind, question)
         kind.add_argument(
             "--into", metavar="DIR", default=".", help="folder to write to (default: the one you stand in)"
+        )
+        kind.add_argument(
+            "--from",
+            dest="recipe",
+            metavar="FILE",
+            help="answers in TOML, such as each result keeps; options come first",
         )
         kind.add_argument("-y", "--yes", action="store_true", help="ask nothing: defaults for what is left out")
         for option in template.asks_later:
@@ -62,6 +68,8 @@ def run(arguments: argparse.Namespace) -> int:
     into = Path(arguments.into)
     for name, answer in given.items():
         template.question(name).accept(answer)
+    if arguments.recipe is not None:
+        given = read_recipe(template, Path(arguments.recipe), given)
     given = {**_identity(template), **given}
     if not arguments.yes and sys.stdin.isatty() and sys.stderr.isatty():
         given |= _ask(template, given)

@@ -3,6 +3,7 @@
 from urdfkit.scaffold.names import check_package_name, sanitised
 from urdfkit.scaffold.new import create
 from urdfkit.scaffold.question import Question, applies
+from urdfkit.scaffold.recipe import read_recipe
 from urdfkit.scaffold.template import Template, load_template, template_names
 
 __all__ = [
@@ -12,6 +13,7 @@ __all__ = [
     "check_package_name",
     "create",
     "load_template",
+    "read_recipe",
     "sanitised",
     "template_names",
 ]

@@ -9,6 +9,8 @@ from pathlib import Path
 
 from urdfkit.atomic import move_into_place, staging
 from urdfkit.errors import ResourceError
+from urdfkit.scaffold.filling import fill
+from urdfkit.scaffold.recipe import recipe_text
 from urdfkit.scaffold.template import Template
 
 Checker = Callable[[Path], Sequence[str]]
@@ -37,12 +39,21 @@ def create(template: Template, answers: Mapping[str, str], folder: Path, *, chec
         if os.path.lexists(folder / name):
             raise ResourceError(f"{folder / name} is already there; nothing is overwritten")
     with _made(folder), staging(folder) as stage:
-        targets = template.render(answers, stage)
+        targets = template.render(answers, stage) + _recipe(template, answers, stage)
         if check is not None and (found := check(stage)):
             more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
             raise ResourceError(f"nothing was written: the result would not be clean: {found[0]}{more}")
         move_into_place(stage, folder)
     return sorted((folder / target).resolve() for target in targets)
+
+
+def _recipe(template: Template, answers: Mapping[str, str], stage: Path) -> list[Path]:
+    """Write the answers down where the template wants them; return the file's path in the result."""
+    if not template.recipe:
+        return []
+    target = Path(fill(template.recipe, answers, where=f"{template.folder}/template.toml"))
+    (stage / target).write_text(recipe_text(template, answers), encoding="utf-8")
+    return [target]
 
 
 @contextmanager

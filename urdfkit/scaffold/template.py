@@ -86,6 +86,7 @@ class Template:
         layers: what it writes.
         checks: what has to hold between the answers.
         next: what to do with the result.
+        recipe: the file of the result that keeps the answers; empty for none.
     """
 
     folder: Path
@@ -96,6 +97,7 @@ class Template:
     layers: tuple[Layer, ...]
     checks: tuple[Check, ...]
     next: tuple[Next, ...]
+    recipe: str = ""
 
     def question(self, name: str) -> Question:
         """Return the question of that name.
@@ -277,6 +279,7 @@ def _template(folder: Path, table: dict[str, Any]) -> Template:
         next=tuple(
             Next(entry.get("title", ""), tuple(entry["commands"]), _when(entry)) for entry in table.get("next", ())
         ),
+        recipe=table.get("recipe", ""),
     )
 
 
