@@ -61,7 +61,14 @@ def serving(folder: Path) -> Iterator[Callable[..., Served]]:
         errors = folder / f"stderr-{len(running)}"
         command = [sys.executable, "-m", "urdfkit", *words, "--port", "0", "--no-browser"]
         with errors.open("w") as stderr:
-            process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=stderr, text=True, cwd=folder)
+            process = subprocess.Popen(
+                command,
+                stdout=subprocess.PIPE,
+                stderr=stderr,
+                text=True,
+                cwd=folder,
+                env=os.environ | {"XDG_RUNTIME_DIR": str(folder)},  # what is noted of it is not the user's
+            )
         line = process.stdout.readline().strip() if process.stdout else ""
         served = Served(process, line, errors)
         running.append(served)

@@ -13,7 +13,7 @@ import pytest
 pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
-from urdfkit.cli.sim.ride import loop
+from urdfkit.cli.sim.ride import listening, loop
 from urdfkit.cli.sim.ride.loop import PARTS, Ride
 from urdfkit.cli.sim.ride.pace import FRAME, Pace
 from urdfkit.cli.sim.ride.part import Part
@@ -623,3 +623,48 @@ def test_a_fault_in_an_order_is_answered_in_a_line(ride) -> None:
     with pytest.raises(SimulationError) as caught:
         do(ride, "place", name="nothing", pose=[0, 0, 0])
     assert "\n" not in str(caught.value)
+
+
+def test_every_message_is_told_to_who_wants_every_one(ride) -> None:
+    odom = next(topic for topic in ride.simulator.bus.topics if topic.name == "/simpleton/odom")
+    before = len(odom.subscribers)
+    keys = {f"{kind}:/simpleton/odom": [] for kind in ("times", "sizes", "every", "whole")}
+    ride.page.wanted |= {*keys, "every:/nowhere"}
+    ride.tick()
+    assert len(odom.subscribers) == before + 4
+    count = odom.count
+    spend(ride, 0.5)
+    for part in ride.page.streamed:
+        assert part["missed"] == 0
+        keys[part["source"]] += part["rows"]
+    assert odom.count - count - 5 <= len(keys["times:/simpleton/odom"]) <= odom.count - count
+    times, sizes, every, _ = keys.values()
+    assert np.diff([t for t, _ in times]) == pytest.approx(0.01)
+    assert [row[:2] for row in every] == times
+    assert {size for _, _, size in sizes} == {sizes[0][2]}
+    assert all(message["child_frame_id"] == "base_footprint" for _, _, message in every)
+    ride.page.wanted.clear()
+    ride.tick()
+    assert len(odom.subscribers) == before
+
+
+def test_messages_for_which_there_is_no_time_are_counted(ride, monkeypatch) -> None:
+    """Putting one into words takes ten milliseconds; a quarter of the time is what may be spent."""
+
+    def slowly(message: Any, long: int) -> Any:
+        ride.wall.now += 0.01
+        return {"long": long}
+
+    monkeypatch.setattr(listening, "as_json", slowly)
+    odom = next(topic for topic in ride.simulator.bus.topics if topic.name == "/simpleton/odom")
+    ride.page.wanted.add("whole:/simpleton/odom")
+    ride.tick()
+    begin, count = ride.wall.now, odom.count
+    spend(ride, 4.0)
+    ride.simulator.paused = True
+    spend(ride, 0.1)
+    rows = [row for part in ride.page.streamed for row in part["rows"]]
+    missed = sum(part["missed"] for part in ride.page.streamed)
+    assert len(rows) + missed == odom.count - count
+    assert len(rows) * 0.01 == pytest.approx(0.25 * (ride.wall.now - begin), rel=0.1)
+    assert rows[0][2] == {"long": listening.ALL}

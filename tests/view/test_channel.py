@@ -2,7 +2,7 @@ import asyncio
 
 import pytest
 
-from urdfkit.view.channel import MAX_IN_FLIGHT, MAX_WAITING, Channel, ChannelFullError
+from urdfkit.view.channel import MAX_IN_FLIGHT, MAX_STREAM_BYTES, MAX_WAITING, Channel, ChannelFullError
 
 
 class Browser:
@@ -142,3 +142,21 @@ def test_cut_ends_the_sender() -> None:
         await asyncio.wait_for(sender, 5)
 
     asyncio.run(run())
+
+
+def test_of_a_stream_of_large_frames_few_wait_and_the_newest_always_does() -> None:
+    async def scenario(channel, browser, settle) -> None:
+        channel.want(frozenset({"whole:/image"}))
+        for name in "abcd":
+            channel.stream("whole:/image", name * (MAX_STREAM_BYTES // 3))
+        channel.stream("whole:/image", "e" * (MAX_STREAM_BYTES // 4))
+        browser.read(10)
+        await settle()
+        assert [frame[0] for frame in browser.frames] == ["c", "d", "e"]
+        browser.frames.clear()
+        channel.stream("whole:/image", "f")
+        channel.stream("whole:/image", "g" * (MAX_STREAM_BYTES + 1))
+        await settle()
+        assert [frame[0] for frame in browser.frames] == ["g"]
+
+    play(scenario)

@@ -28,6 +28,7 @@ COMMANDS = {
     "view": "look at a robot in the browser",
     "tf": "compute a transform, or draw the frame tree",
     "sim": "simulate a robot: teleop, run, bench, warmup",
+    "topic": "talk to a running simulation: list, info, echo, hz, bw, pub",
 }
 """Command → what it does. The module ``urdfkit.cli.<command>`` implements it."""
 

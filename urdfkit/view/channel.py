@@ -18,6 +18,8 @@ MAX_UNSEEN = 2
 """Frames of one source sent but not yet shown."""
 MAX_STREAM = 120
 """Frames of one stream that may wait; the oldest are lost first."""
+MAX_STREAM_BYTES = 16 * 1024 * 1024
+"""Bytes of one stream that may wait, of frames beside the newest."""
 
 
 class ChannelFullError(Exception):
@@ -27,7 +29,8 @@ class ChannelFullError(Exception):
 class Channel:
     """Outgoing frames of one browser, in five grades.
 
-    Lines that must all arrive (scene commands) queue up; streams (curves) do, up to `MAX_STREAM` of each; news (status)
+    Lines that must all arrive (scene commands) queue up; streams (curves) do, up to `MAX_STREAM` and
+    `MAX_STREAM_BYTES` of each; news (status)
     is kept per topic, newest wins; poses are kept newest wins too, and at most `MAX_IN_FLIGHT` of them are
     unacknowledged; so are pictures and points, `MAX_UNSEEN` of each source. Lives in the server's loop.
 
@@ -79,7 +82,10 @@ class Channel:
 
     def stream(self, key: str, frame: Frame) -> None:
         """Send this in order, unless the browser is so slow that newer ones push it out."""
-        self._streams.setdefault(key, deque(maxlen=MAX_STREAM)).append(frame)
+        stream = self._streams.setdefault(key, deque(maxlen=MAX_STREAM))
+        stream.append(frame)
+        while len(stream) > 1 and sum(map(len, stream)) > MAX_STREAM_BYTES:
+            stream.popleft()
         self._ready.set()
 
     def view(self, key: str, sequence: int, frame: bytes) -> None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 import os
 import re
 import secrets
@@ -28,15 +29,15 @@ def keys_of(port: int) -> dict[str, str]:
     if sys.platform == "win32":
         return {}
     try:
-        path = _folder() / f"page-{port}.json"
+        path = private_folder() / f"page-{port}.json"
         found = _read(path) or {"token": secrets.token_urlsafe(24), "session": secrets.token_urlsafe(24)}
-        _write(path, json.dumps(found))
+        write_private(path, json.dumps(found))
     except OSError:
         return {}
     return found
 
 
-def _folder() -> Path:
+def private_folder() -> Path:
     """Return the folder, which nobody else may look into.
 
     Raises:
@@ -55,23 +56,44 @@ def _folder() -> Path:
 
 
 def _read(path: Path) -> dict[str, str] | None:
+    text = read_private(path, age=AGE)
+    if text is None:
+        return None
+    try:
+        found = json.loads(text)
+        keys = {name: str(found[name]) for name in ("token", "session")}
+    except (ValueError, KeyError, TypeError):
+        return None
+    return keys if all(WELL_FORMED.fullmatch(key) for key in keys.values()) else None
+
+
+def read_private(path: Path, *, age: float = math.inf) -> str | None:
+    """Return what is in a file that only this user can read; None where there is none, or it is not to be trusted.
+
+    Args:
+        path: the file.
+        age: seconds after which it counts as none.
+
+    Raises:
+        OSError: it cannot be read, or is a link.
+    """
     try:
         handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
     except FileNotFoundError:
         return None
-    with os.fdopen(handle, encoding="utf-8") as file:
+    with os.fdopen(handle, encoding="utf-8", errors="replace") as file:
         status = os.fstat(file.fileno())
-        if status.st_uid != os.getuid() or status.st_mode & 0o077 or time.time() - status.st_mtime > AGE:
+        if status.st_uid != os.getuid() or status.st_mode & 0o077 or time.time() - status.st_mtime > age:
             return None
-        try:
-            found = json.loads(file.read(1000))
-            keys = {name: str(found[name]) for name in ("token", "session")}
-        except (ValueError, KeyError, TypeError):
-            return None
-    return keys if all(WELL_FORMED.fullmatch(key) for key in keys.values()) else None
+        return file.read(1000)
 
 
-def _write(path: Path, text: str) -> None:
+def write_private(path: Path, text: str) -> None:
+    """Write a file anew that nobody else can read.
+
+    Raises:
+        OSError: it cannot be written.
+    """
     with contextlib.suppress(FileNotFoundError):
         path.unlink()
     handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o600)

@@ -42,6 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.description import load
     from urdfkit.resources import find_model
     from urdfkit.sim import Simulator
+    from urdfkit.view.running import noted
     from urdfkit.view.server import Server
 
     with until_interrupted():
@@ -69,7 +70,7 @@ def run(arguments: argparse.Namespace) -> int:
                 with progress(server, "building the trees that sensors look through …", page.open):
                     ride.sights.prepare()
             page.open()
-            with recording(simulator, arguments.record) as ride.look:
+            with recording(simulator, arguments.record) as ride.look, noted(server.port, server.url, simulator.name):
                 note(KEYS if simulator.command_topics else "this robot has no drive that takes velocity commands")
                 ride.run()
         finally:

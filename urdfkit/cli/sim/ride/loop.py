@@ -14,6 +14,7 @@ from urdfkit.cli.sim.ride.curves import Curves
 from urdfkit.cli.sim.ride.figures import Figures
 from urdfkit.cli.sim.ride.forces import Forces
 from urdfkit.cli.sim.ride.hands import Hands
+from urdfkit.cli.sim.ride.listening import Listening
 from urdfkit.cli.sim.ride.objects import Objects
 from urdfkit.cli.sim.ride.pace import FRAME, Pace
 from urdfkit.cli.sim.ride.part import Part
@@ -38,7 +39,7 @@ STATUS = 0.1
 """Seconds between status lines on the page."""
 PATIENCE = 0.05
 """Seconds of a round that orders may take; what is left is done in the next."""
-PARTS: tuple[type[Part], ...] = (Transport, Topics, Curves, Objects, Arms, Screws, Hands, Forces, Tape)
+PARTS: tuple[type[Part], ...] = (Transport, Topics, Listening, Curves, Objects, Arms, Screws, Hands, Forces, Tape)
 """What the page can do beside driving; a test fails if one is missing here."""
 
 

@@ -23,8 +23,13 @@ def fields_of(message: Any) -> tuple[str, ...]:
     return tuple(name for name in getattr(message, "__dataclass_fields__", ()) if not name.startswith("_"))
 
 
-def as_json(value: Any) -> Any:
-    """Return a message, or a part of one, as JSON can say it; long arrays are cut, with how many entries they have."""
+def as_json(value: Any, long: int = LONG) -> Any:
+    """Return a message, or a part of one, as JSON can say it.
+
+    Args:
+        value: the message.
+        long: entries of an array that are kept; a longer one is cut, with how many it has.
+    """
     if isinstance(value, bool | np.bool_):
         return bool(value)
     if isinstance(value, int | np.integer):
@@ -35,13 +40,20 @@ def as_json(value: Any) -> Any:
         return value if len(value) <= 4000 else f"{value[:4000]} … {len(value)} characters"
     if isinstance(value, bytes | bytearray):
         return f"{len(value)} bytes"
-    if isinstance(value, np.ndarray) and value.dtype == np.uint8 and value.size > LONG:
+    if isinstance(value, np.ndarray) and value.dtype == np.uint8 and value.size > long:
         return f"{value.size} bytes"
+    if isinstance(value, np.ndarray) and (
+        value.dtype.kind in "iu" or (value.dtype.kind == "f" and np.isfinite(value[:long]).all())
+    ):
+        shown = value[:long].tolist()
+        return shown if len(value) <= long else [*shown, f"… {len(value)} in all"]
     if isinstance(value, np.ndarray | list | tuple):
-        shown = [as_json(entry) for entry in value[:LONG]]
-        return shown if len(value) <= LONG else [*shown, f"… {len(value)} in all"]
+        shown = [as_json(entry, long) for entry in value[:long]]
+        return shown if len(value) <= long else [*shown, f"… {len(value)} in all"]
     if names := fields_of(value):
-        return {name: as_json(getattr(value, name)) for name in names if name != "structure_needs_at_least_one_member"}
+        return {
+            name: as_json(getattr(value, name), long) for name in names if name != "structure_needs_at_least_one_member"
+        }
     return str(value)
 
 

@@ -1,0 +1,277 @@
+"""`urdfkit topic` on a simulation that runs in a thread of this process."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+pytest.importorskip("meshcat")
+pytest.importorskip("numba")
+
+from urdfkit.cli import main
+from urdfkit.cli.sim.ride.loop import Ride
+from urdfkit.cli.sim.ride.pace import FRAME
+from urdfkit.cli.topic.echo import as_yaml, part
+from urdfkit.cli.topic.pub import message_of
+from urdfkit.cli.topic.rates import Window, report
+from urdfkit.errors import UsageError
+from urdfkit.sim import Simulator
+from urdfkit.view.running import noted
+from urdfkit.view.server import Server
+
+ODOM, COMMAND = "/simpleton/odom", "/simpleton/cmd_vel"
+
+
+@pytest.fixture(scope="module")
+def ride(tmp_path_factory) -> Iterator[Ride]:
+    """Simpleton, as `sim teleop` runs it."""
+    over = threading.Event()
+    with pytest.MonkeyPatch.context() as patch, Server("sim", port=0) as server:
+        patch.setenv("XDG_RUNTIME_DIR", str(tmp_path_factory.mktemp("runtime")))
+        ride = Ride(Simulator("simpleton", note=lambda _: None), server)
+        ride.show()
+
+        def run() -> None:
+            ride.pace.begin(ride.simulator.t)
+            while not over.wait(FRAME):
+                ride.tick()
+
+        thread = threading.Thread(target=run)
+        thread.start()
+        with noted(server.port, server.url, "simpleton"):
+            yield ride
+        over.set()
+        thread.join()
+
+
+@pytest.fixture
+def topic(ride, capsys):
+    """Runs ``urdfkit topic …`` and returns what it printed."""
+
+    def run(*words: str, code: int = 0) -> str:
+        assert main(["topic", *words]) == code
+        printed = capsys.readouterr()
+        if code:
+            assert printed.out == ""
+            assert printed.err.count("\n") == 1
+            return printed.err
+        assert "missed" in printed.err or not printed.err
+        return printed.out
+
+    return run
+
+
+def listeners(ride: Ride, name: str) -> int:
+    return next(len(each.subscribers) for each in ride.simulator.bus.topics if each.name == name)
+
+
+def test_the_topics_are_listed(ride, topic) -> None:
+    names = topic("list").splitlines()
+    assert names == sorted(names)
+    assert {ODOM, COMMAND, "/clock", "/tf"} <= set(names)
+    assert f"{ODOM} [nav_msgs/msg/Odometry]" in topic("list", "-t").splitlines()
+    command = next(line for line in topic("list", "-v").splitlines() if line.startswith(COMMAND))
+    assert command.startswith(f"{COMMAND} [geometry_msgs/msg/Twist] ")
+    assert command.endswith(" messages, 1 listeners")
+    rows = json.loads(topic("list", "--json"))
+    assert [row["name"] for row in rows] == names
+    assert topic("info", ODOM).splitlines()[0] == "Type: nav_msgs/msg/Odometry"
+    assert json.loads(topic("info", COMMAND, "--json"))["listeners"] == 1
+
+
+def test_echo_prints_messages_as_rostopic_does(topic) -> None:
+    first, second, end = topic("echo", ODOM, "-n", "2").split("---\n")
+    assert end == ""
+    one, two = (yaml.safe_load(text) for text in (first, second))
+    assert one["header"]["frame_id"] == "odom"
+    assert len(one["pose"]["covariance"]) == 36
+    assert "  covariance: [" in first
+    times = [each["header"]["stamp"]["sec"] + each["header"]["stamp"]["nanosec"] * 1e-9 for each in (one, two)]
+    assert times[1] - times[0] == pytest.approx(0.01)  # none in between is left out
+    message = json.loads(topic("echo", "simpleton/odom", "--once", "--json"))
+    assert message["child_frame_id"] == "base_footprint"
+    assert topic("echo", ODOM, "--once", "--field", "header.frame_id") == "odom\n---\n"
+    assert float(topic("echo", ODOM, "--once", "--json", "--field", "pose.covariance[0]")) == 1e-5
+
+
+def test_what_was_published_once_for_all_who_come_is_echoed(topic) -> None:
+    (joint, *_) = json.loads(topic("echo", "/tf_static", "--once", "--json"))["transforms"]
+    assert joint["header"]["frame_id"] == "base_footprint"
+
+
+def test_a_camera_is_looked_through_while_somebody_listens(ride, topic, until) -> None:
+    name = "/simpleton/camera1/image_raw"
+    before = listeners(ride, name)
+    cut = json.loads(topic("echo", name, "--once", "--json"))
+    assert cut["data"] == f"{cut['height'] * cut['step']} bytes"
+    until(lambda: listeners(ride, name) == before)
+    whole = json.loads(topic("echo", name, "--once", "--json", "--full-length"))
+    assert len(whole["data"]) == cut["height"] * cut["step"]
+    until(lambda: listeners(ride, name) == before)
+
+
+def test_rates_are_of_simulated_time(topic) -> None:
+    found = json.loads(topic("hz", ODOM, "--once", "--json"))
+    assert found["rate"] == pytest.approx(100.0)
+    assert (found["min"], found["max"]) == pytest.approx((0.01, 0.01))
+    assert found["std"] == pytest.approx(0.0, abs=1e-9)
+    assert topic("hz", ODOM, "--once", "--window", "5").endswith("std dev: 0.00000s window: 5\n")
+    found = json.loads(topic("bw", ODOM, "--once", "--json"))
+    assert found["min"] == found["max"] == found["mean"] > 8 * (36 + 7)  # covariance and pose, in doubles
+
+
+def test_what_is_published_moves_the_robot(ride, topic, until) -> None:
+    topic("pub", COMMAND, "geometry_msgs/Twist", "{linear: {x: 0.5}}", "--rate", "50", "-n", "3")
+    until(lambda: ride.simulator.state.v[0] > 0.4)
+    topic("pub", COMMAND, "--once")  # its type is known; all zero
+    until(lambda: abs(ride.simulator.state.v[0]) < 0.01)
+    topic("pub", COMMAND, "geometry_msgs/msg/Twist", "[-0.5, 0, 0]", "[0, 0, 0]", "--once")
+    until(lambda: ride.simulator.state.v[0] < -0.4)
+    topic("pub", COMMAND, "{linear: {x: 0}}", "--once")
+    until(lambda: abs(ride.simulator.state.v[0]) < 0.01)
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["echo", "/odm"], f"no topic `/odm`; did you mean `{ODOM}`?"),
+        (["hz", "/clok"], "no topic `/clok`; did you mean `/clock`?"),
+        (["pub", "/simpleton/cmd_vl", "--once"], f"no topic `/simpleton/cmd_vl`; did you mean `{COMMAND}`?"),
+        (["pub", COMMAND, "geometry_msgs/Twst"], "did you mean `geometry_msgs/msg/Twist`?"),
+        (["pub", COMMAND, "geometry_msgs/Twist", "{linaer: {x: 1}}"], "no field `linaer` in geometry_msgs/msg/Twist"),
+        (["pub", COMMAND, "geometry_msgs/Twist", "{linear: {x: fast}}"], "field `x` of geometry_msgs/msg/Vector3"),
+        (["pub", COMMAND, "geometry_msgs/Twist", "{linear: {x: .inf}}"], "holds what no message can"),
+        (["pub", COMMAND, "geometry_msgs/Twist", "{linear: [}"], "the message is no YAML"),
+        (["pub", COMMAND, "-r", "0"], "`0` is no rate"),
+        (["echo", ODOM, "-n", "0"], "`0` is no whole number from 1 on"),
+        (["echo", ODOM, "--field", "pose.pos"], "no field `pos` in pose; did you mean `pose`?"),
+        (["echo", ODOM, "--field", "pose.covariance[36]"], "no entry 36 in pose.covariance: it has 36 entries"),
+        (["list", "--url", "http://127.0.0.1:1/?token=x"], "http://127.0.0.1:1: no simulation answers"),
+        (["lst"], "did you mean `list`?"),
+    ],
+)
+def test_what_is_wrong_is_one_line_and_exit_2(topic, words: list[str], expected: str) -> None:
+    assert expected in topic(*words, code=2)
+
+
+def test_a_topic_that_nobody_knows_is_published_to_with_a_note(ride, capsys) -> None:
+    assert main(["topic", "pub", "/simpleton/cmd_vl", "geometry_msgs/Twist", "--once"]) == 0
+    assert capsys.readouterr().err == f"urdfkit: nobody listens to /simpleton/cmd_vl; did you mean `{COMMAND}`?\n"
+
+
+def test_without_a_simulation_it_says_how_to_start_one(tmp_path: Path, monkeypatch, capsys) -> None:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    assert main(["topic", "list"]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith("urdfkit: no simulation is running; start one with `urdfkit sim teleop MODEL`")
+    assert printed.err.count("\n") == 1
+
+
+def start(*words: str) -> subprocess.Popen[str]:
+    command = [sys.executable, "-m", "urdfkit", "topic", *words]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ})
+
+
+def test_ctrl_c_ends_it_quietly(ride, until) -> None:
+    with start("echo", "/clock", "--json") as echo:
+        assert echo.stdout is not None
+        assert "clock" in echo.stdout.readline()
+        echo.send_signal(signal.SIGINT)
+        assert echo.communicate(timeout=20)[1] == ""
+        assert echo.returncode == 0
+    until(lambda: listeners(ride, "/clock") == 0)
+
+
+def test_a_closed_pipe_ends_it_quietly(ride, until) -> None:
+    with start("echo", "/clock") as echo:
+        assert echo.stdout is not None
+        assert echo.stdout.readline() == "clock:\n"
+        echo.stdout.close()
+        assert echo.wait(timeout=20) == 141
+        assert echo.stderr is not None
+        assert echo.stderr.read() == ""
+    until(lambda: listeners(ride, "/clock") == 0)
+
+
+def test_nothing_heavy_is_imported_for_the_help() -> None:
+    code = "import sys; from urdfkit.cli import main\ntry: main(['topic', '--help'])\nexcept SystemExit: pass\n"
+    code += "heavy = {'numpy', 'pinocchio', 'tornado', 'yaml'} & set(sys.modules); assert not heavy, heavy"
+    subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
+
+
+@pytest.fixture
+def until():
+    """Waits until a condition holds."""
+
+    def wait(condition: Any) -> None:
+        end = time.monotonic() + 60
+        while not condition():
+            assert time.monotonic() < end, "waited a minute in vain"
+            time.sleep(0.01)
+
+    return wait
+
+
+# Without a simulation
+
+
+def test_figures_of_a_window() -> None:
+    window = Window(3)
+    assert window.periods() is None
+    for t, size in ((0.0, 900), (1.0, 10), (1.5, 20), (2.5, 60)):
+        window.add(t, size)
+    periods, sizes = window.periods(), window.sizes()
+    assert periods is not None
+    assert sizes is not None
+    assert (periods.rate, periods.mean, periods.std, periods.window) == pytest.approx((2 / 1.5, 0.75, 0.25, 3))
+    assert (sizes.rate, sizes.mean, sizes.min, sizes.max) == pytest.approx((80 / 1.5, 30.0, 10.0, 60.0))
+    assert sizes.std == pytest.approx(math.sqrt((400 + 100 + 900) / 3))
+    assert report(periods, is_hz=True).splitlines() == [
+        "average rate: 1.333",
+        "\tmin: 0.500s max: 1.000s std dev: 0.25000s window: 3",
+    ]
+    window.add(0.5)  # a reset
+    assert window.periods() is None
+
+
+def test_yaml_of_a_message() -> None:
+    message = {"a": {"b": 1e-5, "c": []}, "d": [1, "inf"], "e": [{"f": "x: y"}, {"f": "nan"}], "g": "é"}
+    text = as_yaml(message)
+    assert text.splitlines() == [
+        "a:",
+        "  b: 1.0e-05",
+        "  c: []",
+        "d: [1, .inf]",
+        "e:",
+        "- f: 'x: y'",
+        "- f: .nan",
+        "g: é",
+    ]
+    assert as_yaml(0.5) == "0.5\n"
+    assert part(message, "e[1].f") == "nan"
+    with pytest.raises(UsageError, match="it is no array"):
+        part(message, "a[0]")
+    with pytest.raises(UsageError, match="a path is as"):
+        part(message, "a b")
+
+
+def test_messages_on_the_command_line() -> None:
+    assert message_of([]) is None
+    assert message_of(["{data: 1}"]) == {"data": 1}
+    assert message_of(["0.5"]) == [0.5]
+    assert message_of(["[1, 2]", "[3]"]) == [[1, 2], [3]]
+    with pytest.raises(UsageError, match="holds what no message can"):
+        message_of(["2024-01-01"])
