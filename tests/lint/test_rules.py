@@ -83,10 +83,13 @@ def test_the_examples_of_a_page_are_true(rule: type[Rule], tmp_path, monkeypatch
     monkeypatch.chdir(tmp_path)
     found = sections(rule)
     for heading, is_bad in (("Example", True), ("Use instead", False)):
-        example = re.fullmatch(r"```xml\n(.*)\n```", found[heading], re.DOTALL)
-        assert example, f"the section {heading} of {rule.code} is one block of XML"
+        example = re.fullmatch(r"```(?:xml|yaml)\n(.*)\n```", found[heading], re.DOTALL)
+        assert example, f"the section {heading} of {rule.code} is one block of XML, or of YAML"
         is_xacro = "xacro" in example[1] and any((HERE / rule.name).glob("*.xacro"))
         file = tmp_path / ("example.urdf.xacro" if is_xacro else "example.urdf")
+        beside = [path for path in (HERE / rule.name).glob("bad.*") if path.suffix in (".launch", ".yaml")]
+        if beside:  # A rule on what lies around the description.
+            file = tmp_path / f"example{beside[0].suffix}"
         file.write_text(example[1])
         # Meshes and manifests that examples need lie beside the files of the rule.
         shutil.copytree(HERE / rule.name, tmp_path, dirs_exist_ok=True, ignore=shutil.ignore_patterns(*FIXTURES))

@@ -57,6 +57,8 @@ class Packages:
                 return str(self.find(words[0]))
             if kind == "resolve":
                 return str(self.resolve(words[0], words[1]))
+            if kind == "around":
+                return "\n".join(map(str, self.around(words[0])))
             return self._moved(words[0])
         except ResourceError as error:
             return f"!{error.message}"
@@ -135,6 +137,19 @@ class Packages:
         moved = self._relocated(path)
         self.answers[("relocate", str(path))] = str(moved or "")
         return moved
+
+    def whereabouts(self, path: str | Path) -> str:
+        """Return the path itself where it exists, else where `relocate` finds it; empty where there is no such file."""
+        answer = self.answers[("relocate", str(path))] = self._moved(str(path))
+        return answer
+
+    def around(self, package: str | Path) -> list[Path]:
+        """Return the launch files and YAML around a description; see `surroundings.around`."""
+        from urdfkit.description.surroundings import around
+
+        found = around(Path(package))
+        self.answers[("around", str(package))] = "\n".join(map(str, found))
+        return found
 
     def _moved(self, path: str) -> str:
         """Return the path itself where it exists by now, else where it was moved to."""

@@ -15,7 +15,7 @@ from urdfkit.lint.entries import Entry, find_entries
 from urdfkit.lint.finding import SEVERITIES, Finding, Found
 from urdfkit.lint.model import Model
 from urdfkit.lint.rule import FaultRule, RobotRule, Rule, SourceRule
-from urdfkit.lint.rules import fault_rules, robot_rules, source_rules
+from urdfkit.lint.rules import around_rules, fault_rules, robot_rules, source_rules
 from urdfkit.lint.select import selection
 from urdfkit.record import field, record
 
@@ -262,14 +262,16 @@ class Checker:
         findings += self._ask_fault_rules(model, entry)
         if model.expanded.root is not None and not entry.is_library:
             foreign = [rule for rule in self.foreign if issubclass(rule, RobotRule)]
-            for rule in (*robot_rules(model.robot, model.target), *foreign):
+            outside = around_rules() if model.around else ()
+            for rule in (*robot_rules(model.robot, model.target), *outside, *foreign):
                 if self._applies(rule, model.target):
                     findings += rule().check(model)
         used: tuple[str, ...] = ()
         if any("urdfkit:" in source.text for source in model.expanded.sources.values()):
             findings, used = self._suppress(findings, model, entry)
         here = str(Path.cwd())
-        files = {name: os.path.join(here, name) for name in model.expanded.sources}  # noqa: PTH118
+        read = (*model.expanded.sources, *(model.around if model.expanded.root is not None else ()))
+        files = {name: os.path.join(here, name) for name in read}  # noqa: PTH118
         if entry.only:
             only = {path.resolve() for path in entry.only}
             names = {name for name, path in files.items() if Path(path).resolve() in only}

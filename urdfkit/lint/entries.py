@@ -6,6 +6,7 @@ import os
 import re
 from pathlib import Path
 
+from urdfkit.description.surroundings import LAUNCH, YAML, dependencies_in, manifest, neighbours, package_of
 from urdfkit.errors import ResourceError
 from urdfkit.record import record
 
@@ -74,16 +75,28 @@ def _of_name(name: str) -> list[Entry]:
 
 
 def _of_folder(folder: Path) -> list[Entry]:
+    found = _robots_in(folder)
+    if not found:
+        raise ResourceError(f"no robot description (.urdf or .xacro with a <robot> in it) in {folder}")
+    return found
+
+
+def descriptions(folder: Path) -> Iterator[tuple[Path, str]]:
+    """Yield every description and fragment in a folder, with its text, comments left out."""
+    yield from ((path, _text(path)) for path in _walk(folder, 0))
+
+
+def _robots_in(folder: Path) -> list[Entry]:
     texts = {path: _text(path) for path in _walk(folder, 0)}
     robots = {path: text for path, text in texts.items() if _is_robot(text)}
-    if not robots:
-        raise ResourceError(f"no robot description (.urdf or .xacro with a <robot> in it) in {folder}")
     included = _included(robots)
     return [Entry(path, (), _is_library(robots[path])) for path in robots if path not in included]
 
 
 def _of_file(path: Path) -> list[Entry]:
     """Return the file itself, or for a fragment the models that include it."""
+    if path.name.endswith((*LAUNCH, *YAML)):
+        return _around(path)
     text = _text(path)
     root = re.search(_ROOT, text)
     if root is None or root[1] is None or re.search(_NAMED, root[2]):
@@ -95,6 +108,20 @@ def _of_file(path: Path) -> list[Entry]:
         if above:
             return [Entry(_relative(model), (path,)) for model in above]
     return [Entry(path, (), _is_library(text))]
+
+
+def _around(path: Path) -> list[Entry]:
+    """Return the robots that a launch file or YAML is for: of its package, else of those beside it that that needs."""
+    package = package_of(path)
+    if package is None:
+        raise ResourceError(f"{path}: lies in no package, so there is no robot to compare it with")
+    needed = dependencies_in(manifest(package))
+    folders = [package, *(folder for name, folder in neighbours(package).items() if name in needed)]
+    for folder in folders:
+        found = [entry for entry in _robots_in(folder) if not entry.is_library]
+        if found:
+            return [Entry(_relative(entry.path), (path,)) for entry in found]
+    raise ResourceError(f"{path}: no robot description in its package, nor beside it in one that it depends on")
 
 
 def _relative(path: Path) -> Path:

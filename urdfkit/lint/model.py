@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 
 from urdfkit.description.source import Position, Source, Span
+from urdfkit.errors import ResourceError
 from urdfkit.lint.prefix import URDF_CHILDREN, signatures
 from urdfkit.lint.syntax import Document
 from urdfkit.record import field, record
@@ -12,6 +13,7 @@ from urdfkit.record import field, record
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from urdfkit.description.element import Element
     from urdfkit.description.expanded import Expanded
@@ -78,6 +80,26 @@ class Model:
             if fault.kind in ("include-not-found", "package-not-found"):
                 return f"package `{fault.name}`" if fault.kind == "package-not-found" else str(fault.name)
         return ""
+
+    @cached_property
+    def package(self) -> Path | None:
+        """The package that the entry file is in."""
+        from urdfkit.description.surroundings import package_of
+
+        return package_of(self.expanded.path)
+
+    @cached_property
+    def around(self) -> dict[str, Source]:
+        """The launch files and YAML of the package and of those beside it that depend on it, as the user is shown."""
+        from urdfkit.description.reading import shown_path
+
+        found: dict[str, Source] = {}
+        for file in self.expanded.packages.around(self.package) if self.package is not None else ():
+            try:
+                found[shown_path(file)] = Source.read(file, shown_as=shown_path(file))
+            except ResourceError:
+                continue
+        return found
 
     @cached_property
     def signatures(self) -> dict[str, list[Signature]]:

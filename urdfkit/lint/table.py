@@ -153,6 +153,13 @@ ROBOT: tuple[Row, ...] = (
     ("ros2_control", "control.interface_combination", "InterfaceCombination"),
 )
 
+AROUND: tuple[Row, ...] = (
+    ("", "packaging.launch_path_missing", "LaunchPathMissing"),
+    ("", "packaging.controller_joint_undefined", "ControllerJointUndefined"),
+    ("", "packaging.spawned_controller_undefined", "SpawnedControllerUndefined"),
+)
+"""Rules on the robot that are asked where there are launch files or YAML around it."""
+
 TARGETED: tuple[Row, ...] = (
     ("inertial", "tree.root_link_has_inertia", "RootLinkHasInertia"),
     ("plugin", "gazebo.plugin_lib_wrong_generation", "PluginLibWrongGeneration"),

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from urdfkit.lint.table import FAULTS, ROBOT, SOURCE, SUPPRESSION, TARGETED, traits
+from urdfkit.lint.table import AROUND, FAULTS, ROBOT, SOURCE, SUPPRESSION, TARGETED, traits
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -45,6 +45,11 @@ def fault_rules() -> tuple[type[FaultRule], ...]:
     return tuple(_rules(FAULTS))
 
 
+def around_rules() -> tuple[type[RobotRule], ...]:
+    """Return the rules on launch files and YAML around the description."""
+    return tuple(_rules(AROUND))
+
+
 def robot_rules(robot: Robot | None = None, target: str | None = None) -> tuple[type[RobotRule], ...]:
     """Return the rules on the expanded robot.
 
@@ -53,7 +58,7 @@ def robot_rules(robot: Robot | None = None, target: str | None = None) -> tuple[
         target: leave out those for other targets, where a robot is given.
     """
     if robot is None:
-        return tuple(_rules((*ROBOT, *TARGETED)))
+        return tuple(_rules((*ROBOT, *AROUND, *TARGETED)))
     found = traits(robot)
     rows = ROBOT if target is None else (*ROBOT, *TARGETED)
     return tuple(_rules(row for row in rows if not row[0] or not found.isdisjoint(row[0].split())))

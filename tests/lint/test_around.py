@@ -1,0 +1,162 @@
+"""Launch files and YAML around a description: read without running them, nothing said of what is computed."""
+
+from __future__ import annotations
+
+import pytest
+
+from urdfkit.description.source import Source
+from urdfkit.lint import lint
+from urdfkit.lint.controllers import controllers, joints
+from urdfkit.lint.engine import Options, run
+from urdfkit.lint.entries import find_entries
+from urdfkit.lint.launch import package_paths
+
+ARM = """<robot name="arm">
+  <link name="base"/>
+  <link name="upper"/>
+  <joint name="elbow" type="fixed"><parent link="base"/><child link="upper"/></joint>
+</robot>
+"""
+CONTROLLERS = """arm_controller:
+  type: position_controllers/JointPositionController
+  joint: elbo
+"""
+LAUNCH = """import os
+from ament_index_python.packages import get_package_share_directory
+NAME = "arm_description"
+def generate_launch_description():
+    share = get_package_share_directory(NAME)
+    raise SystemExit("this is never run")
+    model = os.path.join(share, "urdf", "arms.urdf")
+"""
+
+
+def package(folder, *needs: str):
+    depends = "".join(f"<exec_depend>{need}</exec_depend>" for need in needs)
+    folder.mkdir(parents=True)
+    (folder / "package.xml").write_text(f'<package format="3"><name>{folder.name}</name>{depends}</package>')
+    return folder
+
+
+@pytest.fixture
+def workspace(tmp_path):
+    """A description, and a package beside it that starts it."""
+    described, started = package(tmp_path / "arm_description"), package(tmp_path / "arm_start", "arm_description")
+    for folder in (described / "urdf", started / "launch", started / "config"):
+        folder.mkdir()
+    (described / "urdf" / "arm.urdf").write_text(ARM)
+    (started / "launch" / "arm.launch.py").write_text(LAUNCH)
+    (started / "config" / "controllers.yaml").write_text(CONTROLLERS)
+    return tmp_path
+
+
+def found(path, **options):
+    findings = [finding for finding in lint(path, **options) if finding.code in ("K958", "K959", "K960")]
+    return [(finding.code, finding.file.rpartition("/")[2], finding.line, finding.column) for finding in findings]
+
+
+def test_a_package_that_depends_on_the_description_is_looked_at(workspace):
+    both = [("K959", "controllers.yaml", 3, 10), ("K958", "arm.launch.py", 7, 13)]
+    assert found(workspace) == both
+    assert found(workspace / "arm_start" / "launch" / "arm.launch.py") == both[1:]
+    assert found(workspace / "arm_start" / "config" / "controllers.yaml") == both[:1]
+
+
+def test_the_nearest_names_are_given(workspace):
+    messages = [finding.message for finding in lint(workspace, select=("K95",))]
+    assert any("did you mean `elbow`?" in message for message in messages)
+    assert any("did you mean `arm.urdf`?" in message for message in messages)
+
+
+def test_a_package_that_does_not_depend_on_it_is_left_alone(workspace):
+    (workspace / "arm_start" / "package.xml").write_text("<package><name>arm_start</name></package>")
+    assert found(workspace) == []
+
+
+def test_what_the_build_makes_or_takes_from_elsewhere_is_there(workspace):
+    launch = workspace / "arm_description" / "launch.launch"
+    launch.write_text('<launch><param textfile="$(find arm_description)/arms.urdf"/></launch>')
+    assert ("K958", "launch.launch", 1, 26) in found(workspace)
+    (workspace / "arm_description" / "CMakeLists.txt").write_text("xacro_add_files(urdf/arms.urdf.xacro)")
+    assert found(workspace) == [("K959", "controllers.yaml", 3, 10)]
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        '<robot name="b"><link name="base"/><joint name="elbo" type="fixed"/></robot>',
+        """<robot name="b" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="m" params="p">
+        <joint name="${p}bo" type="fixed"/></xacro:macro></robot>""",
+    ],
+)
+def test_joints_that_other_descriptions_may_have_are_let_pass(workspace, other):
+    (workspace / "arm_description" / "urdf" / "other.xacro").write_text(other)
+    assert not [row for row in found(workspace) if row[0] == "K959"]
+
+
+def test_joints_under_conditions_are_let_pass(workspace):
+    (workspace / "arm_description" / "urdf" / "arm.urdf").write_text(
+        ARM.replace("</robot>", '<xacro:if value="0"><joint name="elbo"/></xacro:if></robot>').replace(
+            "<robot", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"'
+        )
+    )
+    assert not [row for row in found(workspace) if row[0] == "K959"]
+
+
+def test_what_was_found_before_is_found_anew_once_a_file_comes_or_changes(workspace, tmp_path, monkeypatch):
+    monkeypatch.setenv("URDFKIT_CACHE_DIR", str(tmp_path / "cache"))
+
+    def again() -> tuple[set[str], int]:
+        outcome = run(find_entries([workspace / "arm_description"]), Options(select=("K958", "K959")), cached=True)
+        return {finding.code for finding in outcome.findings}, outcome.cached
+
+    assert again() == ({"K958", "K959"}, 0)
+    assert again() == ({"K958", "K959"}, 1)
+    (workspace / "arm_start" / "config" / "controllers.yaml").write_text(CONTROLLERS.replace("elbo", "elbow"))
+    assert again() == ({"K958"}, 0)
+    (workspace / "arm_description" / "urdf" / "arms.urdf").write_text(ARM.replace('"arm"', '"arms"'))
+    assert again()[0] == set()
+    (workspace / "arm_start" / "launch" / "more.launch").write_text('<a b="$(find arm_description)/none.yaml"/>')
+    assert again() == ({"K958"}, 0)
+
+
+@pytest.mark.parametrize(
+    ("line", "named"),
+    [
+        ('os.path.join(get_package_share_directory("p"), "a", "b.urdf")', ["a/b.urdf"]),
+        ('PathJoinSubstitution([FindPackageShare("p"), "a", "b.urdf"])', ["a/b.urdf"]),
+        ('PathJoinSubstitution([FindPackageShare(package="p"), "a"])', ["a"]),
+        ('get_package_share_directory("p") + "/a/b.urdf"', ["a/b.urdf"]),
+        ('Path(get_package_share_directory("p")) / "a" / "b.urdf"', ["a/b.urdf"]),
+        ('os.path.join(get_package_share_directory("p"), name)', []),
+        ('os.path.join(get_package_share_directory(which), "a")', []),
+        ('os.path.exists(os.path.join(get_package_share_directory("p"), "a"))', []),
+        ('(Path(get_package_share_directory("p")) / "a").exists()', []),
+        ('get_package_share_directory("p") + "_more/a"', []),
+        ('f"{get_package_share_directory(chr(112))}/a"', []),
+        ("get_package_share_directory(((", []),
+    ],
+)
+def test_paths_in_python(line, named):
+    assert [path.path for path in package_paths(Source("x.launch.py", f"é = {line}\n"))] == named
+
+
+def test_controllers_and_joints_in_yaml():
+    text = (
+        "a:\r\n  ros__parameters:\r\n    type: x_controllers/Y\r\n    joints:\r\n    - 'one'\r\n\r\n    - two\r\n"
+        '    rate: 3\r\nb:\n  type: y_controller/Z\n  left_wheel_names: [\n    three, # left\n    "four"]\n'
+    )
+    source = Source("c.yaml", text)
+    assert controllers(source) == ["a", "b"]
+    assert [named.name for named in joints(source)] == ["one", "two", "three", "four"]
+    assert all(text[named.start :].startswith(named.name) for named in joints(source))
+    assert list(joints(Source("c.yaml", "joints: [one]\n"))) == []
+
+
+def test_a_spawner_in_python(workspace):
+    launch = workspace / "arm_start" / "launch" / "arm.launch.py"
+    node = 'Node(package="controller_manager", executable="spawner", arguments=["--param-file", "x", "{}"])\n'
+    launch.write_text("n = " + node.format("arm_controler"))
+    assert ("K960", "arm.launch.py", 1, launch.read_text().index("arm_contr") + 1) in found(workspace)
+    launch.write_text("n = " + node.format("arm_controller"))
+    assert not [row for row in found(workspace) if row[0] == "K960"]

@@ -1,0 +1,85 @@
+"""What lies around a description: launch files and settings in YAML, of its package and of those that depend on it."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+LAUNCH = (".launch", ".launch.xml", ".launch.py", ".launch.yaml")
+"""Endings of launch files."""
+
+YAML = (".yaml", ".yml")
+
+_SKIPPED = frozenset(("build", "install", "devel", "log", "node_modules", "__pycache__", "test", "tests"))
+_MAX_DEPTH = 4
+_MAX_FILES = 200
+"""Files of one package that are looked at."""
+
+_MAX_NEIGHBOURS = 100
+_MAX_BYTES = 100_000
+
+
+def package_of(path: Path) -> Path | None:
+    """Return the folder with the package.xml around a file."""
+    return next((folder for folder in path.absolute().parents if (folder / "package.xml").is_file()), None)
+
+
+def manifest(package: Path) -> str:
+    """Return the package.xml of a package, comments left out; empty where it cannot be read."""
+    try:
+        text = (package / "package.xml").read_text("utf-8", "replace")
+    except OSError:
+        return ""
+    return re.sub(r"(?s)<!--.*?(?:-->|\Z)", "", text)
+
+
+def name_in(text: str, fallback: str = "") -> str:
+    """Return the name that the text of a package.xml gives."""
+    written = re.search(r"<name>\s*([\w.-]+)\s*</name>", text)
+    return written[1] if written else fallback
+
+
+def dependencies_in(text: str) -> set[str]:
+    """Return the packages that the text of a package.xml depends on in any way."""
+    return set(re.findall(r"<\w*depend\b[^>]*>\s*([\w.-]+)\s*<", text))
+
+
+def neighbours(package: Path) -> dict[str, Path]:
+    """Return the packages in the same folder, itself included, by name."""
+    found: dict[str, Path] = {}
+    try:
+        folders = sorted(child.path for child in os.scandir(package.parent) if child.is_dir(follow_symlinks=False))
+    except OSError:
+        folders = []
+    for folder in (str(package), *folders[:_MAX_NEIGHBOURS]):
+        if os.path.isfile(f"{folder}/package.xml"):  # noqa: PTH113
+            found.setdefault(name_in(manifest(Path(folder)), Path(folder).name), Path(folder))
+    return found
+
+
+def around(package: Path) -> list[Path]:
+    """Return the launch files and YAML of a package, and of the packages beside it that depend on it."""
+    name = name_in(manifest(package), package.name)
+    near = neighbours(package)
+    own = [other for key, other in near.items() if other == package or name in dependencies_in(manifest(near[key]))]
+    return [file for folder in own for file in list(_files(folder, 0))[:_MAX_FILES]]
+
+
+def _files(folder: Path, depth: int) -> Iterator[Path]:
+    try:
+        with os.scandir(folder) as scan:
+            children = sorted(scan, key=lambda child: child.name)
+    except OSError:
+        return
+    for child in children:
+        if child.is_dir(follow_symlinks=False):
+            inner = child.name in _SKIPPED or child.name.startswith(".")
+            if depth < _MAX_DEPTH and not inner and not os.path.isfile(f"{child.path}/package.xml"):  # noqa: PTH113
+                yield from _files(folder / child.name, depth + 1)
+        elif child.name.endswith((*LAUNCH, *YAML)) and child.stat().st_size <= _MAX_BYTES:
+            yield folder / child.name

@@ -1,0 +1,76 @@
+"""Controllers in YAML: which there are, and the joints they name, with their places. Reads lines, not all of YAML."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.lint.launch import uncommented
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.source import Source
+
+_TYPE = r"(?m)^([ \t]*)type[ \t]*:[ \t]*[\"']?\w*(?:_controllers?|_broadcaster)/\w+[\"']?[ \t]*\r?$"
+_JOINTS = r"(?m)^([ \t]*)(joints?|(?:left|right)_wheel(?:_names)?)[ \t]*:[ \t]*"
+_ITEM = r"[ \t]*-[ \t]+([\"']?)([\w./-]+)\1[ \t]*\r?$"
+_WORD = r"([\"']?)([\w./-]+)\1"
+
+
+@record
+class Named:
+    """A name in YAML, and the offset of its first letter."""
+
+    name: str
+    start: int
+
+
+def controllers(source: Source) -> list[str]:
+    """Return the names of the controllers that a YAML file gives a type."""
+    text, found = uncommented(source), []
+    for at in re.finditer(_TYPE, text):
+        indent = len(at[1])
+        for line in reversed(
+            text[: at.start()].splitlines()
+        ):  # the nearest line that stands further left, and names it
+            key = re.match(r"([ \t]*)[\"']?([\w/-]+)[\"']?[ \t]*:[ \t]*$", line)
+            if key is None or len(key[1]) >= indent:
+                continue
+            if key[2] != "ros__parameters":
+                found.append(key[2].strip("/").rpartition("/")[2])
+                break
+            indent = len(key[1])
+    return found
+
+
+def joints(source: Source) -> Iterator[Named]:
+    """Yield the joints that controllers name in a YAML file, where it has any controllers."""
+    text = uncommented(source)
+    if not re.search(_TYPE, text):
+        return
+    for at in re.finditer(_JOINTS, text):
+        rest = text[at.end() : text.find("\n", at.end()) + 1 or len(text)]
+        if rest.startswith("["):
+            end = text.find("]", at.end())
+            inside = text[at.end() + 1 : end] if end != -1 else ""
+            for word in re.finditer(rf"(?<![^\s,]){_WORD}(?=\s*(?:,|$))", inside):
+                yield Named(word[2], at.end() + 1 + word.start(2))
+        elif not rest.strip():
+            yield from _listed(text, at.end() + len(rest), len(at[1]))
+        elif (only := re.fullmatch(rf"{_WORD}\s*", rest)) is not None:
+            yield Named(only[2], at.end() + only.start(2))
+
+
+def _listed(text: str, start: int, indent: int) -> Iterator[Named]:
+    """Yield the items of a block list that begins at `start`, below a key that stands `indent` far in."""
+    while start < len(text):
+        end = text.find("\n", start) + 1 or len(text)
+        line = text[start:end].rstrip("\n")
+        item = re.match(_ITEM, line)
+        if line.strip() and (item is None or len(line) - len(line.lstrip()) < indent):
+            return
+        if item is not None:
+            yield Named(item[2], start + item.start(2))
+        start = end

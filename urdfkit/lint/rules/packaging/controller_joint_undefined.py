@@ -1,0 +1,105 @@
+"""K959 controller-joint-undefined."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from urdfkit.lint.finding import Finding
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.model import Model
+
+
+class ControllerJointUndefined(RobotRule):
+    """A controller is for a joint that the robot does not have.
+
+    ## What it does
+    Compares the joints of controllers, in the YAML of the robot's package and of those beside it that depend on it,
+    with the joints of the robot. Where other descriptions there, other arguments or other conditions could make a
+    joint of the name, nothing is said.
+
+    ## Why is this bad?
+    The controller does not start: there is no such joint to command.
+
+    ## Example
+    ```yaml
+    controller_manager:
+      ros__parameters:
+        arm_controller:
+          type: joint_trajectory_controller/JointTrajectoryController
+    arm_controller:
+      ros__parameters:
+        joints: [elbo]
+    ```
+
+    ## Use instead
+    ```yaml
+    controller_manager:
+      ros__parameters:
+        arm_controller:
+          type: joint_trajectory_controller/JointTrajectoryController
+    arm_controller:
+      ros__parameters:
+        joints: [elbow]
+    ```
+    """
+
+    code = "K959"
+    name = "controller-joint-undefined"
+    severity = "warning"
+    not_for = NOT_GAZEBO
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each joint of a controller that no description around can have."""
+        from urdfkit.errors import did_you_mean
+        from urdfkit.lint.controllers import joints
+
+        known = model.robot.joint_by_name
+        if model.is_incomplete or not known:
+            return
+        others: list[str] | None = None
+        for source in model.around.values():
+            if not source.file.endswith((".yaml", ".yml")):
+                continue
+            for named in joints(source):
+                if named.name in known:
+                    continue
+                others = _possible(model) if others is None else others
+                if any(re.fullmatch(pattern, named.name) for pattern in others):
+                    continue
+                yield Finding(
+                    self.code,
+                    self.name,
+                    self.severity,
+                    f"a controller is for `{named.name}`, which is no joint of `{model.robot.name}`"
+                    f"{did_you_mean(named.name, known)}",
+                    source.span(named.start, named.start + len(named.name)),
+                    joint=named.name,
+                )
+
+
+def _possible(model: Model) -> list[str]:
+    """Return patterns of the joints that descriptions in any package around may have, arguments being as they like."""
+    from urdfkit.description.surroundings import dependencies_in, manifest, neighbours, package_of
+    from urdfkit.lint.entries import descriptions
+
+    near = neighbours(model.package) if model.package is not None else {}
+    folders: set[Path] = set()
+    for file in model.around:
+        package = package_of(Path(file))
+        if package is not None:
+            folders |= {package, *(near[name] for name in dependencies_in(manifest(package)) if name in near)}
+    texts = {str(path.absolute()): text for folder in sorted(folders) for path, text in descriptions(folder)}
+    own = {str(Path(file).absolute()): written.text for file, written in model.expanded.sources.items()}
+    is_fixed = not any(re.search(r"<(?:xacro:)?(?:if|unless|arg)\b", text) for text in own.values())
+    texts = {path: text for path, text in texts.items() if path not in own} if is_fixed else {**own, **texts}
+    return [
+        ".*".join(re.escape(part) for part in re.split(r"\$\([^()]*\)|\$\{[^{}]*\}", name))
+        for text in texts.values()
+        for name in re.findall(r"<joint\b[^>]*?\bname\s*=\s*[\"']([^\"']*)", text)
+    ]
