@@ -166,7 +166,7 @@ def keep(request: pytest.FixtureRequest) -> Callable[[Page, str], None]:
 def until() -> Callable[..., object]:
     """Waits until a condition holds and returns its value; fails the test when it takes too long."""
 
-    def wait(condition: Callable[[], object], seconds: float = 20.0) -> object:
+    def wait(condition: Callable[[], object], seconds: float = 60.0) -> object:
         end = time.monotonic() + seconds
         while not (found := condition()):
             assert time.monotonic() < end, f"waited {seconds} s in vain"

@@ -29,6 +29,11 @@ LASER = str(
     Path(__file__).parents[2]
     / "robots/diff_wheeled_robot/diff_wheeled_robot_description/urdf/diff_wheeled_robot_with_laser.urdf.xacro"
 )
+HEARD = """async () => {
+  await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+  await urdfkit.connection.order("form", { topic: "/scan", type: "sensor_msgs/LaserScan" });
+}"""
+"""Wait until what the page wants, which it says before a picture, is heard: words come in order, and so do answers."""
 MOVED = np.array([[0.0, -1, 0, 10], [1, 0, 0, 20], [0, 0, 1, 30], [0, 0, 0, 1]])
 
 
@@ -183,9 +188,10 @@ def test_the_page_shows_points_and_pictures(serve_for_all, visits, keep, until) 
     page.get_by_label("/scan").first.click()
     assert not page.evaluate("urdfkit.sensors.shown[0].points.visible")
     until(lambda: not page.evaluate("urdfkit.connection.wanted.size"))
-    page.wait_for_timeout(300)
+    page.evaluate(HEARD)
     page.evaluate("urdfkit.sensors.frames = 0, urdfkit.page.on('sensed', () => (urdfkit.sensors.frames += 1))")
-    page.wait_for_timeout(400)
+    now = page.evaluate("urdfkit.page.status.time")
+    until(lambda: page.evaluate("urdfkit.page.status.time") > now + 0.5)
     assert page.evaluate("urdfkit.sensors.frames") == 0
     page.get_by_label("/scan").first.click()
     until(lambda: page.evaluate("urdfkit.sensors.frames") > 2)

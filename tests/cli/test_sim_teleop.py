@@ -20,6 +20,12 @@ from urdfkit.view.protocol import Axes
 
 X = "urdfkit.link().position.x"
 SPEED = "parseFloat(document.getElementById('velocity').textContent)"
+REMEMBER = """
+  window.remembered = [];
+  urdfkit.page.on("status", ({ time, pose, driver }) =>
+    remembered.push({ t: time, x: pose.x, y: pose.y, drives: driver !== null }));
+"""
+"""Keep time, place and whether somebody drives as the simulation tells them, of one moment, however late heard."""
 AHEAD = Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0)
 
 
@@ -60,15 +66,22 @@ def test_holding_a_key_drives_and_letting_go_stops(driving, visits, keep, until)
     _, page = driving
     start = at(page)
     keep(page, "start")
+    page.evaluate(REMEMBER)
     page.keyboard.down("w")
-    time.sleep(2)  # this is what is promised: two seconds of holding
-    moved = at(page)
+    until(lambda: at(page)[0] - start[0] >= 0.5)
     page.keyboard.up("w")
     keep(page, "driven")
-    assert moved[0] - start[0] >= 0.5
-    assert abs(moved[1] - start[1]) < 0.01
     rest = stands(page, until)
-    assert rest[0] - moved[0] < 0.3
+    rows = page.evaluate("remembered")
+    driven = [k for k, row in enumerate(rows) if row["drives"]]
+    held = sum(rows[k]["t"] - rows[k - 1]["t"] for k in driven if k - 1 in driven)
+    first, last, free = rows[driven[0]], rows[driven[-1]], rows[driven[-1] + 1]
+    assert (
+        last["x"] - first["x"] >= 0.25 * held > 0.0
+    )  # this is what is promised: half a metre in two seconds of holding
+    assert max(abs(row["y"] - start[1]) for row in rows) < 0.01
+    # Somewhere between these two the wheel was let go: until then it may have gone on at its speed.
+    assert rest[0] - last["x"] < 0.3 + 0.5 * (free["t"] - last["t"])
     assert visits.problems == []
 
 
@@ -137,8 +150,7 @@ def test_a_page_that_goes_away_stops_the_robot(driving, visits, until, how: str)
     watching = visits.open(served.url, viewport={"width": 480, "height": 360})
     page.bring_to_front()
     page.keyboard.down("w")
-    until(lambda: watching.evaluate(SPEED) > 0.3)
-    assert watching.locator("#driver-other").is_visible()
+    until(lambda: watching.evaluate(SPEED) > 0.3 and watching.locator("#driver-other").is_visible())
     if how == "close":
         page.close()
     elif how == "hang":  # the line is up, but nothing comes any more: the dead man's switch
