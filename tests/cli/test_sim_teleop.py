@@ -3,7 +3,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from concurrent.futures import Future
 from pathlib import Path
 
@@ -381,8 +380,11 @@ def test_a_ride_is_recorded_until_it_is_interrupted(serve, tmp_path, until) -> N
 
     served = serve("sim", "teleop", "simpleton", "--record", "ride.mcap")
     until(lambda: "Drive with" in served.errors.read_text(), 180.0)
-    time.sleep(0.5)
+    echo = [sys.executable, "-m", "urdfkit", "topic", "echo", "/clock", "-n", "20"]  # finds it by its note
+    env = os.environ | {"XDG_RUNTIME_DIR": str(tmp_path)}
+    until(lambda: subprocess.run(echo, env=env, stdout=subprocess.DEVNULL, check=False).returncode == 0)
     served.end()
+    assert not list((tmp_path / "urdfkit").glob("running-*.json"))
     assert " topics to ride.mcap" in served.errors.read_text()
     with Reader(tmp_path / "ride.mcap") as reader:
         assert reader.message_count > 10
