@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Edit, Finding
 
 _ROUNDS = 10
+_UNCOVERING = frozenset(("X105",))
+"""Rules whose fixes let xacro go on: warnings about what could not be seen before are not caused by them."""
+
 _SURROGATE = re.compile("[\ud800-\udfff]")
 
 
@@ -230,7 +233,7 @@ class _Fixer:
             if texts == self.texts:
                 continue
             mended = self._lint(texts)
-            worse = _worse(outcome, mended)
+            worse = _worse(outcome, mended, errors_only=_UNCOVERING.issuperset(group))
             if not worse and any(_counts(mended).get(code, 0) < _counts(outcome)[code] for code in group):
                 return texts, mended
             if len(group) == 1:
@@ -301,7 +304,9 @@ def _counts(outcome: Outcome) -> dict[str, int]:
     return counts
 
 
-def _worse(before: Outcome, after: Outcome) -> list[str]:
-    """Return the codes found more often than before."""
+def _worse(before: Outcome, after: Outcome, *, errors_only: bool = False) -> list[str]:
+    """Return the codes found more often than before; those of errors where `errors_only`."""
     known = _counts(before)
-    return [code for code, count in _counts(after).items() if count > known.get(code, 0)]
+    errors = {finding.code for finding in after.findings if finding.severity == "error"}
+    more = [code for code, count in _counts(after).items() if count > known.get(code, 0)]
+    return [code for code in more if code in errors or not errors_only]

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from pathlib import PurePosixPath
+
+from urdfkit.lint.edits import removal
+from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import FaultRule
 
 TYPE_CHECKING = False
@@ -37,10 +41,15 @@ class PropertyUsedBeforeDefinition(FaultRule):
       <link name="${side}_arm"/>
     </robot>
     ```
+
+    ## Fix safety
+    Unsafe: where the use is in an included file, the include is moved behind the definition, and with it all that the
+    file defines. Within one file nothing is moved.
     """
 
     code = "X105"
     name = "property-used-before-definition"
+    fix = "unsafe"
     kinds = ("undefined-property",)
 
     def claims(self, fault: Fault) -> bool:
@@ -56,4 +65,34 @@ class PropertyUsedBeforeDefinition(FaultRule):
             f"property `{fault.name}` is used before it is defined",
             attribute=fault.attribute,
             help=f"move the definition{definition} above this use",
+            fix=_later_include(fault, model),
         )
+
+
+def _later_include(fault: Fault, model: Model) -> Fix | None:
+    """Return the fix that moves the include that the use comes through behind the definition of what it uses."""
+    used, first = fault.position.file, fault.defined_at
+    if first is None or used == first.file:
+        return None
+    others = [other for other in model.expanded.faults if other.position.file == used and other.kind == fault.kind]
+    defined = max(at for other in others if (at := other.defined_at) is not None and at.file == first.file)
+    document = model.document(defined.file)
+    definition = model.tag(defined)
+    includes = [
+        tag
+        for tag in document.walk()
+        if tag.name == "xacro:include"
+        and (written := tag.attributes.get("filename")) is not None
+        and PurePosixPath(written.value).name == PurePosixPath(used).name
+    ]
+    if definition is None or len(includes) != 1:
+        return None
+    include, source = includes[0], document.source
+    if include.parent is not definition.parent or include.start > definition.start:
+        return None
+    line = source.text[source.text.rfind("\n", 0, definition.start) + 1 : definition.start]
+    moved = source.text[include.start : include.close_end]
+    text = f"\n{line}{moved}" if not line.strip() else moved
+    there = source.span(definition.close_end, definition.close_end)
+    title = f"Include {PurePosixPath(used).name} after what it uses is defined"
+    return Fix("unsafe", title, (removal(document, include), Edit(there, text)))
