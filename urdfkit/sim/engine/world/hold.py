@@ -5,9 +5,9 @@ fewer unknowns than rows: a box on four points has six against twelve, and boxes
 nothing to do with each other. With the rows taken for stiff dampers the matrix M + Jᵀ·D·J has a block for each tree and
 for each pair of trees that touch. It is factored in the order in which the fewest blocks fill in.
 
-`states` tries what rows do, from what they did in the last step. Where that leads nowhere it is tried once more with
-tiny penetrations and gaps left as they are: they contradict rows that hold, of friction too, as at a robot that is
-jammed. Where that leads nowhere either, `rounds` gets there from anywhere.
+`states` tries what rows do, from what they did in the last step. Where that leads nowhere, a tree alone is
+tried once more with tiny penetrations and gaps left as they are: they contradict rows that hold, of friction too, as at
+a robot that is jammed. Where that leads nowhere either, `rounds` gets there from anywhere.
 """
 
 from __future__ import annotations
@@ -113,7 +113,8 @@ def hold(floats: Any, integers: Any, root: int, rows: int) -> int:
         most = max(most, max(abs(before[k]), abs(g[k]) * stiffness[k] / STIFFNESS))
     most *= WILD
     done = try_states(floats, integers, root, rows, n, tiny, most)
-    if done == 0 and leave(floats, integers, rows):
+    # Between trees, biases are more than penetrations: see `exchange`.
+    if done == 0 and island_next[root] < 0 and leave(floats, integers, rows):
         first_hold(floats, integers, rows)
         again = try_states(floats, integers, root, rows, n, tiny, most)
         done = 1 + again if again > 0 else 0
