@@ -25,6 +25,15 @@ HARDNESS = (1e-3, 1e-3, 1e-3, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2)
 """Of each round, the stiffness of its rows over that of rows that hold."""
 BALANCE = (1e-3, 1e-3, 1e-3, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7)
 """Of each round, the part of the impulses by which it may be out of balance."""
+MORE_ROUNDS = 40
+"""Most rounds, all after those like the last: an arm between a wall and what drives it there takes some twenty."""
+NEARER, STUCK = 0.98, 8
+"""By which factor a round comes nearer than all before, and how many that do not are borne: more are a contradiction.
+
+Where slips and impulses drive each other, rounds go about their goal in a spiral, five or so away from it at a time.
+"""
+OFF = 1e-4
+"""Velocity [m/s or rad/s] that the next round must still change for there to be more than those of the table."""
 HEAP = 100
 """Rows beyond which an island is a heap."""
 HEAP_ROUNDS = 2
@@ -75,22 +84,30 @@ def go_round(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: flo
     """Go on from the velocities of now and the impulses ``before``, until the law is met or no better met.
 
     Returns:
-        How many rounds it took, one more than there are where velocities only come near the law.
+        How many rounds it took, one more than the most where velocities only come near the law.
     """
     x = field(floats, integers, At.x)
     before = field(floats, integers, At.before)
     for k in range(rows):
         x[k] = MEMORY * before[k]
-    off = math.inf
-    for done in range(HEAP_ROUNDS if rows > HEAP else len(HARDNESS)):
+    off, least, stuck = math.inf, math.inf, 0
+    for done in range(HEAP_ROUNDS if rows > HEAP else MORE_ROUNDS):
         if done == TRIED_AFTER and try_from_here(floats, integers, root, rows, n, tiny, most):
             return done
         feel(floats, integers, rows)
-        set_out(floats, integers, rows, HARDNESS[done], done > 0)
-        descend(floats, integers, root, rows, n, BALANCE[done])
+        row = min(done, len(HARDNESS) - 1)
+        set_out(floats, integers, rows, HARDNESS[row], done > 0)
+        descend(floats, integers, root, rows, n, BALANCE[row])
         was = off
         off = take_over(floats, integers, rows)
         if off <= max(tiny, SOLVED) or GAIN * was < off <= NEAR:
             return done + 1
         leave_wedged(floats, integers, rows)
-    return len(HARDNESS) + 1
+        if done + 1 < len(HARDNESS):
+            least = off
+            continue
+        stuck = 0 if off < NEARER * least else stuck + 1
+        least = min(least, off)
+        if off <= OFF or stuck >= STUCK:
+            break
+    return MORE_ROUNDS + 1
