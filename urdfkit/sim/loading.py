@@ -95,10 +95,10 @@ def require_masses(kinematics: Kinematics, q: NDArray[np.float64], note: Callabl
     # What carries nothing is at fault, not what carries it.
     link, joint = found[-1]
     why = f"joint `{joint.name}` moves it" if joint is not None else "the robot is free to move"
+    instead = "or fix it to a link that has them" if joint is not None else "or hold it still with --fixed-base"
     problem = "has no <inertial>" if link.inertial is None else "has no mass or no moment of inertia"
     raise SimulationError(
-        f"link `{link.name}` {problem}, but {why}: write <inertial> with <mass> and <inertia> into it, "
-        "or fix it to a link that has them",
+        f"link `{link.name}` {problem}, but {why}: write <inertial> with <mass> and <inertia> into it, {instead}",
         position=link.element.origin.position,
     )
 
