@@ -7,7 +7,7 @@
     select = ["E", "T"]
     ignore = ["J413"]
     exclude = ["third_party/*"]             # below the folder of this file
-    package-path = ["../shared"]
+    package-path = ["../common_ws/src"]
     baseline = "lint-baseline.json"
     arguments = {use_camera = "true"}       # values for $(arg …)
     [lint.per-file-ignores]
