@@ -63,10 +63,19 @@ def the_world(world: World | str | Path, gravity: Sequence[float] | None, packag
     found = world if isinstance(world, World) else load_world(world, package_path=package_path)
     if gravity is None:
         return found
+    return replace(found, gravity=sound_gravity(gravity))
+
+
+def sound_gravity(gravity: Sequence[float]) -> tuple[float, float, float]:
+    """Return gravity [m/s²] that can be simulated.
+
+    Raises:
+        SimulationError: it is not three finite numbers, or stronger than any that robots stand in.
+    """
     x, y, z = vector(gravity, 3, "gravity", "m/s²")
     if max(abs(x), abs(y), abs(z)) > STRONGEST:
         raise SimulationError(f"gravity of {max(x, y, z, key=abs):g} m/s² makes no sense; the Earth's is 0,0,-9.81")
-    return replace(found, gravity=(x, y, z))
+    return x, y, z
 
 
 def require_masses(kinematics: Kinematics, q: NDArray[np.float64], note: Callable[[str], None]) -> None:

@@ -16,8 +16,8 @@ from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.kinematics.build import spatial_inertia
 from urdfkit.sim.controllers.pid import Gains
 from urdfkit.sim.engine import Surface
-from urdfkit.sim.given import nearest, number, three
-from urdfkit.sim.loading import STRONGEST
+from urdfkit.sim.given import nearest, number
+from urdfkit.sim.loading import sound_gravity
 
 if TYPE_CHECKING:
     from urdfkit.sim.controllers.joint import Follower
@@ -66,11 +66,9 @@ class Tuning:
         """Change gravity [m/s²]; what sleeps wakes.
 
         Raises:
-            SimulationError: these are not three finite numbers.
+            SimulationError: these are not three finite numbers, or too large: see `sound_gravity`.
         """
-        x, y, z = three(gravity, "gravity", "m/s²")
-        if not max(abs(x), abs(y), abs(z)) <= STRONGEST or not all(map(isfinite, (x, y, z))):
-            raise SimulationError(f"gravity of {x:g} {y:g} {z:g} m/s² makes no sense; the Earth's is 0 0 -9.81")
+        x, y, z = sound_gravity(gravity)
         stage = self._population._stage
         stage.world = replace(stage.world, gravity=(x, y, z))
         stage.engine._arrays["gravity"][:] = x, y, z
