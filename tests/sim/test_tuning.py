@@ -136,3 +136,33 @@ def test_gains_of_a_running_controller_change_what_it_does() -> None:
     assert simulator.state.position("joint1") == pytest.approx(0.6, abs=0.02)
     with pytest.raises(SimulationError, match="gain `p`"):
         tuning.set_gains(path, Gains(-1.0))
+
+
+GZ_ARM = """<robot name="bar"><link name="base">
+  <inertial><mass value="5"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="world"/><joint name="held" type="fixed"><parent link="world"/><child link="base"/></joint>
+  <link name="arm"><inertial><origin xyz="0.2 0 0"/><mass value="1"/>
+  <inertia ixx="0.001" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="lift" type="revolute"><origin xyz="0 0 1"/><parent link="base"/><child link="arm"/><axis xyz="0 -1 0"/>
+  <limit lower="-2" upper="2" effort="50" velocity="5"/></joint>
+  <gazebo><plugin filename="gz-sim-joint-position-controller-system"
+    name="gz::sim::systems::JointPositionController"><joint_name>lift</joint_name><p_gain>20</p_gain>
+    <i_gain>0</i_gain><d_gain>4</d_gain>{}</plugin></gazebo></robot>"""
+
+
+def test_gains_of_a_plugin_that_commands_by_itself_are_turned_too(tmp_path) -> None:
+    (tmp_path / "bar.urdf").write_text(GZ_ARM.format(""))
+    simulator = Simulator(load(tmp_path / "bar.urdf"), note=lambda _: None)
+    tuning = Tuning(simulator)
+    (path,) = tuning.gains
+    assert path == "bar/joint_position_controller/lift"
+    simulator.step(5000)
+    assert simulator.state.position("lift") == pytest.approx(-1.962 / 20, rel=0.01)  # m g l / p
+    tuning.set_gains(path, Gains(200.0, 0.0, 20.0))
+    simulator.step(5000)
+    assert simulator.state.position("lift") == pytest.approx(-1.962 / 200, rel=0.01)
+
+
+def test_a_plugin_whose_gains_do_nothing_offers_none(tmp_path) -> None:
+    (tmp_path / "bar.urdf").write_text(GZ_ARM.format("<use_velocity_commands>true</use_velocity_commands>"))
+    assert Tuning(Simulator(load(tmp_path / "bar.urdf"), note=lambda _: None)).gains == {}

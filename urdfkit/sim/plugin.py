@@ -8,7 +8,7 @@ A plugin class is named in `DRIVES`, `SENSORS` or `CONTROLLERS` and chosen by th
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar
 
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from urdfkit.description.robot import Plugin, SensorTag
     from urdfkit.description.source import Position
     from urdfkit.kinematics import Kinematics
+    from urdfkit.sim.controllers.joint import Follower
     from urdfkit.sim.controllers.loop import ControlLoop
     from urdfkit.sim.motors import Motors
     from urdfkit.sim.state import State
@@ -239,6 +240,16 @@ class Controller(ABC):
     def after(self, step: int) -> int:
         """Return the first step after `step` at which it is."""
         return self._ticks.after(step)
+
+    def followers(self) -> Iterator[tuple[str, Follower]]:
+        """Yield whatever obeys by PID, with a path below the robot to tell it by."""
+        if self.loop is not None:
+            yield from self.loop.followers()
+
+    def wake(self) -> None:
+        """Look at the commands anew: a gain has changed."""
+        if self.loop is not None:
+            self.loop.wake()
 
     def begin(self, state: State) -> None:  # noqa: B027 - most have nothing to forget
         """Forget the past: the robot stands where it starts."""

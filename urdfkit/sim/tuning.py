@@ -6,7 +6,7 @@ things where they are, as spawning does: what moves goes on. They stay through a
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import isfinite
 from typing import TYPE_CHECKING, Any
@@ -188,21 +188,14 @@ class Tuning:
             follower.integral.reset()
         for robot in self._population.robots.values():
             for controller in robot.plugins.controllers:
-                if controller.loop is not None:
-                    controller.loop.wake()
+                controller.wake()
 
     def _followers(self) -> dict[str, list[Follower]]:
         found: dict[str, list[Follower]] = {}
         for robot in self._population.robots.values():
             for controller in robot.plugins.controllers:
-                if controller.loop is None:
-                    continue
-                for law in controller.loop.laws.values():
-                    for follower in followers_of(law):
-                        found.setdefault(f"{robot.name}/{law.name}/{follower.handle.name}", []).append(follower)
-                for output in controller.loop.hardware.outputs.values():
-                    for follower in followers_of(output):
-                        found.setdefault(f"{robot.name}/hardware/{follower.handle.name}", []).append(follower)
+                for path, follower in controller.followers():
+                    found.setdefault(f"{robot.name}/{path}", []).append(follower)
         return found
 
     # Inside
@@ -241,17 +234,6 @@ class Tuning:
         stage.world = replace(world, models=tuple(changed.get(model.name, model) for model in world.models))
         entry.thing = changed[name]
         stage.rebuild()
-
-
-def followers_of(part: Any) -> Iterator[Follower]:
-    """Yield what of a controller or of the hardware closes a loop by PID."""
-    from urdfkit.sim.controllers.joint import Follower
-
-    for name in ("follower", "_follower", "_followers"):
-        found = getattr(part, name, None)
-        for each in found if isinstance(found, list | tuple) else (found,):
-            if isinstance(each, Follower):
-                yield each
 
 
 def _moves(robot: SimulatedRobot, link: str) -> bool:

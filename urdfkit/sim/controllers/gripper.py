@@ -63,6 +63,11 @@ class Gripper(Law):
             clock=lambda: self._present.t,
         )  # fmt: skip
 
+    @property
+    def followers(self) -> tuple[Follower, ...]:
+        """What obeys by PID: where it commands an effort."""
+        return () if self._follower is None else (self._follower,)
+
     def start(self, state: State) -> None:
         """Hold where it is."""
         super().start(state)

@@ -6,6 +6,7 @@ src/systems/joint_controller/JointController.cc; gz-math PID.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
 
@@ -53,7 +54,6 @@ class _GzJoint:
                     position=read.place(meaning),
                 )
         self.followers = [Follower(handle, gains) for handle in self.handles]
-        self.gains = gains
         self.least, self.most = read.number("min_command"), read.number("max_command")
         self.offset = read.number("command_offset")
         if self.most < self.least:
@@ -83,7 +83,52 @@ class _GzJoint:
         return (least + most) / 2, max(0.0, (most - least) / 2)
 
 
-class JointPositionController(Controller):
+class _Servo(Controller):
+    """A plugin that commands joints by itself: no controller manager, and nothing to do until a command comes."""
+
+    _joint: _GzJoint
+    _by_effort: bool
+    _initial: float
+
+    def _start(self, setup: Setup, initial: str) -> None:
+        """Read what both have, and where or how fast to begin."""
+        self._joint = _GzJoint(self.plugin, self.spec, setup)
+        self._dt, self._wake = setup.dt, 0
+        self._initial = self._wanted = self._joint.read.number(initial)
+        self._joint.listen(self._take)
+
+    def _take(self, value: float) -> None:
+        self._wanted, self._wake = value, 0
+
+    def begin(self, state: State) -> None:
+        """Go back to what it begins with."""
+        self._wanted, self._wake = self._initial, 0
+        for follower in self._joint.followers:
+            follower.integral.reset()
+
+    def followers(self) -> Iterator[tuple[str, Follower]]:
+        """Yield whatever obeys by PID: ``joint_position_controller/JOINT``, ``joint_controller/JOINT``."""
+        if self._by_effort:
+            for follower in self._joint.followers:
+                yield f"{self.kind}/{follower.handle.name}", follower
+
+    def wake(self) -> None:
+        """Look at the command anew."""
+        self._wake = 0
+
+    def due(self, step: int) -> bool:
+        """Whether `write` is to be called before a step."""
+        return self._wake <= step
+
+    def after(self, step: int) -> int:
+        """Return the first step after a step before which it is."""
+        return max(step + 1, self._wake)
+
+    def read(self, state: State) -> None:
+        """Do nothing: it publishes nothing."""
+
+
+class JointPositionController(_Servo):
     """A PID on position whose output is an effort, or a velocity with ``use_velocity_commands``."""
 
     kind = "joint_position_controller"
@@ -94,33 +139,13 @@ class JointPositionController(Controller):
         Raises:
             SimulationError: a parameter makes no sense, with its place.
         """
-        self._joint = _GzJoint(self.plugin, self.spec, setup)
-        self._dt, self._wake = setup.dt, 0
-        self._by_velocity = self._joint.read.flag("use_velocity_commands")
-        self._initial = self._wanted = self._joint.read.number("initial_position")
-        self._joint.listen(self._take)
-
-    def _take(self, value: float) -> None:
-        self._wanted, self._wake = value, 0
-
-    def begin(self, state: State) -> None:
-        """Go to the initial position."""
-        self._wanted, self._wake = self._initial, 0
-        for follower in self._joint.followers:
-            follower.integral.reset()
-
-    def due(self, step: int) -> bool:
-        """Whether `write` is to be called before a step."""
-        return self._wake <= step
-
-    def after(self, step: int) -> int:
-        """Return the first step after a step before which it is."""
-        return max(step + 1, self._wake)
+        self._start(setup, "initial_position")
+        self._by_effort = not self._joint.read.flag("use_velocity_commands")
 
     def write(self, state: State, motors: Motors) -> None:
         """Command the joints."""
         joint = self._joint
-        if self._by_velocity:
+        if not self._by_effort:
             # As fast as it may, and in one step over what is left.
             for handle in joint.handles:
                 error = self._wanted - state.position(handle.name)
@@ -135,11 +160,8 @@ class JointPositionController(Controller):
                 motors.exert(follower.handle.name, middle)
         self._wake = NEVER
 
-    def read(self, state: State) -> None:
-        """Do nothing: it publishes nothing."""
 
-
-class JointController(Controller):
+class JointController(_Servo):
     """A velocity: by the joint's motor, or by a PID whose output is an effort with ``use_force_commands``."""
 
     kind = "joint_controller"
@@ -150,40 +172,17 @@ class JointController(Controller):
         Raises:
             SimulationError: a parameter makes no sense, with its place.
         """
-        self._joint = _GzJoint(self.plugin, self.spec, setup)
-        self._dt, self._wake = setup.dt, 0
-        self._by_force = self._joint.read.flag("use_force_commands")
-        self._initial = self._wanted = self._joint.read.number("initial_velocity")
-        self._joint.listen(self._take)
-
-    def _take(self, value: float) -> None:
-        self._wanted, self._wake = value, 0
-
-    def begin(self, state: State) -> None:
-        """Turn at the initial velocity."""
-        self._wanted, self._wake = self._initial, 0
-        for follower in self._joint.followers:
-            follower.integral.reset()
-
-    def due(self, step: int) -> bool:
-        """Whether `write` is to be called before a step."""
-        return self._wake <= step
-
-    def after(self, step: int) -> int:
-        """Return the first step after a step before which it is."""
-        return max(step + 1, self._wake)
+        self._start(setup, "initial_velocity")
+        self._by_effort = self._joint.read.flag("use_force_commands")
 
     def write(self, state: State, motors: Motors) -> None:
         """Command the joints."""
         joint = self._joint
         rest = inf
         for follower in joint.followers:
-            if not self._by_force:
+            if not self._by_effort:
                 follower.handle.turn(motors, self._wanted)
                 continue
             follower.chase(state, motors, self._wanted, self._dt, limit=joint.most)
-            rest = min(rest, 0.0 if joint.gains.d else follower.rest())
+            rest = min(rest, 0.0 if follower.gains.d else follower.rest())
         self._wake = NEVER if rest == inf else state.step + max(1, round(rest / self._dt))
-
-    def read(self, state: State) -> None:
-        """Do nothing: it publishes nothing."""

@@ -16,6 +16,7 @@ from urdfkit.sim.schedule import NEVER
 if TYPE_CHECKING:
     from urdfkit.bus import Topic
     from urdfkit.description.control import Settings
+    from urdfkit.sim.controllers.joint import Follower
     from urdfkit.sim.motors import Motors
     from urdfkit.sim.plugin import Setup
     from urdfkit.sim.state import State
@@ -98,6 +99,11 @@ class Law(ABC):
         self.commands: dict[str, str] = {}
         self.running = False
         self.configure()
+
+    @property
+    def followers(self) -> tuple[Follower, ...]:
+        """What of it obeys by PID."""
+        return ()
 
     @abstractmethod
     def configure(self) -> None:

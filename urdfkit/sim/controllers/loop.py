@@ -11,9 +11,10 @@ from urdfkit.sim.controllers.types import load_law
 from urdfkit.sim.schedule import NEVER, Ticks
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from urdfkit.description.control import Settings
+    from urdfkit.sim.controllers.joint import Follower
     from urdfkit.sim.controllers.law import Hardware, Law
     from urdfkit.sim.controllers.output import Output
     from urdfkit.sim.motors import Motors
@@ -81,6 +82,15 @@ class ControlLoop:
     def wake(self) -> None:
         """Have something to do in the next control period."""
         self._wake = 0
+
+    def followers(self) -> Iterator[tuple[str, Follower]]:
+        """Yield whatever obeys by PID, with a path to tell it by: ``CONTROLLER/JOINT``, or ``hardware/JOINT``."""
+        for law in self.laws.values():
+            for follower in law.followers:
+                yield f"{law.name}/{follower.handle.name}", follower
+        for output in self.hardware.outputs.values():
+            if output.follower is not None:
+                yield f"hardware/{output.follower.handle.name}", output.follower
 
     def begin(self, state: State) -> None:
         """Begin where the robot is; whatever runs begins anew."""

@@ -33,6 +33,9 @@ class Output(ABC):
         handle: the joint.
         period: of the control loop [s].
         limits: of what may be commanded, where they are enforced (ROS 1).
+
+    Attributes:
+        follower: what obeys by PID; None where nothing does.
     """
 
     interface: ClassVar[str]
@@ -42,6 +45,7 @@ class Output(ABC):
         self.period = period
         self.limits = limits
         self.command = 0.0
+        self.follower: Follower | None = None
 
     @property
     def claim(self) -> tuple[str, str]:
@@ -96,13 +100,13 @@ class VelocityOutput(Output):
         self, handle: JointHandle, period: float, gains: Gains | None = None, limits: JointLimits | None = None
     ) -> None:
         super().__init__(handle, period, limits)
-        self._follower = Follower(handle, gains) if gains is not None else None
+        self.follower = Follower(handle, gains) if gains is not None else None
 
     def start(self, state: State) -> None:
         """Command zero."""
         super().start(state)
-        if self._follower is not None:
-            self._follower.integral.reset()
+        if self.follower is not None:
+            self.follower.integral.reset()
 
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
         """Obey a command; return how long that needs no attention [s]."""
@@ -110,11 +114,11 @@ class VelocityOutput(Output):
         soft = self.limits is not None and self.limits.soft is not None
         if self.limits is not None:
             command = self.limits.turning(command, state.position(self.handle.name))
-        if self._follower is None:
+        if self.follower is None:
             self.handle.turn(motors, command)
             return 0.0 if soft else inf
-        self._follower.chase(state, motors, command, self.period)
-        return 0.0 if self._follower.gains.d or soft else self._follower.rest()
+        self.follower.chase(state, motors, command, self.period)
+        return 0.0 if self.follower.gains.d or soft else self.follower.rest()
 
 
 class PositionOutput(Output):
@@ -129,18 +133,18 @@ class PositionOutput(Output):
         self, handle: JointHandle, period: float, gains: Gains | None = None, limits: JointLimits | None = None
     ) -> None:
         super().__init__(handle, period, limits)
-        self._follower = Follower(handle, gains) if gains is not None else None
+        self.follower = Follower(handle, gains) if gains is not None else None
 
     @property
     def has_gains(self) -> bool:
         """Whether positions are reached by PID."""
-        return self._follower is not None
+        return self.follower is not None
 
     def start(self, state: State) -> None:
         """Command standing where it stands."""
         self.command = self._granted = state.position(self.handle.name)
-        if self._follower is not None:
-            self._follower.integral.reset()
+        if self.follower is not None:
+            self.follower.integral.reset()
 
     def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
         """Obey a command; return how long that needs no attention [s]."""
@@ -154,10 +158,10 @@ class PositionOutput(Output):
                 command, velocity = self._granted, (self._granted - before) / self.period
             elif abs(self._granted - command) > NEAR:
                 command = self._granted
-        if self._follower is None:
+        if self.follower is None:
             return inf if self.handle.place(motors, state, command, self.period) and not moving else 0.0
-        self._follower.follow(state, motors, command, velocity)
-        return 0.0 if moving else self._follower.rest()
+        self.follower.follow(state, motors, command, velocity)
+        return 0.0 if moving else self.follower.rest()
 
 
 class ProportionalOutput(Output):

@@ -55,6 +55,11 @@ class PidPosition(Law):
         state = self.hardware.setup.bus.advertise(self.topic("state"), JOINT_CONTROLLER_STATE)
         self.report(state, 1.0 / (STATES_EVERY * self.hardware.period), self._state)
 
+    @property
+    def followers(self) -> tuple[Follower, ...]:
+        """What obeys by PID."""
+        return (self.follower,)
+
     def start(self, state: State) -> None:
         """Begin where the robot is."""
         super().start(state)
@@ -138,15 +143,21 @@ class PidGroup(Law):
         if not joints:
             self.settings.text("joints")
         self.outputs = tuple(self.hardware.output(entry, "effort") for entry in joints)
-        self._followers = []
+        followers = []
         for entry, output in zip(joints, self.outputs, strict=True):
             gains: Gains | None = read_gains(self.settings, f"{entry.value}/pid", self.hardware.setup.note)
             if gains is None:
                 raise DescriptionError(
                     f"`{self.name}` has no `{entry.value}/pid`, which it needs", position=entry.position
                 )
-            self._followers.append(Follower(output.handle, gains, output.limits))
+            followers.append(Follower(output.handle, gains, output.limits))
+        self._followers = tuple(followers)
         self.listen(self.topic("command"), FLOATS, self._take)
+
+    @property
+    def followers(self) -> tuple[Follower, ...]:
+        """What obeys by PID, joint by joint."""
+        return self._followers
 
     def start(self, state: State) -> None:
         """Begin where the robot is."""

@@ -119,6 +119,11 @@ class TrajectoryFollower(Law):
             gains = Gains(0.0)
         return Follower(output.handle, gains, output.limits if self._interface == "effort" else None)
 
+    @property
+    def followers(self) -> tuple[Follower, ...]:
+        """What obeys by PID, joint by joint; none where positions are commanded."""
+        return tuple(follower for follower in self._followers if follower is not None)
+
     def start(self, state: State) -> None:
         """Hold where the robot is."""
         super().start(state)
