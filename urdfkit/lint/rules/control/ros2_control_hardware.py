@@ -20,6 +20,9 @@ HARDWARE = {
 }
 """Package of the plugin → its hardware (the plugin descriptions of gazebo_ros2_control and gz_ros2_control)."""
 
+MOCKS = ("mock_components/GenericSystem", "fake_components/GenericSystem")
+"""The hardware that stands in for any, under its name since Iron and before."""
+
 
 class HardwareMismatch(RobotRule):
     """The hardware of ``<ros2_control>`` is not that of the robot's Gazebo plugin.
@@ -27,7 +30,8 @@ class HardwareMismatch(RobotRule):
     ## What it does
     Each plugin that runs the controller manager in Gazebo has hardware of its own: gazebo_ros2_control has
     ``gazebo_ros2_control/GazeboSystem``, gz_ros2_control ``gz_ros2_control/GazeboSimSystem`` and ign_ros2_control
-    ``ign_ros2_control/IgnitionSystem``. Names that are nearly one of them are reported too; other hardware passes.
+    ``ign_ros2_control/IgnitionSystem``. Names that are nearly one of them, or nearly ``mock_components/GenericSystem``,
+    are reported too; other hardware passes.
 
     ## Why is this bad?
     pluginlib finds no such class: the controller manager stops.
@@ -74,6 +78,8 @@ class HardwareMismatch(RobotRule):
             if element is None or not text or "$" in text:
                 continue
             package = text.partition("/")[0]
+            if text in MOCKS:
+                continue
             if text in HARDWARE.values():
                 # In Humble gz_ros2_control has the hardware of both names.
                 if len(hosts) != 1 or package in hosts or {package, *hosts} == {"gz_ros2_control", "ign_ros2_control"}:
@@ -81,7 +87,7 @@ class HardwareMismatch(RobotRule):
                 right = HARDWARE[next(iter(hosts))]
                 message = f"`{text}` is not the hardware of the Gazebo plugin {next(iter(hosts))}"
             else:
-                near = HARDWARE.get(package) or nearest(text, HARDWARE.values(), likeness=0.9)
+                near = HARDWARE.get(package) or nearest(text, (*HARDWARE.values(), *MOCKS), likeness=0.9)
                 if near is None:
                     continue
                 right, message = near, f"there is no hardware `{text}`"

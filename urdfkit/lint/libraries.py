@@ -1,0 +1,115 @@
+"""The Gazebo libraries that exist, and which of them a misspelt name means.
+
+Libraries with a table of parameters are known from `urdfkit.description.plugins`; here are the others in wide use.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+_CLASSIC = """
+gazebo_ros_api_plugin gazebo_ros_paths_plugin gazebo_ros_init gazebo_ros_factory gazebo_ros_state
+gazebo_ros_properties gazebo_ros_force_system
+gazebo_ros_bumper gazebo_ros_camera_utils gazebo_ros_elevator gazebo_ros_f3d gazebo_ros_force
+gazebo_ros_ft_sensor gazebo_ros_gps gazebo_ros_hand_of_god gazebo_ros_harness gazebo_ros_joint_effort
+gazebo_ros_joint_pose_trajectory gazebo_ros_joint_trajectory gazebo_ros_logical_camera
+gazebo_ros_magnetometer_sensor gazebo_ros_mimic_joint gazebo_ros_projector gazebo_ros_prosilica gazebo_ros_range
+gazebo_ros_template gazebo_ros_time gazebo_ros_tricycle_drive gazebo_ros_triggered_camera
+gazebo_ros_triggered_multicamera gazebo_ros_utils gazebo_ros_vacuum_gripper gazebo_ros_video gazebo_ros_wheel_slip
+gazebo_ros_power_monitor gazebo_ros_controller_manager gazebo_ros_gripper gazebo_ros_joint_animation
+hector_gazebo_thermal_camera hector_servo_plugin hector_gazebo_reset_plugin diffdrive_plugin_4w diffdrive_plugin_6w
+diffdrive_plugin_multi_wheel gazebo_rtt_plugin
+roboticsgroup_gazebo_mimic_joint_plugin roboticsgroup_gazebo_disable_link_plugin
+roboticsgroup_upatras_gazebo_mimic_joint_plugin roboticsgroup_upatras_gazebo_disable_link_plugin
+gazebo_mimic_joint_plugin gazebo_grasp_fix gazebo_ros_link_attacher
+"""
+"""Stems of libraries of gazebo_ros, gazebo_plugins (Hydro to Noetic, Humble), PR2, Hector and other packages."""
+
+_SYSTEMS = """
+acoustic-comms=AcousticComms advanced-lift-drag=AdvancedLiftDrag air-pressure=AirPressure air-speed=AirSpeed
+altimeter=Altimeter apply-joint-force=ApplyJointForce apply-link-wrench=ApplyLinkWrench
+linearbatteryplugin=LinearBatteryPlugin breadcrumbs=Breadcrumbs buoyancy=Buoyancy buoyancy-engine=
+camera-video-recorder=CameraVideoRecorder collada-world-exporter= comms-endpoint=CommsEndpoint contact=Contact
+detachable-joint=DetachableJoint drive-to-pose-controller= dvl= elevator= environment-preload= environmental-sensor=
+follow-actor=FollowActor force-torque=ForceTorque global-illumination= hydrodynamics=Hydrodynamics imu=Imu
+joint-trajectory-controller=JointTrajectoryController kinetic-energy-monitor=KineticEnergyMonitor label=Label
+lens-flare= lift-drag=LiftDrag log= log-playback= log-video-recorder= logical-audio-sensor-plugin=
+logical-camera=LogicalCamera magnetometer=Magnetometer model-photo-shoot= multicopter-control=
+multicopter-motor-model=MulticopterMotorModel navsat=NavSat optical-tactile-plugin= particle-emitter=
+perfect-comms= performer-detector= physics=Physics pose-publisher=PosePublisher python-system-loader= reset= rf-comms=
+scene-broadcaster=SceneBroadcaster sensors=Sensors shader-param= spacecraft-thruster-model= thermal=Thermal
+thermal-sensor=ThermalSensor thruster=Thruster touchplugin=TouchPlugin track-controller=TrackController
+tracked-vehicle=TrackedVehicle trajectory-follower=TrajectoryFollower triggered-publisher=TriggeredPublisher
+user-commands=UserCommands velocity-control=VelocityControl wheel-slip=WheelSlip wind-effects=WindEffects
+"""
+"""``gz-sim-<name>-system`` = its class in ``gz::sim::systems``; nothing after = where it has several, or another."""
+
+
+@cache
+def classes() -> dict[str, tuple[str, ...]]:
+    """Return the stem of every library → the classes a plugin of it may be called, none where any name will do."""
+    from urdfkit.description.plugins import ALL_SPECS
+
+    found: dict[str, tuple[str, ...]] = dict.fromkeys(_CLASSIC.split(), ())
+    for word in _SYSTEMS.split():
+        name, _, kind = word.partition("=")
+        names = (f"gz::sim::systems::{kind}", f"ignition::gazebo::systems::{kind}") if kind else ()
+        found[f"gz-sim-{name}-system"] = found[f"ignition-gazebo-{name}-system"] = names
+    for spec in ALL_SPECS:
+        found.update(dict.fromkeys(spec.filenames, spec.class_names))
+    return found
+
+
+def meant_library(stem: str) -> str | None:
+    """Return the stem of the library that a name must have meant, None where it may well be another.
+
+    A name means another where every word of it is that of the other, or nearly, or its beginning, or where only the
+    dashes and underscores are others, and a letter at most.
+    """
+    if not stem or stem in classes():
+        return None
+    whole = f"{stem}-system" if _SYSTEM.match(stem) and not stem.endswith("system") else stem
+    if whole in classes():
+        return whole
+    near = [(likeness, known) for known in classes() if (likeness := _likeness(whole, known))]
+    if near:
+        return max(near)[1]
+    longer = [known for known in classes() if known.startswith(f"{stem}_")]
+    return longer[0] if len(longer) == 1 and stem.count("_") >= 3 else None
+
+
+def meant_class(name: str, known: Iterable[str]) -> str | None:
+    """Return the class that a misspelt one must have meant, None where it may well be another."""
+    from urdfkit.lint.edits import nearest
+
+    return nearest(name, known, likeness=0.9) if "::" in name else None
+
+
+_SYSTEM = re.compile("(gz|ign|ignition)[-_](sim|gazebo)[-_]")
+_WORDS = re.compile("[-_]")
+_DIGITS = re.compile("[0-9]")
+
+
+def _likeness(name: str, known: str) -> float:
+    """Return how near two names are, 0 where they are different names."""
+    from difflib import SequenceMatcher
+
+    ours, theirs = (_WORDS.split(one.lower()) for one in (name, known))
+    if _DIGITS.findall(name) != _DIGITS.findall(known):
+        return 0.0
+    if len(ours) != len(theirs):
+        likeness = SequenceMatcher(None, "".join(ours), "".join(theirs), autojunk=False).ratio()
+        return likeness if likeness > 0.95 else 0.0
+    total = 1.0
+    for one, other in zip(ours, theirs, strict=True):
+        likeness = SequenceMatcher(None, one, other, autojunk=False).ratio() if one != other else 1.0
+        begins = min(len(one), len(other)) >= 4 and (one.startswith(other) or other.startswith(one))
+        if likeness < 0.8 and not begins:
+            return 0.0
+        total *= likeness
+    return total
