@@ -65,3 +65,10 @@ def test_text(robot_template, typed):
 def test_what_is_no_address(robot_template, typed):
     with pytest.raises(UsageError, match="not of the form name@host"):
         robot_template.question("email").accept(typed)
+
+
+def test_flags():
+    flag = Question("gripper", "Gripper", "flag", default="no")
+    assert [flag.accept(text) for text in ("yes", "Y", "true", "no", "n", "False")] == ["yes"] * 3 + ["no"] * 3
+    with pytest.raises(UsageError, match="--gripper `maybe` is neither yes nor no"):
+        flag.accept("maybe")

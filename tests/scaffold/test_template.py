@@ -186,3 +186,30 @@ def test_lines_come_once_for_each_answer(several, tmp_path, given, text):
 def test_what_several_answers_may_not_be(several, given, message):
     with pytest.raises(UsageError, match=message):
         several.answers(given)
+
+
+def test_facts_and_words_that_are_lists(small_template):
+    (small_template / "all/@name@/list.txt").write_text("begin\n- @part@ of @name@\nend\n")
+    with (small_template / "template.toml").open("a") as file:
+        file.write(
+            """
+            [[fact]]
+            name = "special"
+            any = [{ colour = ["blue"] }, { name = ["zed"] }]
+            [[word]]
+            name = "part"
+            by = "special"
+            says = { no = [], yes = ["arm", "@name@ hand"] }
+            """
+        )
+    template = load_template(small_template)
+    for given, special, lines in (
+        ({"name": "ox"}, "no", []),
+        ({"name": "zed"}, "yes", ["- arm of zed", "- zed hand of zed"]),
+        ({"name": "ox", "colour": "blue"}, "yes", ["- arm of ox", "- ox hand of ox"]),
+    ):
+        answers = template.answers(given) | {"year": "2026", "into": "."}
+        assert answers["special"] == special
+        folder = small_template.parent / f"{given['name']}{special}"
+        template.render(answers, folder)
+        assert (folder / given["name"] / "list.txt").read_text().splitlines() == ["begin", *lines, "end"]

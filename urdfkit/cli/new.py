@@ -87,6 +87,11 @@ def _add(parser: argparse.ArgumentParser, question: Question) -> None:
     text = f"{question.prompt}{unit}{choices}{default}{'; ' if question.help else ''}{question.help}".replace("%", "%%")
     if question.default is None:
         parser.add_argument(question.name, nargs="?", metavar=question.name.upper(), help=text)
+    elif question.kind == "flag":
+        parser.add_argument(question.option, dest=question.name, action="store_const", const="yes", help=text)
+        parser.add_argument(
+            f"--no-{question.option[2:]}", dest=question.name, action="store_const", const="no", help=argparse.SUPPRESS
+        )
     else:
         metavar = question.unit or question.name.upper()
         action = "append" if question.kind == "choices" else "store"
@@ -113,7 +118,8 @@ def _ask(template: Template, given: dict[str, str]) -> dict[str, str]:
 
 def _answered(question: Question, default: str | None) -> str:
     unit = f" [{question.unit}]" if question.unit else ""
-    choices = f" ({', '.join(question.choices)})" if len(question.choices) > 1 else ""
+    among = ("yes", "no") if question.kind == "flag" else question.choices
+    choices = f" ({', '.join(among)})" if len(among) > 1 else ""
     offered = f" = {default}" if default is not None else ""
     print(f"{question.prompt}{choices}{unit}{offered}: ", end="", file=sys.stderr, flush=True)
     line = sys.stdin.readline()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import math
 import operator
 from collections.abc import Callable, Mapping
 
@@ -20,7 +21,7 @@ _COMPARISONS: dict[type[ast.cmpop], Callable[[float, float], bool]] = {
     ast.Gt: operator.gt,
     ast.GtE: operator.ge,
 }
-_FUNCTIONS: dict[str, Callable[..., float]] = {"min": min, "max": max}
+_FUNCTIONS: dict[str, Callable[..., float]] = {"min": min, "max": max, "hypot": math.hypot}
 # `base_width + wheel_width` and a typed-in sum of the two differ in the last bit.
 _TOLERANCE = 1e-9
 
@@ -29,7 +30,7 @@ def value_of(text: str, names: Mapping[str, float]) -> float:
     """Return what an arithmetic expression of a template comes to.
 
     Args:
-        text: numbers, names, ``+ - * /``, parentheses, ``min(…)`` and ``max(…)``.
+        text: numbers, names, ``+ - * /``, parentheses, ``min(…)``, ``max(…)`` and ``hypot(…)``.
         names: what the names stand for.
 
     Raises:

@@ -37,7 +37,7 @@ class Question:
 
     name: str
     prompt: str
-    kind: Literal["package", "choice", "choices", "number", "text"]
+    kind: Literal["package", "choice", "choices", "flag", "number", "text"]
     default: str | None = None
     unit: str = ""
     choices: tuple[str, ...] = ()
@@ -84,6 +84,8 @@ class Question:
             return self._several(answer.replace(",", " ").split())
         if self.kind == "choice":
             return self._choice(answer)
+        if self.kind == "flag":
+            return self._flag(answer)
         if self.kind == "text" and not re.fullmatch(self.pattern, answer):
             raise UsageError(f"{self.option} `{answer}` cannot be written into the files: {self._text_rule()}")
         return answer
@@ -100,6 +102,12 @@ class Question:
             if answers.count(self._choice(answer)) > 1:
                 raise UsageError(f"{self.option} `{answer}` is given twice; one of each")
         return " ".join(choice for choice in self.choices if choice in answers)
+
+    def _flag(self, answer: str) -> str:
+        said = {"y": "yes", "yes": "yes", "true": "yes", "n": "no", "no": "no", "false": "no"}.get(answer.lower())
+        if said is None:
+            raise UsageError(f"{self.option} `{answer}` is neither yes nor no")
+        return said
 
     def _text_rule(self) -> str:
         return (

@@ -63,7 +63,11 @@ def read_recipe(template: Template, path: Path, instead: Mapping[str, str]) -> d
     if kind != template.folder.name:
         raise UsageError(f"--from {path} is for `urdfkit new {kind}`, not for `urdfkit new {template.folder.name}`")
     try:
-        found = {name: template.question(name).accept(_text(name, value)) for name, value in table.items()}
+        found = {
+            name: question.accept(_text(question, value))
+            for name, value in table.items()
+            if (question := template.question(name))
+        }
     except UsageError as error:
         raise UsageError(f"{path}: {error}") from error
     found |= instead
@@ -77,15 +81,19 @@ def read_recipe(template: Template, path: Path, instead: Mapping[str, str]) -> d
 def _value(question: Question, answer: str) -> str:
     if question.kind == "number":
         return answer
+    if question.kind == "flag":
+        return "true" if answer == "yes" else "false"
     # What JSON makes of a text is a string of TOML, too, but for one character.
     text = json.dumps(answer.split() if question.kind == "choices" else answer, ensure_ascii=False)
     return text.replace("\x7f", "\\u007f")
 
 
-def _text(name: str, value: object) -> str:
+def _text(question: Question, value: object) -> str:
     """Return a value of TOML as it would be typed."""
     if isinstance(value, list) and all(isinstance(entry, str) for entry in value):
         return " ".join(value)
     if isinstance(value, (str, int, float)) and not isinstance(value, bool):
         return str(value)
-    raise UsageError(f"`{name}` is neither a text nor a number nor a list of texts")
+    if isinstance(value, bool) and question.kind == "flag":
+        return "yes" if value else "no"
+    raise UsageError(f"`{question.name}` is neither a text nor a number nor a list of texts")

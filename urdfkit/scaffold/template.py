@@ -9,7 +9,7 @@ for each of them.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -45,14 +45,23 @@ class Layer:
 
 @dataclass(frozen=True, slots=True)
 class Word:
-    """A placeholder that nobody is asked for: what it says follows `by` the answer to a question.
+    """A placeholder that nobody is asked for: what it says follows `by` the answer to a question, or a fact.
 
-    By a question that takes several answers it is several words, one for each answer that has one.
+    By a question that takes several answers it is several words, one for each answer that has one. Where it says a
+    list, a line with it comes once for each text of the list: not at all for an empty one.
     """
 
     name: str
     by: str
-    says: Mapping[str, str]
+    says: Mapping[str, str | Sequence[str]]
+
+
+@dataclass(frozen=True, slots=True)
+class Fact:
+    """What follows from answers: ``yes`` if they are among `any` of some, ``no`` otherwise. For layers and words."""
+
+    name: str
+    any: tuple[When, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +92,7 @@ class Template:
         questions: what it asks, in order.
         asks_later: options that are planned; named in the error when they are used.
         words: placeholders that follow from the answers.
+        facts: what follows from the answers, for all of these.
         layers: what it writes.
         checks: what has to hold between the answers.
         next: what to do with the result.
@@ -98,6 +108,7 @@ class Template:
     checks: tuple[Check, ...]
     next: tuple[Next, ...]
     recipe: str = ""
+    facts: tuple[Fact, ...] = ()
 
     def question(self, name: str) -> Question:
         """Return the question of that name.
@@ -114,7 +125,7 @@ class Template:
         raise UsageError(f"no question `{name}`{did_you_mean(name, [q.name for q in self.questions])}")
 
     def answers(self, given: Mapping[str, str]) -> dict[str, str]:
-        """Return an answer to every question: the given ones checked, the others by default.
+        """Return an answer to every question: the given ones checked, the others by default; and the facts.
 
         Args:
             given: answers by question.
@@ -132,6 +143,8 @@ class Template:
             if answer is None:
                 raise UsageError(f"{question.prompt[0].lower()}{question.prompt[1:]} is missing")
             found[question.name] = question.accept(answer)
+        for fact in self.facts:
+            found[fact.name] = "yes" if any(applies(when, found) for when in fact.any) else "no"
         for check in self.checks:
             if applies(check.when, found) and not holds(check.holds, numbers(found)):
                 raise UsageError(check.otherwise)
@@ -208,11 +221,15 @@ class Template:
         for word in self.words:
             where = f"{self.folder}/template.toml"
             if word.by in several:
-                several[word.name] = tuple(word.says[answer] for answer in several[word.by] if answer in word.says)
-            elif answers[word.by] in word.says:
-                single[word.name] = fill(word.says[answers[word.by]], single, where=where)
-            else:
+                several[word.name] = tuple(str(word.says[one]) for one in several[word.by] if one in word.says)
+                continue
+            said = word.says.get(answers[word.by])
+            if said is None:
                 raise ResourceError(f"{where}: word `{word.name}` says nothing for {word.by} `{answers[word.by]}`")
+            if isinstance(said, str):
+                single[word.name] = fill(said, single, where=where)
+            else:
+                several[word.name] = tuple(fill(text, single, where=where) for text in said)
         return several, single
 
     def next_steps(self, answers: Mapping[str, str]) -> list[tuple[str, list[str]]]:
@@ -280,6 +297,10 @@ def _template(folder: Path, table: dict[str, Any]) -> Template:
             Next(entry.get("title", ""), tuple(entry["commands"]), _when(entry)) for entry in table.get("next", ())
         ),
         recipe=table.get("recipe", ""),
+        facts=tuple(
+            Fact(entry["name"], tuple(_when({"when": when}) for when in entry["any"]))
+            for entry in table.get("fact", ())
+        ),
     )
 
 
