@@ -45,19 +45,25 @@ def covering(options, never):
 
 SENSORS = ("lidar", "lidar3d", "camera", "depth", "imu", "gps")
 OPTIONS = {
-    "ros": ("jazzy", "kilted", "noetic", "none"),
+    "ros": ("humble", "jazzy", "kilted", "lyrical", "noetic", "none"),
+    "sim": ("gz", "classic"),
     "drive": ("diff", "skid", "ackermann", "omni", "none"),
     "license": ("Apache-2.0", "BSD-3-Clause", "MIT"),
     **dict.fromkeys(SENSORS, ("no", "yes")),
 }
-NEVER = [{"ros": "noetic", "drive": "ackermann"}]
+NEVER = [
+    {"ros": "noetic", "drive": "ackermann"},
+    {"ros": "noetic", "sim": "gz"},
+    *({"ros": ros, "sim": "classic"} for ros in ("jazzy", "kilted", "lyrical", "none")),
+    {"sim": "classic", "drive": "ackermann"},
+]
 ROWS = list(covering(OPTIONS, NEVER))
 
 
 def given(row):
     """Return what is answered for a row of options."""
     sensors = " ".join(sensor for sensor in SENSORS if row[sensor] == "yes")
-    return {"name": "scout", "sensor": sensors} | {name: row[name] for name in ("ros", "drive", "license")}
+    return {"name": "scout", "sensor": sensors} | {name: row[name] for name in ("ros", "sim", "drive", "license")}
 
 
 def made(template, folder, answers):
@@ -87,9 +93,17 @@ def test_lints_clean_and_loads(robot_template, tmp_path, row):
             assert not re.search(r"@[a-z_0-9]+@", file.read_text()), file
 
 
-@pytest.mark.parametrize(("ros", "drive"), [("jazzy", "ackermann"), ("noetic", "skid")])
-def test_publishes_what_it_says(robot_template, tmp_path, ros, drive):
-    answers = {"name": "scout", "ros": ros, "drive": drive, "sensor": " ".join(SENSORS)}
+@pytest.mark.parametrize(
+    ("ros", "sim", "drive"),
+    [
+        ("jazzy", "gz", "ackermann"),
+        ("humble", "gz", "diff"),
+        ("humble", "classic", "omni"),
+        ("noetic", "classic", "skid"),
+    ],
+)
+def test_publishes_what_it_says(robot_template, tmp_path, ros, sim, drive):
+    answers = {"name": "scout", "ros": ros, "sim": sim, "drive": drive, "sensor": " ".join(SENSORS)}
     notes = []
     simulator = Simulator(load(made(robot_template, tmp_path, answers)), note=notes.append)
     readme = (tmp_path / "scout_gazebo/README.md").read_text()
@@ -105,14 +119,14 @@ def test_publishes_what_it_says(robot_template, tmp_path, ros, drive):
         )
     simulator.run(0.25)
     assert set(heard) == set(told)
-    name = "" if ros == "jazzy" else "/scout"
+    name = "/scout" if ros == "noetic" else ""
     assert heard[f"{name}/scan"].header.frame_id == "lidar_link"
     assert heard[f"{name}/camera/image_raw"].header.frame_id == "camera_optical_frame"
     # It does not see itself.
     assert all(reading == float("inf") for reading in heard[f"{name}/scan"].ranges)
     assert heard[f"{name}/imu"].linear_acceleration.z == pytest.approx(9.81, abs=0.3)
     assert heard[f"{name}/fix"].latitude == pytest.approx(47.378 if name else 0.0, abs=0.01)
-    if ros == "jazzy":
+    if sim == "gz":
         bridge = yaml.safe_load((tmp_path / "scout_gazebo/config/bridge.yaml").read_text())
         bridged = {f"/{entry['ros_topic_name']}": entry["ros_type_name"] for entry in bridge}
         assert bridged == dict(rows)

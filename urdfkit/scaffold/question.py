@@ -25,6 +25,7 @@ class Question:
         prompt: what a person is asked.
         kind: what sort of answer.
         default: the answer when none is given; computed from earlier ones when it begins with ``=``; None: a must.
+        default_for: the default after certain answers to earlier questions instead: question → answer → default.
         unit: SI unit of a number.
         choices: the answers there are.
         range: least and greatest number.
@@ -39,6 +40,7 @@ class Question:
     prompt: str
     kind: Literal["package", "choice", "choices", "flag", "number", "text"]
     default: str | None = None
+    default_for: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     unit: str = ""
     choices: tuple[str, ...] = ()
     range: tuple[float, float] = (-math.inf, math.inf)
@@ -62,6 +64,9 @@ class Question:
         Raises:
             ResourceError: the template is wrong.
         """
+        for question, defaults in self.default_for.items():
+            if (answer := answers.get(question, "")) in defaults:
+                return defaults[answer]
         if self.default is None or not self.default.startswith("="):
             return self.default
         return f"{value_of(self.default[1:], numbers(answers)):.4g}"

@@ -66,7 +66,10 @@ class Fact:
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """A comparison that has to hold between the answers if they are among `when`, and what is wrong otherwise."""
+    """A comparison that has to hold between the answers if they are among `when`, and what is wrong otherwise.
+
+    Without a comparison these answers do not go together at all.
+    """
 
     holds: str
     otherwise: str
@@ -146,7 +149,7 @@ class Template:
         for fact in self.facts:
             found[fact.name] = "yes" if any(applies(when, found) for when in fact.any) else "no"
         for check in self.checks:
-            if applies(check.when, found) and not holds(check.holds, numbers(found)):
+            if applies(check.when, found) and not (check.holds and holds(check.holds, numbers(found))):
                 raise UsageError(check.otherwise)
         return found
 
@@ -292,7 +295,9 @@ def _template(folder: Path, table: dict[str, Any]) -> Template:
             Layer(entry["folder"], tuple(entry.get("into", (".",))), _when(entry), entry.get("append", False))
             for entry in table["layer"]
         ),
-        checks=tuple(Check(entry["holds"], entry["otherwise"], _when(entry)) for entry in table.get("check", ())),
+        checks=tuple(
+            Check(entry.get("holds", ""), entry["otherwise"], _when(entry)) for entry in table.get("check", ())
+        ),
         next=tuple(
             Next(entry.get("title", ""), tuple(entry["commands"]), _when(entry)) for entry in table.get("next", ())
         ),

@@ -14,7 +14,7 @@ def generate_launch_description():
     gazebo = FindPackageShare("@name@_gazebo")
     rviz_config = PathJoinSubstitution([FindPackageShare("@name@_description"), "rviz", "@name@.rviz"])
     return LaunchDescription([
-        DeclareLaunchArgument("world", default_value=PathJoinSubstitution([gazebo, "worlds", "empty.sdf"])),
+        DeclareLaunchArgument("world", default_value=PathJoinSubstitution([gazebo, "worlds", "@world_file@"])),
         DeclareLaunchArgument("rviz", default_value="false", description="Open RViz."),
         IncludeLaunchDescription(
             PythonLaunchDescriptionSource(PathJoinSubstitution([gazebo, "launch", "@name@.launch.py"])),
