@@ -10,7 +10,7 @@ from pathlib import Path
 
 from urdfkit.errors import UrdfkitError, UsageError
 from urdfkit.resources import templates_dir
-from urdfkit.scaffold import Question, Template, applies, create, load_template, read_recipe, template_names
+from urdfkit.scaffold import Question, Template, applies, computed, create, load_template, read_recipe, template_names
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -20,7 +20,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         parser: of this command.
     """
     parser.epilog = "examples:\n  urdfkit new robot scout\n  urdfkit new robot scout --ros noetic --into src --yes"
-    kinds = parser.add_subparsers(dest="kind", metavar="KIND", required=True)
+    kinds = parser.add_subparsers(dest="thing", metavar="THING", required=True)
     for name in template_names():
         template = load_template(templates_dir() / name)
         kind = kinds.add_parser(
@@ -28,7 +28,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
             help=template.summary,
             description=f"Write {template.summary}.",
             formatter_class=argparse.RawDescriptionHelpFormatter,
-            epilog=f"examples:\n  urdfkit new {name} scout\n  urdfkit new {name} scout --ros noetic --into src --yes",
+            epilog="\n".join(["examples:", *(f"  urdfkit new {name} {example}" for example in template.examples)]),
         )
         for question in template.questions:
             _add(kind, question)
@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
     Raises:
         UrdfkitError: it could not be done; nothing was written then.
     """
-    template = load_template(templates_dir() / arguments.kind)
+    template = load_template(templates_dir() / arguments.thing)
     for option in template.asks_later:
         if getattr(arguments, f"later_{option}") is not None:
             there = ", ".join(question.option for question in template.questions if question.kind != "package")
@@ -74,6 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
     if not arguments.yes and sys.stdin.isatty() and sys.stderr.isatty():
         given |= _ask(template, given)
     answers = template.answers(given)
+    answers |= computed(template.folder.name, answers)
     answers |= {"year": str(datetime.now(timezone.utc).year), "into": into.as_posix()}
     files = create(template, answers, into, check=_findings)
     _tell(template, answers, files, into.resolve(), quiet=arguments.quiet)
@@ -144,8 +145,14 @@ def _identity(template: Template) -> dict[str, str]:
 
 
 def _findings(folder: Path) -> list[str]:
+    from urdfkit.description.world import load_world
     from urdfkit.lint import lint
+    from urdfkit.resources import models_in
 
+    for world in (*folder.glob("*.sdf"), *folder.glob("*.world")):
+        load_world(world)
+    if not models_in(folder):
+        return []
     found = lint([folder], package_path=[folder])
     return [f"{f.code} {f.message} ({Path(f.file).name}:{f.line})" for f in found if f.severity != "info"]
 
@@ -157,7 +164,7 @@ def _tell(template: Template, answers: dict[str, str], files: list[Path], into: 
         top = file.relative_to(into).parts[0]
         counts[top] = counts.get(top, 0) + 1
     for top, count in counts.items():
-        print(f"{Path(answers['into'], top).as_posix()}  {count} files")
+        print(f"{Path(answers['into'], top).as_posix()}  {count} file{'s' if count > 1 else ''}")
     for title, commands in [] if quiet else template.next_steps(answers):
         print(f"\n{title or 'next'}:")
         for command in commands:

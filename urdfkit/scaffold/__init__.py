@@ -1,5 +1,6 @@
 """Write packages from templates: questions, answers, files, all or nothing."""
 
+from urdfkit.scaffold.computed import computed
 from urdfkit.scaffold.names import check_package_name, sanitised
 from urdfkit.scaffold.new import create
 from urdfkit.scaffold.question import Question, applies
@@ -11,6 +12,7 @@ __all__ = [
     "Template",
     "applies",
     "check_package_name",
+    "computed",
     "create",
     "load_template",
     "read_recipe",

@@ -100,6 +100,7 @@ class Template:
         checks: what has to hold between the answers.
         next: what to do with the result.
         recipe: the file of the result that keeps the answers; empty for none.
+        examples: what may follow ``urdfkit new TEMPLATE``, for its help.
     """
 
     folder: Path
@@ -111,6 +112,7 @@ class Template:
     checks: tuple[Check, ...]
     next: tuple[Next, ...]
     recipe: str = ""
+    examples: tuple[str, ...] = ()
     facts: tuple[Fact, ...] = ()
 
     def question(self, name: str) -> Question:
@@ -306,6 +308,7 @@ def _template(folder: Path, table: dict[str, Any]) -> Template:
             Fact(entry["name"], tuple(_when({"when": when}) for when in entry["any"]))
             for entry in table.get("fact", ())
         ),
+        examples=tuple(table.get("examples", ())),
     )
 
 

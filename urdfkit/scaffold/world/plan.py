@@ -1,0 +1,154 @@
+"""Floor plans: rooms, walls between them, doors in the walls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from urdfkit.errors import UsageError
+from urdfkit.scaffold.world.shapes import WALL, Shape
+
+DOOR_HEIGHT = 2.1
+"""Of the opening [m]; a lower wall is open to the top."""
+JAMB = 0.1
+"""Wall that is left beside a door [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Room:
+    """A rectangle between the middles of its walls, in metres.
+
+    Attributes:
+        name: what is in it goes by its kind: ``office``, ``corridor``, ``bedroom`` …
+        x: least and greatest.
+        y: least and greatest.
+    """
+
+    name: str
+    x: tuple[float, float]
+    y: tuple[float, float]
+
+    def along(self, axis: int) -> tuple[float, float]:
+        """Return its extent along x (0) or y (1)."""
+        return self.y if axis else self.x
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """Its middle."""
+        return sum(self.x) / 2, sum(self.y) / 2
+
+
+@dataclass(frozen=True, slots=True)
+class Wall:
+    """A straight wall with doors.
+
+    Attributes:
+        axis: it runs along x (0) or y (1).
+        at: where it is on the other axis.
+        start: where it begins along its own.
+        end: where it ends.
+        doors: the middles of its doors along its axis.
+    """
+
+    axis: int
+    at: float
+    start: float
+    end: float
+    doors: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """Rooms and the walls round them."""
+
+    rooms: tuple[Room, ...]
+    walls: tuple[Wall, ...]
+
+
+def shared(room: Room, other: Room, axis: int) -> tuple[float, float]:
+    """Return the stretch along an axis that two rooms have in common; it may be of negative length."""
+    (a, b), (c, d) = room.along(axis), other.along(axis)
+    return max(a, c), min(b, d)
+
+
+def outer_walls(outline: Room, rooms: Sequence[Room], *, doors: int, door_width: float, thickness: float) -> list[Wall]:
+    """Return the four walls round a building, with doors to the outside in turn on each side.
+
+    Each door is in the middle of the longest stretch that a room has on its side.
+
+    Args:
+        outline: the building.
+        rooms: in it; the first are preferred where stretches are equally long.
+        doors: how many.
+        door_width: of the opening [m].
+        thickness: of the walls [m].
+
+    Raises:
+        UsageError: so many doors have no room.
+    """
+    sides = [(1, outline.x[0]), (1, outline.x[1]), (0, outline.y[0]), (0, outline.y[1])]
+    free = [
+        [
+            (lo + thickness / 2 + JAMB, hi - thickness / 2 - JAMB)
+            for room in rooms
+            if at in room.along(1 - axis)
+            for lo, hi in (room.along(axis),)
+        ]
+        for axis, at in sides
+    ]
+    placed: list[list[float]] = [[] for _ in sides]
+    turn = 0
+    for _ in range(doors):
+        fits = [i for i, stretches in enumerate(free) if any(hi - lo >= door_width for lo, hi in stretches)]
+        if not fits:
+            raise UsageError(f"no room for --doors {doors}: a larger --length or --width, or a smaller --door-width")
+        while turn % 4 not in fits:
+            turn += 1
+        side, turn = turn % 4, turn + 1
+        lo, hi = stretch = max(free[side], key=lambda s: round(s[1] - s[0], 9))
+        middle = (lo + hi) / 2
+        placed[side].append(middle)
+        free[side].remove(stretch)
+        free[side] += [(lo, middle - door_width / 2 - JAMB), (middle + door_width / 2 + JAMB, hi)]
+    half = thickness / 2
+    return [
+        Wall(axis, at, *_ends(outline.along(axis), half if axis == 0 else -half), tuple(sorted(middles)))
+        for (axis, at), middles in zip(sides, placed, strict=True)
+    ]
+
+
+def wall_shapes(walls: Sequence[Wall], *, thickness: float, height: float, door_width: float) -> tuple[Shape, ...]:
+    """Return the boxes that walls are built of: stretches between doors, lintels above them.
+
+    Args:
+        walls: where.
+        thickness: of each [m].
+        height: of each [m].
+        door_width: of an opening [m].
+    """
+    shapes: list[Shape] = []
+    for number, wall in enumerate(walls, 1):
+        edge = wall.start
+        for piece, middle in enumerate((*wall.doors, None), 1):
+            stop = wall.end if middle is None else middle - door_width / 2
+            shapes += _piece(f"wall_{number}_{piece}", wall, edge, stop, (0, height), thickness)
+            if middle is not None:
+                edge = middle + door_width / 2
+                shapes += _piece(f"lintel_{number}_{piece}", wall, stop, edge, (DOOR_HEIGHT, height), thickness)
+    return tuple(shapes)
+
+
+def _piece(
+    name: str, wall: Wall, start: float, stop: float, heights: tuple[float, float], thickness: float
+) -> Iterator[Shape]:
+    low, high = heights
+    if stop - start < 1e-6 or high - low < 1e-6:
+        return
+    middle, length = (start + stop) / 2, stop - start
+    x, y = (wall.at, middle) if wall.axis else (middle, wall.at)
+    size = (thickness, length, high - low) if wall.axis else (length, thickness, high - low)
+    yield Shape(name, "box", size, (x, y, (low + high) / 2), WALL)
+
+
+def _ends(extent: tuple[float, float], more: float) -> tuple[float, float]:
+    return extent[0] - more, extent[1] + more
