@@ -2,18 +2,31 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 from urdfkit.description.robot import Mesh
 from urdfkit.lint.edits import more_attributes, new_value
 from urdfkit.lint.meshes import meshes
 from urdfkit.lint.placement import shapes_of
+from urdfkit.lint.principal import principal_moments
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from urdfkit.description.robot import Link
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
+
+FAR = 100.0
+"""Parts of one robot may well be of such different sizes."""
+
+HUGE = 50.0
+"""[m] across: ships and halls are, but then their other parts tell."""
+
+ALONE = 100.0
+"""[m] across: too much where nothing else tells how large things are."""
 
 
 class MeshScaleSuspect(RobotRule):
@@ -21,7 +34,9 @@ class MeshScaleSuspect(RobotRule):
 
     ## What it does
     Compares the size of a mesh, scale included, with the middle of the distances between joints and of the other
-    shapes.
+    shapes. Where all meshes may be wrong alike, one of more than 50 m is compared with what else tells how large
+    things are: the distances between joints, boxes, cylinders and spheres, else the radius of gyration √(I/m) of its
+    link. Where nothing does, 100 m are too much.
 
     ## Why is this bad?
     CAD programs write millimetres, URDF means metres: the part fills the sky, or cannot be seen.
@@ -74,17 +89,15 @@ class MeshScaleSuspect(RobotRule):
         found = [(mesh, element, link, _diagonal(model, mesh)) for mesh, element, link in meshes(model)]
         if not any(size for *_, size in found):
             return
-        sizes = [sum(part * part for part in joint.origin.xyz) ** 0.5 for joint in model.robot.joints]
-        for link in model.robot.links:
-            if all(not isinstance(shape.geometry, Mesh) for shape in shapes_of(link)) and link.name in model.extents:
-                sizes.append(model.extents[link.name].diagonal)
+        sure = _lengths(model)
         for mesh, element, link, size in found:
-            others = sorted(size for size in (*sizes, *(s for m, *_, s in found if m.uri != mesh.uri)) if size > 1e-4)
-            if not others or not size:
+            middle = _middle([*sure, *(other for m, *_, other in found if m.uri != mesh.uri)])
+            if size > HUGE and not _is_far(size, middle):
+                middle = _middle(sure) or _gyration(link)
+            is_alone = not middle and size > ALONE
+            if not (is_alone or _is_far(size, middle)):
                 continue
-            middle = others[len(others) // 2]
-            if not (100.0 < size / middle < 10000.0 or 100.0 < middle / size < 10000.0):
-                continue
+            beside = "" if is_alone else f" in a robot of parts of about {middle:.2g} m"
             factor, what = (0.001, "large") if size > middle else (1000.0, "small")
             scale = " ".join(f"{part * factor:g}" for part in mesh.scale)
             fix = (
@@ -95,12 +108,38 @@ class MeshScaleSuspect(RobotRule):
             yield self.at(
                 model,
                 element,
-                f"the mesh of link `{link.name}` is {size:.3g} m across in a robot of parts of about {middle:.2g} m",
+                f"the mesh of link `{link.name}` is {size:.3g} m across{beside}",
                 attribute="scale",
                 link=link.name,
                 help=f'too {what} by 1000? URDF means metres: scale="{scale}"',
                 fix=fix,
             )
+
+
+def _is_far(size: float, middle: float) -> bool:
+    """Whether a size is so far from the middle of the others that only another unit explains it."""
+    return bool(size and middle) and (FAR < size / middle < 10000.0 or FAR < middle / size < 10000.0)
+
+
+def _middle(sizes: list[float]) -> float:
+    known = sorted(size for size in sizes if size > 1e-4)
+    return known[len(known) // 2] if known else 0.0
+
+
+def _lengths(model: Model) -> list[float]:
+    """Return how far joints are from each other, and how large the links without meshes are [m]."""
+    sizes = [sum(part * part for part in joint.origin.xyz) ** 0.5 for joint in model.robot.joints]
+    for link in model.robot.links:
+        if all(not isinstance(shape.geometry, Mesh) for shape in shapes_of(link)) and link.name in model.extents:
+            sizes.append(model.extents[link.name].diagonal)
+    return sizes
+
+
+def _gyration(link: Link) -> float:
+    """Return the largest radius of gyration of a link [m]; 0 where that is not known."""
+    mass = link.inertial.mass if link.inertial is not None else None
+    largest = max((moments[2] for moments, _ in principal_moments(link)), default=0.0)
+    return sqrt(largest / mass) if mass is not None and mass > 0.0 and largest > 0.0 else 0.0
 
 
 def _diagonal(model: Model, mesh: Mesh) -> float:

@@ -17,14 +17,20 @@ FRACTION = 0.1
 LEAST = 0.005
 """[m]"""
 
+UNSEEN = 1.0
+"""Of that diagonal, where a link is seen nowhere: collision shapes alone often cover a part of the body."""
+
+LIGHT = 0.01
+"""[kg]: less stands for "none" where a link is seen nowhere."""
+
 
 class ComOutsideGeometry(RobotRule):
     """The centre of mass of a link is outside of its shapes.
 
     ## What it does
     Compares the ``<origin>`` of the ``<inertial>`` with the box around all shapes of the link, visual and
-    collision. Links that are seen nowhere, or have a mesh that cannot be read, are left alone: collision shapes
-    alone often cover a part of the body.
+    collision. Collision shapes alone, of a link that is seen nowhere, often cover a part of the body: there it has to
+    be farther out than the box is long. Links with a mesh that cannot be read are left alone.
 
     ## Why is this bad?
     The robot tips over, or swings, as if its weight hung beside it. Mostly the origin of the shape was not copied
@@ -75,10 +81,12 @@ class ComOutsideGeometry(RobotRule):
             if inertial is None or not inertial.mass or inertial.mass < 0.0:
                 continue
             extent = model.extents.get(link.name)
-            if extent is None or not link.visuals:
+            if extent is None:
+                continue
+            if not link.visuals and inertial.mass < LIGHT:
                 continue
             away = extent.outside(inertial.origin.xyz)
-            if away > max(FRACTION * extent.diagonal, LEAST):
+            if away > max((FRACTION if link.visuals else UNSEEN) * extent.diagonal, LEAST):
                 origin = inertial.element.find("origin")
                 yield self.at(
                     model,

@@ -18,14 +18,17 @@ if TYPE_CHECKING:
 MARGIN = 1.2
 """Simplified shapes may be a little smaller than the body."""
 
+UNSEEN = 3.0
+"""Collision shapes alone, of a link that is seen nowhere, often cover a part of the body."""
+
 
 class InertiaTooLarge(RobotRule):
     """The inertia of a link is larger than its shapes allow.
 
     ## What it does
     Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of all
-    the link's shapes, visual and collision. Links that are seen nowhere, or have a mesh that cannot be read, are
-    left alone: collision shapes alone often cover a part of the body.
+    the link's shapes, visual and collision. Collision shapes alone, of a link that is seen nowhere, often cover a
+    part of the body: there it has to be three times as large. Links with a mesh that cannot be read are left alone.
 
     ## Why is this bad?
     However the mass is spread inside the shapes, √(I/m) cannot exceed that distance. The link turns as if it were
@@ -73,12 +76,13 @@ class InertiaTooLarge(RobotRule):
             if link.inertial is None or mass is None or mass <= 0.0:
                 continue
             extent = model.extents.get(link.name)
-            if extent is None or not link.visuals:
+            if extent is None:
                 continue
             reach = extent.radius(link.inertial.origin.xyz)
+            margin = MARGIN if link.visuals else UNSEEN
             for moments, element in principal_moments(link):
                 gyration = sqrt(max(moments[2], 0.0) / mass)
-                if gyration > MARGIN * reach and not is_identity(element):
+                if gyration > margin * reach and not is_identity(element):
                     yield self.at(
                         model,
                         element,

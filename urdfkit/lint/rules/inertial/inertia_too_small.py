@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import sqrt
 
+from urdfkit.description.robot import Mesh
+from urdfkit.lint.placement import shapes_of
 from urdfkit.lint.principal import principal_moments
 from urdfkit.lint.rule import RobotRule
 from urdfkit.lint.tensor import computed
@@ -17,6 +19,12 @@ if TYPE_CHECKING:
 
 SMALL = 0.05
 """A solid ball has 0.63, a rod 0.58 of its reach; motors at one end bring it down, but not so far."""
+
+LEAST = 0.01
+"""[kg]: less stands for "none" where a link is seen nowhere."""
+
+MILLIMETRES = 25.0
+"""[m]: meshes that reach farther are in millimetres, and not the inertia is to blame."""
 
 
 class InertiaTooSmall(RobotRule):
@@ -71,9 +79,13 @@ class InertiaTooSmall(RobotRule):
             if link.inertial is None or mass is None or mass <= 0.0:
                 continue
             extent = model.extents.get(link.name)
-            if extent is None or not link.visuals or extent.outside(link.inertial.origin.xyz) > 0.0:
+            if extent is None or extent.outside(link.inertial.origin.xyz) > 0.0:
                 continue  # Where the centre of mass is outside, that is what is wrong.
+            if not link.visuals and mass < LEAST:
+                continue
             reach = extent.radius(link.inertial.origin.xyz)
+            if reach > MILLIMETRES and any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
+                continue  # It is the scale of the mesh that is wrong.
             for moments, element in principal_moments(link):
                 gyration = sqrt(max(moments[2], 0.0) / mass)
                 if 0.0 < gyration < SMALL * reach:
