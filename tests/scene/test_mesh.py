@@ -275,7 +275,7 @@ def test_a_mesh_reads_only_its_own_folder(loader: MeshLoader, tmp_path: Path) ->
 def test_a_missing_trimesh_says_what_to_run(
     loader: MeshLoader, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    path = write_box(tmp_path, ".stl")
+    path = write_box(tmp_path, ".obj")
     monkeypatch.setitem(__import__("sys").modules, "trimesh", None)
     with pytest.raises(MissingDependencyError, match=r"pip install 'urdfkit\[view\]'"):
         loader.load(path)

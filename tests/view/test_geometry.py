@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from urdfkit.scene import TriMesh
-from urdfkit.view.geometry import GeometryStore, crease, pack, unique_rows
+from urdfkit.view.geometry import GeometryStore, crease, pack
 
 
 def tri_mesh(mesh: trimesh.Trimesh, **more) -> TriMesh:
@@ -101,15 +101,3 @@ def test_equal_meshes_are_one() -> None:
 def test_a_hundred_thousand_triangles_pack() -> None:
     sphere = trimesh.creation.icosphere(subdivisions=6)  # 81,920
     assert len(unpack(pack(tri_mesh(sphere)))[0]) == len(sphere.vertices)
-
-
-def test_rows_are_told_apart_even_where_their_numbers_agree() -> None:
-    a, b = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F], dtype=np.uint64).view(np.int64)
-    rows = np.array([[b, 0], [0, a], [b, 0], [1, 2], [0, a]])
-    first, where = unique_rows(rows)
-    assert np.array_equal(rows[first[where]], rows)
-    assert len(first) == 3
-    chance = np.random.default_rng(0).integers(0, 9, (500, 4))
-    first, where = unique_rows(chance)
-    assert np.array_equal(chance[first[where]], chance)
-    assert len(first) == len(np.unique(chance, axis=0))

@@ -20,6 +20,8 @@ from urdfkit.description.packages import near_path
 from urdfkit.description.robot import Vector
 from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
 from urdfkit.scene.collada import harm, metres_per_unit
+from urdfkit.scene.rows import unique_rows
+from urdfkit.scene.stl import corners_of
 from urdfkit.scene.texture import Beside, Texture, is_as_read, texture_of
 
 FORMATS = (".stl", ".obj", ".dae", ".glb", ".gltf", ".ply")
@@ -153,6 +155,8 @@ def _side_files(path: Path, content: bytes) -> Iterator[bytes]:
 
 
 def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bool) -> TriMesh:
+    if path.suffix.lower() == ".stl" and (corners := corners_of(content)) is not None and not places:
+        return _of_corners(path, corners, np.array(scale, dtype=float))
     try:
         import trimesh
     except ImportError as error:
@@ -185,6 +189,20 @@ def _parts(scene: Any) -> Iterator[tuple[Any, Any]]:
             if total > MAX_TRIANGLES:
                 raise ResourceError(f"a mesh of more than {MAX_TRIANGLES} triangles is not read: decimate it")
             yield geometry, np.asarray(transform, dtype=float)
+
+
+def _of_corners(path: Path, corners: NDArray[np.float32], scale: NDArray[np.float64]) -> TriMesh:
+    """Return triangles of shape (m, 3, 3), scaled; corners in the same place become one vertex."""
+    if len(corners) > MAX_TRIANGLES:
+        raise ResourceError(f"a mesh of more than {MAX_TRIANGLES} triangles is not read: decimate it")
+    points = (corners.reshape(-1, 3).astype(float) * scale).astype(np.float32) + np.float32(0)
+    if not np.isfinite(points).all():
+        raise ResourceError(f"mesh {path.name} is broken: a vertex is not a finite number")
+    rows, index = _unique(np.ascontiguousarray(points))
+    faces = index.astype(np.int32).reshape(-1, 3)
+    if np.prod(scale) < 0:  # a mirror turns triangles inside out
+        faces = faces[:, ::-1]
+    return TriMesh(vertices=rows, faces=np.ascontiguousarray(faces))
 
 
 def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64], places: bool) -> TriMesh:
@@ -243,12 +261,11 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
 
 def _unique(rows: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
     """Return the distinct rows in order of first appearance, and for each row which of them it is."""
-    raw = rows.view(np.dtype((np.void, rows.shape[1] * 4))).ravel()
-    _, first, inverse = np.unique(raw, return_index=True, return_inverse=True)
+    first, inverse = unique_rows(rows.view(np.uint32))
     order = np.argsort(first)
     rank = np.empty_like(order)
     rank[order] = np.arange(len(order))
-    return rows[first[order]], rank[inverse.ravel()]
+    return rows[first[order]], rank[inverse]
 
 
 def _normals(part: Any, linear: NDArray[np.float64]) -> NDArray[np.float64] | None:

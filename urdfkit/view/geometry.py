@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.scene.rows import unique_rows
+
 if TYPE_CHECKING:
     from urdfkit.scene import TriMesh
 
@@ -19,9 +21,6 @@ triangle 3 × uint32, and per vertex 4 × uint8 colour if there are any."""
 
 CREASE = np.deg2rad(35.0)
 """Neighbouring faces that meet at less than this angle are shaded as one smooth surface [rad]."""
-
-FACTORS = (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x27D4EB2F165667C5)
-"""Odd numbers without a pattern, as hashes use them."""
 
 
 class GeometryStore:
@@ -110,12 +109,44 @@ def crease(
     places = vertices[kept]
     faces = where[faces]
     area, flat = _flat(places[faces])
-
-    # All pairs (corner, corner) that share a vertex, by sorting corners by vertex and pairing at growing distance.
     corner_vertex = faces.reshape(-1)
-    order = np.argsort(corner_vertex, kind="stable")
-    sorted_vertex = corner_vertex[order]
-    face_of = order // 3
+    even, mean = _even(len(places), corner_vertex, area, flat, angle)
+    rough = np.flatnonzero(~even[corner_vertex])
+    normals = _paired(rough, corner_vertex, area, flat, angle)
+
+    # Where a surface is even its vertices stay one; at creases each direction gets one of its own.
+    rows = np.hstack([corner_vertex[rough, None], np.round(normals * 32767).astype(np.int64)])
+    kept, index = unique_rows(rows)
+    smooth = np.flatnonzero(even)
+    number = np.full(len(places), -1)
+    number[smooth] = np.arange(len(smooth))
+    found = number[corner_vertex]
+    found[rough] = len(smooth) + index
+    points = np.concatenate([places[smooth], places[corner_vertex[rough[kept]]]]).astype(float)
+    return points, np.concatenate([mean[smooth], normals[kept]]), found.reshape(-1, 3)
+
+
+def _even(
+    count: int, corner_vertex: NDArray[np.int64], area: NDArray[Any], flat: NDArray[Any], angle: float
+) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+    """Return which vertices have no crease, and the mean normal at each: faces all within half of `angle` of it."""
+    total: NDArray[np.float64] = np.stack(
+        [np.bincount(corner_vertex, np.repeat(area[:, k], 3), count) for k in range(3)], axis=1
+    )
+    mean = _unit(total)
+    near = np.einsum("ijk,ik->ij", mean[corner_vertex].reshape(-1, 3, 3), flat).reshape(-1) > np.cos(angle / 2)
+    even = np.bincount(corner_vertex, ~near, count) == 0
+    return even & (np.bincount(corner_vertex, minlength=count) > 0), mean
+
+
+def _paired(
+    corners: NDArray[np.int64], corner_vertex: NDArray[np.int64], area: NDArray[Any], flat: NDArray[Any], angle: float
+) -> NDArray[np.float64]:
+    """Return the normals of some corners, all those of their vertices: the mean over faces they are smooth with."""
+    # All pairs (corner, corner) that share a vertex, by sorting corners by vertex and pairing at growing distance.
+    order = np.argsort(corner_vertex[corners], kind="stable")
+    sorted_vertex = corner_vertex[corners[order]]
+    face_of = corners[order] // 3
     total = area[face_of].copy()
     for distance in range(1, min(64, len(order))):
         first, second = slice(None, -distance), slice(distance, None)
@@ -130,28 +161,12 @@ def crease(
         total[at + distance] += area[a]
     normals = np.empty_like(total)
     normals[order] = total
-    size = np.linalg.norm(normals, axis=1, keepdims=True)
-    normals = np.divide(normals, size, out=np.tile([0.0, 0.0, 1.0], (len(normals), 1)), where=size > 0)
-
-    corners = np.hstack([corner_vertex[:, None], np.round(normals * 32767).astype(np.int64)])
-    kept, index = unique_rows(corners)
-    return places[corner_vertex[kept]].astype(float), normals[kept], index.reshape(-1, 3)
+    return _unit(normals)
 
 
-def unique_rows(rows: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the first place of each different row of integers, and for each row which of those it is like.
-
-    Rows are told apart by a number made of their entries, which sorts much faster than rows do; should two different
-    rows ever have the same number, they are sorted as rows.
-
-    Args:
-        rows: shape (n, k).
-    """
-    factors = np.array(
-        [0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x27D4EB2F165667C5], dtype=np.uint64
-    )
-    keys = (rows.astype(np.int64).view(np.uint64) * factors[: rows.shape[1]]).sum(axis=1, dtype=np.uint64)
-    _, first, where = np.unique(keys, return_index=True, return_inverse=True)
-    if not np.array_equal(rows[first[where]], rows):
-        _, first, where = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    return first, where.reshape(-1)
+def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return vectors of shape (n, 3) one long; those of no length point up."""
+    size = np.linalg.norm(vectors, axis=1, keepdims=True)
+    found: NDArray[np.float64] = np.tile([0.0, 0.0, 1.0], (len(vectors), 1))
+    np.divide(vectors, size, out=found, where=size > 0)
+    return found

@@ -1,0 +1,29 @@
+"""Rows of an array that are alike."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+FACTORS = (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x27D4EB2F165667C5, 0x85EBCA77C2B2AE63,
+           0xFF51AFD7ED558CCD, 0xC4CEB9FE1A85EC53, 0xA0761D6478BD642F, 0xE7037ED1A0B428DB)  # fmt: skip
+"""Odd numbers without a pattern, as hashes use them; one for each column there can be."""
+
+
+def unique_rows(rows: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the first place of each different row of integers, and for each row which of those it is like.
+
+    Rows are told apart by a number made of their entries, which sorts much faster than rows do; should two different
+    rows ever have the same number, they are sorted as rows.
+
+    Args:
+        rows: shape (n, k), k at most nine.
+    """
+    factors = np.array(FACTORS, dtype=np.uint64)[: rows.shape[1]]
+    keys = (rows.astype(np.int64).view(np.uint64) * factors).sum(axis=1, dtype=np.uint64)
+    _, first, where = np.unique(keys, return_index=True, return_inverse=True)
+    if not np.array_equal(rows[first[where]], rows):
+        _, first, where = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    return first, where.reshape(-1)
