@@ -1,6 +1,7 @@
 // Wires the page together: connection ↔ stage, panels, features.
 
 import { Connection } from "./connection.js";
+import { drawnBy } from "./graphics.js";
 import { Page } from "./page.js";
 import { Panels } from "./panels.js";
 import { Scene } from "./scene.js";
@@ -11,7 +12,7 @@ import { viewFeatures } from "./view.js";
 const PROTOCOL = 2;
 const $ = (id) => document.getElementById(id);
 
-if (!document.createElement("canvas").getContext("webgl2")) {
+if (drawnBy === null) {
   $("fault").hidden = false;
   $("fault").textContent = "This browser shows no 3-D graphics (WebGL 2): turn on hardware acceleration in its settings, or try another one.";
 }

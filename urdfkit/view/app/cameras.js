@@ -107,6 +107,7 @@ export class Cameras {
     const before = this.was;
     this.was = now;
     if (!now || !before || this.way === "first") return;
+    if (now.at.distanceTo(before.at) < 1e-6 && Math.abs(now.yaw - before.yaw) < 1e-6) return (this.was = before);
     const { camera, controls } = this.viewer;
     const arm = camera.position.clone().sub(controls.target);
     if (this.way === "follow") arm.applyAxisAngle(new THREE.Vector3(0, 1, 0), now.yaw - before.yaw);

@@ -3,6 +3,7 @@
 
 const THREE = MeshCat.THREE;
 const HEADER = 16;
+const STILL = 1e-6; // [m] and parts of a turn: what moves less needs no new picture
 
 export class Scene {
   constructor(stage) {
@@ -21,11 +22,13 @@ export class Scene {
     this.own = [];
     this.model = -1;
     this.pending = null;
+    this.placed = null; // the poses that were applied last
     const original = this.viewer.handle_command.bind(this.viewer);
     this.viewer.handle_command = (command) => this.#command(command, original);
   }
 
   command(bytes) {
+    this.stage.dirty();
     this.viewer.handle_command_bytearray(bytes);
   }
 
@@ -165,7 +168,7 @@ export class Scene {
     this.linkOf = new Map(this.nodes.map((node, i) => [node, names[i]]));
     // No link has a slash in its name; bodies of the world do.
     this.own = this.nodes.filter((_, i) => !model.nodes[i].includes("/world%2F"));
-    this.pending = null;
+    this.pending = this.placed = null;
     for (const name of this.meshes.keys()) this.used.has(name) || this.meshes.delete(name);
   }
 
@@ -184,15 +187,20 @@ export class Scene {
     const sequence = view.getUint32(4, true);
     const time = view.getFloat64(8, true);
     if (view.getUint8(1) === this.model && view.getUint16(2, true) === this.nodes.length) {
-      const values = new Float32Array(frame, HEADER);
-      this.nodes.forEach((node, i) => {
-        const at = 7 * i;
-        node.position.set(values[at], values[at + 1], values[at + 2]);
-        node.quaternion.set(values[at + 3], values[at + 4], values[at + 5], values[at + 6]);
-      });
-      this.stage.dirty();
+      this.#place(new Float32Array(frame, HEADER));
     }
     applied(sequence, time);
+  }
+
+  #place(values) {
+    if (this.placed?.every((value, i) => Math.abs(value - values[i]) < STILL)) return;
+    this.placed = values;
+    this.nodes.forEach((node, i) => {
+      const at = 7 * i;
+      node.position.set(values[at], values[at + 1], values[at + 2]);
+      node.quaternion.set(values[at + 3], values[at + 4], values[at + 5], values[at + 6]);
+    });
+    this.stage.dirty();
   }
 }
 

@@ -1,22 +1,28 @@
 // The 3-D view: meshcat's viewer with our own light, ground, camera and theme.
 /* global MeshCat */
 
+import { soft, sparing } from "./graphics.js";
+import { gridMaterial } from "./grid.js";
+
 const THREE = MeshCat.THREE;
 const THEMES = {
   light: { sky: 0xeef1f5, major: 0xaab4c2, minor: 0xd3dae3, shadow: 0.22, hemisphere: 0.78 },
   dark: { sky: 0x161b23, major: 0x49566a, minor: 0x2a3340, shadow: 0.45, hemisphere: 0.7 },
 };
 const FOV = 42;
+const PATIENCE = 2500; // ms after which what there is is drawn, though the robot has not come yet
 
 export class Stage {
   constructor(pane) {
     this.pane = pane;
-    this.viewer = new MeshCat.Viewer(pane);
+    this.viewer = sparing(() => new MeshCat.Viewer(pane));
     this.viewer.gui.domElement.remove();
     this.viewer.set_3d_pane_size = () => this.resize(); // meshcat's own takes the window's height
     this.viewer.delete_path(["Lights"]); // they end ten metres from the origin
     this.viewer.delete_path(["Grid"]);
-    this.viewer.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.viewer.renderer.setPixelRatio(soft ? 1 : Math.min(devicePixelRatio, 2));
+    this.viewer.renderer.shadowMap.autoUpdate = false; // they change when something moves, not when one looks from elsewhere
+    this.#wait();
     this.radius = 0.5;
     this.followed = null;
     this.aspect = 1;
@@ -32,8 +38,22 @@ export class Stage {
     this.resize();
   }
 
+  /** Something has changed: draw anew, shadows too. */
   dirty() {
+    this.viewer.renderer.shadowMap.needsUpdate = true;
     this.viewer.set_dirty();
+  }
+
+  // An empty stage is not worth a picture: drawing it holds up the robot.
+  #wait() {
+    const render = this.viewer.render.bind(this.viewer);
+    this.empty = true;
+    this.viewer.render = () => void (this.empty || render());
+    setTimeout(() => this.begin(), PATIENCE);
+  }
+
+  begin() {
+    this.empty = false;
   }
 
   resize() {
@@ -136,12 +156,16 @@ export class Stage {
     this.sun.shadow.camera.updateProjectionMatrix();
     this.haze();
     controls.update();
+    this.begin();
     this.dirty();
     return true;
   }
 
   /** Tell where the root link is [m, z up]; light and ground go with it, the camera too if it should. */
   at(x, y, z, follow) {
+    const stands = [x, y, z, this.radius, follow];
+    if (this.stands?.every((value, i) => value === stands[i])) return;
+    this.stands = stands;
     const major = this.cell * 5;
     this.ground.position.set(Math.round(x / major) * major, Math.round(y / major) * major, 0);
     const r = this.radius;
@@ -156,46 +180,4 @@ export class Stage {
     this.followed = [x, y, z];
     this.dirty();
   }
-}
-
-// Squares of `cell` metres, every fifth line stronger; lines one pixel wide however far away, fading with distance.
-function gridMaterial() {
-  return new THREE.ShaderMaterial({
-    transparent: true,
-    depthWrite: false,
-    side: THREE.DoubleSide,
-    extensions: { derivatives: true },
-    uniforms: {
-      cell: { value: 1 },
-      reach: { value: 10 },
-      major: { value: new THREE.Color() },
-      minor: { value: new THREE.Color() },
-    },
-    vertexShader: `
-      varying vec2 at;
-      varying vec3 seen;
-      void main() {
-        at = position.xy;
-        vec4 view = modelViewMatrix * vec4(position, 1.0);
-        seen = view.xyz;
-        gl_Position = projectionMatrix * view;
-      }`,
-    fragmentShader: `
-      uniform float cell, reach;
-      uniform vec3 major, minor;
-      varying vec2 at;
-      varying vec3 seen;
-      float lines(vec2 p) {
-        vec2 width = fwidth(p);
-        vec2 off = abs(fract(p - 0.5) - 0.5) / width;
-        float line = 1.0 - min(min(off.x, off.y), 1.0);
-        return line * (1.0 - smoothstep(0.15, 0.45, max(width.x, width.y)));
-      }
-      void main() {
-        float strong = lines(at / (5.0 * cell));
-        float weak = lines(at / cell);
-        float near = 1.0 - smoothstep(0.3 * reach, reach, length(seen));
-        gl_FragColor = vec4(mix(minor, major, strong), max(strong, weak) * near);
-      }`,
-  });
 }
