@@ -1,3 +1,7 @@
+import os
+import shutil
+import subprocess
+
 import pytest
 
 from urdfkit.resources import templates_dir
@@ -63,3 +67,24 @@ def small_template(tmp_path):
         """
     )
     return folder
+
+
+@pytest.fixture
+def debian(tmp_path):
+    """Return what runs a shell command in `tmp_path` with Debian's tools and returns what it prints."""
+    system = "/usr/sbin:/usr/bin:/sbin:/bin"  # a Python of the user's own breaks them
+
+    def run(command):
+        program = command.split()[0]
+        if program != "." and shutil.which(program, path=system) is None:
+            if os.environ.get("CI"):
+                pytest.fail(f"{program} is not installed")
+            pytest.skip(f"{program} is not installed")
+        env = {"PATH": system, "HOME": str(tmp_path), "ROS_HOME": str(tmp_path / "ros"), "LANG": "C.UTF-8"}
+        done = subprocess.run(
+            ["/bin/bash", "-c", command], cwd=tmp_path, env=env, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, f"{command}\n{done.stdout[-3000:]}\n{done.stderr[-3000:]}"
+        return done.stdout + done.stderr
+
+    return run

@@ -95,7 +95,7 @@ def _add(parser: argparse.ArgumentParser, question: Question) -> None:
         )
     else:
         metavar = question.unit or question.name.upper()
-        action = "append" if question.kind == "choices" else "store"
+        action = "append" if question.several else "store"
         parser.add_argument(question.option, dest=question.name, metavar=metavar, action=action, help=text)
 
 

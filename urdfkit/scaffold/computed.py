@@ -19,4 +19,29 @@ def computed(template: str, answers: Mapping[str, str]) -> dict[str, str]:
         from urdfkit.scaffold.world import contents
 
         return contents(answers)
+    if template == "package":
+        return _package(answers)
     return {}
+
+
+def _package(answers: Mapping[str, str]) -> dict[str, str]:
+    """Return the names of the packages that go with this one, and what CMake wants to be told of those it needs."""
+    name, depends = answers["name"], answers["depends"].split()
+    robot = name.removesuffix(f"_{answers['kind']}")
+    about = {
+        "plain": f"{name}: to put code into.",
+        "description": f"The robot {robot}: its links, joints, shapes and masses.",
+        "gazebo": f"Worlds for the robot {robot}, and the launch file that puts it into them.",
+        "bringup": f"One launch file that starts all of the robot {robot}.",
+    }
+    lines = "".join(f"\n  {package}" for package in depends)
+    return {
+        "robot": robot,
+        "description": f"{robot}_description",
+        "gazebo": f"{robot}_gazebo",
+        "about": answers["about"] or about[answers["kind"]],
+        "root": "base_footprint",
+        "folders": "",
+        "components": f" COMPONENTS{lines}\n" if depends else "",
+        "catkin_depends": f"\n  CATKIN_DEPENDS{lines}\n" if depends else "",
+    }

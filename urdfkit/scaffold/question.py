@@ -38,7 +38,7 @@ class Question:
 
     name: str
     prompt: str
-    kind: Literal["package", "choice", "choices", "flag", "number", "text"]
+    kind: Literal["package", "choice", "choices", "flag", "number", "packages", "text"]
     default: str | None = None
     default_for: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     unit: str = ""
@@ -54,6 +54,11 @@ class Question:
     def option(self) -> str:
         """The option of the command line."""
         return "--" + self.name.replace("_", "-")
+
+    @property
+    def several(self) -> bool:
+        """Whether it takes several answers."""
+        return self.kind in ("choices", "packages")
 
     def default_given(self, answers: Mapping[str, str]) -> str | None:
         """Return the default, computed where it depends on earlier answers (to four digits).
@@ -87,6 +92,8 @@ class Question:
             return self._number(answer)
         if self.kind == "choices":
             return self._several(answer.replace(",", " ").split())
+        if self.kind == "packages":
+            return " ".join(dict.fromkeys(check_package_name(name) for name in answer.replace(",", " ").split()))
         if self.kind == "choice":
             return self._choice(answer)
         if self.kind == "flag":

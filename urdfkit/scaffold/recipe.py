@@ -84,7 +84,7 @@ def _value(question: Question, answer: str) -> str:
     if question.kind == "flag":
         return "true" if answer == "yes" else "false"
     # What JSON makes of a text is a string of TOML, too, but for one character.
-    text = json.dumps(answer.split() if question.kind == "choices" else answer, ensure_ascii=False)
+    text = json.dumps(answer.split() if question.several else answer, ensure_ascii=False)
     return text.replace("\x7f", "\\u007f")
 
 

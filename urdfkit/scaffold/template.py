@@ -221,7 +221,7 @@ class Template:
 
     def _said(self, answers: Mapping[str, str]) -> tuple[dict[str, tuple[str, ...]], dict[str, str]]:
         """Return what has several values, and the answers with the words that follow from them."""
-        several = {q.name: tuple(answers[q.name].split()) for q in self.questions if q.kind == "choices"}
+        several = {q.name: tuple(answers[q.name].split()) for q in self.questions if q.several}
         single = dict(answers)
         for word in self.words:
             where = f"{self.folder}/template.toml"

@@ -1,0 +1,55 @@
+"""Gazebo with the robot in it: ros2 launch @name@ @robot@.launch.py."""
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import Command, LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+from launch_ros.substitutions import FindPackageShare
+
+
+def generate_launch_description():
+    """Start Gazebo, put the robot in, bridge its topics, and publish its frames."""
+    gazebo = FindPackageShare("@name@")
+    model = PathJoinSubstitution([FindPackageShare("@description@"), "urdf", "@robot@.urdf.xacro"])
+    simulated = {"use_sim_time": True}
+    return LaunchDescription([
+        DeclareLaunchArgument("world", default_value=PathJoinSubstitution([gazebo, "worlds", "empty.sdf"])),
+        DeclareLaunchArgument("x", default_value="0"),
+        DeclareLaunchArgument("y", default_value="0"),
+        DeclareLaunchArgument("yaw", default_value="0"),
+        IncludeLaunchDescription(
+            PythonLaunchDescriptionSource(
+                PathJoinSubstitution([FindPackageShare("ros_gz_sim"), "launch", "gz_sim.launch.py"])
+            ),
+            launch_arguments={"gz_args": ["-r ", LaunchConfiguration("world")]}.items(),
+        ),
+        Node(
+            package="robot_state_publisher",
+            executable="robot_state_publisher",
+            parameters=[
+                simulated,
+                {"robot_description": ParameterValue(Command(["xacro ", model]), value_type=str)},
+            ],
+        ),
+        Node(
+            package="ros_gz_sim",
+            executable="create",
+            arguments=[
+                "-name", "@robot@",
+                "-topic", "robot_description",
+                "-x", LaunchConfiguration("x"),
+                "-y", LaunchConfiguration("y"),
+                "-Y", LaunchConfiguration("yaw"),
+            ],
+            parameters=[simulated],
+            output="screen",
+        ),
+        Node(
+            package="ros_gz_bridge",
+            executable="parameter_bridge",
+            parameters=[simulated, {"config_file": PathJoinSubstitution([gazebo, "config", "bridge.yaml"])}],
+            output="screen",
+        ),
+    ])
