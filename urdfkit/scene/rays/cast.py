@@ -9,8 +9,8 @@ from urdfkit.scene.rays.compilation import compiled, inlined
 from urdfkit.scene.rays.normals import normal
 from urdfkit.scene.rays.packet import (
     BEAM,
+    CHILDREN,
     DX,
-    FAR,
     HIT,
     LOCAL_BEAM,
     LX,
@@ -21,7 +21,8 @@ from urdfkit.scene.rays.packet import (
     REACH,
     WIDTH,
     bound,
-    enters,
+    entered,
+    entry,
     farthest,
 )
 from urdfkit.scene.rays.solids import (
@@ -46,9 +47,9 @@ from urdfkit.scene.rays.tree import DEPTH
 from urdfkit.scene.rays.triangles import CORNERS, into_mesh, triangle
 
 TOP_STACK = PACKET
-MESH_STACK = TOP_STACK + 2 * DEPTH
-SCRATCH = MESH_STACK + 2 * DEPTH
-"""Numbers that casting works on: a packet and two stacks of (node, where the packet enters it)."""
+MESH_STACK = TOP_STACK + 2 * CHILDREN * DEPTH
+SCRATCH = MESH_STACK + 2 * CHILDREN * DEPTH
+"""Numbers that casting works on: a packet and two stacks of (child of a node, where the packet enters it)."""
 
 
 @compiled
@@ -78,70 +79,66 @@ def meet(work: Any, scene: Any, shape: int, near: float) -> None:
 
 @compiled
 def walk_mesh(work: Any, scene: Any, root: int, shape: float, near: float) -> None:
-    """Walk the packet through the tree of a mesh, the nearer of two children first."""
-    _, _, _, _, _, _, bounds, links, corners = scene
+    """Walk the packet through the tree of a mesh, the nearest of the children first."""
+    _, _, _, _, _, _, boxes, links, corners = scene
     reach = farthest(work)
-    enter = enters(work, LOCAL_BEAM, bounds, 6 * root, near, reach)
-    work[MESH_STACK], work[MESH_STACK + 1] = root, enter
-    waiting = 1 if enter < FAR else 0
+    waiting = push(work, LOCAL_BEAM, boxes, root, MESH_STACK, near, reach)
     while waiting > 0:
         waiting -= 1
         top = MESH_STACK + 2 * waiting
         if work[top + 1] > reach:
             continue
-        node = int(work[top])
-        first, size = links[2 * node], links[2 * node + 1]
+        child = 3 * int(work[top])
+        first, size = links[child], links[child + 1]
         if size > 0:
             for k in range(first, first + size):
                 triangle(work, corners, CORNERS * k, shape, float(k), near)
             reach = farthest(work)
         else:
-            waiting += push(work, LOCAL_BEAM, bounds, first, top, near, reach)
+            waiting += push(work, LOCAL_BEAM, boxes, first, top, near, reach)
 
 
 @inlined
-def push(work: Any, beam: int, bounds: Any, first: int, top: int, near: float, reach: float) -> int:
-    """Put the children that the packet enters onto a stack, the nearer one on top; return how many."""
-    one = enters(work, beam, bounds, 6 * first, near, reach)
-    two = enters(work, beam, bounds, 6 * first + 6, near, reach)
-    if one < FAR and two < FAR:
-        swap = 1 if one < two else 0
-        work[top], work[top + 1] = first + swap, two if swap else one
-        work[top + 2], work[top + 3] = first + 1 - swap, one if swap else two
-        return 2
-    if one < FAR:
-        work[top], work[top + 1] = first, one
-        return 1
-    if two < FAR:
-        work[top], work[top + 1] = first + 1, two
-        return 1
-    return 0
+def push(work: Any, beam: int, boxes: Any, node: int, top: int, near: float, reach: float) -> int:
+    """Put the children of a node that the packet enters onto a stack, the nearest on top; return how many."""
+    found = entered(work, beam, boxes, node, near, reach)
+    c = count = 0
+    while found != 0:
+        if found & 1 != 0:
+            enter = entry(work, beam, boxes, node, c, near)
+            at = top + 2 * count
+            while at > top and work[at - 1] < enter:
+                work[at], work[at + 1] = work[at - 2], work[at - 1]
+                at -= 2
+            work[at], work[at + 1] = CHILDREN * node + c, enter
+            count += 1
+        found >>= 1
+        c += 1
+    return count
 
 
 @compiled
 def walk(work: Any, scene: Any, near: float) -> None:
     """Find what each ray of the packet meets first: its `REACH`, `HIT` and `PART`."""
-    _, kinds, _, order, bounds, links, _, _, _ = scene
+    _, kinds, _, order, boxes, links, _, _, _ = scene
     bound(work, OX, DX, BEAM)
     for shape in range(len(order), len(kinds)):
         meet(work, scene, shape, near)
     reach = farthest(work)
-    enter = enters(work, BEAM, bounds, 0, near, reach) if len(order) > 0 else FAR
-    work[TOP_STACK], work[TOP_STACK + 1] = 0.0, enter
-    waiting = 1 if enter < FAR else 0
+    waiting = push(work, BEAM, boxes, 0, TOP_STACK, near, reach) if len(order) > 0 else 0
     while waiting > 0:
         waiting -= 1
         top = TOP_STACK + 2 * waiting
         if work[top + 1] > reach:
             continue
-        node = int(work[top])
-        first, size = links[2 * node], links[2 * node + 1]
+        child = 3 * int(work[top])
+        first, size = links[child], links[child + 1]
         if size > 0:
             for k in range(first, first + size):
                 meet(work, scene, order[k], near)
             reach = farthest(work)
         else:
-            waiting += push(work, BEAM, bounds, first, top, near, reach)
+            waiting += push(work, BEAM, boxes, first, top, near, reach)
 
 
 @inlined
@@ -175,8 +172,8 @@ def cast(
     """Cast rays, in packets as they come.
 
     Args:
-        scene: frames, kinds and roots of shapes; order, boxes and links of the tree over them; boxes, links and
-            triangles of all meshes. Shapes that are not in the tree come last.
+        scene: frames, kinds and roots of shapes; order, boxes and children of the tree over them (see `wide`); boxes,
+            children and triangles of all meshes. Shapes that are not in the tree come last.
         frame: rotation by rows and position of the frame that the rays are given in.
         origins: [m], one for all or one each; shape (1 or n, 3).
         directions: of length 1; shape (n, 3).

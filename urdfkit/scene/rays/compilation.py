@@ -14,7 +14,19 @@ from urdfkit.compilation import compile_or_load, own_sources
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-KERNEL_MODULES = ("cast", "compilation", "normals", "packet", "picture", "place", "skin", "solids", "tree", "triangles")
+KERNEL_MODULES = (
+    "cast",
+    "compilation",
+    "normals",
+    "packet",
+    "picture",
+    "place",
+    "skin",
+    "solids",
+    "tree",
+    "triangles",
+    "wide",
+)
 """Modules of this package with compiled functions."""
 
 # Every operation is rounded as IEEE 754 has it (fastmath off), so distances do not depend on what the compiler makes of

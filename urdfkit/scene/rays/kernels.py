@@ -31,7 +31,7 @@ def scene_type() -> Any:
     from numba import int64 as i
     from numba import types
 
-    return types.Tuple((f[::1], i[::1], i[::1], i[::1], f[::1], i[::1], f[::1], i[::1], f[::1]))
+    return types.Tuple((f[::1], i[::1], i[::1], i[::1], f[:, ::1], i[::1], f[:, ::1], i[::1], f[::1]))
 
 
 @lru_cache(maxsize=1)
@@ -87,6 +87,9 @@ def placer() -> Callable[..., Any]:
             i[::1],
             f[:, ::1],
             i[:, ::1],
+            i[:, :, ::1],
+            i[::1],
+            f[:, ::1],
             f[::1],
             f[::1],
         ),
@@ -102,6 +105,28 @@ def builder() -> Callable[..., Any]:
     from urdfkit.scene.rays.tree import build
 
     return load_compiled(build, (f[:, ::1], i[::1], f[:, ::1], i[:, ::1], i, f[::1]))
+
+
+@lru_cache(maxsize=1)
+def widener() -> Callable[..., Any]:
+    """Return the compiled `wide.widen`."""
+    from numba import float64 as f
+    from numba import int64 as i
+
+    from urdfkit.scene.rays.wide import widen
+
+    return load_compiled(widen, (f[:, ::1], i[:, ::1], i[:, :, ::1], i[::1]))
+
+
+@lru_cache(maxsize=1)
+def filler() -> Callable[..., Any]:
+    """Return the compiled `wide.fill`."""
+    from numba import float64 as f
+    from numba import int64 as i
+
+    from urdfkit.scene.rays.wide import fill
+
+    return load_compiled(fill, (f[:, ::1], i[:, :, ::1], i, f[:, ::1]))
 
 
 def announcement() -> str:

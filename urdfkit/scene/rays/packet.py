@@ -25,6 +25,9 @@ BEAM = 15 * WIDTH
 LOCAL_BEAM = BEAM + 24
 """Bounds of all rays of a packet, in the world and in the frame of a mesh: 24 numbers each, see `bound`."""
 
+CHILDREN = 8
+"""Children of a node, at most."""
+
 PACKET = LOCAL_BEAM + 24
 """Numbers in a packet."""
 
@@ -34,7 +37,7 @@ FAR = 1e300
 
 @compiled
 def bound(packet: Any, origin: int, direction: int, beam: int) -> None:
-    """Work out the bounds of the packet's rays, for `enters`.
+    """Work out the bounds of the packet's rays, for `entered` and `entry`.
 
     Per axis, the rays lie between ``low + t·slowest`` and ``high + t·fastest`` at distance t. Stored are low and high
     of the origins, 1/fastest where some ray ascends, 1/-slowest where some descends (else `FAR`: none gets there), and
@@ -58,27 +61,56 @@ def bound(packet: Any, origin: int, direction: int, beam: int) -> None:
 
 
 @inlined
-def enters(packet: Any, beam: int, bounds: Any, at: int, near: float, reach: float) -> float:
-    """Return a distance at which no ray has entered a box yet; `FAR` where none enters it between `near` and `reach`.
+def entered(packet: Any, beam: int, boxes: Any, node: int, near: float, reach: float) -> int:
+    """Return which children of a node some ray may enter between `near` and `reach`, a bit each.
+
+    This is one loop without a branch or a store, which the compiler turns into vector instructions.
 
     Args:
         packet: the rays.
         beam: which of their bounds.
-        bounds: lowest and highest corners of boxes, six numbers each.
-        at: where in `bounds` the box starts.
+        boxes: of the nodes' children, the lowest x of each, then y, z, and the highest; shape (nodes, 6 `CHILDREN`).
+        node: whose children.
         near: where the rays begin [m].
         reach: where they end [m].
     """
-    enter, leave = near, reach
+    x0, x1, x2, x3, x4, x5, x6, x7 = along(packet, beam)
+    y0, y1, y2, y3, y4, y5, y6, y7 = along(packet, beam + 8)
+    z0, z1, z2, z3, z4, z5, z6, z7 = along(packet, beam + 16)
+    found = 0
+    for c in range(CHILDREN):
+        low, high = boxes[node, c], boxes[node, 3 * CHILDREN + c]
+        enter = max(near, (low - x1) * x2, (x0 - high) * x3)
+        leave = min(reach, (high - x0) * x4 + x5, (x1 - low) * x6 + x7)
+        low, high = boxes[node, CHILDREN + c], boxes[node, 4 * CHILDREN + c]
+        enter = max(enter, (low - y1) * y2, (y0 - high) * y3)
+        leave = min(leave, (high - y0) * y4 + y5, (y1 - low) * y6 + y7)
+        low, high = boxes[node, 2 * CHILDREN + c], boxes[node, 5 * CHILDREN + c]
+        enter = max(enter, (low - z1) * z2, (z0 - high) * z3)
+        leave = min(leave, (high - z0) * z4 + z5, (z1 - low) * z6 + z7)
+        # One part in 1e12 for what rounding may have taken.
+        found |= (1 << c) if enter <= leave + 1e-12 * abs(leave) else 0
+    return found
+
+
+@inlined
+def along(packet: Any, at: int) -> Any:
+    """Return the bounds along one axis."""
+    return (
+        packet[at], packet[at + 1], packet[at + 2], packet[at + 3],
+        packet[at + 4], packet[at + 5], packet[at + 6], packet[at + 7],
+    )  # fmt: skip
+
+
+@inlined
+def entry(packet: Any, beam: int, boxes: Any, node: int, c: int, near: float) -> float:
+    """Return a distance at which no ray has entered child `c` of a node yet, see `entered`."""
+    enter = near
     for axis in range(3):
         b = beam + 8 * axis
-        low, high = bounds[at + axis], bounds[at + 3 + axis]
+        low, high = boxes[node, CHILDREN * axis + c], boxes[node, CHILDREN * (axis + 3) + c]
         enter = max(enter, (low - packet[b + 1]) * packet[b + 2], (packet[b] - high) * packet[b + 3])
-        up = (high - packet[b]) * packet[b + 4] + packet[b + 5]
-        down = (packet[b + 1] - low) * packet[b + 6] + packet[b + 7]
-        leave = min(leave, up, down)
-    # One part in 1e12 for what rounding may have taken.
-    return enter if enter <= leave + 1e-12 * abs(leave) else FAR
+    return float(enter)
 
 
 @inlined

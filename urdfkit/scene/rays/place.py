@@ -7,6 +7,7 @@ from typing import Any
 from urdfkit.scene.rays.compilation import inlined
 from urdfkit.scene.rays.solids import BOX, CAPSULE, CONE, CYLINDER, ELLIPSOID, MESH, PLANE, SPHERE, STRIDE
 from urdfkit.scene.rays.tree import build_compiled, refit
+from urdfkit.scene.rays.wide import fill_compiled, widen_compiled
 
 REBUILD = 1.3
 """A tree whose boxes have grown by this factor since it was built is built again."""
@@ -24,6 +25,9 @@ def place(
     order: Any,
     bounds: Any,
     links: Any,
+    wide: Any,
+    origins: Any,
+    children: Any,
     health: Any,
     scratch: Any,
 ) -> None:
@@ -41,7 +45,10 @@ def place(
         order: of the tree.
         bounds: of the tree.
         links: of the tree.
-        health: nodes in the tree (zero: not built yet) and the sum of their areas when it was built.
+        wide: the tree as packets walk it, see `wide.widen`.
+        origins: of its nodes.
+        children: boxes of its nodes' children.
+        health: nodes in the tree (zero: not built yet), the sum of their areas when it was built, nodes in `wide`.
         scratch: to work on.
     """
     inside, moved = len(boxes), False
@@ -78,6 +85,8 @@ def place(
             nodes = build_compiled(boxes, order, bounds, links, 1, scratch)
             health[0] = nodes
             health[1] = refit(boxes, order, bounds, links, nodes)
+            health[2] = widen_compiled(bounds, links, wide, origins)
+        fill_compiled(bounds, wide, int(health[2]), children)
 
 
 @inlined

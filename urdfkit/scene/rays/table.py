@@ -16,13 +16,16 @@ from urdfkit.scene.mesh import TriMesh
 from urdfkit.scene.placement import upright
 from urdfkit.scene.rays import solids
 from urdfkit.scene.rays.cast import SCRATCH
-from urdfkit.scene.rays.kernels import caster, placer
-from urdfkit.scene.rays.packet import FAR
-from urdfkit.scene.rays.store import MeshTree, mesh_tree
+from urdfkit.scene.rays.kernels import caster, filler, placer, widener
+from urdfkit.scene.rays.packet import CHILDREN, FAR
+from urdfkit.scene.rays.store import mesh_tree
 from urdfkit.scene.rays.tree import SCRATCH as TREE_SCRATCH
+from urdfkit.scene.rays.triangles import CORNERS
+from urdfkit.scene.rays.wide import BOXES
 from urdfkit.scene.scene import Scene, Shape
 
 Array = NDArray[np.float64]
+Numbers = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,18 +81,22 @@ class RayTable:
         self._order = np.zeros(inside, dtype=np.int64)
         self._bounds = np.zeros((max(2 * inside - 1, 1), 6))
         self._links = np.zeros((max(2 * inside - 1, 1), 2), dtype=np.int64)
-        self._health = np.zeros(2)
+        self._wide = np.zeros((max(inside, 1), CHILDREN, 3), dtype=np.int64)
+        self._origins = np.zeros(max(inside, 1), dtype=np.int64)
+        self._children = np.zeros((max(inside, 1), BOXES))
+        self._health = np.zeros(3)
         self._scratch = np.empty(TREE_SCRATCH)
         self._poses = np.full((len(scene.bodies), 7), np.nan)
         self.kernel_scene: tuple[Any, ...] = (
-            self._world, self._kinds, self._roots, self._order, self._bounds.reshape(-1), self._links.reshape(-1),
-            self._mesh_bounds, self._mesh_links, self._corners,
+            self._world, self._kinds, self._roots, self._order, self._children, self._wide.reshape(-1),
+            *self._in_meshes,
         )  # fmt: skip
 
     def _place_meshes(self, shapes: list[Shape]) -> None:
         """Lay the trees of all meshes end to end, each mesh once."""
-        starts: dict[str, tuple[int, MeshTree]] = {}
-        trees: list[tuple[int, int, MeshTree]] = []
+        starts: dict[str, tuple[int, Array]] = {}
+        boxes, children = [np.empty((0, BOXES))], [np.empty((0, CHILDREN, 3), dtype=np.int64)]
+        orders, corners = [np.empty(0, dtype=np.int64)], [np.empty((0, CORNERS))]
         self._meshes: list[tuple[int, int, TriMesh]] = []
         nodes = triangles = 0
         for k, shape in enumerate(shapes):
@@ -97,24 +104,19 @@ class RayTable:
                 continue
             if shape.mesh.hash not in starts:
                 tree = mesh_tree(shape.mesh)
-                starts[shape.mesh.hash] = nodes, tree
-                trees.append((nodes, triangles, tree))
+                held, below = widened(tree.bounds, tree.links)
+                below[..., 0] += np.where(below[..., 1] > 0, triangles, nodes)
+                boxes.append(held)
+                children.append(below)
+                orders.append(tree.order)
+                corners.append(tree.corners)
+                starts[shape.mesh.hash] = nodes, tree.bounds[0]
                 self._meshes.append((triangles, len(tree.order), shape.mesh))
-                nodes, triangles = nodes + len(tree.links), triangles + len(tree.order)
-            self._roots[k], tree = starts[shape.mesh.hash]
-            self._mesh_boxes[k] = tree.bounds[0]
-        bounds, joined = np.empty((nodes, 6)), np.empty((nodes, 2), dtype=np.int64)
-        corners = np.empty((triangles, 9))
-        self._faces = np.empty(triangles, dtype=np.int64)
-        for node, first, tree in trees:
-            bounds[node : node + len(tree.links)] = tree.bounds
-            leaf = tree.links[:, 1] > 0
-            links = tree.links.copy()
-            links[:, 0] += np.where(leaf, first, node)
-            joined[node : node + len(tree.links)] = links
-            corners[first : first + len(tree.order)] = tree.corners
-            self._faces[first : first + len(tree.order)] = tree.order
-        self._mesh_bounds, self._mesh_links, self._corners = bounds.ravel(), joined.ravel(), corners.ravel()
+                nodes, triangles = nodes + len(below), triangles + len(tree.order)
+            self._roots[k], self._mesh_boxes[k] = starts[shape.mesh.hash]
+        self._faces = np.concatenate(orders)
+        self._corners = np.concatenate(corners).ravel()
+        self._in_meshes = np.concatenate(boxes), np.concatenate(children).ravel(), self._corners
 
     @property
     def sizes(self) -> Array:
@@ -158,7 +160,8 @@ class RayTable:
         rows = np.ascontiguousarray(poses, dtype=float).reshape(self._poses.shape)
         placer()(
             rows, self._poses, self._local, self.bodies, self._kinds, self._mesh_boxes, self._world, self._boxes,
-            self._order, self._bounds, self._links, self._health, self._scratch,
+            self._order, self._bounds, self._links, self._wide, self._origins, self._children, self._health,
+            self._scratch,
         )  # fmt: skip
 
     def cast(
@@ -198,6 +201,21 @@ class RayTable:
         if len(self._faces):
             parts = np.where(parts >= 0, self._faces[parts], -1)
         return Hits(distances, hits, facing if normals else None, parts)
+
+
+def widened(bounds: Array, links: Numbers) -> tuple[Array, Numbers]:
+    """Return boxes and children of a tree as packets walk it, see `wide.widen`.
+
+    Args:
+        bounds: boxes of the nodes with two children; shape (nodes, 6).
+        links: of these nodes, see `tree.build`; shape (nodes, 2).
+    """
+    most = len(links) // 2 + 1
+    children, origins = np.empty((most, CHILDREN, 3), dtype=np.int64), np.empty(most, dtype=np.int64)
+    nodes = widener()(bounds, links, children, origins)
+    boxes = np.empty((nodes, BOXES))
+    filler()(bounds, children, nodes, boxes)
+    return boxes, children[:nodes].copy()
 
 
 def _is_endless(shape: Shape) -> bool:
