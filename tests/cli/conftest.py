@@ -30,6 +30,8 @@ FLAGS = [
     "--disable-sync",
     "--no-first-run",
 ]
+READY = "body[data-ready=true]:is([data-mode=view], [data-running=true])"
+"""The robot is seen, and what moves it is there."""
 ARTIFACTS = Path(__file__).parents[2] / "artifacts"
 FIRST_USE = 180.0
 """Seconds until a robot is on the page; on first use the physics kernel is compiled."""
@@ -135,7 +137,7 @@ class Visits:
         page.on("request", lambda request: self.requests.append(request.url))
         page.goto(url)
         if ready:
-            page.wait_for_selector("body[data-ready=true]", timeout=FIRST_USE * 1000)
+            page.wait_for_selector(READY, timeout=FIRST_USE * 1000)
         return page
 
     def _heard(self, kind: str, text: str) -> None:

@@ -7,12 +7,13 @@ import os
 import signal
 import sys
 import threading
+import time
 import webbrowser
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from urdfkit.errors import MissingDependencyError
+from urdfkit.errors import MissingDependencyError, UrdfkitError
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 
 NEEDED = {"meshcat": "meshcat", "tornado": "tornado", "umsgpack": "u-msgpack-python", "trimesh": "trimesh"}
 """Module → package, beside Pinocchio."""
+LAST_WORDS = 0.3
+"""Seconds that pages have to hear why the server ends."""
 
 
 def add_page_options(parser: argparse.ArgumentParser) -> None:
@@ -96,6 +99,17 @@ class Page:
             threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True, name="open-browser").start()
         elif self._browser:
             note("no screen here: open the address in a browser")
+
+
+@contextmanager
+def told_of_faults(server: Server) -> Iterator[None]:
+    """Run a block whose error a page that is open already is told too, before the server ends."""
+    try:
+        yield
+    except UrdfkitError as error:
+        server.declare("fault", message=str(error))
+        time.sleep(LAST_WORDS)
+        raise
 
 
 def note(text: str) -> None:

@@ -17,6 +17,7 @@ from urdfkit.description import Robot
 from urdfkit.description.world import Physics, World
 from urdfkit.errors import SimulationError
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
+from urdfkit.scene import Scene
 from urdfkit.sim.distro import Distro
 from urdfkit.sim.engine.engine import Provider
 from urdfkit.sim.given import number, three
@@ -60,6 +61,7 @@ class Simulator(Population):
         controllers: parameter files of controllers, in place of those the robot's packages load.
         package_path: folders to look for packages in, when `robot` is a file or a name.
         renderer: who takes the cameras' pictures: ``ray`` casts rays, ``gl`` draws by OpenGL, ``auto`` where it works.
+        scene: the robot's shapes, where they have been read already.
         note: receives remarks for the user, once each; the log ``urdfkit.sim`` when None.
 
     Raises:
@@ -94,6 +96,7 @@ class Simulator(Population):
         controllers: Sequence[str | Path] = (),
         package_path: Sequence[str | Path] = (),
         renderer: str = "ray",
+        scene: Scene | None = None,
         note: Callable[[str], None] | None = None,
     ) -> None:
         distro = Distro(ros_distro)
@@ -120,6 +123,7 @@ class Simulator(Population):
             ground=None if found.ground is None else found.ground.height,
             note=self.note,
             bolted=fixed_base,
+            scene=scene,
         )
         self.kinematics, self.scene = first.kinematics, first.scene
         self._stage = Stage(

@@ -16,31 +16,23 @@ PATIENCE = 1.0
 """Seconds that something may take without a word."""
 
 
-def compile_kernel(server: Server, first: Callable[[], None]) -> None:
-    """Compile the physics kernel if it has not been.
-
-    Args:
-        server: the page.
-        first: called before a compilation begins, not when there is none.
-    """
+def compile_kernel(server: Server) -> None:
+    """Compile the physics kernel if it has not been."""
     from urdfkit.sim.engine.warmup import announcement, warmup
 
-    _compile(warmup, announcement(), server, first)
+    _compile(warmup, announcement(), server)
 
 
-def compile_rays(server: Server, first: Callable[[], None]) -> None:
+def compile_rays(server: Server) -> None:
     """Compile what sensors see by if it has not been; see `compile_kernel`."""
     from urdfkit.scene.rays import announcement, warmup
 
-    _compile(warmup, announcement(), server, first)
+    _compile(warmup, announcement(), server)
 
 
-def _compile(
-    warmup: Callable[[Callable[[int], None]], bool], label: str, server: Server, first: Callable[[], None]
-) -> None:
+def _compile(warmup: Callable[[Callable[[int], None]], bool], label: str, server: Server) -> None:
     def say(functions: int) -> None:
         if functions == 0:
-            first()
             note(label)
         server.declare("progress", label=f"{label} {functions} functions" if functions else label)
 
@@ -49,13 +41,12 @@ def _compile(
 
 
 @contextmanager
-def progress(server: Server, label: str, first: Callable[[], None]) -> Iterator[None]:
+def progress(server: Server, label: str) -> Iterator[None]:
     """Say what is being done in the terminal and on the page, if it takes longer than `PATIENCE`.
 
     Args:
         server: the page.
         label: what is being done.
-        first: called before it is said.
     """
     over, said = threading.Lock(), False
 
@@ -64,7 +55,6 @@ def progress(server: Server, label: str, first: Callable[[], None]) -> Iterator[
         with over:
             if not timer.finished.is_set():
                 said = True
-                first()
                 note(label)
                 server.declare("progress", label=label)
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
 
-from urdfkit.cli.page import Page, add_page_options, note, require_page, until_interrupted
+from urdfkit.cli.page import Page, add_page_options, note, require_page, told_of_faults, until_interrupted
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim.compiling import compile_kernel, compile_rays, progress
 from urdfkit.cli.sim.controllers import add_controllers
@@ -12,6 +13,13 @@ from urdfkit.cli.sim.distro import add_distro
 from urdfkit.cli.sim.recording import add_record, recording
 from urdfkit.cli.sim.renderer import add_renderer
 from urdfkit.cli.unused import note_unused
+
+if TYPE_CHECKING:
+    from urdfkit.cli.sim.ride.likeness import Likeness
+    from urdfkit.cli.sim.ride.loop import Ride
+    from urdfkit.description import Robot
+    from urdfkit.description.world import World
+    from urdfkit.view.server import Server
 
 KEYS = """\
 Drive with W A S D, the arrows, i j k l u o m , . or the pad; let go and the robot stops.
@@ -38,10 +46,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Simulate and serve until interrupted."""
     require_page("sim teleop", "sim", beside=("numba", "rosbags"))
-    from urdfkit.cli.sim.ride.loop import Ride
+    from urdfkit.cli.sim.ride.likeness import Likeness
     from urdfkit.description import load
+    from urdfkit.description.world import load_world
     from urdfkit.resources import find_model
-    from urdfkit.sim import Simulator
     from urdfkit.view.running import noted
     from urdfkit.view.server import Server
 
@@ -49,30 +57,45 @@ def run(arguments: argparse.Namespace) -> int:
         model = find_model(arguments.model, package_path=arguments.package_path)
         robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
         note_unused(model.arguments, robot.files, quiet=arguments.quiet)
+        world = load_world(arguments.world)
+        likeness = Likeness(robot, world)
         server = Server("sim", host=arguments.host, port=arguments.port)
         page = Page(server, host=arguments.host, browser=not arguments.no_browser)
         try:
-            compile_kernel(server, page.open)
-            with progress(server, "loading meshes, building the world …", page.open):
-                simulator = Simulator(
-                    robot,
-                    world=arguments.world,
-                    ros_distro=arguments.ros_distro,
-                    controllers=arguments.controllers,
-                    renderer=arguments.renderer,
-                    note=lambda text: note(f"urdfkit: {text}"),
-                )
-                ride = Ride(simulator, server)
-            with progress(server, "drawing …", page.open):
-                ride.show()
-            if ride.sights.find():
-                compile_rays(server, page.open)
-                with progress(server, "building the trees that sensors look through …", page.open):
-                    ride.sights.prepare()
-            page.open()
+            page.open()  # the browser starts, and shows the robot, while the engine is made ready
+            with told_of_faults(server):
+                likeness.show(server)
+                ride = _ride(arguments, robot, world, likeness, server)
+            simulator = ride.simulator
             with recording(simulator, arguments.record) as ride.look, noted(server.port, server.url, simulator.name):
                 note(KEYS if simulator.command_topics else "this robot has no drive that takes velocity commands")
                 ride.run()
         finally:
             server.stop()
     return 0
+
+
+def _ride(arguments: argparse.Namespace, robot: Robot, world: World, likeness: Likeness, server: Server) -> Ride:
+    """Compile what has to be, build the world and put all of it on the page."""
+    from urdfkit.cli.sim.ride.loop import Ride
+    from urdfkit.sim import Simulator
+
+    compile_kernel(server)
+    with progress(server, "loading meshes, building the world …"):
+        simulator = Simulator(
+            robot,
+            world=world,
+            scene=likeness.scene,
+            ros_distro=arguments.ros_distro,
+            controllers=arguments.controllers,
+            renderer=arguments.renderer,
+            note=lambda text: note(f"urdfkit: {text}"),
+        )
+        ride = Ride(simulator, server)
+    with progress(server, "drawing …"):
+        ride.show()
+    if ride.sights.find():
+        compile_rays(server)
+        with progress(server, "building the trees that sensors look through …"):
+            ride.sights.prepare()
+    return ride

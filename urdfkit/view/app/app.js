@@ -22,6 +22,8 @@ const scene = new Scene(stage);
 const page = new Page(stage, scene, new Panels($("panel"), $("rail")));
 let root = 0;
 let fitted = false;
+let touched = false; // whether a person has turned the view themselves
+stage.viewer.controls.addEventListener("start", () => (touched = true));
 
 // For tests and for the curious at the console; features add to it by page.expose.
 Object.defineProperty(window, "urdfkit", { value: { page, stage, scene, link: (index) => scene.nodes[index ?? root] } });
@@ -42,6 +44,11 @@ page.on("model", (message) => {
   $("robot-name").textContent = message.name;
   scene.use(message);
 });
+page.on("teleop", () => {
+  // What was shown so far was the robot alone, before there was a world around it.
+  if (!document.body.dataset.running && !touched) fitted = false;
+});
+page.on("status", () => (document.body.dataset.running = true));
 page.on("fault", (message) => {
   $("fault").hidden = !message.message;
   $("fault").textContent = message.message ?? "";

@@ -1,0 +1,66 @@
+"""The robot is on the page, where it will start, before there is an engine."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+pytest.importorskip("meshcat")
+pytest.importorskip("numba")
+
+from urdfkit.cli.page import told_of_faults
+from urdfkit.cli.sim.ride.figures import Figures
+from urdfkit.cli.sim.ride.likeness import Likeness
+from urdfkit.description.world import load_world
+from urdfkit.errors import SimulationError
+from urdfkit.sim import Simulator
+from urdfkit.sim.loading import load_robot
+from urdfkit.view.geometry import GeometryStore
+
+
+class Page:
+    def __init__(self) -> None:
+        self.geometries = GeometryStore()
+        self.shown: list[dict] = []
+        self.said: list[tuple[str, dict]] = []
+
+    def send(self, command) -> None:
+        command.lower()
+
+    def show(self, *, draw, **values) -> None:
+        draw(self)
+        self.shown.append(values)
+
+    def publish(self, t: float, poses) -> None:
+        self.poses = np.array(poses)
+
+    def declare(self, type: str, **values) -> None:
+        self.said.append((type, values))
+
+
+@pytest.mark.parametrize("name", ["simpleton", "rrbot"])
+def test_it_stands_where_the_simulation_starts(name: str) -> None:
+    robot, world, page = load_robot(name), load_world("empty"), Page()
+    likeness = Likeness(robot, world)
+    likeness.show(page)  # type: ignore[arg-type]
+    simulator = Simulator(robot, world=world, scene=likeness.scene, note=lambda _: None)
+    assert simulator.scene is likeness.scene
+    before = page.poses
+    figures = Figures(simulator, page)  # type: ignore[arg-type]
+    figures.show()
+    first, second = page.shown
+    assert first == second
+    np.testing.assert_allclose(before, figures.poses(), atol=1e-12)
+
+
+def test_a_page_that_is_open_is_told_why_the_server_ends(monkeypatch) -> None:
+    monkeypatch.setattr("urdfkit.cli.page.LAST_WORDS", 0.0)
+    page = Page()
+
+    def fail() -> None:
+        with told_of_faults(page):  # type: ignore[arg-type]
+            raise SimulationError("no such wheel")
+
+    with pytest.raises(SimulationError):
+        fail()
+    assert page.said == [("fault", {"message": "no such wheel"})]
