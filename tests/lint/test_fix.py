@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -177,8 +178,73 @@ def test_a_change_for_the_worse_is_rolled_back(write, monkeypatch):
     monkeypatch.setattr(MultipleRoots, "at", destructive)
     path = write("r.xacro", BAD.replace("</robot>", '<link name="a"/><link name="b"/></robot>'))
     fixed = mend(path)
-    assert fixed.notes == ("T203 was not fixed: that would have caused E001",)
+    (note,) = fixed.notes
+    assert note.startswith("T203 was not fixed: that would have caused E001 at r.xacro:8, `<` where it must not be: ")
     assert [change.after.decode() for change in fixed.changes] == [
         GOOD.replace("</robot>", '<link name="a"/><link name="b"/></robot>')
     ]
     assert isinstance(fixed.changes[0], Change)
+
+
+WHEEL = """<robot name="cart">
+  <link name="base"/>
+  <link name="wheel">
+    <inertial>
+      <mass value="{mass}"/>
+      <inertia ixx="0.4" ixy="0" ixz="0" iyy="0.4" iyz="0" izz="0.5"/>
+    </inertial>
+    <visual><geometry><cylinder radius="0.3" length="0.1"/></geometry></visual>
+    <collision><geometry><cylinder radius="0.3" length="0.1"/></geometry></collision>
+  </link>
+  <joint name="spin" type="{type}">
+    <parent link="base"/>
+    <child link="wheel"/>
+    <axis xyz="0 0 1"/>
+  </joint>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right", "code", "uncovered"),
+    [
+        ("<inertail>", "<inertial>", "E008", "I507"),  # the inertia in it was hidden
+        (
+            '<mass value="-0.2\'"/>',
+            '<mass value="-0.2"/>',
+            "E016",
+            "I501",
+        ),  # on the very value: somebody wrote the minus
+    ],
+)
+def test_what_a_fix_uncovers_does_not_withhold_it(write, wrong, right, code, uncovered):
+    tag = wrong.partition(" ")[0].strip("<>")
+    good = WHEEL.format(mass="0.2", type="continuous")
+    meant = re.sub(rf"<{right[1:5]}\w*( [^>]*)?>", lambda _: wrong, good, count=1)
+    path = write("r.urdf", meant.replace("</inertial>", f"</{tag}>") if tag == "inertail" else meant)
+    assert uncovered not in {finding.code for finding in lint(path)}
+    fixed = fix([Entry(path)], Options(), within=[path.parent], unsafe=True, only=lambda finding: finding.code == code)
+    left = {finding.code for finding in fixed.outcome.findings}
+    assert fixed.notes == ()
+    assert code not in left
+    assert uncovered in left
+    assert right in fixed.changes[0].text
+
+
+def test_what_names_the_names_that_a_fix_took_away_is_caused_by_it(write, monkeypatch):
+    from urdfkit.lint.edits import new_value
+    from urdfkit.lint.rules.names.link_joint_same_name import LinkJointSameName
+
+    original = LinkJointSameName.at
+
+    def destructive(self, model, where, message, **options):
+        link = next(link for link in model.robot.links if link.name == "wheel")
+        fix = new_value(model, link.element, "name", "whel", "safe", "Break it")
+        return original(self, model, where, message, **{**options, "fix": fix})
+
+    monkeypatch.setattr(LinkJointSameName, "at", destructive)
+    path = write("r.urdf", WHEEL.format(mass="200", type="continuous").replace('"spin"', '"wheel"'))
+    fixed = mend(path)
+    assert fixed.changes == ()
+    (note,) = fixed.notes
+    assert "was not fixed: that would have caused T202 at r.urdf:13, " in note

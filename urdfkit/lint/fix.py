@@ -1,4 +1,4 @@
-"""Mend files: edit literal source text, lint the result, and keep it only if nothing got worse.
+"""Mend files: edit literal source text, lint the result, and keep it only if nothing got worse (see `caused`).
 
 Bytes that no edit touches stay as they are: line ends, byte order marks, encodings, comments. Nothing is written before
 the mended text has been linted, and then each file is replaced in one move. Files outside the folders that were linted
@@ -11,6 +11,7 @@ import re
 from pathlib import Path
 
 from urdfkit.errors import ResourceError
+from urdfkit.lint.caused import Written, left_over, new_findings
 from urdfkit.lint.engine import Options, Outcome, run
 from urdfkit.record import record
 
@@ -23,9 +24,6 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Edit, Finding
 
 _ROUNDS = 10
-_UNCOVERING = frozenset(("X105",))
-"""Rules whose fixes let xacro go on: warnings about what could not be seen before are not caused by them."""
-
 _SURROGATE = re.compile("[\ud800-\udfff]")
 
 
@@ -229,16 +227,18 @@ class _Fixer:
         findings = [finding for finding in outcome.findings if self._is_wanted(finding)]
         codes = list(dict.fromkeys(finding.code for finding in findings))
         for group in (codes, *([code] for code in codes if len(codes) > 1)):
-            texts = self._edited([finding for finding in findings if finding.code in group], outcome)
+            chosen = [finding for finding in findings if finding.code in group]
+            texts, written = self._edited(chosen, outcome)
             if texts == self.texts:
                 continue
             mended = self._lint(texts)
-            worse = _worse(outcome, mended, errors_only=_UNCOVERING.issuperset(group))
-            if not worse and any(_counts(mended).get(code, 0) < _counts(outcome)[code] for code in group):
+            new = new_findings(outcome, mended)
+            worse = [finding for finding in new if written.has_caused(finding, mended.sources[finding.file])]
+            if not worse and any(True for _ in left_over(chosen, mended.findings)):
                 return texts, mended
             if len(group) == 1:
                 self.refused.add(group[0])
-                cause = f"that would have caused {', '.join(worse)}" if worse else "it would still be there"
+                cause = f"that would have caused {_listed(worse)}" if worse else "it would still be there"
                 self.notes[f"{group[0]} was not fixed: {cause}"] = None
         return self.texts, None
 
@@ -248,8 +248,9 @@ class _Fixer:
             return False
         return self.only is None or self.only(finding)
 
-    def _edited(self, findings: list[Finding], outcome: Outcome) -> dict[Path, str]:
+    def _edited(self, findings: list[Finding], outcome: Outcome) -> tuple[dict[Path, str], Written]:
         """Return the texts with the fixes applied that do not overlap; the rest has its turn in the next round."""
+        written = Written(guessed=any(finding.fix is not None and finding.fix.safety != "safe" for finding in findings))
         taken: dict[str, dict[Edit, None]] = {}
         for finding in findings:
             edits = finding.fix.edits if finding.fix is not None else ()
@@ -262,11 +263,15 @@ class _Fixer:
         for file, accepted in taken.items():
             path, source = outcome.files[file], outcome.sources[file]
             text = self.texts.get(path, self.originals[path].text)
-            for edit in sorted(accepted, key=lambda edit: edit.span, reverse=True):
+            changed: list[tuple[int, int, str]] = []
+            for edit in sorted(accepted, key=lambda edit: edit.span):
                 start, end = _offsets(source, edit.span)
-                text = text[:start] + edit.text + text[end:]
+                changed.append((start, end, edit.text))
+            written.add(file, text, changed)
+            for start, end, put in reversed(changed):
+                text = text[:start] + put + text[end:]
             texts[path] = text
-        return texts
+        return texts, written
 
     def _is_editable(self, file: str, outcome: Outcome) -> bool:
         path = outcome.files[file]
@@ -304,9 +309,7 @@ def _counts(outcome: Outcome) -> dict[str, int]:
     return counts
 
 
-def _worse(before: Outcome, after: Outcome, *, errors_only: bool = False) -> list[str]:
-    """Return the codes found more often than before; those of errors where `errors_only`."""
-    known = _counts(before)
-    errors = {finding.code for finding in after.findings if finding.severity == "error"}
-    more = [code for code, count in _counts(after).items() if count > known.get(code, 0)]
-    return [code for code in more if code in errors or not errors_only]
+def _listed(findings: Sequence[Finding]) -> str:
+    """Name the first finding of each rule, with its place and what it says."""
+    firsts = {finding.code: finding for finding in reversed(findings)}
+    return "; ".join(f"{code} at {found.file}:{found.line}, {found.message}" for code, found in firsts.items())
