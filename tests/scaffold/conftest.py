@@ -4,6 +4,7 @@ import subprocess
 
 import pytest
 
+from urdfkit.messages import FLOAT, TRAJECTORY, from_fields
 from urdfkit.resources import templates_dir
 from urdfkit.scaffold import load_template
 
@@ -88,3 +89,34 @@ def debian(tmp_path):
         return done.stdout + done.stderr
 
     return run
+
+
+@pytest.fixture(scope="session")
+def arm_joints():
+    """The joints of an arm from its foot, by how many there are."""
+    seven = ["shoulder_pan", "shoulder_lift", "upper_arm_roll", "elbow", "forearm_roll", "wrist_pitch", "wrist_roll"]
+    left_out = {"3": (2, 4, 5, 6), "4": (2, 4, 6), "5": (2, 4), "6": (2,), "7": ()}
+    return {
+        count: [f"{joint}_joint" for i, joint in enumerate(seven) if i not in without]
+        for count, without in left_out.items()
+    }
+
+
+@pytest.fixture(scope="session")
+def tell():
+    """What tells the joints of a new robot's arm, or of its gripper, where to be in so many seconds."""
+
+    def send(simulator, ros, targets, seconds):
+        if ros == "none":
+            for joint, position in targets.items():
+                topic = "gripper" if "finger" in joint else f"arm/{joint.removesuffix('_joint')}"
+                simulator.bus.publish(f"/{topic}", FLOAT, from_fields(FLOAT, {"data": position}))
+            return
+        controller = "gripper_controller" if any("finger" in joint for joint in targets) else "arm_controller"
+        topic = f"/scout/{controller}/command" if ros == "noetic" else f"/{controller}/joint_trajectory"
+        point = {"positions": list(targets.values()), "time_from_start": {"sec": seconds, "nanosec": 0}}
+        simulator.bus.publish(
+            topic, TRAJECTORY, from_fields(TRAJECTORY, {"joint_names": list(targets), "points": [point]})
+        )
+
+    return send

@@ -13,6 +13,7 @@ def generate_launch_description():
     """Start Gazebo, put the robot in, and publish its frames."""
     gazebo = FindPackageShare("@name@_gazebo")
     model = PathJoinSubstitution([FindPackageShare("@name@_description"), "urdf", "@name@.urdf.xacro"])
+    control = FindPackageShare("@name@_@control@")
     simulated = {"use_sim_time": True}
     return LaunchDescription([
         DeclareLaunchArgument("world", default_value=PathJoinSubstitution([gazebo, "worlds", "empty.world"])),
@@ -46,4 +47,5 @@ def generate_launch_description():
             parameters=[simulated],
             output="screen",
         ),
+        IncludeLaunchDescription(PathJoinSubstitution([control, "launch", "@name@_@control@.launch.py"])),
     ])

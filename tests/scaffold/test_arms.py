@@ -1,0 +1,121 @@
+"""Arms and grippers of new robots: clear of themselves, held, moved where they are told, and nothing tips over."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from urdfkit.description import load
+from urdfkit.errors import UsageError
+from urdfkit.kinematics import Kinematics
+from urdfkit.resources import find_model
+from urdfkit.scaffold import create
+from urdfkit.sim import Simulator
+
+FINGERS = ("left_finger_joint", "right_finger_joint")
+
+
+@pytest.fixture
+def made(robot_template, tmp_path):
+    """Return what writes a robot and loads it."""
+
+    def make(**given):
+        answers = robot_template.answers({"name": "scout", **given}) | {"year": "2026", "into": "."}
+        create(robot_template, answers, tmp_path)
+        return load(find_model([f"{tmp_path}/scout_description"]).path)
+
+    return make
+
+
+def simulated(robot):
+    return Simulator(robot, note=lambda _: None)
+
+
+def positions(simulator, joints):
+    return [simulator.state.position(joint) for joint in joints]
+
+
+@pytest.mark.parametrize(
+    ("arm", "ros"), [("3", "jazzy"), ("4", "noetic"), ("5", "none"), ("6", "humble"), ("7", "noetic"), ("7", "jazzy")]
+)
+def test_goes_where_it_is_told_and_the_gripper_opens_and_closes(made, arm_joints, tell, arm, ros):
+    simulator = simulated(made(arm=arm, ros=ros, drive="none", gripper="yes"))
+    joints = arm_joints[arm]
+    targets = dict(zip(joints, itertools.cycle((0.7, -0.5, 0.9, 0.4, -0.6)), strict=False))
+    both = FINGERS if ros == "noetic" else FINGERS[:1]
+    tell(simulator, ros, targets, 2)
+    tell(simulator, ros, dict.fromkeys(both, 0.01), 1)
+    simulator.run(3.5)
+    assert positions(simulator, joints) == pytest.approx(list(targets.values()), abs=1e-2)
+    assert positions(simulator, FINGERS) == pytest.approx([0.01, 0.01], abs=2e-4)
+    tell(simulator, ros, dict.fromkeys(both, 0.0), 1)
+    simulator.run(2.0)
+    assert positions(simulator, FINGERS) == pytest.approx([0, 0], abs=2e-4)
+    assert abs(simulator.link_poses()[0, :3]).max() < 1e-12  # bolted down
+
+
+@pytest.mark.parametrize("arm", ["3", "4", "5", "6", "7"])
+def test_points_straight_up_at_zero_and_reaches_as_far_as_it_says(made, arm_joints, arm):
+    robot = made(arm=arm, ros="none", arm_reach="0.4")
+    kinematics = Kinematics(robot)
+
+    def place(link, **joints):
+        poses = kinematics.link_poses(kinematics.configuration(joints))
+        return dict(zip(kinematics.link_names, poses, strict=True))[link][:3]
+
+    shoulder = place("upper_arm_link")
+    np.testing.assert_allclose(place("tool0") - shoulder, [0, 0, 0.4], atol=1e-12)
+    forward = place("tool0", shoulder_lift_joint=math.pi / 2)
+    np.testing.assert_allclose(forward - shoulder, [0.4, 0, 0], atol=1e-12)
+    masses = [link.inertial.mass for link in robot.links if link.inertial]
+    arm_links = ("arm_foot", "shoulder", "upper_arm", "forearm", "hand")
+    own = sum(link.inertial.mass for link in robot.links if link.inertial and link.name.startswith(arm_links))
+    assert own == pytest.approx(1.25)
+    assert sum(masses) > own
+    assert [j.name for j in robot.joints if j.type == "revolute"] == arm_joints[arm]
+
+
+@pytest.mark.parametrize("ros", ["jazzy", "noetic", "none"])
+def test_holds_still_where_it_starts(made, arm_joints, ros):
+    simulator = simulated(made(arm="6", ros=ros, gripper="yes"))
+    before = positions(simulator, arm_joints["6"])
+    simulator.run(1.0)
+    assert positions(simulator, arm_joints["6"]) == pytest.approx(
+        before if ros != "none" else [0, 0, 1.2, 0, 0.37, 0], abs=1e-2
+    )
+    assert abs(simulator.link_poses()[0, :3]).max() < 1e-3
+
+
+@pytest.mark.parametrize("drive", ["diff", "skid", "ackermann", "omni"])
+def test_stretched_out_to_any_side_it_tips_nothing_over(made, tell, drive):
+    """With the heaviest arm that is accepted; a payload weighs as much less."""
+    simulator = simulated(made(drive=drive, arm="5", arm_reach="0.39", arm_mass="1.9", payload="0.001"))
+    tilt = 0.0
+    for pan in (-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0):
+        targets = {"shoulder_lift_joint": 1.57, "elbow_joint": 0, "wrist_pitch_joint": 0, "shoulder_pan_joint": pan}
+        tell(simulator, "jazzy", targets, 2)
+        simulator.run(2.5)
+        tilt = max(tilt, math.hypot(*simulator.link_poses()[0, 3:5]))
+    assert tilt < 2e-3
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"arm": "2"}, "--arm `2` is not available.*there is: none, 3, 4, 5, 6, 7"),
+        ({"gripper": "yes"}, "--gripper is for --arm 3 or 4 or 5 or 6 or 7"),
+        ({"arm_reach": "1"}, "--arm-reach is for --arm 3 or"),
+        ({"arm": "6", "finger_travel": "0.02"}, "--finger-travel is for --gripper yes"),
+        ({"arm": "6", "arm_reach": "1"}, "tip over with the arm stretched out"),
+        ({"arm": "6", "arm_mass": "3"}, "tip over with the arm stretched out"),
+        ({"arm": "6", "payload": "2"}, "tip over with the arm stretched out"),
+        ({"arm": "6", "drive": "none", "arm_reach": "4", "arm_mass": "60"}, "foot of the arm would not fit"),
+        ({"arm": "6", "drive": "none", "arm_mass": "20"}, "no material is that heavy"),
+        ({"arm": "6", "drive": "none", "arm_mass": "0.001"}, "nothing is that light"),
+        ({"arm": "6", "drive": "none", "gripper": "yes", "finger_travel": "0.1"}, "most of what the arm can carry"),
+    ],
+)
+def test_refuses_what_would_not_work(robot_template, given, message):
+    with pytest.raises(UsageError, match=message):
+        robot_template.answers({"name": "scout", **given})
