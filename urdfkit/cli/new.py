@@ -6,15 +6,19 @@ import argparse
 import subprocess
 import sys
 from datetime import datetime, timezone
+from importlib import import_module
 from pathlib import Path
 
 from urdfkit.errors import UrdfkitError, UsageError
 from urdfkit.resources import templates_dir
 from urdfkit.scaffold import Question, Template, applies, computed, create, load_template, read_recipe, template_names
 
+ADDED = ("sensor",)
+"""What is added to a description that is there: ``urdfkit new THING`` is the module ``urdfkit.cli.new_THING``."""
+
 
 def configure(parser: argparse.ArgumentParser) -> None:
-    """Add one subcommand per template, with an option per question.
+    """Add one subcommand per template, with an option per question, and one per thing that is added.
 
     Args:
         parser: of this command.
@@ -44,6 +48,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         kind.add_argument("-y", "--yes", action="store_true", help="ask nothing: defaults for what is left out")
         for option in template.asks_later:
             kind.add_argument(f"--{option}", dest=f"later_{option}", nargs="?", const="", help=argparse.SUPPRESS)
+    for name in ADDED:
+        module = import_module(f"urdfkit.cli.new_{name}")
+        module.configure(kinds.add_parser(name, help=module.SUMMARY))
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -55,6 +62,8 @@ def run(arguments: argparse.Namespace) -> int:
     Raises:
         UrdfkitError: it could not be done; nothing was written then.
     """
+    if arguments.thing in ADDED:
+        return int(import_module(f"urdfkit.cli.new_{arguments.thing}").run(arguments))
     template = load_template(templates_dir() / arguments.thing)
     for option in template.asks_later:
         if getattr(arguments, f"later_{option}") is not None:
