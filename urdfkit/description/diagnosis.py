@@ -44,6 +44,9 @@ def fault_of(error: BaseException, run: Run, caught_in: FrameType | None = None)
     place = place_of_error(error, caught_in)
     position, expansions, attribute = run.where(place)
     facts = _facts(error, place, run)
+    if facts["kind"] == "too-many" and expansions:
+        # Which of the multitude was the last is of no interest: it is the call that a person can change.
+        position, expansions, attribute = expansions[-1].position, (), None
     if facts["kind"] == "recursion":
         expansions = expansions[: len(facts.get("details", {}).get("cycle", ()))]
     return Fault(position=position, expansions=expansions, attribute=attribute, expression=place.expression, **facts)
@@ -136,6 +139,10 @@ def _facts(error: BaseException, place: Place, run: Run) -> dict[str, Any]:
     root = causes[-1]
     text = root.msg if isinstance(root, SyntaxError) else str(root)
     name = type(root).__name__
+    if name == "TooMany":
+        return {"kind": "too-many", "message": text}
+    if name == "TooLarge":
+        return {"kind": "too-large", "message": _too_large(text, place)}
     if name == "Endless":
         return _endless(root)
     if isinstance(root, RecursionError):
@@ -161,6 +168,12 @@ def _facts(error: BaseException, place: Place, run: Run) -> dict[str, Any]:
         message = f"cannot evaluate `$({_short(place.command)})`: {_short(text)}"
         return {"kind": "bad-expression", "message": message}
     return {"kind": "other", "message": _short(text) or name}
+
+
+def _too_large(text: str, place: Place) -> str:
+    if place.expression is not None:
+        return f"`${{{_short(place.expression)}}}` is too large: {text}"
+    return f"`$({_short(place.command)})` is too large: {text}" if place.command is not None else f"too large: {text}"
 
 
 def _endless(root: Any) -> dict[str, Any]:

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
         "bad-expression",
         "conditional",
         "recursion",
+        "too-large",
+        "too-many",
         "other",
     ]
 

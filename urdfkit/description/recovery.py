@@ -11,14 +11,15 @@ import sys
 from collections.abc import Mapping
 
 from urdfkit.description.diagnosis import defined_in, fault_of, macro_arguments, undefined_macro, undefined_property
-from urdfkit.description.evaluation import names_in
 from urdfkit.description.expanded import Expanded
 from urdfkit.description.faults import Fault, Unprefixed
 from urdfkit.description.frames import Place, place_of_call
+from urdfkit.description.grafting import child_at_fault, drop
 from urdfkit.description.prefixes import looks_like_a_call, mend_directives, rename
 from urdfkit.description.reading import shown_path, stamped_document
-from urdfkit.description.run import MAX_MACRO_CALLS, Run
+from urdfkit.description.run import Run
 from urdfkit.description.source import Position, Source
+from urdfkit.description.too_large import TooMany
 from urdfkit.description.unknown import FallbackSymbols, Unknown, peek
 from urdfkit.description.vocabulary import TAGS
 from urdfkit.errors import XmlError
@@ -72,6 +73,8 @@ class RecoveringRun(Run):
         self._endless: set[str] = set()
         self._tables: tuple[Any, Any] | None = None
         self._evaluating = 0
+        self._is_full = False
+        self._level = 0
         self._found_unknown = False
 
     def take(self, xacro: ModuleType) -> dict[str, Any]:
@@ -95,6 +98,8 @@ class RecoveringRun(Run):
     def with_hindsight(self) -> RecoveringRun | None:
         """Return a run that knows what this one found defined too late; None when there is nothing new."""
         properties, macros = self._learned
+        if self._is_full or self.evaluator.is_exhausted:
+            return None
         if properties.keys() <= self._late_properties.keys() and macros.keys() <= self._late_macros.keys():
             return None
         return RecoveringRun(
@@ -139,15 +144,25 @@ class RecoveringRun(Run):
         """Evaluate an element; drop the children that cannot be."""
         if self._tables is None:
             self._tables = macros, symbols
+        self._level += 1
+        try:
+            self._eval_all(node, macros, symbols)
+        finally:
+            self._level -= 1
+
+    def _eval_all(self, node: minidom.Element, macros: Any, symbols: Any) -> None:
         for _ in range(_MAX_DROPPED):
             depth = len(self.xacro.filestack), len(self.xacro.macrostack)
             try:
                 self.stock["eval_all"](node, macros, symbols)
                 return
             except Exception as error:
-                self._note(fault_of(error, self, sys._getframe()))
+                if isinstance(error, TooMany) and self._level > 1:
+                    raise
+                child = child_at_fault(error, node)
+                self._note(self._fault(error, child))
                 self._unwind(depth)
-                if not _drop(_child_at_fault(error, node), node):
+                if not drop(child, node):
                     return
 
     def eval_text(self, text: str, symbols: Any) -> Any:
@@ -172,7 +187,10 @@ class RecoveringRun(Run):
 
     def safe_eval(self, expr: str, globals: Any, locals: Any = None) -> Any:
         """Evaluate an expression, to `Unknown` when it needs something unknown."""
-        names = dict.fromkeys(names_in(self.evaluator.compile(expr)))
+        if self.evaluator.is_exhausted:
+            self._found_unknown = True
+            return Unknown(f"${{{expr}}}")
+        names = self.evaluator.names(expr)
         for name in names:
             if isinstance(value := peek(globals, name), Unknown):
                 self._found_unknown = True
@@ -224,17 +242,19 @@ class RecoveringRun(Run):
         depth = len(self.xacro.filestack), len(self.xacro.macrostack)
         parent = elt.parentNode
         if shown_path(self.xacro.filestack[-1]) in self._endless:
-            _drop(elt, parent)
+            drop(elt, parent)
             return
         try:
             self.stock["process_include"](elt, macros, symbols, func)
         except Exception as error:
-            fault = fault_of(error, self, sys._getframe())
+            if isinstance(error, TooMany) and depth[0] > 1:
+                raise
+            fault = self._fault(error, elt)
             # A path that could not be evaluated has its fault already.
             if fault.kind != "include-not-found" or not isinstance(self._included, Unknown):
                 self._note(fault)
             self._unwind(depth)
-            _drop(elt, parent)
+            drop(elt, parent)
 
     def handle_macro_call(self, node: minidom.Element, macros: Any, symbols: Any) -> Any:
         """Expand a macro call, mended where it does not fit its macro."""
@@ -252,8 +272,8 @@ class RecoveringRun(Run):
             tag = rename(node)
         depth = len(self.xacro.filestack), len(self.xacro.macrostack)
         parent = node.parentNode
-        if tag[6:] in self._endless or self._calls > MAX_MACRO_CALLS:
-            return _drop(node, parent)
+        if tag[6:] in self._endless or self._is_full:
+            return drop(node, parent)
         try:
             if tag != "xacro:call":
                 macro = self._macro(tag[6:], macros, symbols)
@@ -261,9 +281,11 @@ class RecoveringRun(Run):
                     self._fit(node, macro)
             return super().handle_macro_call(node, macros, symbols)
         except Exception as error:
-            self._note(fault_of(error, self, sys._getframe()))
+            if isinstance(error, TooMany) and depth[1]:
+                raise  # what is dropped is the call that a person wrote
+            self._note(self._fault(error, node))
             self._unwind(depth)
-            _drop(node, parent)
+            drop(node, parent)
             return True
 
     def resolve_macro(self, fullname: str, macros: Any, symbols: Any) -> Any:
@@ -323,7 +345,17 @@ class RecoveringRun(Run):
             if dict.__contains__(table_of_macros, name):
                 macros[name] = dict.__getitem__(table_of_macros, name)
 
+    def _fault(self, error: Exception, node: Any) -> Fault:
+        """Diagnose what was raised; which of too many elements was the last is of no interest."""
+        if isinstance(error, TooMany) and node is not None:
+            return Fault("too-many", str(error), *self.position_of(node))
+        return fault_of(error, self, sys._getframe(1))
+
     def _note(self, fault: Fault) -> None:
+        if fault.kind == "too-many":
+            if self._is_full:
+                return
+            self._is_full = True
         # What calls itself twice would be tried a power of two times.
         self._endless.update(fault.details.get("cycle", ()) if fault.kind == "recursion" else ())
         key = (fault.kind, fault.position, fault.attribute, fault.name, fault.message, fault.expansions)
@@ -344,26 +376,6 @@ class RecoveringRun(Run):
         del self.xacro.filestack[depth[0] :]
         del self.xacro.macrostack[depth[1] :]
         self._chain = self._body = None
-
-
-def _child_at_fault(error: BaseException, parent: minidom.Element) -> Any:
-    """Return the child of `parent` that xacro was at, from the frames of the exception."""
-    traceback = error.__traceback__
-    while traceback is not None:
-        frame = traceback.tb_frame
-        if frame.f_code.co_name == "eval_all" and "next" in frame.f_locals:
-            node = frame.f_locals.get("node")
-            if node is not None and node.parentNode is parent:
-                return node
-        traceback = traceback.tb_next
-    return None
-
-
-def _drop(node: Any, parent: Any) -> bool:
-    if node is None or node.parentNode is None or node.parentNode is not parent:
-        return False
-    parent.removeChild(node)
-    return True
 
 
 def _too_late(what: str, name: str, at: Position | None) -> str:

@@ -9,11 +9,22 @@ from pathlib import Path
 from types import MappingProxyType
 
 from urdfkit.description.element import Element
+from urdfkit.description.endless import MAX_INCLUDE_DEPTH, MAX_MACRO_DEPTH, Endless, cycle
 from urdfkit.description.evaluation import Evaluator
 from urdfkit.description.expanded import Expanded
 from urdfkit.description.faults import Fault, MacroDefinition, Warned
+from urdfkit.description.grafting import replace
 from urdfkit.description.reading import Stamp, absolute, element_of, read_source, shown_path, stamp_of, stamped_document
 from urdfkit.description.source import Expansion, Position, Source
+from urdfkit.description.too_large import (
+    MAX_CHARACTERS,
+    MAX_EXPANDED,
+    MAX_INCLUDES,
+    MAX_MACRO_CALLS,
+    TooMany,
+    check_length,
+    excess,
+)
 from urdfkit.errors import ResourceError
 
 TYPE_CHECKING = False
@@ -24,28 +35,6 @@ if TYPE_CHECKING:
 
     from urdfkit.description.frames import Place
     from urdfkit.description.packages import Packages
-
-MAX_MACRO_DEPTH = 400
-"""Macro calls inside one another; stock xacro gives up at about 300, with Python's RecursionError."""
-
-MAX_INCLUDE_DEPTH = 60
-"""Files that include one another."""
-
-MAX_MACRO_CALLS = 10_000
-"""Macro calls in one run, against macros that multiply each other; a large robot needs some hundreds."""
-
-
-class Endless(Exception):  # noqa: N818 - not an error of this program: diagnosed and reported as a fault
-    """Macros or files call each other without end.
-
-    Args:
-        cycle: the names of those in the loop.
-        what: ``macro`` or ``file``.
-    """
-
-    def __init__(self, cycle: tuple[str, ...], what: str) -> None:
-        super().__init__(" → ".join(cycle))
-        self.cycle, self.what = cycle, what
 
 
 class Run:
@@ -67,6 +56,7 @@ class Run:
         "handle_macro_call",
         "parse",
         "print_location",
+        "replace_node",
         "resolve_macro",
         "safe_eval",
         "warning",
@@ -93,7 +83,7 @@ class Run:
         self._calling: minidom.Element | None = None
         self._body: minidom.Element | None = None
         self._chain: tuple[Expansion, ...] | None = None
-        self._calls = 0
+        self._calls = self._parsed = self._expanded = 0
 
     def take(self, xacro: ModuleType) -> dict[str, Any]:
         """Take stock of xacro and return what its globals shall be during this run."""
@@ -208,6 +198,10 @@ class Run:
         stack = self.xacro.filestack
         if len(stack) > MAX_INCLUDE_DEPTH:
             raise Endless(cycle([shown_path(name) for name in stack]), "file")
+        self._parsed += 1
+        if self._parsed > MAX_INCLUDES:
+            stack.pop()
+            raise TooMany(f"more than {MAX_INCLUDES:,} files are included: do they multiply each other?")
         try:
             source = self._read(Path(filename))
         except (OSError, ResourceError) as error:
@@ -220,13 +214,21 @@ class Run:
     def abs_filename_spec(self, filename_spec: str) -> str:
         """Find an included or YAML file, also in a source folder that only its installation puts in place."""
         found: str = self.stock["abs_filename_spec"](filename_spec)
+        check_length(found)
         if not Path(found).exists() and (moved := self.packages.relocate(found)) is not None:
             return str(moved)
         return found
 
     def eval_text(self, text: str, symbols: Any) -> Any:
         """Spare the lexer what holds no expression."""
-        return text if type(text) is str and "$" not in text else self.stock["eval_text"](text, symbols)
+        if type(text) is str:
+            if "$" not in text:
+                return text
+            self.evaluator.count(text)
+        value = self.stock["eval_text"](text, symbols)
+        if type(value) is str and len(value) > MAX_CHARACTERS:
+            raise excess("a text", MAX_CHARACTERS, "characters")
+        return value
 
     def safe_eval(self, expr: str, globals: Any, locals: Any = None) -> Any:
         """Evaluate ``${…}``, kept from reaching the machine."""
@@ -271,7 +273,9 @@ class Run:
         if len(stack) >= MAX_MACRO_DEPTH:
             raise Endless(cycle([macro.body.getAttribute("name") for macro in stack]), "macro")
         if self._calls > MAX_MACRO_CALLS:
-            raise self.xacro.XacroException(f"more than {MAX_MACRO_CALLS} macro calls: do macros multiply each other?")
+            raise TooMany(
+                f"with this call, there are more than {MAX_MACRO_CALLS:,} calls: do macros multiply each other?"
+            )
         outer, self._calling = self._calling, node
         try:
             return self.stock["handle_macro_call"](node, macros, symbols)
@@ -280,6 +284,10 @@ class Run:
 
     def handle(self, _: int, key: str, stamp: Stamp, node: Any, clone: Any) -> None:
         """Stamp a clone: DOM user data handler of the stamps."""
+        self._expanded += 1 + len(node._attrs or ())
+        if self._expanded > MAX_EXPANDED:
+            what = f"more than {MAX_EXPANDED:,} elements and attributes"
+            raise TooMany(f"with this, macros, blocks and includes make {what}: do they multiply each other?")
         if self._chain is None:
             clone.setUserData(key, stamp, self)
             return
@@ -287,6 +295,13 @@ class Run:
         # minidom tells of an element after all below it, so with the body itself its clone is complete.
         if node is self._body:
             self._chain = self._body = None
+
+    def replace_node(self, node: minidom.Element, by: Any, content_only: bool = False) -> None:
+        """Put what is in elements in the place of another: all at once, where minidom looks for the place of each."""
+        if by is None or not content_only:
+            self.stock["replace_node"](node, by, content_only)
+            return
+        replace(node, by if isinstance(by, list) else [by])
 
     def grab_macro(self, elt: minidom.Element, macros: Any) -> None:
         """Note where a macro is defined."""
@@ -366,12 +381,3 @@ class Run:
         place = place_of_call(sys._getframe(1))
         position, expansions = self.position_of(place.node)
         self.warnings.append(Warned(" ".join(map(str, words)), position, expansions, level))
-
-
-def cycle(names: list[str]) -> tuple[str, ...]:
-    """Return the loop at the end of a stack of names, first name repeated."""
-    last = names[-1]
-    for distance in range(1, len(names)):
-        if names[-1 - distance] == last:
-            return tuple(names[-1 - distance :])
-    return tuple(names[-3:])

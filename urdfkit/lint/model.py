@@ -32,6 +32,7 @@ _DROPPING = frozenset(
         "package-not-found",
         "macro-arguments",
         "recursion",
+        "too-many",
         "conditional",
     )
 )

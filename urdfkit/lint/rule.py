@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 NOT_GAZEBO = frozenset(("mujoco", "isaac", "drake", "moveit"))
 """Targets that read neither ``<gazebo>`` nor what belongs to controllers."""
 
+_LONGEST = 1_000
+"""Characters of a message: names can be as long as a file."""
+
 SECTIONS = ("What it does", "Why is this bad?", "Example", "Use instead", "Fix safety", "References")
 """The headings a rule's docstring may have, in this order; the first four are required."""
 
@@ -73,6 +76,7 @@ class Rule:
             fix: how to mend it.
             severity: other than the rule's own.
         """
+        message = message if len(message) <= _LONGEST else f"{message[: _LONGEST - 100]} … {message[-90:]}"
         place: Any = where if isinstance(where, Position) else getattr(where, "origin", where)
         chain = getattr(place, "expansions", ())
         return Finding(

@@ -6,8 +6,11 @@ Works on any text; of a file that is not well-formed it yields what can be told.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from functools import cached_property
+from itertools import islice
 
+from urdfkit.description.reading import MAX_TAGS
 from urdfkit.description.source import Source, Span
 
 TYPE_CHECKING = False
@@ -80,7 +83,7 @@ class Tag:
 
 
 class Document:
-    """The tags and comments of one file; read when first asked for.
+    """The tags and comments of one file, `MAX_TAGS` of them at most; read when first asked for.
 
     Attributes:
         source: its text.
@@ -106,13 +109,15 @@ class Document:
         comments: list[tuple[int, int, str]] = []
         by_start: dict[int, Tag] = {}
         open_tags: list[Tag] = []
-        for token in re.finditer(_TOKEN, text, re.DOTALL):
+        opened: Counter[str] = Counter()
+        for token in islice(re.finditer(_TOKEN, text, re.DOTALL), MAX_TAGS):
             name = token["name"]
             if name is None:
                 if token["comment"] is not None:
                     comments.append((token.start(), token.end(), token["comment"]))
             elif token["close"]:
-                _close(name, token.start(), token.end(), open_tags)
+                if opened[name]:
+                    _close(name, token.start(), token.end(), open_tags, opened)
             else:
                 parent = open_tags[-1] if open_tags else None
                 tag = Tag(text, name, token.start(), token.end(), bool(token["empty"]), parent)
@@ -120,6 +125,7 @@ class Document:
                 by_start[tag.start] = tag
                 if not tag.empty:
                     open_tags.append(tag)
+                    opened[name] += 1
         for tag in open_tags:
             tag.close_end = len(text)
         return roots, comments, by_start
@@ -141,11 +147,10 @@ class Document:
         return self.source.span(tag.start, tag.end)
 
 
-def _close(name: str, start: int, end: int, open_tags: list[Tag]) -> None:
+def _close(name: str, start: int, end: int, open_tags: list[Tag], opened: Counter[str]) -> None:
     """Close the innermost open tag of that name, and those inside it that were never closed."""
-    if name not in [tag.name for tag in open_tags]:
-        return
-    while open_tags[-1].name != name:
-        open_tags.pop().close_end = start
-    tag = open_tags.pop()
+    while (tag := open_tags.pop()).name != name:
+        tag.close_end = start
+        opened[tag.name] -= 1
+    opened[name] -= 1
     tag.close, tag.close_end = start, end

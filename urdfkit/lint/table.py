@@ -42,6 +42,7 @@ FAULTS: tuple[Row, ...] = (
     ("", "xacro.conditional_not_boolean", "ConditionalNotBoolean"),
     ("", "xacro.expression_error", "ExpressionError"),
     ("", "xacro.expansion_error", "ExpansionError"),
+    ("", "xacro.too_large", "TooLarge"),
 )
 
 SUPPRESSION: tuple[Row, ...] = (

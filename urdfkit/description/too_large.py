@@ -1,0 +1,75 @@
+"""What is too large to be evaluated or expanded, and the limits: people's descriptions stay far below them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+MAX_EXPRESSION = 10_000
+"""Characters of one expression; people's have some dozens."""
+
+MAX_EXPRESSIONS = 200_000
+"""Expressions evaluated in one run; a robot of 1,200 links has 20,000."""
+
+MAX_DEPTH = 200
+"""Levels of brackets and operators of one expression."""
+
+MAX_STEPS = 2_000_000
+"""Steps that all expressions of a run may take together; a robot of 1,200 links takes some 20,000."""
+
+MAX_CHARACTERS = 100_000
+"""Characters of a text that an expression makes."""
+
+MAX_ELEMENTS = 100_000
+"""Elements of a list that an expression makes, with those of the lists in it."""
+
+MAX_BITS = 10_000
+"""Bits of an integer; a float has 1,024."""
+
+MAX_NESTING = 60
+"""Lists in lists."""
+
+MAX_CALLS_DEEP = 60
+"""Functions of an expression that call each other."""
+
+MAX_MACRO_CALLS = 10_000
+"""Macro calls in one run, against macros that multiply each other; a large robot needs some hundreds."""
+
+MAX_INCLUDES = 2_000
+"""Files read in one run, one that is read again counted again."""
+
+MAX_EXPANDED = 150_000
+"""Elements and attributes that macros, blocks and includes of one run make; a robot of 1,200 links has 30,000."""
+
+MAX_YAML = 500_000
+"""Bytes of a YAML file that a description loads."""
+
+
+class TooLarge(Exception):  # noqa: N818 - a fault of the file, diagnosed and reported as such
+    """Something is too large; the message goes on after what it is about: ``it makes …``."""
+
+
+class TooMany(TooLarge):
+    """Macros, blocks and includes make too many elements; the message stands by itself."""
+
+
+def excess(what: str, limit: int, unit: str) -> TooLarge:
+    """Return the exception for something that has more than it may."""
+    return TooLarge(f"it makes {what} of more than {limit:,} {unit}")
+
+
+def endless() -> TooLarge:
+    """Return the exception for expressions that take too long."""
+    return TooLarge(f"with it, the expressions of this file take more than {MAX_STEPS:,} steps")
+
+
+def check_length(path: str) -> None:
+    """Refuse a file that has no end, and YAML that takes too long to read.
+
+    Raises:
+        TooLarge: it is no file, or too large.
+    """
+    file = Path(path)
+    if file.exists() and not file.is_file() and not file.is_dir():
+        raise TooLarge(f"{path} is no file")
+    if file.suffix.lower() in (".yaml", ".yml") and file.is_file() and file.stat().st_size > MAX_YAML:
+        raise TooLarge(f"{path} is larger than {MAX_YAML // 1000:,} kB")
