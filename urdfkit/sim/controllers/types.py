@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from urdfkit.errors import DescriptionError, did_you_mean
 from urdfkit.sim.controllers.diff_drive import DiffDriveController
 from urdfkit.sim.controllers.forward import Forward, ForwardGroup
+from urdfkit.sim.controllers.four_wheel_steering import FourWheelSteeringController
 from urdfkit.sim.controllers.gripper import Gripper
 from urdfkit.sim.controllers.joint_state import JointStatePublisher
 from urdfkit.sim.controllers.mecanum import MecanumController
@@ -29,6 +30,7 @@ LAWS: tuple[type[Law], ...] = (
     DiffDriveController,
     Gripper,
     SteeringController,
+    FourWheelSteeringController,
     MecanumController,
 )
 """Every controller; a test fails if one is missing here."""
@@ -37,7 +39,6 @@ ELSEWHERE = (
     "admittance_controller/AdmittanceController",
     "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
     "force_torque_sensor_controller/ForceTorqueSensorController",
-    "four_wheel_steering_controller/FourWheelSteeringController",
     "gpio_controllers/GpioCommandController",
     "gripper_controllers/GripperActionController",
     "imu_sensor_broadcaster/IMUSensorBroadcaster",
