@@ -5,6 +5,7 @@ from __future__ import annotations
 from urdfkit.description.element import Element
 from urdfkit.description.gazebo_materials import GAZEBO, Rgba, script_of
 from urdfkit.description.robot import Robot, Visual
+from urdfkit.scene.gloss import MATT, Gloss, gloss_of
 
 __all__ = ["DEFAULT", "GAZEBO", "Palette", "Rgba"]
 
@@ -32,15 +33,23 @@ class Palette:
                 self._textures.setdefault(material.name, material.texture)
         self._gazebo: dict[str, Rgba] = {}
         self._clear: dict[str, float] = {}
+        self._gloss: dict[str, Gloss] = {}
         for block in robot.gazebo:
             if block.reference and (rgba := _gazebo_color(block.element)) is not None:
                 self._gazebo[block.reference] = rgba
             if block.reference and (clear := _transparency(block.element)) is not None:
                 self._clear[block.reference] = clear
+            for written in _materials(block.element):
+                if block.reference and (gloss := gloss_of(written)) is not None:
+                    self._gloss[block.reference] = gloss
 
     def opacity(self, link: str) -> float:
         """Return what the ``<transparency>`` of a link's ``<gazebo>`` block leaves, 0..1; 1 where there is none."""
         return 1.0 - self._clear.get(link, 0.0)
+
+    def gloss(self, link: str) -> Gloss:
+        """Return what the ``<gazebo>`` block of a link says of its gloss."""
+        return self._gloss.get(link, MATT)
 
     def texture(self, visual: Visual) -> str | None:
         """Return the ``<texture>`` of a visual's material, as written; None where it has none."""
@@ -59,15 +68,19 @@ class Palette:
 
 def _gazebo_color(block: Element) -> Rgba | None:
     """Return the colour a ``<gazebo reference=…>`` block gives its link."""
-    for material in (block.find("material"), (block.find("visual") or block).find("material")):
-        if material is None:
-            continue
+    for material in _materials(block):
         for tag in ("diffuse", "ambient"):
             if (color := material.find(tag)) is not None and (rgba := _numbers(color.text)) is not None:
                 return rgba
         if (known := GAZEBO.get(script_of(material)[1].removeprefix("Gazebo/"))) is not None:
             return known
     return None
+
+
+def _materials(block: Element) -> list[Element]:
+    """Return the materials that a ``<gazebo reference=…>`` block may give its link, the first first."""
+    places = (block, block.find("visual") or block)
+    return [material for place in places if (material := place.find("material")) is not None]
 
 
 def _transparency(block: Element) -> float | None:

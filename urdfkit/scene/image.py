@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,10 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 from urdfkit.scene.lens import Lens, spread
 from urdfkit.scene.lights import Lighting
 from urdfkit.scene.rays.cast import SCRATCH
-from urdfkit.scene.rays.kernels import looker
+from urdfkit.scene.rays.desk import DESK
+from urdfkit.scene.rays.kernels import looker, outliner
 from urdfkit.scene.rays.packet import FAR
 from urdfkit.scene.rays.paint import cover_of, paint_of
-from urdfkit.scene.rays.picture import DESK
 from urdfkit.scene.rays.table import RayTable
 
 Array = NDArray[np.float64]
@@ -47,12 +46,15 @@ class Painter:
     Args:
         table: the shapes; placed by whoever holds it.
         lighting: what shines.
+
+    Attributes:
+        paint: what the shapes look like, see `paint_of`.
     """
 
     def __init__(self, table: RayTable, lighting: Lighting) -> None:
         self.table = table
         self._lights, self._air = lighting.lights, lighting.air
-        self._paint, self._cover = paint_of(table), cover_of(table)
+        self.paint, self._cover = paint_of(table), cover_of(table)
 
     def take(
         self,
@@ -74,61 +76,46 @@ class Painter:
             samples: rays for the colour of each pixel in which something ends; depths and shapes are of one ray.
             deep: whether depths and shapes are wanted; here they come anyway.
         """
-        pixel = 1.0 / lens.focal_length
-        rgb, depths, hits = self._look(lens.directions, frame, near, far, pixel)
-        if samples > 1:
-            self._smooth(lens, rgb, hits, samples, lambda rays: self._look(rays, frame, near, far, pixel)[0])
+        rgb, depths, hits = self._look(lens, lens.directions, lens.order, frame, near, far)
         shape = (lens.height, lens.width)
-        seen, depth, known = np.empty_like(rgb), np.empty(len(rgb), dtype=np.float32), np.empty_like(hits)
-        seen[lens.order], depth[lens.order], known[lens.order] = rgb, depths, hits
-        return Picture(seen.reshape(*shape, 3), depth.reshape(shape), known.reshape(shape))
+        seen = rgb.reshape(*shape, 3)
+        if samples > 1:
+            self.smooth(seen, lens, frame, near=near, far=far, samples=samples)
+        return Picture(seen, depths.astype(np.float32).reshape(shape), hits.reshape(shape))
+
+    def smooth(
+        self, rgb: NDArray[np.uint8], lens: Lens, frame: ArrayLike, *, near: float, far: float, samples: int
+    ) -> None:
+        """Give the pixels of a picture in which something ends the mean of several rays.
+
+        Args:
+            rgb: the picture, of one sample per pixel; shape (height, width, 3).
+            lens: what it was taken with.
+            frame: placement of the camera; shape (4, 4).
+            near: what is nearer is not seen [m].
+            far: what is farther is not seen [m].
+            samples: rays for each of the pixels.
+        """
+        found = np.empty(lens.width * lens.height, dtype=np.int64)
+        ends = found[: outliner()(rgb, ALIKE, found)]
+        flat = rgb.reshape(-1, 3)
+        for part in np.array_split(ends, len(ends) * samples // MOST_RAYS + 1):
+            row, column = np.divmod(part, lens.width)
+            at = np.column_stack([column, row])[:, None] + spread(samples)
+            rays = lens.towards(at[..., 0].ravel(), at[..., 1].ravel())
+            colors = self._look(lens, rays, np.arange(len(rays)), frame, near, far)[0]
+            flat[part] = np.rint(colors.reshape(-1, samples, 3).mean(axis=1))
 
     def _look(
-        self, directions: Array, frame: ArrayLike, near: float, far: float, pixel: float
+        self, lens: Lens, directions: Array, order: NDArray[np.int64], frame: ArrayLike, near: float, far: float
     ) -> tuple[NDArray[np.uint8], Array, NDArray[np.int64]]:
-        """Return colours, depths along x and shapes for rays from the camera; a pixel is so wide at 1 m."""
+        """Return colours, depths along x and shapes for rays from the camera, each in its place in an order."""
         placed, count = np.asarray(frame, dtype=float), len(directions)
         rgb, depths = np.empty((count, 3), dtype=np.uint8), np.empty(count)
         hits = np.empty(count, dtype=np.int64)
         looker()(
-            self.table.kernel_scene, self._cover, self._paint, self._lights, self._air,
-            np.concatenate([placed[:3, :3].ravel(), placed[:3, 3], [pixel]]), directions, float(near),
-            float(min(far, FAR)), np.empty(SCRATCH), np.empty(DESK), rgb, depths, hits,
+            self.table.kernel_scene, self._cover, self.paint, self._lights, self._air,
+            np.concatenate([placed[:3, :3].ravel(), placed[:3, 3], [1.0 / lens.focal_length]]), directions, order,
+            float(near), float(min(far, FAR)), np.empty(SCRATCH), np.empty(DESK), rgb, depths, hits,
         )  # fmt: skip
         return rgb, depths, hits
-
-    def _smooth(
-        self,
-        lens: Lens,
-        rgb: NDArray[np.uint8],
-        hits: NDArray[np.int64],
-        samples: int,
-        look: Callable[[Array], NDArray[np.uint8]],
-    ) -> None:
-        """Give the pixels at edges the mean of several rays."""
-        shape = (lens.height, lens.width)
-        colors, known = np.empty(rgb.shape, dtype=np.int16), np.empty_like(hits)
-        colors[lens.order], known[lens.order] = rgb, hits
-        edge = edges(colors.reshape(*shape, 3), known.reshape(shape)).ravel()[lens.order]
-        row, column = np.divmod(lens.order[edge], lens.width)
-        for part in np.array_split(np.arange(len(row)), len(row) * samples // MOST_RAYS + 1):
-            at = np.column_stack([column[part], row[part]])[:, None] + spread(samples)
-            rays = lens.towards(at[..., 0].ravel(), at[..., 1].ravel())
-            rgb[np.flatnonzero(edge)[part]] = np.rint(look(rays).reshape(-1, samples, 3).mean(axis=1))
-
-
-def edges(colors: NDArray[np.int16], shapes: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Return which pixels differ from one beside, above or below; shape (height, width).
-
-    Args:
-        colors: 0..255; shape (height, width, 3).
-        shapes: shape (height, width).
-    """
-    found = np.zeros(shapes.shape, dtype=bool)
-    for axis in (0, 1):
-        differs = (np.diff(shapes, axis=axis) != 0) | (np.abs(np.diff(colors, axis=axis)).max(axis=2) > ALIKE)
-        first = (slice(None), slice(-1)) if axis else (slice(-1),)
-        second = (slice(None), slice(1, None)) if axis else (slice(1, None),)
-        found[first] |= differs
-        found[second] |= differs
-    return found

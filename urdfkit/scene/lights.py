@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from urdfkit.description.element import Element
 from urdfkit.description.world import Light, World
 from urdfkit.scene.placement import pose_matrix
-from urdfkit.scene.rays.picture import DIRECTIONAL, LIGHT, POINT, SPOT
+from urdfkit.scene.rays.shine import DIRECTIONAL, LIGHT, POINT, SPOT
 
 Array = NDArray[np.float64]
 Color = tuple[float, float, float]
@@ -62,7 +62,7 @@ def _numbers(light: Light, *, shadows: bool) -> list[float]:
     inner, outer, falloff = light.spot
     return [
         _KINDS[light.type], *where, red, green, blue, *light.attenuation, float(light.cast_shadows and shadows),
-        *towards, cos(inner / 2), cos(outer / 2), falloff,
+        *towards, cos(inner / 2), cos(outer / 2), falloff, *(each * light.intensity for each in light.specular[:3]),
     ]  # fmt: skip
 
 

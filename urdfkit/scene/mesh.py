@@ -20,9 +20,10 @@ from urdfkit.description.packages import near_path
 from urdfkit.description.robot import Vector
 from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
 from urdfkit.scene.collada import harm, metres_per_unit
+from urdfkit.scene.part import colors_in, gloss_in, normals_in, places_in, texture_in
 from urdfkit.scene.rows import unique_rows
 from urdfkit.scene.stl import corners_of
-from urdfkit.scene.texture import Beside, Texture, is_as_read, texture_of
+from urdfkit.scene.texture import Beside, Texture, is_as_read
 
 FORMATS = (".stl", ".obj", ".dae", ".glb", ".gltf", ".ply")
 """The file formats that are read."""
@@ -51,6 +52,7 @@ class TriMesh:
         uv: where in its texture each vertex is, from the lower left corner, shape (n, 2), float32, or None.
         textures: pictures on its surface.
         face_textures: for each triangle which of them, -1 for none; shape (m,), int32, or None.
+        face_gloss: for each triangle colour, 0..1, and exponent of its gloss; shape (m, 4), float32, or None.
         missing: names of pictures that the file asks for and that are not there, or are none.
         hash: hexadecimal digest of all of the above: equal meshes have equal hashes.
     """
@@ -64,10 +66,11 @@ class TriMesh:
     textures: tuple[Texture, ...] = field(default=(), repr=False)
     face_textures: NDArray[np.int32] | None = field(default=None, repr=False)
     missing: tuple[str, ...] = ()
+    face_gloss: NDArray[np.float32] | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         digest = hashlib.sha256("".join(texture.hash for texture in self.textures).encode())
-        for name in ("vertices", "faces", "normals", "colors", "uv", "face_textures"):
+        for name in ("vertices", "faces", "normals", "colors", "uv", "face_textures", "face_gloss"):
             array = getattr(self, name)
             if array is not None:
                 array.flags.writeable = False
@@ -207,7 +210,7 @@ def _of_corners(path: Path, corners: NDArray[np.float32], scale: NDArray[np.floa
 
 def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64], places: bool) -> TriMesh:
     """Flatten the parts into one mesh, scaled; vertices that agree in everything become one."""
-    vertices, faces, normals, colors, uvs, wrapped = [], [], [], [], [], []
+    vertices, faces, normals, colors, uvs, wrapped, glosses = [], [], [], [], [], [], []
     textures: dict[str, Texture] = {}
     start = 0
     for part, transform in parts:
@@ -220,13 +223,14 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
             triangles = triangles[:, ::-1]
         vertices.append(points)
         faces.append(triangles + start)
-        normals.append(_normals(part, linear))
-        colors.append(_colors(part))
-        texture = _texture(part)
-        uvs.append(_places(part) if places or texture is not None else None)
+        normals.append(normals_in(part, linear))
+        colors.append(colors_in(part))
+        texture = texture_in(part)
+        uvs.append(places_in(part) if places or texture is not None else None)
         if texture is not None:
             textures.setdefault(texture.hash, texture)
         wrapped.append(np.full(len(triangles), -1 if texture is None else list(textures).index(texture.hash)))
+        glosses.append(np.tile(np.array(gloss_in(part), dtype=np.float32), (len(triangles), 1)))
         start += len(points)
     if not start or not sum(map(len, faces)):
         raise ResourceError(f"mesh {path.name} holds no triangles")
@@ -256,6 +260,7 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
         uv=np.ascontiguousarray(rows[:, 3:5]) if has_places else None,
         textures=tuple(textures.values()),
         face_textures=np.concatenate(wrapped).astype(np.int32) if textures else None,
+        face_gloss=np.concatenate(glosses) if any(each[:, 3].any() for each in glosses) else None,
     )
 
 
@@ -266,45 +271,3 @@ def _unique(rows: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.
     rank = np.empty_like(order)
     rank[order] = np.arange(len(order))
     return rows[first[order]], rank[inverse]
-
-
-def _normals(part: Any, linear: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """Return the vertex normals written in the file, turned and scaled with the part; None where there are none."""
-    if "vertex_normals" not in part._cache.cache:
-        return None
-    written = np.asarray(part.vertex_normals, dtype=float)
-    if written.shape != part.vertices.shape or np.linalg.det(linear) == 0:
-        return None
-    turned = written @ np.linalg.inv(linear)  # normals go with the inverse transpose
-    length = np.linalg.norm(turned, axis=1, keepdims=True)
-    unit: NDArray[np.float64] = np.divide(turned, length, out=np.zeros_like(turned), where=length > 0)
-    return unit
-
-
-def _colors(part: Any) -> NDArray[np.uint8] | None:
-    """Return colours per vertex written in the file, for a material its main colour."""
-    visual = part.visual
-    if visual.kind == "vertex":
-        return np.asarray(visual.vertex_colors, dtype=np.uint8)
-    if visual.kind == "texture":
-        color = np.asarray(visual.material.main_color, dtype=np.uint8)
-        return np.tile(color, (len(part.vertices), 1))
-    return None
-
-
-def _places(part: Any) -> NDArray[np.float64] | None:
-    """Return where on a texture the vertices of a part are; None where nothing says so."""
-    if part.visual.kind != "texture" or part.visual.uv is None or len(part.visual.uv) != len(part.vertices):
-        return None
-    found = np.asarray(part.visual.uv, dtype=float)
-    return found if np.isfinite(found).all() else None
-
-
-def _texture(part: Any) -> Texture | None:
-    """Return the picture on a part, where it has one and says where on it its vertices are."""
-    if _places(part) is None:
-        return None
-    try:
-        return texture_of(part.visual.material)
-    except (OSError, ValueError, SyntaxError):  # what Pillow raises for broken pictures
-        return None

@@ -16,6 +16,7 @@ from urdfkit.description.robot import Collision, Geometry, Link, Mesh, Robot, Vi
 from urdfkit.description.world import Cone, Ellipsoid, Plane
 from urdfkit.errors import ResourceError
 from urdfkit.scene.colors import DEFAULT, Palette, Rgba
+from urdfkit.scene.gloss import MATT, Gloss
 from urdfkit.scene.labels import labels_of
 from urdfkit.scene.mesh import MeshLoader, TriMesh
 from urdfkit.scene.placement import pose_matrix
@@ -39,6 +40,7 @@ class Shape:
         mesh: the triangles of a mesh, its scale applied; None for the other geometries.
         laser_retro: what a lidar reads as intensity.
         label: what a segmentation camera reads; 0 for none.
+        gloss: colour, 0..1, and exponent of what shines back at lights; matt where the exponent is zero.
     """
 
     name: str
@@ -51,6 +53,7 @@ class Shape:
     mesh: TriMesh | None = None
     laser_retro: float = 0.0
     label: int = 0
+    gloss: Gloss = MATT
 
 
 @dataclass(frozen=True)
@@ -138,11 +141,9 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
                 rgba = (*rgba[:3], rgba[3] * opacity)
             placed = pose_matrix(item.origin)
             retro, label = retros.get(link.name, 0.0), labels.get(link.name, labels.get("", 0))
-            shapes.append(
-                Shape(
-                    name, link.name, role, item.geometry, placed, rgba, bool(color and not covered), mesh, retro, label
-                )
-            )
+            gloss = palette.gloss(link.name) if role == "visual" else MATT
+            shown = bool(color and not covered)
+            shapes.append(Shape(name, link.name, role, item.geometry, placed, rgba, shown, mesh, retro, label, gloss))
     return Scene(tuple(link.name for link in links), tuple(shapes), tuple(problems))
 
 

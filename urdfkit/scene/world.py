@@ -13,6 +13,7 @@ from urdfkit.description.world import WorldLink, WorldShape
 from urdfkit.description.world.shape import plugins_of
 from urdfkit.errors import ResourceError
 from urdfkit.scene.colors import DEFAULT, GAZEBO, Rgba
+from urdfkit.scene.gloss import GLOSSY, MATT, Gloss, gloss_of
 from urdfkit.scene.labels import label_of
 from urdfkit.scene.mesh import MeshLoader
 from urdfkit.scene.placement import pose_matrix
@@ -63,13 +64,23 @@ def shapes_of_link(
         name = f"{body}/{role}/{prefix}{shape.name}"
         shown = rgba or (*DEFAULT[:3], 1.0 - shape.transparency)
         called = label_of(plugins_of(shape.kept)) or label
-        yield Shape(name, body, role, shape.geometry, placed, shown, rgba is not None, mesh, shape.laser_retro, called)
+        yield Shape(
+            name, body, role, shape.geometry, placed, shown, rgba is not None, mesh, shape.laser_retro, called,
+            gloss_on(shape) if role == "visual" else MATT,
+        )  # fmt: skip
 
 
 def color_of(shape: WorldShape) -> Rgba | None:
     """Return the colour of a visual, components in 0..1; None where nothing says one."""
     rgba = shape.rgba or GAZEBO.get(shape.material.removeprefix("Gazebo/"))
     return None if rgba is None else (*rgba[:3], rgba[3] * (1.0 - shape.transparency))
+
+
+def gloss_on(shape: WorldShape) -> Gloss:
+    """Return the gloss of a visual."""
+    material = next((kept.element for kept in shape.kept if kept.element.tag == "material"), None)
+    found = gloss_of(material) if material is not None else GLOSSY.get(shape.material.removeprefix("Gazebo/"))
+    return found or MATT
 
 
 def _items(link: WorldLink) -> Iterator[tuple[Role, WorldShape]]:

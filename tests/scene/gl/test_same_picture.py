@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from threading import Thread
 
 import numpy as np
@@ -195,3 +196,38 @@ def test_a_driver_that_fails_later_is_replaced_by_rays(monkeypatch) -> None:
     for _ in range(2):
         assert np.array_equal(gl.take(LENS, EYE).rgb, Painter(table, lighting).take(LENS, EYE).rgb)
     assert notes == ["OpenGL has failed (the device is lost): pictures are taken by casting rays from now on"]
+
+
+@pytest.mark.parametrize("lights", [(SUN,), (LAMP,), (SPOT,)], ids=["sun", "lamp", "spot"])
+def test_what_is_glossy_shines_alike(lights) -> None:
+    glossy = [replace(shape, gloss=(0.9, 0.8, 0.7, 5.0 * k)) for k, shape in enumerate(zoo())]
+    lights = [replace(light, specular=(0.8, 0.8, 0.8, 1.0)) for light in lights]
+    gl, rays = both(table_of(*glossy), lit(*lights, ambient=(0.3, 0.3, 0.35)))
+    one, other = gl.take(LENS, EYE), rays.take(LENS, EYE)
+    agree(one, other)
+    matt = both(table_of(*zoo()), lit(*lights, ambient=(0.3, 0.3, 0.35)))[1].take(LENS, EYE)
+    assert (np.abs(other.rgb.astype(int) - matt.rgb).max(axis=2) > 20).mean() > 0.004
+
+
+def test_triangles_of_one_mesh_shine_as_their_materials_say() -> None:
+    plate = ball()
+    gloss = np.zeros((len(plate.faces), 4), dtype=np.float32)
+    gloss[::2] = (0.9, 0.9, 0.9, 20.0)
+    one = moved(mesh_of(replace(plate, face_gloss=gloss)), "ball", (-1.0, 0.0, 0.5))
+    gl, rays = both(table_of(one), lit(replace(SUN, specular=(1.0, 1.0, 1.0, 1.0))))
+    agree(gl.take(LENS, EYE), rays.take(LENS, EYE))
+
+
+def test_a_driver_that_draws_on_the_processor_leaves_edges_to_rays(monkeypatch) -> None:
+    table, lighting = table_of(*zoo()), lit(SUN, ambient=(0.4, 0.4, 0.4))
+    gl, rays = both(table, lighting)
+    truth = rays.take(LENS, EYE, samples=4).rgb.astype(int)
+    found = {}
+    for on_processor in (True, False):
+        monkeypatch.setattr(gl, "_on_processor", on_processor)
+        found[on_processor] = gl.take(LENS, EYE, samples=4, deep=False).rgb
+    off = {key: np.abs(rgb - truth).max(axis=2) for key, rgb in found.items()}
+    assert (off[True] <= 3).mean() >= 0.99
+    assert off[True].mean() < off[False].mean()
+    hard = gl.take(LENS, EYE, deep=False).rgb
+    assert 0.005 < (found[True] != hard).any(axis=2).mean() < 0.2

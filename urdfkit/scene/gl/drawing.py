@@ -86,7 +86,7 @@ class Drawing:
         self._ctx = context
         self._lamps = lamps
         self._programs: dict[Kind, Any] = {}
-        colors, _, _, textures, texels = paint
+        colors, _, _, _, textures, texels = paint
         self.clear: Mask = colors[:, 3] < 1.0
         self.maps: tuple[str, ...] = ()
         self._textures, holed = [], []
@@ -185,7 +185,8 @@ class Drawing:
     def _array(self, batch: Batch, shot: Shot, *, deep: bool) -> Any:
         """Return what draws a batch, its program's uniforms set."""
         model = batch.model
-        kind = Kind(self._lamps, model.flat, model.plain, model.texture >= 0, deep, shot.exact, self.maps)
+        glossy = model.gloss[3] > 0.0 and not deep
+        kind = Kind(self._lamps, model.flat, model.plain, model.texture >= 0, deep, shot.exact, self.maps, glossy)
         program = self._programs.get(kind)
         if program is None:
             program = self._programs[kind] = self._ctx.program(vertex_shader(kind), fragment_shader(kind))
@@ -199,6 +200,8 @@ class Drawing:
                 if name in program:
                     program[name] = value
             program.extra = shot.uniforms
+        if glossy and "u_gloss" in program:
+            program["u_gloss"] = model.gloss
         if model.texture >= 0:
             self._textures[model.texture].use(location=0)
         return array

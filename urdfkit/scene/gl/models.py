@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.scene.gloss import MATT, Gloss
 from urdfkit.scene.mesh import TriMesh
 from urdfkit.scene.rays import solids
-from urdfkit.scene.rays.skin import HUE, OPACITY, OWN, SMOOTH, TEXTURE, UV
+from urdfkit.scene.rays.skin import GLOSS, HUE, OPACITY, OWN, SMOOTH, TEXTURE, UV
 from urdfkit.scene.rays.table import RayTable
 
 Array = NDArray[np.float64]
@@ -35,6 +36,7 @@ class Model:
         flat: whether the normals are those of the triangles.
         casts: whether it casts shadows; a plane does not, for nothing is below.
         closed: whether it has an inside, so that from outside no face is seen from behind.
+        gloss: its colour and exponent; matt where that is zero.
     """
 
     vertices: NDArray[np.float32]
@@ -44,6 +46,7 @@ class Model:
     flat: bool
     casts: bool = True
     closed: bool = False
+    gloss: Gloss = MATT
 
     @cached_property
     def plain(self) -> bool:
@@ -68,22 +71,20 @@ def models_of(table: RayTable, paint: tuple[Any, ...]) -> list[Model]:
             key = (kind, mesh.hash if mesh is not None else "", int(paint[1][k]))
         elif kind == solids.CAPSULE:
             key = (kind, *local[k, :2].tolist())
-        groups.setdefault(key, []).append(k)
+        groups.setdefault((key, table.shapes[k].gloss), []).append(k)
     found: list[Model] = []
-    for key, members in groups.items():
+    for (key, gloss), members in groups.items():
         shapes = np.array(members)
         if isinstance(key, tuple) and key[0] == solids.MESH:
             first, faces = table.triangles_of(members[0])
-            found += _of_mesh(
-                table.shapes[members[0]].mesh, key[2], paint[2][first : first + len(faces)], faces, shapes
-            )
+            skins = paint[3][first : first + len(faces)]
+            found += _of_mesh(table.shapes[members[0]].mesh, key[2], skins, faces, shapes, gloss)
             continue
         points, normals, flat = _solid(key)
         vertices = np.zeros((len(points), VERTEX), dtype=np.float32)
         vertices[:, :3], vertices[:, 3:6], vertices[:, 8:] = points, normals, 1.0
-        found.append(
-            Model(vertices, shapes, _scales(key, local[shapes]).astype(np.float32), -1, flat, key != solids.PLANE)
-        )
+        scale = _scales(key, local[shapes]).astype(np.float32)
+        found.append(Model(vertices, shapes, scale, -1, flat, key != solids.PLANE, gloss=gloss))
     return found
 
 
@@ -108,8 +109,10 @@ def _scales(key: Any, sizes: Array) -> Array:
     return np.column_stack([sizes[:, :2], np.ones(len(sizes))]) if key == solids.PLANE else sizes
 
 
-def _of_mesh(mesh: TriMesh | None, worn: int, skins: Any, faces: Any, shapes: NDArray[np.int64]) -> list[Model]:
-    """Return the models of a mesh, one per texture.
+def _of_mesh(
+    mesh: TriMesh | None, worn: int, skins: Any, faces: Any, shapes: NDArray[np.int64], gloss: Gloss
+) -> list[Model]:
+    """Return the models of a mesh, one per texture and gloss.
 
     Args:
         mesh: the triangles.
@@ -117,6 +120,7 @@ def _of_mesh(mesh: TriMesh | None, worn: int, skins: Any, faces: Any, shapes: ND
         skins: in the order of the trees.
         faces: which of the mesh's triangles these are.
         shapes: numbers in the table.
+        gloss: of the shapes, where the mesh's own is not asked for.
     """
     assert mesh is not None
     corners = mesh.vertices[mesh.faces[faces]].astype(float)
@@ -129,17 +133,19 @@ def _of_mesh(mesh: TriMesh | None, worn: int, skins: Any, faces: Any, shapes: ND
     length = np.linalg.norm(normals, axis=-1, keepdims=True)
     vertices[..., :3], vertices[..., 3:6] = corners, normals / np.where(length > 0.0, length, 1.0)
     vertices[..., 8:] = 1.0
-    textures = np.full(len(faces), -1)
+    kinds = np.tile(np.array([-1.0, *gloss], dtype=np.float32), (len(faces), 1))
     if worn & OWN:
-        textures = skins[:, TEXTURE].astype(np.int64)
+        kinds = np.column_stack([skins[:, TEXTURE], skins[:, GLOSS:]])
         vertices[..., 6:8] = skins[:, UV:TEXTURE].reshape(-1, 3, 2)
-        vertices[..., 8:11] = np.where(textures[:, None, None] >= 0, 1.0, skins[:, HUE:UV].reshape(-1, 3, 3))
+        vertices[..., 8:11] = np.where(kinds[:, :1, None] >= 0, 1.0, skins[:, HUE:UV].reshape(-1, 3, 3))
         vertices[..., 11] = skins[:, OPACITY][:, None]
     ones = np.ones((len(shapes), 3), dtype=np.float32)
-    return [
-        Model(vertices[textures == texture].reshape(-1, VERTEX), shapes, ones, texture, not worn & SMOOTH)
-        for texture in np.unique(textures).tolist()
-    ]
+    known, which = np.unique(kinds, axis=0, return_inverse=True)
+    found = []
+    for k, (texture, red, green, blue, exponent) in enumerate(known.tolist()):
+        chosen, own = vertices[which.ravel() == k].reshape(-1, VERTEX), (red, green, blue, exponent)
+        found.append(Model(chosen, shapes, ones, int(texture), not worn & SMOOTH, gloss=own))
+    return found
 
 
 def _solid(key: Any) -> tuple[Array, Array, bool]:

@@ -11,15 +11,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.scene.gl.drawing import Drawing, Shot
-from urdfkit.scene.gl.probe import create
+from urdfkit.scene.gl.probe import create, on_processor
 from urdfkit.scene.gl.shade import LARGE, Rectangle, shaded, union
 from urdfkit.scene.gl.shaders import BOTH, STILL
 from urdfkit.scene.gl.shadows import EDGES, FINER, Rest, Shadows
 from urdfkit.scene.image import Painter, Picture
 from urdfkit.scene.lens import Lens
 from urdfkit.scene.lights import Lighting
-from urdfkit.scene.rays.paint import paint_of
-from urdfkit.scene.rays.picture import DIRECTIONAL, SPOT
+from urdfkit.scene.rays.shine import DIRECTIONAL, SPOT
 from urdfkit.scene.rays.table import RayTable
 
 Array = NDArray[np.float64]
@@ -59,8 +58,9 @@ class GlPainter:
         self._drawable = all(kind == DIRECTIONAL or not shadows for kind, shadows in lamps)
         self._targets: dict[tuple[int, int, int], dict[str, Any]] = {}
         self._ctx = create(backend)
+        self._on_processor = on_processor(str(self._ctx.info["GL_RENDERER"]))
         with self._lock, self._ctx:
-            self._drawing = Drawing(self._ctx, table, paint_of(table), lamps)
+            self._drawing = Drawing(self._ctx, table, self._rays.paint, lamps)
             self._shadows = {
                 (k, name): Shadows(self._ctx, edge)
                 for k, (_, shadows) in enumerate(lamps)
@@ -86,7 +86,8 @@ class GlPainter:
             frame: placement of the camera, which looks along x; shape (4, 4).
             near: what is nearer is not seen [m].
             far: what is farther is not seen [m].
-            samples: places in each pixel that its colour is the mean of; as many as the device has.
+            samples: places in each pixel that its colour is the mean of; as many as the device has. A driver that
+                draws on the processor takes one, and rays the others, only where something ends: that is quicker.
             deep: whether depths and shapes are wanted; without, they are empty.
         """
         if self._works and self._drawable and not lens.distortion:
@@ -108,7 +109,7 @@ class GlPainter:
         high = max(min(max(float(farthest.max(initial=1.0)) * 1.001, 2.0 * low), far), 1.01 * low)
         exact = bool((nearest < near).any() or (farthest > far).any())
         shot = Shot(rows, nearest, nearest > near, exact, self._uniforms(lens, turn, origin, low, high, near, far))
-        target = self._target(lens, min(samples, self._ctx.max_samples))
+        target = self._target(lens, 1 if self._on_processor else min(samples, self._ctx.max_samples))
         again = self._cast_shadows(shot, turn, origin, lens, low)
         self._ctx.front_face = "cw"  # the picture's top row comes first
         rgb = np.empty((lens.height, lens.width, 3), dtype=np.uint8)
@@ -127,6 +128,8 @@ class GlPainter:
         if target["color"] is not target["plain"]:
             self._ctx.copy_framebuffer(target["plain"], target["color"])
         target["plain"].read_into(rgb, components=3, alignment=1)
+        if samples > 1 and self._on_processor:
+            self._rays.smooth(rgb, lens, frame, near=near, far=far, samples=samples)
         if not deep:
             return Picture(rgb, np.empty((0, 0), np.float32), np.empty((0, 0), np.int64))
         target["deep"].use()
@@ -160,6 +163,7 @@ class GlPainter:
             kind, where = int(row[0]), row[1:4]
             found[f"u_lamp{k}"] = tuple((where @ turn if kind == DIRECTIONAL else (where - origin) @ turn).tolist())
             found[f"u_glow{k}"] = tuple(row[4:7].tolist())
+            found[f"u_sheen{k}"] = tuple(row[18:21].tolist())
             if kind != DIRECTIONAL:
                 found[f"u_fall{k}"] = tuple(row[7:11].tolist())
             if kind == SPOT:

@@ -19,6 +19,9 @@ SECONDS = 30.0
 BACKENDS = ("egl", "")
 """EGL draws without a display; else whatever the platform has."""
 
+ON_PROCESSOR = ("llvmpipe", "softpipe", "swrast", "swiftshader", "software", "basic render", "gdi generic")
+"""Parts of the names of drivers that draw on the processor: Mesa's, Google's, Apple's, Windows's."""
+
 _VERTEX = "#version 330\nin vec2 in_at;\nvoid main() { gl_Position = vec4(in_at, 0.0, 1.0); }"
 _FRAGMENT = "#version 330\nout vec4 o_color;\nvoid main() { o_color = vec4(0.2, 0.4, 0.8, 1.0); }"
 
@@ -66,6 +69,11 @@ def ask(command: list[str], *, seconds: float = SECONDS) -> Found:
         return Found(bool(said["works"]), str(said["backend"]), str(said["name"]))
     except (ValueError, KeyError, IndexError, TypeError):
         return Found(False, "", f"the driver was tried without an answer (exit status {done.returncode})")
+
+
+def on_processor(name: str) -> bool:
+    """Whether a device of this name is no graphics card."""
+    return any(each in name.lower() for each in ON_PROCESSOR)
 
 
 def create(backend: str) -> Any:

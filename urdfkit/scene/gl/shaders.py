@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from urdfkit.scene.rays.picture import DIRECTIONAL, SPOT
+from urdfkit.scene.rays.shine import DIRECTIONAL, SPOT
 from urdfkit.scene.rays.skin import FINEST
 
 STILL = ("s",)
@@ -30,6 +30,7 @@ class Kind:
         deep: depth and number of the shape are wanted; else colours are.
         exact: what is nearer or farther than the camera sees is left out by its distance, as rays are cut.
         maps: of shadows, per light that casts any: of what stands still, and of what moves.
+        glossy: the surface shines back at lights.
     """
 
     lamps: Lamps
@@ -39,11 +40,12 @@ class Kind:
     deep: bool
     exact: bool
     maps: tuple[str, ...] = STILL
+    glossy: bool = False
 
     @property
     def early(self) -> bool:
         """Whether the light is the same all over a triangle, but for shadows."""
-        return self.flat and all(kind == DIRECTIONAL for kind, _ in self.lamps)
+        return self.flat and not self.glossy and all(kind == DIRECTIONAL for kind, _ in self.lamps)
 
     @property
     def ready(self) -> bool:
@@ -86,6 +88,15 @@ _SPOT = """
     if (along <= u_cone{k}.y) return 0.0;
     fall *= pow(clamp((along - u_cone{k}.y) / max(u_cone{k}.x - u_cone{k}.y, 1e-9), 0.0, 1.0), u_cone{k}.z);
 """
+
+
+_SHEEN = """
+    if (g{k} > 0.0) {{
+        vec3 to{k} = {to};
+        sheen += g{k} / dot(n, to{k}) * pow(max(dot(n, normalize(to{k} + eye)), 0.0), u_gloss.a) * u_sheen{k};
+    }}
+"""
+"""As `scene.rays.picture.throw_back`."""
 
 
 def _lights(lamps: Lamps, maps: tuple[str, ...]) -> str:
@@ -185,6 +196,9 @@ def fragment_shader(kind: Kind) -> str:
         return _fragment(head, body)
     head.append(_lights(kind.lamps, kind.maps) if not kind.early else "uniform vec3 u_air;")
     body.append("vec3 light = u_air;")
+    if kind.glossy:
+        head.append("uniform vec4 u_gloss;")
+        body.append("vec3 sheen = vec3(0.0), eye = -normalize(v_point);")
     if not kind.early:
         head.append("in vec3 v_normal;")
         body.append("vec3 n = normalize(v_normal); if (!gl_FrontFacing) n = -n;")
@@ -197,7 +211,12 @@ def fragment_shader(kind: Kind) -> str:
         if shadows:
             _shade(kind, k, head, body)
         body.append(f"light += g{k} * u_glow{k};")
-    body.append("o_color = vec4(min(color.rgb * light, 1.0), color.a);")
+        if kind.glossy:
+            head.append(f"uniform vec3 u_sheen{k};")
+            to = f"u_lamp{k}" if kind.lamps[k][0] == DIRECTIONAL else f"normalize(u_lamp{k} - v_point)"
+            body.append(_SHEEN.format(k=k, to=to))
+    shone = "color.rgb * light + u_gloss.rgb * sheen" if kind.glossy else "color.rgb * light"
+    body.append(f"o_color = vec4(min({shone}, 1.0), color.a);")
     return _fragment(head, body)
 
 

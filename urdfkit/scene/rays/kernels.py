@@ -43,7 +43,7 @@ def looker() -> Callable[..., Any]:
 
     from urdfkit.scene.rays.picture import look
 
-    paint = types.Tuple((f[:, ::1], i[::1], float32[:, ::1], i[:, ::1], uint8[::1]))
+    paint = types.Tuple((f[:, ::1], i[::1], f[:, ::1], float32[:, ::1], i[:, ::1], uint8[::1]))
     return load_compiled(
         look,
         (
@@ -54,6 +54,7 @@ def looker() -> Callable[..., Any]:
             f[:, ::1],
             f[::1],
             f[:, ::1],
+            i[::1],
             f,
             f,
             f[::1],
@@ -63,6 +64,16 @@ def looker() -> Callable[..., Any]:
             i[::1],
         ),
     )
+
+
+@lru_cache(maxsize=1)
+def outliner() -> Callable[..., Any]:
+    """Return the compiled `outline.outline`."""
+    from numba import int64, uint8
+
+    from urdfkit.scene.rays.outline import outline
+
+    return load_compiled(outline, (uint8[:, :, ::1], int64, int64[::1]))
 
 
 @lru_cache(maxsize=1)
@@ -154,6 +165,6 @@ def warmup(progress: Progress | None = None) -> bool:
             pass
 
     with event.install_listener("numba:compile", Listener()):
-        for kernel in (builder, placer, caster, looker):
+        for kernel in (builder, widener, filler, placer, caster, looker, outliner):
             kernel()
     return bool(compiled)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.scene.mesh import TriMesh
-from urdfkit.scene.rays.skin import HUE, OPACITY, OWN, SKIN, SMOOTH, TEXTURE, UV
+from urdfkit.scene.rays.skin import GLOSS, HUE, OPACITY, OWN, SKIN, SMOOTH, TEXTURE, UV
 from urdfkit.scene.rays.table import RayTable
 from urdfkit.scene.texture import Texture
 
@@ -18,13 +18,15 @@ NOTHING = -1
 
 
 def paint_of(table: RayTable) -> tuple[Any, ...]:
-    """Return colours of the shapes, what they take from skins, skins of the triangles, textures and texels."""
+    """Return colours of the shapes, what they take from skins, gloss, skins of the triangles, textures and texels."""
     colors, worn = np.ones((len(table.shapes), 4)), np.zeros(len(table.shapes), dtype=np.int64)
+    glosses = np.zeros((len(table.shapes), 4))
     for k, shape in enumerate(table.shapes):
         own = shape.mesh is not None and not shape.has_color and wears(shape.mesh)
         colors[k] = (1.0, 1.0, 1.0, shape.rgba[3]) if own else shape.rgba
         smooth = shape.mesh is not None and shape.mesh.normals is not None
         worn[k] = SMOOTH * smooth + OWN * own
+        glosses[k] = shape.gloss
     known: dict[str, tuple[int, Texture]] = {}
     skins = np.zeros((table.triangle_count if worn.any() else 1, SKIN), dtype=np.float32)
     for first, faces, mesh in table.meshes if worn.any() else ():
@@ -35,7 +37,7 @@ def paint_of(table: RayTable) -> tuple[Any, ...]:
         [(start, *texture.pixels.shape[1::-1]) for start, (_, texture) in zip(starts, known.values(), strict=False)],
         dtype=np.int64,
     ).reshape(-1, 3)
-    return colors, worn, skins, textures, np.concatenate(texels) if texels else np.zeros(4, dtype=np.uint8)
+    return colors, worn, glosses, skins, textures, np.concatenate(texels) if texels else np.zeros(4, dtype=np.uint8)
 
 
 def copies(pixels: NDArray[np.uint8]) -> Iterator[NDArray[np.uint8]]:
@@ -62,6 +64,8 @@ def skins_of(mesh: TriMesh, known: dict[str, tuple[int, Texture]]) -> NDArray[np
     skins[:, HUE:UV], skins[:, TEXTURE], skins[:, OPACITY] = 1.0, -1.0, 1.0
     if mesh.normals is not None:
         skins[:, :HUE] = mesh.normals[faces].reshape(-1, 9)
+    if mesh.face_gloss is not None:
+        skins[:, GLOSS:] = mesh.face_gloss
     if mesh.colors is not None:
         skins[:, HUE:UV] = mesh.colors[:, :3][faces].reshape(-1, 9) / 255.0
         skins[:, OPACITY] = mesh.colors[:, 3][faces].mean(axis=1) / 255.0

@@ -1,6 +1,8 @@
 """What a camera sees: colours under lights with shadows, depth and which shape, in one pass over its pixels' rays.
 
 Surfaces are matt (Lambert): colour · (ambient + Σ light · cos θ · falloff), each light seen or not by a ray of its own.
+Those with a gloss shine besides: gloss · Σ specular light · falloff · max(n·h, 0) ^ exponent, h half way between light
+and eye (Blinn, *Models of Light Reflection for Computer Synthesized Pictures*, 1977), as OGRE draws them.
 Falloff is ``1 / (constant + linear·r + quadratic·r²)`` within the light's range, as in OGRE's fixed functions, which
 Gazebo draws with; a spot fades between its two cones. Transparent surfaces are blended with what is behind them and
 cast no shadow.
@@ -13,28 +15,41 @@ from typing import Any
 
 from urdfkit.scene.rays.cast import load, walk
 from urdfkit.scene.rays.compilation import compiled
+from urdfkit.scene.rays.desk import (
+    AT,
+    BLENT,
+    COLOR,
+    DEPTH,
+    DYE,
+    EXPONENT,
+    FACING,
+    FIRST,
+    LEFT,
+    OPAQUE,
+    PAST,
+    SHAPE,
+    SHEEN,
+    SHONE,
+    SPECULAR,
+    TOWARDS,
+)
 from urdfkit.scene.rays.normals import normal, outwards, point, triangle_normal
-from urdfkit.scene.rays.packet import DX, FAR, HIT, OX, PART, REACH, WIDTH
-from urdfkit.scene.rays.skin import HUE, OPACITY, OWN, SMOOTH, TEXTURE, UV, between, dye, place_in_triangle
+from urdfkit.scene.rays.packet import DX, HIT, OX, PART, REACH, WIDTH
+from urdfkit.scene.rays.shine import shine
+from urdfkit.scene.rays.skin import (
+    GLOSS,
+    HUE,
+    OPACITY,
+    OWN,
+    SMOOTH,
+    TEXTURE,
+    UV,
+    between,
+    dye,
+    place_in_triangle,
+)
 from urdfkit.scene.rays.solids import STRIDE
 from urdfkit.scene.rays.triangles import CORNERS
-
-LIGHT = 18
-"""Numbers per light: kind, towards it or where it is (3), colour (3), range, constant, linear and quadratic falloff,
-whether it casts shadows, where a spot points (3), cosines of half its inner and outer angle, its falloff."""
-
-DIRECTIONAL, POINT, SPOT = 0, 1, 2
-"""Kinds of lights."""
-
-AT, FACING, COLOR, SHONE, TOWARDS, BLENT = (row * WIDTH for row in (0, 3, 6, 9, 12, 15))
-"""What a packet met: where, which way the surface faces, its colour, the light on it; the rays' directions and what
-they have seen so far (three rows each) …"""
-SHAPE, GAIN, OPAQUE, LEFT, PAST, DEPTH, FIRST = (row * WIDTH for row in range(18, 25))
-"""… which shape (-1: none), what of one light gets there, its opacity; how much of a ray goes on behind it, how long
-the ray has been; how far and which shape the first was."""
-DYE = 25 * WIDTH
-DESK = DYE + 4
-"""Numbers that a picture works on besides a packet's: the last are a colour from a texture."""
 
 LAYERS = 16
 """Transparent surfaces that are seen behind each other."""
@@ -54,6 +69,7 @@ def look(
     air: Any,
     frame: Any,
     directions: Any,
+    order: Any,
     near: float,
     far: float,
     work: Any,
@@ -68,13 +84,15 @@ def look(
         scene: as for `cast.cast`.
         cover: as `scene`, but without what casts no shadow: its kind is none.
         paint: colour and opacity of each shape, 0..1, shape (shapes, 4); what it takes from skins, shape (shapes,);
-            skins of the triangles, shape (triangles, `SKIN`); where each texture begins, its width and height, shape
-            (textures, 3); texels, each texture followed by its smaller copies.
+            colour and exponent of its gloss, shape (shapes, 4); skins of the triangles, shape (triangles, `SKIN`);
+            where each texture begins, its width and height, shape (textures, 3); texels, each texture followed by its
+            smaller copies.
         lights: `LIGHT` numbers each; shape (lights, `LIGHT`).
         air: light from everywhere and what is seen where nothing is, 0..1; shape (2, 3).
         frame: rotation by rows and position of the camera, which looks along x; and how wide a pixel is at a distance
             of one [m/m].
         directions: of length 1 in the camera's frame; shape (n, 3).
+        order: number of each ray's pixel in the results; shape (n,).
         near: where rays begin to see [m].
         far: where they end [m].
         work: shape (≥ `cast.SCRATCH`,).
@@ -102,18 +120,18 @@ def look(
                 break
             walk(work, scene, 0.0)
         for k in range(min(WIDTH, len(directions) - first)):
-            ray = first + k
-            hits[ray] = int(desk[FIRST + k])
-            depths[ray] = desk[DEPTH + k] * directions[ray, 0] if desk[FIRST + k] >= 0.0 else inf
+            pixel = order[first + k]
+            hits[pixel] = int(desk[FIRST + k])
+            depths[pixel] = desk[DEPTH + k] * directions[first + k, 0] if desk[FIRST + k] >= 0.0 else inf
             for c in range(3):
-                rgb[ray, c] = int(255.0 * min(desk[BLENT + c * WIDTH + k], 1.0) + 0.5)
+                rgb[pixel, c] = int(255.0 * min(desk[BLENT + c * WIDTH + k], 1.0) + 0.5)
 
 
 @compiled
 def take_down(work: Any, scene: Any, paint: Any, air: Any, frame: Any, desk: Any) -> None:
     """Note what the packet met, before its rays are used for shadows."""
     shapes, _, _, _, _, _, _, _, corners = scene
-    colors, worn, skins, textures, texels = paint
+    colors, worn, glosses, skins, textures, texels = paint
     for k in range(WIDTH):
         shape, part, depth = int(work[HIT + k]), int(work[PART + k]), work[REACH + k]
         desk[SHAPE + k] = shape
@@ -123,9 +141,10 @@ def take_down(work: Any, scene: Any, paint: Any, air: Any, frame: Any, desk: Any
             row = c * WIDTH + k
             desk[AT + row] = work[OX + row] + depth * work[DX + row] + LIFT * desk[PAST + k] * facing[c]
             desk[FACING + row] = facing[c]
-            desk[SHONE + row] = air[0, c]
+            desk[SHONE + row], desk[SHEEN + row] = air[0, c], 0.0
             if shape >= 0:
-                desk[COLOR + row] = colors[shape, c]
+                desk[COLOR + row], desk[SPECULAR + row] = colors[shape, c], glosses[shape, c]
+        desk[EXPONENT + k] = glosses[shape, 3] if shape >= 0 else 0.0
         desk[OPAQUE + k] = colors[shape, 3] if shape >= 0 else 1.0
         if shape < 0 or part < 0 or worn[shape] == 0:
             continue
@@ -143,6 +162,9 @@ def take_down(work: Any, scene: Any, paint: Any, air: Any, frame: Any, desk: Any
         if worn[shape] & OWN != 0:
             which = int(skins[part, TEXTURE])
             desk[OPAQUE + k] *= skins[part, OPACITY]
+            desk[EXPONENT + k] = skins[part, GLOSS + 3]
+            for c in range(3):
+                desk[SPECULAR + c * WIDTH + k] = skins[part, GLOSS + c]
             if which < 0:
                 for c in range(3):
                     desk[COLOR + c * WIDTH + k] = between(skins, part, HUE + c, 3, u, v)
@@ -204,7 +226,7 @@ def go_on(work: Any, air: Any, frame: Any, desk: Any, far: float, last: bool) ->
         opaque = desk[OPAQUE + k] if shape >= 0 and not last else 1.0
         for c in range(3):
             row = c * WIDTH + k
-            seen = min(desk[COLOR + row] * desk[SHONE + row], 1.0) if shape >= 0 else air[1, c]
+            seen = min(desk[COLOR + row] * desk[SHONE + row] + desk[SHEEN + row], 1.0) if shape >= 0 else air[1, c]
             desk[BLENT + row] += left * opaque * seen
         if shape >= 0 and desk[FIRST + k] < 0.0 and opaque > 0.0 and left > 0.0:
             desk[FIRST + k], desk[DEPTH + k] = shape, desk[PAST + k]
@@ -227,65 +249,3 @@ def go_on(work: Any, air: Any, frame: Any, desk: Any, far: float, last: bool) ->
     for k in range(WIDTH):
         desk[PAST + k] *= 1.0 + LIFT
     return True
-
-
-@compiled
-def shine(work: Any, scene: Any, lights: Any, light: int, desk: Any) -> None:
-    """Add one light to what the packet met, where nothing stands between."""
-    wanted = -1
-    for k in range(WIDTH):
-        gain = 0.0
-        if desk[SHAPE + k] >= 0:
-            gain = reach_light(work, lights, light, desk, k)
-        desk[GAIN + k] = gain
-        if gain > 0.0:
-            wanted = k
-    if wanted < 0:
-        return
-    if lights[light, 11] != 0.0:
-        for k in range(WIDTH):
-            if desk[GAIN + k] <= 0.0:  # goes along with one that matters, and ends where it begins
-                work[REACH + k] = 0.0
-                for c in range(3):
-                    desk_row, row = AT + c * WIDTH + wanted, c * WIDTH + k
-                    work[OX + row] = desk[desk_row]
-                    work[DX + row] = work[DX + c * WIDTH + wanted]
-            work[HIT + k], work[PART + k] = -1.0, -1.0
-        walk(work, scene, 0.0)
-        for k in range(WIDTH):
-            if work[HIT + k] >= 0.0:
-                desk[GAIN + k] = 0.0
-    for c in range(3):
-        for k in range(WIDTH):
-            desk[SHONE + c * WIDTH + k] += desk[GAIN + k] * lights[light, 4 + c]
-
-
-@compiled
-def reach_light(work: Any, lights: Any, light: int, desk: Any, k: int) -> float:
-    """Aim ray `k` from what it met at a light; return how much gets there if nothing is between."""
-    kind = int(lights[light, 0])
-    x, y, z = lights[light, 1], lights[light, 2], lights[light, 3]
-    reach, fall = FAR, 1.0
-    if kind != DIRECTIONAL:
-        x, y, z = x - desk[AT + k], y - desk[AT + WIDTH + k], z - desk[AT + 2 * WIDTH + k]
-        reach = (x * x + y * y + z * z) ** 0.5
-        if reach > lights[light, 7] or reach <= 0.0:
-            return 0.0
-        x, y, z = x / reach, y / reach, z / reach
-        fall = 1.0 / max(lights[light, 8] + reach * (lights[light, 9] + reach * lights[light, 10]), 1e-9)
-        if kind == SPOT:
-            along = -(x * lights[light, 12] + y * lights[light, 13] + z * lights[light, 14])
-            inner, outer = lights[light, 15], lights[light, 16]
-            part = (along - outer) / max(inner - outer, 1e-9)
-            fall *= min(max(part, 0.0), 1.0) ** lights[light, 17]
-            if along <= outer:
-                return 0.0
-    work[OX + k], work[OX + WIDTH + k], work[OX + 2 * WIDTH + k] = (
-        desk[AT + k],
-        desk[AT + WIDTH + k],
-        desk[AT + 2 * WIDTH + k],
-    )
-    work[DX + k], work[DX + WIDTH + k], work[DX + 2 * WIDTH + k] = x, y, z
-    work[REACH + k] = reach
-    straight = x * desk[FACING + k] + y * desk[FACING + WIDTH + k] + z * desk[FACING + 2 * WIDTH + k]
-    return float(fall * max(straight, 0.0))

@@ -7,11 +7,11 @@ from typing import Any
 
 from urdfkit.scene.rays.compilation import compiled, inlined
 
-SKIN = 26
+SKIN = 30
 """Numbers per triangle: normals of its corners (9), their colours (9), where on the texture they are (6), which texture
-(-1: none), opacity."""
+(-1: none), opacity, colour and exponent of its gloss (4)."""
 
-HUE, UV, TEXTURE, OPACITY = 9, 18, 24, 25
+HUE, UV, TEXTURE, OPACITY, GLOSS = 9, 18, 24, 25, 26
 """Where in a skin these begin."""
 
 FINEST = 8

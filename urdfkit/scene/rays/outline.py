@@ -1,0 +1,39 @@
+"""Where something ends in a picture: pixels that differ from one beside, above or below."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from urdfkit.scene.rays.compilation import inlined
+
+
+def outline(colors: Any, alike: int, found: Any) -> int:
+    """Find the pixels that differ from a neighbour, and return how many they are.
+
+    Args:
+        colors: 0..255; shape (height, width, 3).
+        alike: how much the channels of neighbours may differ.
+        found: becomes their numbers, row by row; shape (≥ height · width,).
+    """
+    height, width = colors.shape[0], colors.shape[1]
+    count = 0
+    for row in range(height):
+        for column in range(width):
+            ends = row > 0 and differ(colors, row, column, row - 1, column, alike)
+            ends = ends or (row + 1 < height and differ(colors, row, column, row + 1, column, alike))
+            ends = ends or (column > 0 and differ(colors, row, column, row, column - 1, alike))
+            ends = ends or (column + 1 < width and differ(colors, row, column, row, column + 1, alike))
+            if ends:
+                found[count] = row * width + column
+                count += 1
+    return count
+
+
+@inlined
+def differ(colors: Any, row: int, column: int, beside: int, next_to: int, alike: int) -> bool:
+    """Return whether two pixels differ."""
+    most = 0
+    for c in range(3):
+        one, other = colors[row, column, c], colors[beside, next_to, c]
+        most = max(most, one - other if one > other else other - one)  # without a sign: less than nothing is a lot
+    return most > alike
