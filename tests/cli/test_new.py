@@ -177,7 +177,7 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
             "are part of ROS: --sim gz, or --ros noetic or humble",
         ),
         (["robot", "scout", "more"], "unrecognized arguments: more"),
-        (["world", "w"], "invalid choice: 'world'"),
+        (["wrld", "w"], "did you mean `world`?"),
         ([], "required: KIND"),
     ],
 )

@@ -13,12 +13,18 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 from io import TextIOWrapper
+from keyword import iskeyword
 
 from urdfkit.cli.parser import Parser, add_common
 from urdfkit.errors import UrdfkitError
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from types import ModuleType
+
 COMMANDS = {
     "new": "write description, Gazebo, control and bringup packages",
+    "import": "wrap a bare URDF, as of a CAD program, into packages",
     "lint": "find and mend the defects of a URDF or xacro",
     "rule": "print the page of a lint rule, or the catalogue",
     "lsp": "serve an editor: diagnostics, hover, definitions, completion, fixes",
@@ -30,7 +36,7 @@ COMMANDS = {
     "sim": "simulate a robot: teleop, run, bench, warmup",
     "topic": "talk to a running simulation: list, info, echo, hz, bw, pub",
 }
-"""Command → what it does. The module ``urdfkit.cli.<command>`` implements it."""
+"""Command → what it does. The module ``urdfkit.cli.<command>`` implements it; ``import_`` is ``import``."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -104,10 +110,14 @@ def _run(arguments: list[str]) -> int:
     for name in names:
         sub = commands.add_parser(name, help=COMMANDS[name], description=COMMANDS[name])
         if name == command:
-            import_module(f"urdfkit.cli.{name}").configure(sub)
+            _module(name).configure(sub)
             add_common(sub)
     parsed = parser.parse_args(arguments)
-    return int(import_module(f"urdfkit.cli.{parsed.command}").run(parsed))
+    return int(_module(parsed.command).run(parsed))
+
+
+def _module(command: str) -> ModuleType:
+    return import_module(f"urdfkit.cli.{command}{'_' if iskeyword(command) else ''}")
 
 
 def _bug(error: Exception) -> str:

@@ -3,28 +3,28 @@
 from __future__ import annotations
 
 import argparse
-import subprocess
 import sys
 from datetime import datetime, timezone
 from importlib import import_module
 from pathlib import Path
 
+from urdfkit.cli.identity import identity
 from urdfkit.errors import UrdfkitError, UsageError
 from urdfkit.resources import templates_dir
 from urdfkit.scaffold import Question, Template, applies, computed, create, load_template, read_recipe, template_names
 
 ADDED = ("sensor",)
-"""What is added to a description that is there: ``urdfkit new THING`` is the module ``urdfkit.cli.new_THING``."""
+"""What is added to a description that is there: ``urdfkit new KIND`` is the module ``urdfkit.cli.new_KIND``."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
-    """Add one subcommand per template, with an option per question, and one per thing that is added.
+    """Add one subcommand per template, with an option per question, and one per kind that is added.
 
     Args:
         parser: of this command.
     """
     parser.epilog = "examples:\n  urdfkit new robot scout\n  urdfkit new robot scout --ros noetic --into src --yes"
-    kinds = parser.add_subparsers(dest="thing", metavar="THING", required=True)
+    kinds = parser.add_subparsers(dest="thing", metavar="KIND", required=True)
     for name in template_names():
         template = load_template(templates_dir() / name)
         kind = kinds.add_parser(
@@ -79,7 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
         template.question(name).accept(answer)
     if arguments.recipe is not None:
         given = read_recipe(template, Path(arguments.recipe), given)
-    given = {**_identity(template), **given}
+    given = {**identity(template), **given}
     if not arguments.yes and sys.stdin.isatty() and sys.stderr.isatty():
         given |= _ask(template, given)
     answers = template.answers(given)
@@ -137,20 +137,6 @@ def _answered(question: Question, default: str | None) -> str:
         print(file=sys.stderr)
         raise UrdfkitError("no more answers: nothing was written")
     return line.strip()
-
-
-def _identity(template: Template) -> dict[str, str]:
-    """Return maintainer and e-mail as git knows them, if it does and they will do."""
-    found: dict[str, str] = {}
-    for name, key in (("maintainer", "user.name"), ("email", "user.email")):
-        try:
-            answer = subprocess.run(
-                ["git", "config", "--get", key], capture_output=True, text=True, timeout=5, check=True
-            )
-            found[name] = template.question(name).accept(answer.stdout)
-        except (OSError, subprocess.SubprocessError, UnicodeDecodeError, UsageError):
-            continue
-    return found
 
 
 def _findings(folder: Path) -> list[str]:

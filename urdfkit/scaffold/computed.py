@@ -40,6 +40,7 @@ def _package(answers: Mapping[str, str]) -> dict[str, str]:
         "description": f"{robot}_description",
         "gazebo": f"{robot}_gazebo",
         "about": answers["about"] or about[answers["kind"]],
+        "model": f"{robot}.urdf.xacro",
         "root": "base_footprint",
         "folders": "",
         "components": f" COMPONENTS{lines}\n" if depends else "",

@@ -38,7 +38,7 @@ def create(template: Template, answers: Mapping[str, str], folder: Path, *, chec
     for name in sorted({target.parts[0] for _, target in template.files(answers)}):
         if os.path.lexists(folder / name):
             raise ResourceError(f"{folder / name} is already there; nothing is overwritten")
-    with _made(folder), staging(folder) as stage:
+    with made(folder), staging(folder) as stage:
         targets = template.render(answers, stage) + _recipe(template, answers, stage)
         if check is not None and (found := check(stage)):
             more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
@@ -57,8 +57,15 @@ def _recipe(template: Template, answers: Mapping[str, str], stage: Path) -> list
 
 
 @contextmanager
-def _made(folder: Path) -> Iterator[None]:
-    """Make `folder` and the ones above it; take those made away again if the body fails."""
+def made(folder: Path) -> Iterator[None]:
+    """Make `folder` and the ones above it; take those made away again if the body fails.
+
+    Args:
+        folder: may be there.
+
+    Raises:
+        ResourceError: it cannot be made.
+    """
     missing = [path for path in (folder, *folder.parents) if not path.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -12,7 +12,7 @@ from launch_ros.substitutions import FindPackageShare
 def generate_launch_description():
     """Start robot_state_publisher, sliders for the joints, and RViz."""
     share = FindPackageShare("@name@")
-    model = PathJoinSubstitution([share, "urdf", "@robot@.urdf.xacro"])
+    model = PathJoinSubstitution([share, "urdf", "@model@"])
     rviz_config = PathJoinSubstitution([share, "rviz", "@robot@.rviz"])
     gui = LaunchConfiguration("gui")
     return LaunchDescription([

@@ -12,7 +12,7 @@ from launch_ros.substitutions import FindPackageShare
 def generate_launch_description():
     """Start Gazebo, put the robot in, bridge its topics, and publish its frames."""
     gazebo = FindPackageShare("@name@")
-    model = PathJoinSubstitution([FindPackageShare("@description@"), "urdf", "@robot@.urdf.xacro"])
+    model = PathJoinSubstitution([FindPackageShare("@description@"), "urdf", "@model@"])
     simulated = {"use_sim_time": True}
     return LaunchDescription([
         DeclareLaunchArgument("world", default_value=PathJoinSubstitution([gazebo, "worlds", "empty.sdf"])),

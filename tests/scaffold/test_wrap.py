@@ -1,0 +1,199 @@
+"""`urdfkit import`: a bare URDF becomes packages with its meshes; the file itself is only read."""
+
+import struct
+
+import pytest
+
+from urdfkit.cli import main
+from urdfkit.description import load
+from urdfkit.lint import lint
+from urdfkit.scaffold.meshes import Meshes
+from urdfkit.sim import Simulator
+
+CAD = """<?xml version="1.0" encoding="utf-8"?>
+<!-- written by a CAD program -->
+<robot
+  name="My Arm.SLDASM">
+  <link
+    name="base_link">
+    <inertial>
+      <origin xyz="0 0 0.05" rpy="0 0 0" />
+      <mass value="2" />
+      <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01" />
+    </inertial>
+    <visual>
+      <geometry>
+        <mesh
+          filename="package://my_arm/meshes/base_link.STL" />
+      </geometry>
+    </visual>
+    <collision>
+      <geometry><mesh filename="package://my_arm/meshes/base_link.STL" /></geometry>
+    </collision>
+  </link>
+  <link name="link1">
+    <inertial>
+      <mass value="1" />
+      <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01" />
+    </inertial>
+    <visual><geometry><mesh filename='{link1}' /></geometry></visual>
+  </link>
+  <joint name="joint1" type="revolute">
+    <origin xyz="0 0 0.1" rpy="0 0 3.1416" />
+    <parent link="base_link" />
+    <child link="link1" />
+    <axis xyz="0 0 1" />
+    <limit lower="-1" upper="1" effort="10" velocity="1" />
+  </joint>
+</robot>
+"""
+
+
+def stl(size=0.05):
+    """Return a tetrahedron."""
+    corners = [(0, 0, 0), (size, 0, 0), (0, size, 0), (0, 0, size)]
+    faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    records = (struct.pack("<12fH", 0, 0, 0, *(v for i in face for v in corners[i]), 0) for face in faces)
+    return b"\0" * 80 + struct.pack("<I", len(faces)) + b"".join(records)
+
+
+@pytest.fixture
+def export(tmp_path, monkeypatch):
+    """A folder as CAD programs write it: urdf, meshes beside it, no package of that name to be found."""
+    folder = tmp_path / "export"
+    for sub in ("urdf", "meshes/fine", "other"):
+        (folder / sub).mkdir(parents=True)
+    (folder / "meshes/base_link.STL").write_bytes(stl())
+    (folder / "meshes/fine/link1.stl").write_bytes(stl(0.04))
+    (folder / "urdf/arm.urdf").write_bytes(CAD.format(link1="../meshes/fine/link1.stl").replace("\n", "\r\n").encode())
+    monkeypatch.chdir(tmp_path)
+    return folder
+
+
+def everything(folder):
+    return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+@pytest.mark.parametrize("ros", ["jazzy", "noetic"])
+def test_it_becomes_packages(export, capsys, ros):
+    before = everything(export)
+    assert main(["import", "export/urdf/arm.urdf", "--ros", ros, "--into", "src"]) == 0
+    assert everything(export) == before
+    src = export.parent / "src"
+    assert sorted(path.name for path in src.iterdir()) == ["my_arm_bringup", "my_arm_description", "my_arm_gazebo"]
+    said = capsys.readouterr().out
+    assert "2 meshes copied" in said
+    package = src / "my_arm_description"
+    assert (package / "meshes/base_link.STL").read_bytes() == stl()
+    assert (package / "meshes/fine/link1.stl").is_file()
+    assert (
+        "launch meshes rviz urdf" in (package / "CMakeLists.txt").read_text()
+        or "meshes" in (package / "CMakeLists.txt").read_text()
+    )
+    text = (package / "urdf/my_arm.urdf").read_bytes().decode()
+    assert 'filename="package://my_arm_description/meshes/base_link.STL"' in text
+    assert "filename='package://my_arm_description/meshes/fine/link1.stl'" in text
+    assert "\r\n" in text
+    assert "\n" not in text.replace("\r\n", "")
+    assert "<!-- written by a CAD program -->" in text
+    assert "my_arm.urdf" in (package / f"launch/display.launch{'' if ros == 'noetic' else '.py'}").read_text()
+    assert "Fixed Frame: base_link" in (package / "rviz/my_arm.rviz").read_text()
+    errors = [finding for finding in lint([package], package_path=[src]) if finding.severity == "error"]
+    assert errors == []
+    robot = load(package / "urdf/my_arm.urdf", package_path=[src])
+    simulator = Simulator(robot, note=lambda _: None)
+    simulator.run(0.05)
+
+
+def test_what_is_mended_and_left_is_told(export, capsys):
+    file = export / "urdf/arm.urdf"
+    file.write_text(file.read_text().replace('<axis xyz="0 0 1" />', '<axis xyz="0 0 2" />'))
+    code = main(["import", "export/urdf/arm.urdf"])
+    said = capsys.readouterr()
+    assert (code, said.err) == (0, "")
+    assert "mended: " in said.out
+
+
+@pytest.mark.parametrize(
+    "uri",
+    [
+        "package://gone/meshes/fine/link1.stl",
+        "meshes/fine/link1.stl",
+        "file:///C:/Users/me/export/meshes/fine/link1.stl",
+        "C:\\cad\\LINK1.STL",
+        "package://export/meshes/fine/link1.stl",
+    ],
+)
+def test_meshes_are_found_wherever_they_were_said_to_be(export, uri):
+    meshes = Meshes(export / "urdf/arm.urdf")
+    assert meshes.uri(uri, "arm").lower().endswith("link1.stl")
+    assert list(meshes.copies) == [(export / "meshes/fine/link1.stl").resolve()]
+
+
+def test_files_of_one_name_are_kept_apart(export):
+    (export / "other/link1.stl").write_bytes(stl(0.03))
+    meshes = Meshes(export / "urdf/arm.urdf")
+    assert meshes.uri("../meshes/fine/link1.stl", "arm") == "package://arm/meshes/fine/link1.stl"
+    assert meshes.uri("../other/link1.stl", "arm") == "package://arm/meshes/link1.stl"
+    (export / "urdf/link1.stl").write_bytes(stl(0.02))
+    assert meshes.uri("link1.stl", "arm") == "package://arm/meshes/link1_2.stl"
+    assert meshes.uri("link1.stl", "arm") == "package://arm/meshes/link1_2.stl"
+
+
+def test_what_a_mesh_needs_comes_along(export):
+    (export / "meshes/a.obj").write_text("mtllib a.mtl\nv 0 0 0\n")
+    (export / "meshes/a.mtl").write_text("newmtl m\nmap_Kd tex/a.png\n")
+    (export / "meshes/tex").mkdir()
+    (export / "meshes/tex/a.png").write_bytes(b"png")
+    meshes = Meshes(export / "urdf/arm.urdf")
+    meshes.uri("../meshes/a.obj", "arm")
+    assert sorted(meshes.copies.values()) == ["meshes/a.mtl", "meshes/a.obj", "meshes/tex/a.png"]
+
+
+def test_a_missing_mesh_is_refused(export, capsys):
+    (export / "meshes/fine/link1.stl").unlink()
+    assert main(["import", "export/urdf/arm.urdf", "--into", "src"]) == 2
+    said = capsys.readouterr().err
+    assert "no file for `../meshes/fine/link1.stl`; nothing was written" in said
+    assert not (export.parent / "src").exists()
+    (export.parent / "elsewhere").mkdir()
+    (export.parent / "elsewhere/link1.stl").write_bytes(stl())
+    assert main(["import", "export/urdf/arm.urdf", "--meshes", "elsewhere"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["export/urdf/arn.urdf"], "did you mean `arm.urdf`?"),
+        (["export/urdf/arm.urdf", "--ros", "noetik"], "did you mean `noetic`?"),
+        (["export/urdf/arm.urdf", "--name", "My Arm"], "did you mean `my_arm`?"),
+        (["export/urdf/arm.urdf", "--meshs", "a"], "did you mean `--meshes`?"),
+        (["export/urdf/arm.urdf", "--meshes", "a"], "--meshes a: no such folder"),
+        (["export/urdf/two.urdf"], "urdfkit: export/urdf/two.urdf:1:"),
+        (["x.xacro"], "is a xacro"),
+    ],
+)
+def test_what_cannot_be_is_refused_and_nothing_written(export, capsys, words, says):
+    (export / "urdf/two.urdf").write_text('<robot name="t"><link name="a"/><link name="b"/></robot>')
+    (export.parent / "x.xacro").write_text("<robot/>")
+    before = everything(export.parent)
+    assert main(["import", *words]) == 2
+    said = capsys.readouterr().err
+    assert says in said
+    assert said.count("\n") == 1
+    assert everything(export.parent) == before
+
+
+def test_nothing_is_overwritten(export, capsys):
+    (export.parent / "my_arm_gazebo").mkdir()
+    assert main(["import", "export/urdf/arm.urdf"]) == 2
+    assert "my_arm_gazebo is already there" in capsys.readouterr().err
+    assert not (export.parent / "my_arm_description").exists()
+
+
+@pytest.mark.ros
+def test_the_packages_build(export, debian):
+    assert main(["import", "export/urdf/arm.urdf", "--ros", "noetic", "--into", "src"]) == 0
+    assert "found 0 problems" in debian("catkin_lint -W2 --strict --offline src")
+    debian("catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3 install")
+    assert (export.parent / "install/share/my_arm_description/meshes/fine/link1.stl").is_file()

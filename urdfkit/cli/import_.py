@@ -1,0 +1,130 @@
+"""``urdfkit import``: wrap a bare URDF, e.g. what a CAD program wrote, into packages."""
+
+from __future__ import annotations
+
+from datetime import datetime, timezone
+from pathlib import Path
+
+from urdfkit.errors import ResourceError, UsageError, did_you_mean
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Sequence
+
+    from urdfkit.scaffold.template import Template
+
+_SUFFIXES = ("_description", "_gazebo", "_bringup", "_urdf", ".sldasm", ".SLDASM")
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments."""
+    parser.epilog = (
+        "examples:\n  urdfkit import arm.urdf\n  urdfkit import export/arm.urdf --name arm --ros noetic --into src"
+    )
+    parser.add_argument("file", metavar="FILE", help="the URDF; it is only read")
+    parser.add_argument("--name", help="what the packages' names begin with (default: the robot's)")
+    parser.add_argument("--ros", default="jazzy", help="ROS distribution: humble, jazzy, kilted, lyrical or noetic")
+    parser.add_argument("--into", metavar="DIR", default=".", help="folder to write to (default: where you stand)")
+    parser.add_argument(
+        "--meshes", action="append", default=[], metavar="DIR", help="look for meshes here first (repeatable)"
+    )
+    for name in ("maintainer", "email", "license"):
+        parser.add_argument(
+            f"--{name}", help=f"for package.xml{' (default: as git knows)' if name != 'license' else ''}"
+        )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Find the meshes, render, mend, move into place.
+
+    Raises:
+        UrdfkitError: it could not be done; nothing was written then.
+    """
+    from urdfkit.cli.identity import identity
+    from urdfkit.resources import templates_dir
+    from urdfkit.scaffold import load_template
+    from urdfkit.scaffold.wrap import wrap
+
+    file = _file(arguments.file)
+    template = load_template(templates_dir() / "package")
+    given = identity(template)
+    for name in ("ros", "maintainer", "email", "license"):
+        if (value := getattr(arguments, name)) is not None:
+            given[name] = template.question(name).accept(value)
+    name = _name(template, arguments.name, file)
+    folders = [_folder(word) for word in arguments.meshes]
+    given |= {"year": str(datetime.now(timezone.utc).year), "into": Path(arguments.into).as_posix()}
+    wrapped = wrap(file, name, Path(arguments.into), given, mesh_folders=folders, mend=_mended)
+    for folder, count in zip(wrapped.folders, wrapped.files, strict=True):
+        print(f"{folder.as_posix()}  {count} files")
+    if not arguments.quiet:
+        if wrapped.meshes:
+            print(f"\n{wrapped.meshes} mesh{'es' if wrapped.meshes > 1 else ''} copied; {file} is as it was")
+        for line in wrapped.said:
+            print(line)
+        where = wrapped.folders[0].as_posix()
+        print(f"\nnext:\n  urdfkit lint {where}\n  urdfkit view {where}\n  urdfkit sim teleop {where}")
+    return 0
+
+
+def _file(word: str) -> Path:
+    path = Path(word).expanduser()
+    if path.is_dir():
+        from urdfkit.resources import models_in
+
+        found = models_in(path)
+        if len(found) != 1:
+            listed = f": {', '.join(each.name for each in found[:8])}" if found else ""
+            raise ResourceError(f"{word} is a folder with {len(found)} descriptions; name the file{listed}")
+        path = found[0]
+    if not path.is_file():
+        there = [each.name for each in path.parent.iterdir()] if path.parent.is_dir() else []
+        raise ResourceError(f"no such file: {word}{did_you_mean(path.name, there)}")
+    if path.suffix == ".xacro":
+        raise UsageError(
+            f"{word} is a xacro, which may have files beside it: urdfkit expand {word} -o FILE.urdf, and import that"
+        )
+    return path
+
+
+def _folder(word: str) -> Path:
+    path = Path(word).expanduser()
+    if not path.is_dir():
+        raise ResourceError(f"--meshes {word}: no such folder")
+    return path
+
+
+def _name(template: Template, asked: str | None, file: Path) -> str:
+    """Return the name asked for, checked, or the robot's as ROS would have it."""
+    from urdfkit.description.expand import expand_leniently
+    from urdfkit.scaffold import check_package_name, sanitised
+
+    if asked is not None:
+        return check_package_name(asked, suffixes=("_description", "_gazebo", "_bringup"))
+    root = expand_leniently(file).root
+    name = (root.get("name") if root is not None else None) or file.stem
+    for suffix in _SUFFIXES:
+        name = name.removesuffix(suffix)
+    return check_package_name(sanitised(name))
+
+
+def _mended(stage: Path) -> Sequence[str]:
+    """Apply the safe fixes of the linter in a folder; return what was mended and what is left, a line each."""
+    from urdfkit.lint.engine import Options
+    from urdfkit.lint.entries import find_entries
+    from urdfkit.lint.fix import fix
+
+    fixed = fix(find_entries([stage]), Options(package_path=(stage,), guess_target=True), within=[stage])
+    for change in fixed.changes:
+        change.write()
+    said = [f"mended: {count} × {code}" for code, count in sorted(fixed.fixed.items())]
+    left = [finding for finding in fixed.outcome.findings if finding.severity != "info"]
+    codes: dict[str, int] = {}
+    for finding in left:
+        codes[finding.code] = codes.get(finding.code, 0) + 1
+    first = {finding.code: finding for finding in reversed(left)}
+    said += [
+        f"left: {count} × {code}, e.g. line {first[code].line}: {first[code].message}" for code, count in codes.items()
+    ]
+    return said

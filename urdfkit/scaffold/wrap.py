@@ -1,0 +1,130 @@
+"""Wrap a bare URDF into packages: description with the meshes it uses, Gazebo, bringup."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from urdfkit.atomic import move_into_place, staging
+from urdfkit.description import load
+from urdfkit.description.robot import Robot
+from urdfkit.errors import DescriptionError, ResourceError
+from urdfkit.resources import templates_dir
+from urdfkit.scaffold.computed import computed
+from urdfkit.scaffold.meshes import URI, Meshes
+from urdfkit.scaffold.new import made
+from urdfkit.scaffold.template import load_template
+
+KINDS = ("description", "gazebo", "bringup")
+
+
+@dataclass(frozen=True, slots=True)
+class Wrapped:
+    """What came of wrapping.
+
+    Attributes:
+        folders: the packages, where they are now.
+        files: how many files each has.
+        meshes: how many meshes and pictures were copied.
+        said: what the mender said.
+    """
+
+    folders: tuple[Path, ...]
+    files: tuple[int, ...]
+    meshes: int
+    said: Sequence[str]
+
+
+def wrap(
+    file: Path,
+    name: str,
+    folder: Path,
+    answers: Mapping[str, str],
+    *,
+    mesh_folders: Sequence[Path] = (),
+    mend: Callable[[Path], Sequence[str]] = lambda _: (),
+) -> Wrapped:
+    """Write the packages of a robot whose URDF is there; the file itself is only read.
+
+    Args:
+        file: the URDF.
+        name: what the packages' names begin with.
+        folder: to write to; made if it is not there.
+        answers: to the questions of the template of packages: ros, maintainer, email, license; and year, into.
+        mesh_folders: where to look for meshes first.
+        mend: is given the folder with the packages before they are moved, may change them, and says what it did.
+
+    Raises:
+        ResourceError: a mesh is not found, a package is there already, or something cannot be read or written.
+        DescriptionError: the file is no robot.
+    """
+    folder_names = [f"{name}_{kind}" for kind in KINDS]
+    for target in (folder / each for each in folder_names):
+        if target.exists() or target.is_symlink():
+            raise ResourceError(f"{target} is already there; nothing is overwritten")
+    meshes = Meshes(file, mesh_folders)
+    content = rewritten(_read(file), meshes, f"{name}_description")
+    if meshes.missing:
+        more = f" and {len(meshes.missing) - 1} more" if len(meshes.missing) > 1 else ""
+        raise ResourceError(f"{file}: no file for `{meshes.missing[0]}`{more}; nothing was written: --meshes DIR?")
+    with made(folder), staging(folder) as stage:
+        model = stage / f"{name}_description/urdf/{name}.urdf"
+        model.parent.mkdir(parents=True)
+        model.write_bytes(content)
+        meshes.copy(stage / f"{name}_description")
+        given = {"model": model.name, "folders": " meshes" if meshes.copies else ""}
+        for kind in KINDS:
+            _render(stage, kind, name, {**answers, **given, "root": "base_link"})
+        said = list(mend(stage))
+        robot = _loaded(model, stage, file)
+        _root(stage / f"{name}_description", robot.roots()[0].name)
+        counts = tuple(sum(path.is_file() for path in (stage / each).rglob("*")) for each in folder_names)
+        move_into_place(stage, folder)
+    return Wrapped(tuple(folder / each for each in folder_names), counts, len(meshes.copies), said)
+
+
+def rewritten(content: bytes, meshes: Meshes, package: str) -> bytes:
+    """Return a URDF whose meshes are those of the new package; all else stays, byte for byte.
+
+    Args:
+        content: of the file.
+        meshes: finds them.
+        package: the name of the new package.
+    """
+    text = content.decode("utf-8", "surrogateescape")
+    text = URI.sub(lambda match: f"{match[1]}{match[2]}{meshes.uri(match[3], package)}{match[2]}", text)
+    return text.encode("utf-8", "surrogateescape")
+
+
+def _render(stage: Path, kind: str, name: str, answers: Mapping[str, str]) -> None:
+    template = load_template(templates_dir() / "package")
+    asked = {question.name for question in template.questions}
+    given = {key: value for key, value in answers.items() if key in asked}
+    full = template.answers({**given, "name": f"{name}_{kind}", "kind": kind})
+    full |= computed("package", full)
+    template.render({**full, **answers, "name": f"{name}_{kind}", "kind": kind}, stage)
+    (stage / f"{name}_{kind}/urdf/{name}.urdf.xacro").unlink(missing_ok=True)
+
+
+def _loaded(model: Path, stage: Path, file: Path) -> Robot:
+    try:
+        return load(model, package_path=[stage])
+    except DescriptionError:
+        load(file)  # says the same of the file that there will be afterwards
+        raise
+
+
+def _root(package: Path, root: str) -> None:
+    """Let RViz stand on the root of the robot."""
+    for path in package.glob("rviz/*.rviz"):
+        text = path.read_text(encoding="utf-8")
+        path.write_text(re.sub(r"((?:Fixed|Target) Frame: )base_link", rf"\g<1>{root}", text), encoding="utf-8")
+
+
+def _read(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise ResourceError(f"{path}: {error.strerror}") from error
