@@ -24,6 +24,8 @@ if TYPE_CHECKING:
         "bad-expression",
         "conditional",
         "recursion",
+        "misspelt-directive",
+        "directive-attribute",
         "too-large",
         "too-many",
         "other",

@@ -81,11 +81,19 @@ def script_of(material: Element) -> tuple[Element, str]:
 
 def unknown_materials(robot: Robot) -> Iterator[tuple[Element, str, str | None]]:
     """Yield where a ``<gazebo>`` block names a material ``Gazebo/…`` that there is not, the name, and the nearest."""
-    known = (*GAZEBO, *PLAIN)
     for block in robot.gazebo:
         for parent in (block.element, *block.element.find_all("visual")):
             for material in parent.find_all("material"):
-                place, name = script_of(material)
-                if name.startswith("Gazebo/") and (short := name.removeprefix("Gazebo/")) not in known:
-                    near = nearest(short, known, likeness=0.7)
-                    yield place, name, None if near is None else f"Gazebo/{near}"
+                if (found := unknown_material(material)) is not None:
+                    yield found
+
+
+def unknown_material(material: Element) -> tuple[Element, str, str | None] | None:
+    """Return where a ``<material>`` names one ``Gazebo/…`` that there is not, the name, and the nearest; else None."""
+    known = (*GAZEBO, *PLAIN)
+    place, name = script_of(material)
+    short = name.removeprefix("Gazebo/")
+    if short == name or short in known:
+        return None
+    near = nearest(short, known, likeness=0.7)
+    return place, name, None if near is None else f"Gazebo/{near}"

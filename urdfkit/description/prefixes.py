@@ -67,7 +67,7 @@ def mend_directives(document: minidom.Document) -> Iterator[tuple[minidom.Elemen
         if (
             tag in _DIRECTIVES
             and is_directive(tag, element.attributes)
-            and may_be_directive_inside(_names_above(element), tag, element.getAttribute("value"))
+            and may_be_directive_inside(names_above(element), tag, element.getAttribute("value"))
         ):
             rename(element)
             yield element, tag
@@ -94,14 +94,15 @@ def looks_like_a_call(node: minidom.Element, macro: Any) -> bool:
     return True
 
 
-def rename(node: minidom.Element) -> str:
-    """Give an element the prefix ``xacro:``; return its new tag."""
+def rename(node: minidom.Element, name: str | None = None) -> str:
+    """Give an element the prefix ``xacro:``, and another name if one is given; return its new tag."""
     renamed: Any = node
-    renamed.tagName = renamed.nodeName = f"xacro:{node.tagName}"
+    renamed.tagName = renamed.nodeName = f"xacro:{name or node.tagName}"
     return str(node.tagName)
 
 
-def _names_above(node: Any) -> Iterator[str]:
+def names_above(node: Any) -> Iterator[str]:
+    """Yield the names of the elements around one, nearest first."""
     above = node.parentNode
     while above is not None and above.nodeType == above.ELEMENT_NODE:
         yield above.tagName

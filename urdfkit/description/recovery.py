@@ -19,6 +19,7 @@ from urdfkit.description.prefixes import looks_like_a_call, mend_directives, ren
 from urdfkit.description.reading import shown_path, stamped_document
 from urdfkit.description.run import Run
 from urdfkit.description.source import Position, Source
+from urdfkit.description.spelling import misspelt, misspelt_attributes
 from urdfkit.description.too_large import TooMany
 from urdfkit.description.unknown import FallbackSymbols, Unknown, peek
 from urdfkit.description.vocabulary import TAGS
@@ -135,10 +136,27 @@ class RecoveringRun(Run):
             self._note(fault_of(error, self))
             document = stamped_document(source, self, namespaces=False)
         if self._mend_prefixes:
+            self._mend_spelling(document)
             for element, tag in mend_directives(document):
                 position, expansions = self.position_of(element)
                 self._unprefixed.setdefault(Unprefixed("directive", tag, position, expansions))
         return document
+
+    def _mend_spelling(self, document: minidom.Document) -> None:
+        """Read misspelt directives, and attributes of them, as if they were spelt right."""
+        for element, tag, meant in misspelt(document):
+            what = f"macro `{tag[6:]}` is not defined" if tag.startswith("xacro:") else f"<{tag}> is nothing to xacro"
+            message = f"{what}; did you mean `{'' if tag.startswith('xacro:') else 'xacro:'}{meant}`?"
+            self._note(Fault("misspelt-directive", message, *self.position_of(element), name=meant))
+            rename(element, meant)
+        for element, name, right in misspelt_attributes(document):
+            hint = f"; did you mean `{right}`?" if right is not None else ""
+            message = f"<{element.tagName}> has no attribute `{name}`{hint}"
+            position, expansions = self.position_of(element)
+            self._note(Fault("directive-attribute", message, position, expansions, name, right))
+            if right is not None:
+                element.setAttribute(right, element.getAttribute(name))
+            element.removeAttribute(name)
 
     def eval_all(self, node: minidom.Element, macros: Any, symbols: Any) -> None:
         """Evaluate an element; drop the children that cannot be."""

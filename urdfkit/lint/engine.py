@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 TARGETS = ("ros1", "ros2", "gz", "classic", "mujoco", "isaac", "drake", "moveit")
 """Consumers that ``--target`` may name; without one every rule counts that holds for any of them."""
 
+_EVERYWHERE = ("xml", "misspelt-directive", "directive-attribute", "too-large", "too-many")
+"""Kinds of faults that count in a file which others include, too: the rest may be due to what only those define."""
+
 _AT_ONCE = 8
 """From so many files on it pays to lint them in several processes."""
 
@@ -291,7 +294,7 @@ class Checker:
             return
         rules = [rule() for rule in (*fault_rules(), *(rule for rule in self.foreign if issubclass(rule, FaultRule)))]
         for fault in model.expanded.faults:
-            if entry.is_library and fault.kind != "xml":
+            if entry.is_library and fault.kind not in _EVERYWHERE:
                 continue
             for rule in rules:
                 if rule.claims(fault) and self._applies(type(rule), model.target):

@@ -66,10 +66,14 @@ class Model:
     def is_incomplete(self) -> bool:
         """Whether what is not there may be elsewhere.
 
-        That is so where elements were dropped, or kept, because of a fault, and in files without a link: they are a
-        part of a robot that somebody includes.
+        That is so where elements were dropped, or kept, because of a fault, where the name of a link or joint is
+        misspelt, and in files without a link: they are a part of a robot that somebody includes.
         """
         if not self.robot.links:
+            return True
+        from urdfkit.lint.prefix import misspelt_in_robot
+
+        if any(misspelt_in_robot(child) is not None for child in self.robot.element.children):
             return True
         faults = self.expanded.faults
         return any(fault.kind in _DROPPING and not fault.message.startswith("unbound prefix") for fault in faults)

@@ -13,6 +13,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from urdfkit.description.element import Element
     from urdfkit.lint.syntax import Document, Tag
 
 NAMESPACE = "http://www.ros.org/wiki/xacro"
@@ -63,6 +64,9 @@ URDF_ATTRIBUTES: dict[str, tuple[str, ...]] = {
 """The attributes of the elements of URDF (urdfdom 4.0 and http://wiki.ros.org/urdf/XML)."""
 
 URDF_ELEMENTS = frozenset(URDF_CHILDREN).union(*URDF_CHILDREN.values())
+
+_LIKENESS = 0.8
+"""How near a name has to be to that of an element (`difflib.SequenceMatcher.ratio`): `lnk`, `joit`, `gazeebo`."""
 
 # Compiled on first use: most files need none of them.
 _XACRO_URI = r"https?://(www\.)?(wiki\.)?ros\.org/(wiki/)?xacro/?"
@@ -139,3 +143,20 @@ def prefixing(document: Document, tag: Tag) -> tuple[Edit, ...]:
     if tag.close is not None:
         edits.append(Edit(source.span(tag.close + 2, tag.close + 2), "xacro:"))
     return tuple(edits)
+
+
+def misspelt_in_robot(element: Element) -> str | None:
+    """Return which child of ``<robot>`` an element must be meant as, None where it is one, or nothing like any.
+
+    Args:
+        element: stands directly in ``<robot>``.
+    """
+    tag = element.tag
+    if tag in URDF_CHILDREN["robot"] or tag in URDF_ELEMENTS or ":" in tag or len(tag) < 3:
+        return None
+    if tag.endswith("s") and "name" not in element.attributes:
+        return None  # <joints> around something: an extension of somebody's
+    from difflib import get_close_matches
+
+    known = URDF_CHILDREN["robot"]
+    return next(iter(get_close_matches(tag.lower(), sorted(known), n=1, cutoff=_LIKENESS)), None)

@@ -43,6 +43,7 @@ FAULTS: tuple[Row, ...] = (
     ("", "xacro.expression_error", "ExpressionError"),
     ("", "xacro.expansion_error", "ExpansionError"),
     ("", "xacro.too_large", "TooLarge"),
+    ("", "xacro.directive_attribute", "DirectiveAttribute"),
 )
 
 SUPPRESSION: tuple[Row, ...] = (

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from math import sqrt
 
 from urdfkit.description.element import Element
+from urdfkit.description.gazebo_materials import unknown_material
 from urdfkit.description.robot import Box, Capsule, Cylinder, Mesh, Pose, Sphere
 from urdfkit.description.world.context import Context
 from urdfkit.description.world.shape import Cone, Ellipsoid, Kept, Plane, Rgba, Surface, WorldGeometry, WorldShape, keep
@@ -42,7 +43,8 @@ def read_shape(context: Context, element: Element, pose: Pose) -> WorldShape | N
         pose: in its link.
 
     Returns:
-        The shape; None where its geometry is ``<empty/>``, or is a visual's mesh that is not there (noted).
+        The shape; None where its geometry is ``<empty/>``, or is a visual's mesh that is not there (noted). That of a
+        collision whose mesh is not there (noted) names no file.
 
     Raises:
         DescriptionError: it cannot be read, or is of a kind that is refused.
@@ -59,7 +61,7 @@ def read_shape(context: Context, element: Element, pose: Pose) -> WorldShape | N
     if element.tag == "collision":
         surface = _surface(context, element.find("surface"))
         return WorldShape(name, geometry, pose, surface, laser_retro=retro, file=file, kept=kept, position=position)
-    rgba, material, more = _material(element)
+    rgba, material, more = _material(context, element)
     return WorldShape(
         name,
         geometry,
@@ -163,7 +165,9 @@ def _mesh(context: Context, shape: Element, element: Element) -> tuple[WorldGeom
         file = find_file(context, uri)
     except ResourceError as error:
         if shape.tag == "collision":
-            raise
+            what = f"{error.message}; collision `{shape.get('name')}` is left out: nothing touches it there"
+            context.note(uri, what)
+            return Mesh(uri.text, scale), ""
         context.note(uri, f"visual `{shape.get('name')}` is not shown: {error.message}")
         return None
     written = uri.text if "://" in uri.text else f"file://{file}"
@@ -213,7 +217,7 @@ def _mask(contact: Element | None, default: int) -> int:
         raise wrong(child, f"<collide_bitmask> is `{child.text}`; it must be a whole number") from None
 
 
-def _material(visual: Element) -> tuple[Rgba | None, str, tuple[Kept, ...]]:
+def _material(context: Context, visual: Element) -> tuple[Rgba | None, str, tuple[Kept, ...]]:
     """Return colour, name of the script, and the material itself where there is more to it."""
     element = visual.find("material")
     if element is None:
@@ -221,6 +225,11 @@ def _material(visual: Element) -> tuple[Rgba | None, str, tuple[Kept, ...]]:
     ambient = color(element, "ambient", None)
     rgba = color(element, "diffuse", ambient)
     script = element.find("script")
+    if (strange := unknown_material(element)) is not None:
+        place, name, meant = strange
+        hint = "" if meant is None else f"; did you mean `{meant}`?"
+        then = "; the visual keeps its plain colour" if rgba is None else ""
+        context.note(place, f"no material `{name}`{hint}{then}")
     plain = ambient in (None, rgba) and all(
         child.tag in ("ambient", "diffuse") or (child.tag == "script" and _is_gazebos(child))
         for child in element.children

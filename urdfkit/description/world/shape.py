@@ -120,7 +120,7 @@ class WorldShape(Written):
         transparency: of a visual: 0 is opaque, 1 is not seen.
         material: name of the Gazebo material script, e.g. ``Gazebo/Grey``; empty where none is written.
         laser_retro: what a lidar reads as intensity.
-        file: the mesh on this machine; empty for other shapes, and for a visual whose mesh is not there.
+        file: the mesh on this machine; empty for other shapes, and where the mesh is not there.
         kept: what else was written.
         position: where.
     """

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import nearest, new_tag
-from urdfkit.lint.prefix import URDF_ATTRIBUTES, URDF_CHILDREN
+from urdfkit.lint.prefix import URDF_ATTRIBUTES, URDF_CHILDREN, misspelt_in_robot
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -23,7 +23,8 @@ class UnknownElement(RobotRule):
 
     ## What it does
     Looks at what is inside ``<link>``, ``<joint>``, ``<inertial>``, ``<visual>``, ``<collision>`` and ``<geometry>``.
-    Elements with a prefix belong to somebody else, and ``<robot>`` may hold extensions of any name.
+    Elements with a prefix belong to somebody else. ``<robot>`` may hold extensions of any name: there an element is
+    reported where its name is nearly that of a link, a joint or another that belongs there.
 
     ## Why is this bad?
     Readers skip it without a word: a typing error, or a macro call without prefix, takes wheels, damping or inertia
@@ -67,6 +68,12 @@ class UnknownElement(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each element that has no meaning where it stands."""
+        robot = model.robot.element
+        for child in robot.children:
+            if (meant := misspelt_in_robot(child)) is not None:
+                fix = new_tag(model, child, meant, "unsafe", f"Call it <{meant}>")
+                help = f"did you mean `{meant}`?"
+                yield self.at(model, child, _message(robot, child), help=help, fix=fix, severity="error")
         for link in model.robot.links:
             for parent, child in _unknown(link.element):
                 hint, fix = _hint(parent, child), _renamed(model, parent, child)

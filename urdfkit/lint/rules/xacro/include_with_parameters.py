@@ -56,12 +56,15 @@ class IncludeWithParameters(SourceRule):
         for tag in document.walk():
             if tag.name != "xacro:include":
                 continue
+            place = source.position(tag.start)
+            faults = (fault for fault in model.expanded.faults if fault.kind == "directive-attribute")
+            spelt = {fault.attribute for fault in faults if fault.position == place}
             for name, written in tag.attributes.items():
-                if name not in ("filename", "ns", "optional") and not name.startswith("xmlns"):
+                if name not in ("filename", "ns", "optional") and not name.startswith("xmlns") and name not in spelt:
                     start = len(text[: written.start].rstrip())
                     yield self.at(
                         model,
-                        source.position(tag.start),
+                        place,
                         f"an include takes no parameter `{name}`",
                         attribute=name,
                         help="give it to the macro that the file defines",

@@ -1,0 +1,96 @@
+"""Directives of xacro that are misspelt, and their attributes: what they must mean."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+
+from urdfkit.description.prefixes import FOREIGN, is_directive, names_above
+from urdfkit.description.vocabulary import TAGS
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+    from xml.dom import minidom
+
+ATTRIBUTES: dict[str, tuple[str, ...]] = {
+    "macro": ("name", "params"),
+    "property": ("name", "value", "default", "remove", "scope", "lazy_eval"),
+    "include": ("filename", "ns", "optional"),
+    "arg": ("name", "default"),
+    "if": ("value",),
+    "unless": ("value",),
+    "insert_block": ("name",),
+}
+"""Directive → its attributes (xacro 2.1, `check_attrs`)."""
+
+_OTHERS = frozenset(("attribute", "call", "element"))
+_LIKENESS = 0.8
+
+
+def misspelt(document: minidom.Document) -> Iterator[tuple[minidom.Element, str, str]]:
+    """Yield the directives of a document whose name is misspelt, with what is written and what is meant.
+
+    A name is one only where the attributes fit; macros that are defined in the document are none.
+
+    Args:
+        document: may be changed while it is gone through.
+    """
+    elements = list(document.getElementsByTagName("*"))
+    macros: set[str] | None = None
+    for element in elements:
+        tag = element.tagName
+        name = tag.removeprefix("xacro:")
+        if name in _OTHERS or ":" in name or (name == tag and (name in TAGS or is_directive(name, element.attributes))):
+            continue
+        if name in ATTRIBUTES and (name != tag or not FOREIGN.isdisjoint(names_above(element))):
+            continue
+        meant = _near(name, tuple(ATTRIBUTES))
+        if meant is None or not _fits(meant, element, name != tag):
+            continue
+        if macros is None:
+            macros = {one.getAttribute("name") for one in elements if one.tagName in ("xacro:macro", "macro")}
+        if name not in macros:
+            yield element, tag, meant
+
+
+def misspelt_attributes(document: minidom.Document) -> Iterator[tuple[minidom.Element, str, str | None]]:
+    """Yield the attributes that a directive does not have, with what is meant, if that can be told.
+
+    Args:
+        document: may be changed while it is gone through.
+    """
+    for directive, known in ATTRIBUTES.items():
+        for element in list(document.getElementsByTagName(f"xacro:{directive}")):
+            for name in list(element.attributes.keys()):
+                if name in known or name.startswith(("xmlns", "xacro:")):
+                    continue
+                free = tuple(one for one in known if not element.hasAttribute(one))
+                meant = _near(name, free)
+                if meant is not None or directive != "include":  # parameters of an include are another matter
+                    yield element, name, meant
+
+
+@lru_cache(maxsize=1_000)
+def _near(name: str, candidates: tuple[str, ...]) -> str | None:
+    if len(name) < 4:
+        return None
+    for candidate in candidates:
+        if sorted(candidate) == sorted(name.lower()):
+            return candidate
+    from difflib import get_close_matches
+
+    return next(iter(get_close_matches(name.lower(), candidates, n=1, cutoff=_LIKENESS)), None)
+
+
+def _fits(directive: str, element: Any, is_prefixed: bool) -> bool:
+    """Whether an element has what the directive has, and nothing else."""
+    given: Iterable[str] = element.attributes.keys()
+    known = ATTRIBUTES[directive]
+    if not all(name in known or name.startswith("xmlns") or _near(name, known) for name in given):
+        return False
+    if directive == "property":
+        return element.hasAttribute("name") and (is_prefixed or len(element.attributes) > 1)
+    if directive == "macro":
+        return element.hasAttribute("name") and (element.hasAttribute("params") or is_prefixed)
+    return element.hasAttribute(known[0]) and (is_prefixed or directive == "include")
