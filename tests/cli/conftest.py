@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.cli.lab import write
+
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, Page
 
@@ -52,6 +54,14 @@ class Served:
     def end(self, how: signal.Signals = signal.SIGINT) -> int:
         self.process.send_signal(how)
         return self.process.wait(timeout=20)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def own_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Keep the keys of servers on a port of their own out of the user's folder."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_RUNTIME_DIR", str(tmp_path_factory.mktemp("runtime")))
+        yield
 
 
 @contextmanager
@@ -151,6 +161,44 @@ def visits(browser: Browser) -> Iterator[Visits]:
     yield made
     for context in made.contexts:
         context.close()
+
+
+@pytest.fixture(scope="module")
+def lab(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The file of a robot with all there is to see."""
+    return write(tmp_path_factory.mktemp("lab"))
+
+
+@pytest.fixture(scope="module")
+def lab_served(serve_for_all: Callable[..., Served], lab: Path) -> Served:
+    """The viewer of that robot."""
+    return serve_for_all("view", str(lab))
+
+
+@pytest.fixture(scope="module")
+def lab_visits(browser: Browser) -> Iterator[Visits]:
+    """One window for all tests of a module."""
+    made = Visits(browser)
+    yield made
+    for context in made.contexts:
+        context.close()
+
+
+@pytest.fixture
+def lab_page(lab_served: Served, lab_visits: Visits, until: Callable[..., object]) -> Iterator[Page]:
+    """The viewer as it opens, every joint at zero; nothing may go wrong in it, and it asks nobody else for anything."""
+    if not lab_visits.contexts:
+        opened = lab_visits.open(lab_served.url)
+    else:
+        opened = lab_visits.contexts[0].pages[0]
+        opened.evaluate("localStorage.clear()")
+        opened.goto(f"{lab_served.origin}/")
+        opened.wait_for_selector(READY)
+    opened.get_by_role("button", name="Zero all").click()
+    until(lambda: opened.evaluate("Object.values(urdfkit.page.values).every((x) => x === 0)"))
+    yield opened
+    assert lab_visits.problems == []
+    assert all(url.startswith((lab_served.origin, "data:", "blob:")) for url in lab_visits.requests)
 
 
 @pytest.fixture

@@ -22,6 +22,7 @@ from urdfkit.view.protocol import Do, ProtocolError
 TABLE = {
     "move": Schema({"name": text(5), "pose": numbers(3, 7)}, {"fast": flag}),
     "count": Schema({"steps": whole(1, 10)}, changes=False),
+    "weigh": Schema({"mass": number(0.001, 1e6, unit="kg")}),
     "all": Schema(
         optional={
             "kind": choice("a", "b"),
@@ -47,20 +48,24 @@ def test_an_order_comes_through_as_it_is_meant() -> None:
     ("name", "values", "why"),
     [
         ("mvoe", {}, "no order `mvoe`; did you mean `move`?"),
-        ("move", {"name": "box"}, "`move` needs `pose`"),
+        ("move", {"name": "box"}, "move: the pose is missing"),
         ("move", {"name": "box", "pose": [1, 2, 3], "psoe": 1}, "takes no `psoe`; did you mean `pose`?"),
-        ("move", {"name": "box", "pose": [1, 2]}, "`pose` of `move`: it must be a list of 3 to 7"),
-        ("move", {"name": "box", "pose": [1, 2, float("nan")]}, "from -1e+06 to 1e+06"),
-        ("move", {"name": "box", "pose": [1, 2, True]}, "it must be a number"),
+        ("move", {"name": "box", "pose": [1, 2]}, "pose: 2 numbers instead of a list of 3 to 7 numbers"),
+        ("move", {"name": "box", "pose": [1, 2, float("nan")]}, "pose: “nan” is no number, such as 0.5"),
+        ("move", {"name": "box", "pose": [1, 2, True]}, "“True” is no number"),
+        ("move", {"name": "box", "pose": [1, 2, 1e7]}, "pose: 1e+07 is too much; the most is 1e+06"),
         ("move", {"name": "boxes!", "pose": [1, 2, 3]}, "at most 5 characters"),
-        ("move", {"name": "a\x00", "pose": [1, 2, 3]}, "it must be a text"),
-        ("move", {"name": 3, "pose": [1, 2, 3]}, "it must be a text"),
-        ("move", {"name": "box", "pose": [1, 2, 3], "fast": 1}, "true or false"),
-        ("count", {"steps": 11}, "a whole number from 1 to 10"),
-        ("count", {"steps": 2.0}, "a whole number"),
-        ("all", {"kind": ["a"]}, "one of a, b"),
-        ("all", {"rows": [{"x": 0, "y": 0}]}, "an object with x"),
-        ("all", {"rows": [{}] * 3}, "a list of 0 to 2"),
+        ("move", {"name": "a\x00", "pose": [1, 2, 3]}, "name: “a\\x00” is no text"),
+        ("move", {"name": 3, "pose": [1, 2, 3]}, "name: “3” is no text"),
+        ("move", {"name": "box", "pose": [1, 2, 3], "fast": 1}, "fast: “1” is neither true nor false"),
+        ("count", {"steps": 11}, "steps: 11 is too much; the most is 10"),
+        ("count", {"steps": 2.0}, "steps: “2.0” is no whole number, such as 1"),
+        ("weigh", {"mass": -3}, "mass: -3 kg is too little; the least is 0.001 kg"),
+        ("weigh", {"mass": "1,5"}, "mass: “1,5” is no number, such as 0.5 kg"),
+        ("all", {"kind": "bb"}, "kind: “bb” is none of a, b; did you mean `b`?"),
+        ("all", {"kind": ["a"]}, "none of a, b"),
+        ("all", {"rows": [{"x": 0, "y": 0}]}, "no object with x"),
+        ("all", {"rows": [{}] * 3}, "3 entries instead of a list of 0 to 2 entries"),
         ("all", {"free": [float("inf")]}, "not finite"),
     ],
     ids=str,
@@ -135,7 +140,7 @@ def test_an_order_is_done_and_answered_to_who_ordered_it(client, page, doing, te
 
 def test_nonsense_is_answered_and_logged(page, doing, text, caplog) -> None:
     do(page, 1, "count", steps="many")
-    assert text(page, "answer")["error"] == "`steps` of `count`: it must be a whole number from 1 to 10"
+    assert text(page, "answer")["error"] == "steps: “many” is no whole number, such as 1"
     do(page, 2, "format_disk")
     assert "no order `format_disk`" in text(page, "answer")["error"]
     assert "dropped a message" in caplog.text

@@ -169,12 +169,26 @@ def read_to_the_end(connected: websocket.WebSocket) -> None:
             pass
 
 
-def test_a_frame_over_the_cap_closes_the_line_and_nothing_else(client, page, server, until) -> None:
+def test_a_frame_over_the_cap_closes_the_line_and_nothing_else(client, page, server, until, caplog) -> None:
     other = client.socket()
     page.send("x" * (protocol.MAX_INBOUND + 1))
     read_to_the_end(page)
     other.send('{"type":"joints","positions":{"lift":0.2}}')
     assert until(server.inbox.take).joints == {"lift": 0.2}
+    assert until(lambda: "longer than 65536 bytes; the line is cut" in caplog.text)
+
+
+def test_a_frame_that_is_none_closes_the_line_with_a_word(page, until, caplog) -> None:
+    page.sock.sendall(b"\xf3\x80\x00\x00\x00\x00")  # bits that mean nothing are set
+    read_to_the_end(page)
+    assert until(lambda: "a frame was malformed" in caplog.text)
+
+
+def test_a_page_that_goes_away_is_no_refusal(page, server, until, caplog) -> None:
+    until(lambda: server.hub.watchers)
+    page.sock.close()
+    until(lambda: not server.hub.watchers)
+    assert "refused" not in caplog.text
 
 
 @pytest.mark.parametrize("frame", ["", "nonsense", "{}", '{"type":"joints","positions":{"lift":NaN}}',
@@ -239,10 +253,14 @@ def test_geometry_is_served_by_its_content_and_may_be_kept(client, server) -> No
 
 
 def test_refusals_are_logged_without_the_key(client, server, caplog) -> None:
-    with caplog.at_level(logging.INFO, "urdfkit.view"):
-        client.get("/?token=guess")
-        client.get(f"/?token={server.gate.token}", Origin="http://evil.example")
-    assert caplog.text.count("refused GET /") == 2
+    client.get("/?token=guess")
+    client.get(f"/?token={server.gate.token}", Origin="http://evil.example")
+    client.get("/", Host="evil.example")
+    lines = [record.getMessage() for record in caplog.records if record.levelno == logging.WARNING]
+    assert [line.partition(": ")[0] for line in lines[:3]] == ["refused GET / from 127.0.0.1"] * 3
+    assert "key in the address is wrong" in lines[0]
+    assert "another site" in lines[1]
+    assert "not one this server answers to" in lines[2]
     assert server.gate.token not in caplog.text
     assert "guess" not in caplog.text
 

@@ -70,36 +70,59 @@ def check(table: Mapping[str, Schema], client: int, wish: Do) -> Order:
             raise ProtocolError(f"`{wish.order}` takes no `{name}`{did_you_mean(name, known)}")
     for name in schema.values:
         if name not in wish.values:
-            raise ProtocolError(f"`{wish.order}` needs `{name}`")
+            raise ProtocolError(f"{_words(wish.order)}: the {_words(name)} is missing")
     found = {}
     for name, value in wish.values.items():
         try:
             found[name] = known[name](value)
         except ProtocolError as error:
-            raise ProtocolError(f"`{name}` of `{wish.order}`: {error}") from None
+            raise ProtocolError(f"{_words(name)}: {error}") from None
     return Order(client, wish.number, wish.order, found)
 
 
-def number(least: float = -MAX_MAGNITUDE, most: float = MAX_MAGNITUDE) -> Check:
-    """Return a check for a finite number in these bounds."""
+def _words(name: str) -> str:
+    """Return the name of an order or value as people say it."""
+    return name.replace("_", " ")
+
+
+def number(least: float = -MAX_MAGNITUDE, most: float = MAX_MAGNITUDE, *, unit: str = "") -> Check:
+    """Return a check for a finite number in these bounds; `unit` is what it is counted in, for who is told."""
 
     def read(value: Any) -> float:
-        if isinstance(value, bool) or not isinstance(value, int | float) or not least <= value <= most:
-            raise ProtocolError(f"it must be a number from {least:g} to {most:g}")
+        if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
+            raise ProtocolError(f"{_shown(value)} is no number, such as {_plain(max(0.5, least), unit)}")
+        _require_within(value, least, most, unit)
         return float(value)
 
     return read
 
 
-def whole(least: int = 0, most: int = 2**31) -> Check:
+def whole(least: int = 0, most: int = 2**31, *, unit: str = "") -> Check:
     """Return a check for a whole number in these bounds."""
 
     def read(value: Any) -> int:
-        if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
-            raise ProtocolError(f"it must be a whole number from {least} to {most}")
+        if isinstance(value, bool) or not isinstance(value, int):
+            raise ProtocolError(f"{_shown(value)} is no whole number, such as {_plain(max(1, least), unit)}")
+        _require_within(value, least, most, unit)
         return value
 
     return read
+
+
+def _require_within(value: float, least: float, most: float, unit: str) -> None:
+    if value < least:
+        raise ProtocolError(f"{_plain(value, unit)} is too little; the least is {_plain(least, unit)}")
+    if value > most:
+        raise ProtocolError(f"{_plain(value, unit)} is too much; the most is {_plain(most, unit)}")
+
+
+def _plain(value: float, unit: str) -> str:
+    return f"{value:g} {unit}".rstrip()
+
+
+def _shown(value: Any) -> str:
+    """Return a value as it was written, not too long, without what a terminal would act on."""
+    return f"“{ascii(value)[:40]}”" if not isinstance(value, str) else f"“{ascii(value[:40])[1:-1]}”"
 
 
 def text(most: int = MAX_NAME) -> Check:
@@ -111,7 +134,7 @@ def text(most: int = MAX_NAME) -> Check:
             or len(value) > most
             or any(ord(each) < 32 and each not in "\n\t" for each in value)
         ):
-            raise ProtocolError(f"it must be a text of at most {most} characters")
+            raise ProtocolError(f"{_shown(value)} is no text of at most {most} characters")
         return str(value)
 
     return read
@@ -120,7 +143,7 @@ def text(most: int = MAX_NAME) -> Check:
 def flag(value: Any) -> bool:
     """Return a truth value."""
     if not isinstance(value, bool):
-        raise ProtocolError("it must be true or false")
+        raise ProtocolError(f"{_shown(value)} is neither true nor false")
     return value
 
 
@@ -129,24 +152,26 @@ def choice(*names: str) -> Check:
 
     def read(value: Any) -> str:
         if value not in names or not isinstance(value, str):
-            raise ProtocolError(f"it must be one of {', '.join(names)}")
+            near = did_you_mean(value, names) if isinstance(value, str) else ""
+            raise ProtocolError(f"{_shown(value)} is none of {', '.join(names)}{near}")
         return value
 
     return read
 
 
-def numbers(least: int, most: int | None = None, *, bound: float = MAX_MAGNITUDE) -> Check:
+def numbers(least: int, most: int | None = None, *, bound: float = MAX_MAGNITUDE, unit: str = "") -> Check:
     """Return a check for a list of so many finite numbers."""
-    return listing(number(-bound, bound), least, least if most is None else most)
+    return listing(number(-bound, bound, unit=unit), least, least if most is None else most, "numbers")
 
 
-def listing(each: Check, least: int, most: int) -> Check:
+def listing(each: Check, least: int, most: int, what: str = "entries") -> Check:
     """Return a check for a list of so many entries."""
 
     def read(value: Any) -> list[Any]:
         if not isinstance(value, list) or not least <= len(value) <= most:
             count = str(least) if least == most else f"{least} to {most}"
-            raise ProtocolError(f"it must be a list of {count}")
+            found = f"{len(value)} {what}" if isinstance(value, list) else _shown(value)
+            raise ProtocolError(f"{found} instead of a list of {count} {what}")
         return [each(entry) for entry in value]
 
     return read
@@ -157,8 +182,14 @@ def record(**fields: Check) -> Check:
 
     def read(value: Any) -> dict[str, Any]:
         if not isinstance(value, dict) or value.keys() != fields.keys():
-            raise ProtocolError(f"it must be an object with {', '.join(fields)}")
-        return {name: check(value[name]) for name, check in fields.items()}
+            raise ProtocolError(f"{_shown(value)} is no object with {', '.join(fields)}")
+        found = {}
+        for name, check in fields.items():
+            try:
+                found[name] = check(value[name])
+            except ProtocolError as error:
+                raise ProtocolError(f"{_words(name)}: {error}") from None
+        return found
 
     return read
 

@@ -20,6 +20,7 @@ from urdfkit.view.inbox import Inbox
 from urdfkit.view.keys import keys_of
 from urdfkit.view.listen import bind, urls
 from urdfkit.view.orders import Order, Schema, check
+from urdfkit.view.refusals import Refusals
 from urdfkit.view.security import LOOPBACK_NAMES, Gate, is_loopback
 from urdfkit.view.web import application
 
@@ -66,6 +67,7 @@ class Server:
         self.inbox = Inbox()
         self.driver = Driver()
         self.hub = Hub()
+        self.refusals = Refusals()
         self.geometries = GeometryStore()
         self.joints: frozenset[str] = frozenset()
         self.mode = mode

@@ -14,7 +14,12 @@ from typing import TYPE_CHECKING, Any
 
 from tornado.iostream import StreamClosedError
 from tornado.web import Application, HTTPError, RequestHandler
-from tornado.websocket import WebSocketClosedError, WebSocketHandler
+from tornado.websocket import (
+    WebSocketClosedError,
+    WebSocketHandler,
+    WebSocketProtocol,
+    WebSocketProtocol13,
+)
 
 from urdfkit.errors import MissingDependencyError
 from urdfkit.view import protocol
@@ -116,7 +121,7 @@ class Guarded(RequestHandler):
 
     def refuse(self, reason: str) -> None:
         """Answer 403 with a page that says what to do."""
-        log.info("refused %s %s from %s: %s", self.request.method, self.request.path, self.request.remote_ip, reason)
+        self.server.refusals.tell(str(self.request.remote_ip), f"{self.request.method} {self.request.path}", reason)
         self.set_status(403)
         self.set_header("Content-Type", "text/html; charset=utf-8")
         self.finish(REFUSED.format(reason=reason))
@@ -233,6 +238,21 @@ class Socket(Guarded, WebSocketHandler):
         super().prepare()
         if not self._finished and not self.gate.origin_fits(self.request.headers.get("Origin"), self.host):
             self.refuse("A websocket needs an Origin.")
+
+    def get_websocket_protocol(self) -> WebSocketProtocol | None:
+        """Return tornado's own, which cuts the line at a frame that is too long or makes no sense, and say so."""
+        line = super().get_websocket_protocol()
+        if isinstance(line, WebSocketProtocol13):
+            receive = line._receive_frame
+
+            async def receive_and_tell() -> None:
+                await receive()
+                if line.stream.closed():
+                    why = f"a frame was malformed, or longer than {protocol.MAX_INBOUND} bytes; the line is cut"
+                    self.server.refusals.tell(str(self.request.remote_ip), f"page {self.client}", why)
+
+            line._receive_frame = receive_and_tell  # type: ignore[method-assign]
+        return line
 
     def open(self, *_: str, **__: str) -> None:
         """Bring the page up to date and start sending."""

@@ -1,6 +1,7 @@
 // Time: pause, steps, speed, reset, and the readout of how it stands.
 
 import { fixed, h, icon } from "./dom.js";
+import { field } from "./number.js";
 
 const $ = (id) => document.getElementById(id);
 const STEP = "M6 5v14l8-7zM17 5v14";
@@ -9,7 +10,7 @@ const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10];
 export function clock(page) {
   let me = null;
   const say = (error) => page.toast(error.message, "error");
-  const steps = h("input", { type: "number", id: "steps", min: 1, max: 10000, value: 1, "aria-label": "Steps", title: "Steps" });
+  const steps = field({ id: "steps", min: 1, max: 10000, step: 1, whole: true, value: 1, "aria-label": "Steps", title: "Steps" });
   const step = h("button", { type: "button", id: "step", title: "Go on by so many steps", "aria-label": "Step", hidden: true }, icon(STEP), h("span", {}, "Step"));
   const speed = h("select", { id: "factor", "aria-label": "Speed of time", title: "Speed of time" });
   speed.append(...SPEEDS.map((factor) => h("option", { value: factor, selected: factor === 1 }, `×${factor}`)), h("option", { value: "" }, "max"));
@@ -17,17 +18,30 @@ export function clock(page) {
   $("reset").before(steps, step);
   $("pause").before(speed);
   step.addEventListener("click", () => {
-    page.connection.order("step", { steps: Math.max(1, Math.round(steps.valueAsNumber || 1)) }).catch(say);
+    page.connection.order("step", { steps: steps.valueAsNumber || 1 }).catch(say);
   });
   speed.addEventListener("change", () => {
     page.connection.order("speed", speed.value ? { factor: Number(speed.value) } : {}).catch(say);
     speed.blur();
   });
+  // Of an arm that is bolted down: where the end of it is.
+  function tip(link) {
+    const node = page.scene.byLink.get(link);
+    $("tip-row").hidden = !node;
+    if (!node) return;
+    const at = node.position;
+    $("tip-name").textContent = link;
+    $("tip-name").title = `where the frame of ${link} is`;
+    $("tip-at").textContent = `${fixed(at.x, 3)}, ${fixed(at.y, 3)}, ${fixed(at.z, 3)} m`;
+  }
   page.on("you", (message) => (me = message.client));
   page.on("status", (message) => {
     page.pose = message.robots[page.driven] ?? message.pose;
     page.status = message;
     const { x, y, yaw } = page.pose;
+    const bolted = message.fixed && !(page.driven in message.robots && page.followed !== undefined);
+    for (const row of document.querySelectorAll("#readout [data-base]")) row.hidden = bolted;
+    tip(bolted ? message.tip : null);
     const quick = page.driven && message.robots[page.driven] ? message.robots[page.driven].speed : message.speed;
     $("sim-time").textContent = `${message.time.toFixed(message.paused ? 3 : 1)} s`;
     $("rtf").textContent = message.paused ? "paused" : `×${message.real_time_factor.toFixed(2)}`;

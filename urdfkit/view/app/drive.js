@@ -69,7 +69,7 @@ export class Drive {
   #keydown(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return this.release();
     const target = event.target instanceof Element ? event.target : document.body;
-    if (target.closest("input:not([type=range]):not([type=checkbox]), textarea, select") || document.querySelector("dialog[open]")) return;
+    if (target.closest("input:not([type=range]):not([type=checkbox]):not([type=radio]), textarea, select") || document.querySelector("dialog[open]")) return;
     this.shift = event.shiftKey;
     const key = SHIFTED[event.key] ?? (event.key.length === 1 ? event.key.toLowerCase() : event.key);
     if (event.key === "Shift") return this.changed();

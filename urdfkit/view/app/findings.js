@@ -26,8 +26,7 @@ export function findings(page) {
     for (const finding of known) finding.links = everywhere(page, finding);
     rules = message.rules;
     page.findings = known;
-    const counted = known.filter((finding) => finding.severity !== "info");
-    panel.badge(counted.length ? String(counted.length) : null, worst(counted));
+    panel.badge(known.length ? String(known.length) : null, worst(known));
     if (only && !known.some((finding) => finding.links.includes(only))) only = null;
     draw(message.fault);
     mark();

@@ -1,6 +1,7 @@
 // A form for a message: a field for every value, nested as the message is.
 
 import { h } from "./dom.js";
+import { field, readNumber } from "./number.js";
 
 export class Form {
   /** @param message an empty message, whose values say of what kind they are */
@@ -28,8 +29,12 @@ export class Form {
       input = h("input", { type: "checkbox", checked: value });
       read = () => input.checked;
     } else if (typeof value === "number") {
-      input = h("input", { type: "number", step: "any", value });
-      read = () => input.valueAsNumber || 0;
+      input = field({ value });
+      read = () => {
+        const written = readNumber(input.value);
+        if (Number.isNaN(written)) throw new Error(`${words}: “${input.value}” is no number, such as 0.5`);
+        return written;
+      };
     } else if (Array.isArray(value)) {
       input = h("textarea", { rows: 1, spellcheck: "false", placeholder: "[]" });
       input.value = JSON.stringify(value);

@@ -7,6 +7,8 @@ import { compose } from "./pose.js";
 
 const THREE = MeshCat.THREE;
 const HAND = "M12 2v20M2 12h20M12 2l-3 3M12 2l3 3M12 22l-3-3M12 22l3-3M2 12l3-3M2 12l3 3M22 12l-3-3M22 12l-3 3";
+const RESTARTS = 3; // beginnings elsewhere for each move of the hand
+const ALL = 40; // … and when it lets go
 const SIZE = 0.14; // of the picture's height, or width where that is less
 
 export class Dragging {
@@ -66,7 +68,7 @@ export class Dragging {
     const at = page.labels.at(link);
     const axis = handle.axis?.clone().transformDirection(this.viewer.scene.matrixWorld) ?? null;
     const normal = handle.kind === "about" ? axis : this.viewer.camera.getWorldDirection(new THREE.Vector3());
-    this.drag = { pointer: event.pointerId, kind: handle.kind, link, at, axis, plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, at), values: { ...page.values } };
+    this.drag = { pointer: event.pointerId, kind: handle.kind, link, at, axis, plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, at), values: { ...page.values }, goal: null, tried: 0 };
     this.drag.pose = page.robot.kinematics.forward(page.values).get(link);
     this.drag.from = this.#grip(event);
     this.drag.start = at.clone();
@@ -86,7 +88,7 @@ export class Dragging {
     event.stopImmediatePropagation();
     const grip = this.#grip(event);
     if (!grip || !this.drag.from) return;
-    const { kind, link, pose, start } = this.drag;
+    const { kind, pose, start } = this.drag;
     let goal = pose;
     if (kind === "about") goal = this.#turned(grip);
     else {
@@ -94,12 +96,20 @@ export class Dragging {
       const [x, y, z] = this.#inRoot(this.drag.at);
       goal = [x, y, z, ...pose.slice(3)];
     }
-    const limits = !this.page.ignoreLimits;
-    const found = this.page.robot.kinematics.inverse(link, goal, this.drag.values, { turn: this.turn, limits });
-    Object.assign(this.drag.values, found.values);
-    this.page.setJoints(found.values);
+    this.drag.goal = goal;
+    this.#reach(RESTARTS);
+  }
+
+  // While the hand moves there is time for few beginnings, other ones each time; when it lets go for all.
+  #reach(restarts) {
+    const { drag, page } = this;
+    const found = page.robot.kinematics.inverse(drag.link, drag.goal, drag.values, { turn: this.turn, limits: !page.ignoreLimits, restarts, first: drag.tried });
+    drag.reached = found.reached;
+    drag.tried = found.reached ? 0 : drag.tried + restarts;
+    Object.assign(drag.values, found.values);
+    page.setJoints(found.values);
     this.#tell(found);
-    this.page.stage.dirty();
+    page.stage.dirty();
   }
 
   #turned(grip) {
@@ -139,6 +149,10 @@ export class Dragging {
   #up(event) {
     if (!this.drag || event.pointerId !== this.drag.pointer) return;
     event.stopImmediatePropagation();
+    if (this.drag.goal && !this.drag.reached) {
+      this.drag.tried = 0;
+      this.#reach(ALL);
+    }
     this.drag = null;
     this.#quiet();
     this.viewer.controls.enabled = this.page.cameras.way !== "first";

@@ -1,6 +1,7 @@
 // The joint panel: a slider and a number for every joint, in radians or degrees, inside the limits or beyond them.
 
 import { check, h, short } from "./dom.js";
+import { field } from "./number.js";
 
 const SLIDERS = "M4 7h9M17 7h3M15 5v4M4 17h3M11 17h9M9 15v4";
 const DEGREES = 180 / Math.PI;
@@ -94,7 +95,7 @@ export class Joints {
   #row(joint) {
     const { name } = joint;
     const label = h("label", { title: name, for: `joint-${name}` }, name);
-    const number = h("input", { type: "number", step: "any" });
+    const number = field();
     const unit = h("span.unit");
     const slider = h("input", { type: "range", step: "any", id: `joint-${name}` });
     const ends = h("div.joint-ends", {}, h("span"), h("span"));
@@ -116,9 +117,7 @@ export class Joints {
   }
 
   #typed(row) {
-    const value = row.number.valueAsNumber;
-    if (Number.isFinite(value)) this.#move(row.joint.name, value / this.#factor(row.joint));
-    else this.#put(row, row.value);
+    this.#move(row.joint.name, row.number.valueAsNumber / this.#factor(row.joint));
   }
 
   #factor(joint) {

@@ -4,6 +4,9 @@ import { IDENTITY, about, add, compose, conjugate, cross, multiply, rotate, subt
 
 const STEPS = 40; // of damped least squares per call
 const CLOSE = 1e-5; // [m] and [rad] at which a goal counts as reached
+const NEAR = 1e-4; // [m] and [rad] at which no other beginning is tried
+const RESTARTS = 40; // beginnings elsewhere where the first one ends in a hollow that is not the goal's
+const PRIMES = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29];
 const DAMPING = 0.02; // of the error's length; Buss, "Introduction to inverse kinematics", 2004, section 6
 
 export class Kinematics {
@@ -63,6 +66,13 @@ export class Kinematics {
     }
   }
 
+  // As `forward`, of the links that a link hangs on only.
+  #poses(chain, values) {
+    const poses = new Map([[this.root, IDENTITY]]);
+    for (const joint of chain) poses.set(joint.child, compose(compose(poses.get(joint.parent), joint.origin), this.#motion(joint, values)));
+    return poses;
+  }
+
   /** The joints from the root down to a link. */
   chain(link) {
     const joints = [];
@@ -82,9 +92,9 @@ export class Kinematics {
   }
 
   /** Columns (linear, angular at a point) of the Jacobian of a link for the joints of `movers`. */
-  #jacobian(link, movers, poses, point) {
+  #jacobian(chain, movers, poses, point) {
     const columns = new Map(movers.map((joint) => [joint.name, [0, 0, 0, 0, 0, 0]]));
-    for (const joint of this.chain(link)) {
+    for (const joint of chain) {
       const master = joint.mimic ? joint.mimic.master : joint.name;
       const column = columns.get(master);
       if (!column) continue;
@@ -100,18 +110,29 @@ export class Kinematics {
 
   /**
    * Joint positions that bring a link to a goal, as near as limits allow: damped least squares, joints that meet a limit
-   * are held there and the rest goes on.
-   * @param goal placement of the link in the root link; @param options {turn: also its orientation, limits: keep them}
+   * are held there and the rest goes on. Where that ends short of the goal, it begins anew from elsewhere.
+   * @param goal placement of the link in the root link; @param options {turn: also its orientation, limits: keep them,
+   * restarts: how many beginnings elsewhere, first: number of the first of them}
    * @returns {values, error: what is left [m], turned: [rad]}
    */
-  inverse(link, goal, values, { turn = false, limits = true } = {}) {
+  inverse(link, goal, values, { turn = false, limits = true, restarts = RESTARTS, first = 0 } = {}) {
     const movers = this.movers(link);
-    const reach = this.#reach(link);
+    const task = { link, goal, turn, limits, movers, chain: this.chain(link), reach: this.#reach(link) };
+    let best = this.#descend(task, values);
+    const possible = Math.hypot(goal[0], goal[1], goal[2]) <= task.reach + this.#slides(task.chain);
+    for (let k = first; possible && !best.reached && movers.length && k < first + restarts; k++) {
+      const found = this.#descend(task, { ...values, ...elsewhere(movers, values, k, limits) });
+      if (found.reached) best = found;
+    }
+    return best;
+  }
+
+  #descend({ link, goal, turn, limits, movers, chain, reach }, values) {
     const found = { ...values };
     let error = Infinity;
     let turned = 0;
     for (let step = 0; step <= STEPS; step++) {
-      const poses = this.forward(found);
+      const poses = this.#poses(chain, found);
       const at = poses.get(link);
       const away = subtract(goal, at);
       const wrong = turn ? turnVector(multiply(turnOf(goal), conjugate(turnOf(at)))) : [0, 0, 0];
@@ -119,10 +140,16 @@ export class Kinematics {
       if ((error < CLOSE && turned < CLOSE) || step === STEPS || movers.length === 0) break;
       const weight = turn ? 0.3 * reach : 0; // a radian counts as much as this many metres
       const wanted = clamped([...away, ...wrong.map((x) => x * weight)], 0.3 * reach);
-      const columns = this.#jacobian(link, movers, poses, at).map((c) => [...c.slice(0, 3), ...c.slice(3).map((x) => x * weight)]);
+      const columns = this.#jacobian(chain, movers, poses, at).map((c) => [...c.slice(0, 3), ...c.slice(3).map((x) => x * weight)]);
       if (!this.#advance(found, movers, columns, wanted, limits, reach)) break;
     }
-    return { values: Object.fromEntries(movers.map(({ name }) => [name, found[name] ?? 0])), error, turned };
+    const reached = error < NEAR && turned < NEAR;
+    return { values: Object.fromEntries(movers.map(({ name }) => [name, found[name] ?? 0])), error, turned, reached };
+  }
+
+  // How far the sliding joints of a chain can go at most [m].
+  #slides(chain) {
+    return chain.filter(({ type }) => type === "prismatic").reduce((sum, { lower, upper }) => sum + Math.max(Math.abs(lower ?? 1e3), Math.abs(upper ?? 1e3)), 0);
   }
 
   #advance(found, movers, columns, wanted, limits, reach) {
@@ -155,6 +182,27 @@ export class Kinematics {
   #reach(link) {
     return Math.max(0.05, this.chain(link).reduce((sum, { origin }) => sum + Math.hypot(origin[0], origin[1], origin[2]), 0));
   }
+}
+
+/** Joint positions to begin from: the farther from those that are the higher `k`; the same each time. */
+function elsewhere(movers, values, k, limits) {
+  const part = Math.min(1, 0.3 + 0.1 * k);
+  const found = {};
+  movers.forEach(({ name, lower, upper }, i) => {
+    const now = values[name] ?? 0;
+    const chance = halton(k + 1, PRIMES[i % PRIMES.length]);
+    const low = limits && lower !== null ? lower : now - Math.PI;
+    const high = limits && upper !== null ? upper : now + Math.PI;
+    found[name] = now + part * (low + chance * (high - low) - now);
+  });
+  return found;
+}
+
+/** Numbers from 0 to 1 that are spread evenly; Halton, 1960. */
+function halton(index, base) {
+  let [found, part] = [0, 1];
+  for (let i = index; i > 0; i = Math.floor(i / base)) found += (part /= base) * (i % base);
+  return found;
 }
 
 function clamped(vector, length) {

@@ -46,11 +46,33 @@ export class Labels {
   }
 
   place() {
+    const names = [];
+    const { camera } = this.stage.viewer;
     for (const [element, where] of this.kept) {
       const point = where();
       const [x, y, seen] = point ? this.screen(point) : [0, 0, false];
       element.hidden = !seen;
-      if (seen) element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+      if (!seen) continue;
+      element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+      if (element.dataset.name) names.push({ element, x, y, away: this.wanted.has(element.dataset.name) ? -1 : camera.position.distanceTo(point) });
+    }
+    this.#declutter(names);
+  }
+
+  /** Names that are shown whatever is in front of them. */
+  get wanted() {
+    return new Set([this.page.pick?.hovered, this.page.selected?.link]);
+  }
+
+  // Of names that would lie on each other only the nearest is shown.
+  #declutter(names) {
+    for (const { element } of names) element.size ??= [element.offsetWidth, element.offsetHeight];
+    const shown = [];
+    for (const { element, x, y } of names.sort((a, b) => a.away - b.away)) {
+      const [width, height] = element.size;
+      const covered = shown.some((other) => x < other.x + other.width && other.x < x + width && y < other.y + other.height && other.y < y + height);
+      element.toggleAttribute("data-covered", covered);
+      if (!covered) shown.push({ x, y, width, height });
     }
   }
 

@@ -52,6 +52,7 @@ export function layers(page) {
     names(page, document.getElementById("show-names").checked);
   });
   page.on("fit", () => markers.update());
+  page.on("hover", () => shown.length && stage.dirty()); // whose name is in front
   page.expose("markers", markers);
 }
 
@@ -72,6 +73,6 @@ let shown = [];
 
 function names(page, wanted) {
   for (const label of shown) page.labels.remove(label);
-  shown = wanted ? [...page.robot.links.keys()].map((link) => page.labels.add(h("span.name-label", {}, link), () => page.labels.at(link))) : [];
+  shown = wanted ? [...page.robot.links.keys()].map((link) => page.labels.add(h("span.name-label", { "data-name": link }, link), () => page.labels.at(link))) : [];
   page.stage.dirty();
 }

@@ -11,6 +11,7 @@ export class Page {
     this.shortcuts = [];
     this.heard = new Map();
     addEventListener("keydown", (event) => this.#key(event));
+    addEventListener("refused", ({ detail }) => this.toast(detail, "error"));
   }
 
   /**

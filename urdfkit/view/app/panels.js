@@ -3,6 +3,7 @@
 import { h, icon } from "./dom.js";
 
 const PIN = "M9 3h6l-1 6 4 4v2H6v-2l4-4zM12 15v6";
+const SETTLE = 800; // ms in which a panel that opened may get its content
 const CLOSE = "M6 6l12 12M18 6L6 18";
 
 /** One panel. Fill `body`; tell people to look with `badge`. */
@@ -104,7 +105,20 @@ export class Panels {
     if (!this.#offered(opened)) return;
     for (const panel of this.all.values()) this.#show(panel, panel === opened || (panel.open && panel.pinned && !this.narrow.matches));
     this.#changed();
-    opened.section.scrollIntoView({ block: "nearest" });
+    this.#bring(opened.section);
+  }
+
+  // To the top of the column, below what is pinned above it; what fills it may come later and move it.
+  #bring(section) {
+    const show = () => (this.host.scrollTop += section.getBoundingClientRect().top - this.host.getBoundingClientRect().top);
+    show();
+    this.watching?.disconnect();
+    const watching = (this.watching = new ResizeObserver(show));
+    for (const child of this.host.children) watching.observe(child);
+    for (const event of ["pointerdown", "wheel", "keydown", "touchstart"]) {
+      this.host.addEventListener(event, () => watching.disconnect(), { once: true, passive: true });
+    }
+    setTimeout(() => watching.disconnect(), SETTLE);
   }
 
   close(id, back = false) {

@@ -37,7 +37,7 @@ export class Pick {
     const ray = this.aim(event);
     for (const hit of this.ray.intersectObjects(this.page.scene.solid, true)) {
       const link = this.page.scene.owner(hit.object);
-      if (!link) continue;
+      if (!link || this.page.scene.faded.has(hit.object)) continue; // what is in the way is not meant
       const world = (snap && this.#corner(hit, event)) || hit.point;
       return { link, object: hit.object, ...this.#placed(link, world) };
     }

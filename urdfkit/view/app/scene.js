@@ -3,6 +3,7 @@
 
 const THREE = MeshCat.THREE;
 const HEADER = 16;
+const FAINT = 0.14; // opacity of what is in the way
 const STILL = 1e-6; // [m] and parts of a turn: what moves less needs no new picture
 
 export class Scene {
@@ -15,6 +16,7 @@ export class Scene {
     this.groups = { visual: new Map(), collision: new Map() };
     this.shown = { visual: true, collision: false };
     this.look = { wireframe: false, opacity: 1 };
+    this.faded = new Set(); // meshes that are in the way
     this.byLink = new Map(); // name → node
     this.linkOf = new Map(); // node → name
     this.generation = 0;
@@ -57,11 +59,12 @@ export class Scene {
 
   // Wires and transparency go over what the description says, which is kept beside.
   #style(group) {
-    group.traverse(({ material }) => {
+    group.traverse((object) => {
+      const { material } = object;
       if (!material) return;
       material.userData.opacity ??= material.opacity;
       material.wireframe = this.look.wireframe;
-      material.opacity = material.userData.opacity * this.look.opacity;
+      material.opacity = material.userData.opacity * this.look.opacity * (this.faded.has(object) ? FAINT : 1);
       const clear = material.opacity < 1;
       if (material.transparent !== clear) Object.assign(material, { transparent: clear, depthWrite: !clear, needsUpdate: true });
     });
@@ -72,6 +75,15 @@ export class Scene {
     Object.assign(this.look, look);
     for (const groups of Object.values(this.groups)) for (const group of groups.values()) this.#style(group);
     this.stage.dirty();
+  }
+
+  /** Make meshes faint, and those that were and are not among them as they should be. */
+  fade(meshes) {
+    const before = this.faded;
+    const changed = [...meshes, ...before].filter((mesh) => meshes.has(mesh) !== before.has(mesh));
+    this.faded = meshes;
+    for (const mesh of changed) this.#style(mesh);
+    if (changed.length) this.stage.dirty();
   }
 
   show(role, shown) {

@@ -1,6 +1,7 @@
 // Parameters that can be changed while it runs: gravity, friction, masses, gains.
 
 import { h, short } from "./dom.js";
+import { field } from "./number.js";
 
 const SCREW = "M12 3v6M9 3h6M9 9h6l-1 9-2 3-2-3zM9.4 12h5.2M9.8 15h4.4";
 const PLANETS = { Earth: -9.81, Mars: -3.72, Moon: -1.62, none: 0 };
@@ -24,8 +25,8 @@ export function screws(page) {
     );
   }
 
-  function number(value, label, changed) {
-    const input = h("input", { type: "number", step: "any", min: 0, value: short(value, 6), "aria-label": label });
+  function number(value, label, changed, bounds = { min: 0 }) {
+    const input = field({ ...bounds, value: short(value, 6), "aria-label": label });
     input.addEventListener("change", () => changed(input.valueAsNumber, input));
     input.addEventListener("keydown", (event) => event.key === "Enter" && input.blur());
     return input;
@@ -34,10 +35,9 @@ export function screws(page) {
   function gravityRow() {
     const inputs = [..."xyz"].map((axis, i) => {
       const input = number(state.gravity[i], `gravity along ${axis}`, () => {
-        const values = inputs.map(({ valueAsNumber }) => valueAsNumber || 0);
+        const values = inputs.map(({ valueAsNumber }) => valueAsNumber);
         order("gravity", { gravity: values }, input);
-      });
-      input.removeAttribute("min");
+      }, { min: -1e4, max: 1e4, unit: "m/s²" });
       return input;
     });
     const pick = h("select", { "aria-label": "Gravity of", id: "planet" }, h("option", { value: "" }, "…"));
@@ -52,24 +52,24 @@ export function screws(page) {
   function row({ name, link, mass, mu }) {
     const words = link || name;
     const where = link ? { name, link } : { name };
-    const cell = (value, label, send) => h("td", {}, value === null ? h("span.quiet", {}, "–") : number(value, `${label} of ${words}`, send));
+    const cell = (value, label, send, bounds) => h("td", {}, value === null ? h("span.quiet", {}, "–") : number(value, `${label} of ${words}`, send, bounds));
     return h(
       "tr",
       { "data-of": link ? `${name}/${link}` : name },
       h("th", { scope: "row", title: link ? `${name}: ${link}` : name }, words),
-      cell(mass, "mass", (value, input) => order("mass", { ...where, mass: value }, input)),
-      cell(mu, "mu", (value, input) => order("mu", { ...where, mu: value }, input)),
+      cell(mass, "mass", (value, input) => order("mass", { ...where, mass: value }, input), { min: 1e-6, max: 1e6, unit: "kg" }),
+      cell(mu, "mu", (value, input) => order("mu", { ...where, mu: value }, input), { min: 0, max: 1e4 }),
     );
   }
 
   function gain({ path, p, i, d, clamp }) {
     const values = { p, i, d, clamp };
-    const field = (name) =>
+    const entry = (name) =>
       h("label", {}, name === "clamp" ? "i clamp" : name, number(values[name], `${name} of ${path}`, (value, input) => {
         values[name] = value;
         order("gains", { path, p: values.p, i: values.i, d: values.d, clamp: values.clamp }, input);
       }));
-    return h("fieldset", { "data-of": path }, h("legend", {}, path.split("/").slice(1).join(" · ")), ...Object.keys(values).map(field));
+    return h("fieldset", { "data-of": path }, h("legend", {}, path.split("/").slice(1).join(" · ")), ...Object.keys(values).map(entry));
   }
 
   function draw() {

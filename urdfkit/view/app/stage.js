@@ -128,6 +128,12 @@ export class Stage {
     this.grid.material.uniforms.reach.value = distance * 5 + 4 * this.cell;
   }
 
+  /** From how far a box is well seen [m]. */
+  distance(box, zoom = 1) {
+    const radius = Math.max(box.getBoundingSphere(new THREE.Sphere()).radius, 0.02);
+    return (radius / Math.sin((FOV * Math.PI) / 360) / Math.min(1, this.aspect)) * 1.12 * zoom;
+  }
+
   /** Look at a box from a good distance. `direction` points from it to the camera, z up; none: from where it is now. */
   fit(box, direction = null, zoom = 1) {
     if (box.isEmpty()) return false;
@@ -136,7 +142,7 @@ export class Stage {
     this.cell = this.grid.material.uniforms.cell.value = radius < 1.2 ? 0.2 : radius < 6 ? 1 : 5;
     const { camera, controls } = this.viewer;
     const narrow = Math.min(1, this.aspect);
-    const distance = (radius / Math.sin((FOV * Math.PI) / 360) / narrow) * 1.12 * zoom;
+    const distance = this.distance(box, zoom);
     const towards = camera.position.clone().sub(controls.target);
     if (camera.isOrthographicCamera) {
       towards.set(0, 1, 0);

@@ -81,8 +81,8 @@ export class Topics {
     const body = h("form", { "aria-label": `Publish to ${topic.name}` }, form.element, send);
     body.addEventListener("submit", (event) => {
       event.preventDefault();
-      this.page.connection
-        .order("publish", { topic: topic.name, type: topic.type, message: form.value })
+      new Promise((done) => done(form.value))
+        .then((message) => this.page.connection.order("publish", { topic: topic.name, type: topic.type, message }))
         .then(() => this.page.toast(`published to ${topic.name}`, "good"))
         .catch((error) => this.page.toast(error.message, "error"));
     });

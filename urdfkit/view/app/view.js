@@ -13,6 +13,7 @@ import { measure } from "./measure.js";
 import { pick } from "./pick.js";
 import { robot } from "./robot.js";
 import { selection } from "./selection.js";
+import { sight } from "./sight.js";
 import { tf } from "./tf.js";
 import { steering } from "./steering.js";
 import { theme } from "./theme.js";
@@ -20,5 +21,5 @@ import { tools } from "./tools.js";
 import { tree } from "./tree.js";
 
 export const viewFeatures = [
-  tools, robot, labels, joints, tree, inspector, layers, tf, measure, findings, cameras, capture, ik, pick, steering, selection, theme, help,
+  tools, robot, sight, labels, joints, tree, inspector, layers, tf, measure, findings, cameras, capture, ik, pick, steering, selection, theme, help,
 ];

@@ -2,6 +2,7 @@
 /* global MeshCat */
 
 import { h, short } from "./dom.js";
+import { field } from "./number.js";
 
 const THREE = MeshCat.THREE;
 const WALL = "M3 6h18v12H3zM3 12h18M9 6v6M15 12v6";
@@ -24,7 +25,7 @@ export class Walls {
       page.stage.viewer.scene.add(object);
     }
     const number = (id, words, value, min, max) => {
-      const input = h("input", { type: "number", id: `wall-${id}`, value, min, max, step: 0.05 });
+      const input = field({ id: `wall-${id}`, value, min, max, step: 0.05, unit: "m" });
       return [input, h("label", {}, `${words} `, input, h("span.unit", {}, "m"))];
     };
     const [height, tall] = number("height", "height", 2.5, 0.05, 20);
@@ -90,7 +91,7 @@ export class Walls {
       const off = Math.abs((x - ax) * uy - (y - ay) * ux) + Math.max(0, -along, along - length);
       if (!best || off < best.off) best = { off, segment: k, along, length };
     }
-    const width = this.width.valueAsNumber || 0.9;
+    const width = this.width.valueAsNumber;
     if (!best) return this.page.toast("draw a wall first", "error");
     if (best.length < width) return this.page.toast(`this wall is ${short(best.length, 2)} m long: too short for a door of ${short(width, 2)} m`, "error");
     const at = Math.min(best.length - width / 2, Math.max(width / 2, best.along));
@@ -116,7 +117,7 @@ export class Walls {
 
   async finish() {
     if (this.corners.length < 2) return;
-    const values = { corners: this.corners, doors: this.doors, height: this.height.valueAsNumber || 2.5, thickness: this.thickness.valueAsNumber || 0.15 };
+    const values = { corners: this.corners, doors: this.doors, height: this.height.valueAsNumber, thickness: this.thickness.valueAsNumber };
     try {
       const { name } = await this.page.connection.order("walls", values);
       this.page.toast(`built ${name}`, "good");

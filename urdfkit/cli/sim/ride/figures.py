@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
+    from urdfkit.description import Robot
     from urdfkit.scene import Shape
     from urdfkit.sim.simulator import Simulator
     from urdfkit.view.server import Server
@@ -26,6 +27,7 @@ class Figures:
 
     Attributes:
         revision: of the simulation, when it was shown last.
+        tip: the link that most joints that move lie between and the root; of an arm its end.
     """
 
     def __init__(self, simulator: Simulator, server: Server) -> None:
@@ -35,6 +37,7 @@ class Figures:
         self.revision = -1
         kinematics = simulator.kinematics
         self._root = kinematics.link_names.index(kinematics.root)
+        self.tip = _tip(kinematics.robot)
 
     def show(self) -> None:
         """Put the robots and what else the world holds on the page, where they are."""
@@ -94,6 +97,14 @@ class Figures:
     def root(self) -> int:
         """The row of the robot's root link."""
         return self._root
+
+
+def _tip(robot: Robot) -> str:
+    """Return the first link of those that the most moving joints carry."""
+    moved = {robot.roots()[0].name: 0}
+    for joint in robot.tree_order():
+        moved[str(joint.child)] = moved[str(joint.parent)] + (joint.type != "fixed")
+    return max(moved, key=lambda name: moved[name])
 
 
 def _look(shape: Shape) -> tuple[Any, ...]:

@@ -24,8 +24,8 @@ class Hands(Part):
     @property
     def takes(self) -> Takes:
         """The orders it takes."""
-        three = numbers(3, bound=STRONGEST)
-        wrench = {"force": three, "torque": three, "at": numbers(3, bound=1e3)}
+        force, torque = numbers(3, bound=STRONGEST, unit="N"), numbers(3, bound=STRONGEST, unit="N·m")
+        wrench = {"force": force, "torque": torque, "at": numbers(3, bound=1e3, unit="m")}
         return {
             "push": (Schema({"link": text(), **wrench}), self._push),
             "let_go": (Schema(), self._let_go),

@@ -222,6 +222,8 @@ class Ride:
             "dt": simulator.dt,
             "pose": _pose(poses[self.figures.root]),
             "speed": float(simulator.state.v[0]) if simulator.kinematics.floating_base else 0.0,
+            "fixed": not simulator.kinematics.floating_base,
+            "tip": self.figures.tip,
             "robots": robots,
             "odometry": {frame: [*pose[:2], _yaw(turn)] for frame, (pose, turn) in simulator.odometry().items()},
             "driver": self.server.driver.holder,

@@ -25,15 +25,15 @@ class Objects(Part):
     def takes(self) -> Takes:
         """The orders it takes."""
         pose = numbers(3, 7, bound=1e4)
-        door = record(segment=whole(0, 200), at=number(0, MOST), width=number(0.2, 20))
-        corners = listing(numbers(2, bound=MOST), 2, 200)
-        sizes = {"name": text(NAME), "height": number(0.05, 20), "thickness": number(0.02, 2)}
+        door = record(segment=whole(0, 200), at=number(0, MOST, unit="m"), width=number(0.2, 20, unit="m"))
+        corners = listing(numbers(2, bound=MOST, unit="m"), 2, 200, "corners")
+        sizes = {"name": text(NAME), "height": number(0.05, 20, unit="m"), "thickness": number(0.02, 2, unit="m")}
         return {
             "spawn": (Schema({"model": text(NAME)}, {"pose": pose, "name": text(NAME)}), self._spawn),
             "place": (Schema({"name": text(), "pose": pose}), self._place),
             "remove": (Schema({"name": text()}), self._remove),
             "where": (Schema({"name": text()}, changes=False), self._where),
-            "walls": (Schema({"corners": corners}, {**sizes, "doors": listing(door, 0, 50)}), self._walls),
+            "walls": (Schema({"corners": corners}, {**sizes, "doors": listing(door, 0, 50, "doors")}), self._walls),
             "save": (Schema({}, {"name": text(NAME)}, changes=False), self._save),
         }
 

@@ -6,7 +6,8 @@ from typing import Any
 
 from urdfkit.cli.sim.ride.part import Done, Part, Takes
 from urdfkit.sim.controllers.pid import Gains
-from urdfkit.sim.tuning import Tuning
+from urdfkit.sim.loading import STRONGEST
+from urdfkit.sim.tuning import LEAST_MASS, Tuning
 from urdfkit.view.orders import Order, Schema, number, numbers, text
 
 
@@ -23,8 +24,8 @@ class Screws(Part):
         link = {"link": text()}
         gains = Schema({"path": text(), "p": number(0), "i": number(0), "d": number(0)}, {"clamp": number(0)})
         return {
-            "gravity": (Schema({"gravity": numbers(3, bound=1000)}), self._gravity),
-            "mass": (Schema({"name": text(), "mass": number(0, 1e6)}, link), self._mass),
+            "gravity": (Schema({"gravity": numbers(3, bound=STRONGEST, unit="m/s²")}), self._gravity),
+            "mass": (Schema({"name": text(), "mass": number(LEAST_MASS, 1e6, unit="kg")}, link), self._mass),
             "mu": (Schema({"name": text(), "mu": number(0, 1e4)}, link), self._mu),
             "gains": (gains, self._gains),
         }

@@ -1,0 +1,94 @@
+"""A robot to look at in the viewer's tests, and hands for its page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+PARTS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="rod" params="name length">
+    <link name="${name}">
+      <inertial><origin xyz="0 0 ${length/2}"/><mass value="0.5"/>
+        <inertia ixx="0.002" ixy="0" ixz="0" iyy="0.002" iyz="0" izz="0.0003"/></inertial>
+      <visual><origin xyz="0 0 ${length/2}"/><geometry><box size="0.06 0.06 ${length}"/></geometry>
+        <material name="teal"><color rgba="0.1 0.5 0.55 1"/></material></visual>
+      <collision><origin xyz="0 0 ${length/2}"/><geometry>
+        <cylinder radius="0.05" length="${length}"/></geometry></collision>
+    </link>
+  </xacro:macro>
+</robot>
+"""
+ROBOT = """<robot name="lab" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="parts.xacro"/>
+  <link name="base">
+    <inertial><mass value="4"/><inertia ixx="0.02" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.03"/></inertial>
+    <visual><origin xyz="0 0 0.05"/><geometry><box size="0.3 0.3 0.1"/></geometry></visual>
+    <collision><origin xyz="0 0 0.05"/><geometry><box size="0.3 0.3 0.1"/></geometry></collision>
+  </link>
+  <xacro:rod name="upper" length="0.3"/>
+  <xacro:rod name="lower" length="0.3"/>
+  <xacro:rod name="hand" length="0.1"/>
+  <xacro:rod name="left" length="0.08"/>
+  <xacro:rod name="right" length="0.08"/>
+  <joint name="turn" type="continuous"><parent link="base"/><child link="upper"/><origin xyz="0 0 0.1"/>
+    <axis xyz="0 0 1"/></joint>
+  <joint name="bend" type="revolute"><parent link="upper"/><child link="lower"/><origin xyz="0 0 0.3"/>
+    <axis xyz="0 2 0"/><limit lower="-2" upper="1" effort="5" velocity="2"/></joint>
+  <joint name="tip" type="revolute"><parent link="lower"/><child link="hand"/><origin xyz="0 0 0.3"/>
+    <axis xyz="0 1 0"/><limit lower="-1.5" upper="1.5" effort="5" velocity="2"/></joint>
+  <joint name="open" type="prismatic"><parent link="hand"/><child link="left"/><origin xyz="0 0.02 0.1"/>
+    <axis xyz="0 1 0"/><limit lower="0" upper="0.05" effort="5" velocity="2"/></joint>
+  <joint name="follow" type="prismatic"><parent link="hand"/><child link="right"/><origin xyz="0 -0.02 0.1"/>
+    <axis xyz="0 1 0"/><limit lower="-0.05" upper="0.05" effort="5" velocity="2"/>
+    <mimic joint="open" multiplier="-1"/></joint>
+  <link name="eye"/>
+  <joint name="glass" type="revolute"><parent link="base"/><child link="eye"/><origin xyz="0.15 0 0.1"/>
+    <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="5" velocity="2"/></joint>
+</robot>
+"""
+
+
+def write(folder: Path) -> Path:
+    """Write the robot and return its file."""
+    (folder / "parts.xacro").write_text(PARTS)
+    path = folder / "lab.urdf.xacro"
+    path.write_text(ROBOT)
+    return path
+
+
+def values(page: Page) -> dict[str, float]:
+    """Return joint positions as the page knows them."""
+    found: dict[str, float] = page.evaluate("urdfkit.page.values")
+    return found
+
+
+def panel(page: Page, name: str) -> None:
+    """Open a panel by its button."""
+    page.locator(f"#open-{name}").click()
+    page.wait_for_selector(f"#panel-{name}:visible")
+
+
+def drawn(page: Page) -> None:
+    """Wait until everything there is to see has been drawn."""
+    page.evaluate(
+        """() => new Promise((done) => {
+          const look = () => (urdfkit.stage.viewer.needs_render ? requestAnimationFrame(look) : done());
+          requestAnimationFrame(look);
+        })"""
+    )
+
+
+def at(page: Page, link: str, local: tuple[float, float, float] = (0, 0, 0)) -> tuple[float, float]:
+    """Return where a point of a link is in the window [pixels]."""
+    x, y = page.evaluate(
+        """([link, local]) => { const { labels, stage } = urdfkit.page;
+            stage.viewer.render();
+            const [x, y] = labels.screen(labels.at(link, local));
+            const { left, top } = stage.pane.getBoundingClientRect();
+            return [x + left, y + top]; }""",
+        [link, list(local)],
+    )
+    return x, y

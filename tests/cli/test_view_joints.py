@@ -1,0 +1,144 @@
+"""The joint panel and dragging, in a real browser."""
+
+import math
+
+import pytest
+
+pytest.importorskip("pinocchio")
+pytest.importorskip("meshcat")
+
+from tests.cli.lab import at, drawn, values
+from urdfkit.kinematics import Kinematics
+from urdfkit.sim.loading import load_robot
+from urdfkit.view.inspection import inspection
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture
+def page(lab_page):
+    return lab_page
+
+
+def test_units_of_angles(page, until, keep) -> None:
+    page.get_by_label("Angles in").first.select_option("deg")
+    number = page.get_by_label("bend [deg]")
+    number.fill("30")
+    number.press("Enter")
+    until(lambda: values(page)["bend"] == pytest.approx(math.radians(30)))
+    ends = page.locator('li[data-joint="bend"] .joint-ends').inner_text().split()
+    assert ends == ["-114.592", "57.296"]
+    assert page.get_by_label("open [m]").is_visible()  # lengths stay metres
+    keep(page, "degrees")
+
+
+def test_centre_random_and_zero(page, until, keep) -> None:
+    page.get_by_role("button", name="Centre").click()
+    until(lambda: values(page)["bend"] == pytest.approx(-0.5))
+    assert values(page)["open"] == pytest.approx(0.025)
+    assert values(page)["follow"] == pytest.approx(-0.025)  # it follows
+    page.get_by_role("button", name="Random").click()
+    until(lambda: values(page)["bend"] != pytest.approx(-0.5))
+    assert -2 <= values(page)["bend"] <= 1
+    assert 0 <= values(page)["open"] <= 0.05
+    keep(page, "random")
+    page.keyboard.press("0")
+    until(lambda: values(page)["bend"] == 0)
+
+
+def test_limits_can_be_ignored_and_come_back(page, until, keep) -> None:
+    number = page.get_by_label("bend [rad]")
+    page.get_by_label("Ignore limits").check()
+    number.fill("2.5")
+    number.press("Enter")
+    until(lambda: values(page)["bend"] == 2.5)
+    assert page.locator('li[data-joint="bend"]').get_attribute("data-beyond") is not None
+    keep(page, "beyond-limits")
+    page.get_by_label("Ignore limits").uncheck()
+    until(lambda: values(page)["bend"] == 1)
+
+
+def test_a_mimic_joint_says_what_it_follows_and_cannot_be_moved(page) -> None:
+    row = page.locator('li[data-joint="follow"]')
+    assert "follows -1 × open" in row.inner_text()
+    assert row.locator("input").first.is_disabled()
+
+
+def test_the_filter_leaves_what_fits(page) -> None:
+    page.get_by_label("Filter joints").fill("TI")
+    assert page.locator("#joints li:visible").evaluate_all("rows => rows.map((r) => r.dataset.joint)") == ["tip"]
+    page.get_by_label("Filter joints").fill("nothing")
+    assert page.get_by_text("No joint of this name.").is_visible()
+
+
+def test_a_link_follows_the_handle_within_its_limits(page, until, keep) -> None:
+    page.evaluate("urdfkit.page.setJoints({ bend: 0.6, tip: 0.6 })")
+    until(lambda: values(page)["tip"] == 0.6)
+    page.evaluate("urdfkit.page.select({ link: 'left' })")
+    page.get_by_role("button", name="Drag the selected link").click()
+    assert page.locator("#ik-strip").inner_text().startswith("Drag the handle of left.")
+    drawn(page)
+    x, y = at(page, "left")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x - 10, y + 40, steps=5)
+    until(lambda: math.dist(at(page, "left"), (x - 10, y + 40)) < 2)  # the link is where the hand is
+    keep(page, "drag")
+    page.mouse.move(x + 700, y, steps=5)  # out of reach
+    until(lambda: "out of reach" in " ".join(page.locator(".measure-label").all_inner_texts()))
+    page.mouse.up()
+    now = values(page)
+    assert -2 <= now["bend"] <= 1
+    assert -1.5 <= now["tip"] <= 1.5
+    assert page.locator(".measure-label").count() == 0
+    page.get_by_label("Hold orientation").check()
+    assert page.evaluate("urdfkit.ik.gizmo.handles.filter((h) => h.userData.kind === 'about' && h.visible).length") == 6
+    keep(page, "drag-rings")
+
+
+@pytest.mark.parametrize("turn", [False, True])
+def test_inverse_kinematics_finds_what_can_be_reached(page, turn: bool) -> None:
+    """200 random goals of a real arm, from its zero: at least 98 in 100, inside the limits."""
+    robot = Kinematics(load_robot("seven_dof_arm"))
+    found = page.evaluate(
+        """([description, turn]) => { const k = new urdfkit.kinematics.constructor(description), found = [];
+            let seed = 7; const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
+            const link = "gripper_roll_link", movers = k.movers(link);
+            const within = (value, { lower, upper }) => Math.min(upper ?? 9, Math.max(lower ?? -9, value));
+            for (let i = 0; i < 200; i++) {
+              const pose = {}, start = {};
+              for (const joint of movers) {
+                const [low, high] = [joint.lower ?? -Math.PI, joint.upper ?? Math.PI];
+                pose[joint.name] = low + random() * (high - low);
+                start[joint.name] = within(0, joint);
+              }
+              const { values, error, turned } = k.inverse(link, k.forward(pose).get(link), start, { turn });
+              const off = ({ name, ...ends }) => Math.abs(within(values[name], ends) - values[name]);
+              const kept = movers.every((joint) => off(joint) < 1e-9);
+              found.push([error, turn ? turned : 0, kept]);
+            }
+            return found; }""",
+        [inspection(robot), turn],
+    )
+    assert all(kept for _, _, kept in found)
+    assert sum(error < 1e-3 and turned < 1e-2 for error, turned, _ in found) >= 196
+
+
+def test_a_decimal_comma_is_as_good_as_a_point_and_words_are_refused(page, until, keep) -> None:
+    number = page.get_by_label("bend [rad]")
+    number.fill("0,5")
+    number.press("Enter")
+    until(lambda: values(page)["bend"] == 0.5)
+    assert number.input_value() == "0.500"
+    number.fill("half")
+    number.press("Enter")
+    until(lambda: page.locator("#toast").inner_text() == "bend: “half” is no number, such as 0.5")
+    assert number.input_value() == "0.500"
+    assert values(page)["bend"] == 0.5
+    keep(page, "no-number")
+    number.press("ArrowUp")
+    until(lambda: values(page)["bend"] == pytest.approx(0.51))
+    read = """async () => { const { readNumber } = await import("/app/number.js");
+        return ["0,5", "-1", " 2.5 ", "−3", "1e-3", ".5", "1 000", "1,234.5", "1.234,5", "0x10", "", "1,2,3"].map(
+          (text) => { const found = readNumber(text); return Number.isNaN(found) ? null : found; }); }"""
+    assert page.evaluate(read) == [0.5, -1, 2.5, -3, 0.001, 0.5, 1000, None, None, None, None, None]
