@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
+import signal
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from urdfkit.errors import ResourceError
+
+_STAGE = ".urdfkit-"
 
 
 def write_text(path: Path, text: str) -> None:
@@ -59,7 +63,8 @@ def write_bytes(path: Path, content: bytes) -> None:
 def staging(folder: Path) -> Iterator[Path]:
     """Provide a temporary folder inside `folder`, gone afterwards whatever happens.
 
-    It lies on the same file system, so that `move_into_place` is a rename.
+    It lies on the same file system, so that `move_into_place` is a rename. What programs that were killed have left of
+    their own is removed.
 
     Args:
         folder: has to exist.
@@ -67,8 +72,9 @@ def staging(folder: Path) -> Iterator[Path]:
     Raises:
         ResourceError: nothing can be written there.
     """
+    _sweep(folder)
     try:
-        place = Path(tempfile.mkdtemp(prefix=".urdfkit-", dir=folder))
+        place = Path(tempfile.mkdtemp(prefix=f"{_STAGE}{_host()}-{os.getpid()}-", dir=folder))
     except OSError as error:
         raise ResourceError(f"cannot write into {folder}: {error.strerror}") from error
     try:
@@ -95,17 +101,55 @@ def move_into_place(staged: Path, folder: Path) -> list[Path]:
         if os.path.lexists(target):
             raise ResourceError(f"{target} is already there; nothing is overwritten")
     done: list[tuple[Path, Path]] = []
-    try:
-        for source, target in moves:
-            source.rename(target)
-            done.append((source, target))
-    except OSError as error:
-        raise ResourceError(f"cannot write {target}: {error.strerror}") from error
-    finally:
-        if len(done) < len(moves):
-            for source, target in reversed(done):
-                target.rename(source)
+    with undisturbed():
+        try:
+            for source, target in moves:
+                source.rename(target)
+                done.append((source, target))
+        except OSError as error:
+            raise ResourceError(f"cannot write {target}: {error.strerror}") from error
+        finally:
+            if len(done) < len(moves):
+                for source, target in reversed(done):
+                    target.rename(source)
     return [target for _, target in moves]
+
+
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """Let Ctrl-C and a request to end wait until the body is done, where the system can."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _sweep(folder: Path) -> None:
+    """Remove the temporary folders of programs of this machine that are no more."""
+    if not hasattr(os, "uname"):  # where there is no harmless way to ask whether a process is alive
+        return
+    for path in folder.glob(f"{_STAGE}{_host()}-*-*"):
+        process = path.name.removeprefix(f"{_STAGE}{_host()}-").partition("-")[0]
+        if process.isdigit() and not _is_alive(int(process)):
+            shutil.rmtree(path, ignore_errors=True)
+
+
+def _is_alive(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
+
+
+def _host() -> str:
+    return re.sub(r"[^A-Za-z0-9]", "", os.uname().nodename) if hasattr(os, "uname") else "here"
 
 
 def _umask() -> int:

@@ -81,7 +81,7 @@ def test_without_ros_there_is_the_description_alone(robot_template, tmp_path, dr
     made(robot_template, tmp_path, ros="none", drive=drive)
     assert [path.name for path in tmp_path.iterdir()] == ["scout_description"]
     inside = {path.name for path in (tmp_path / "scout_description").iterdir()}
-    assert inside == {"urdf", "README.md", "LICENSE", ".gitignore", "urdfkit-new.toml"}
+    assert inside == {"urdf", "test", "README.md", "LICENSE", ".gitignore", "urdfkit-new.toml"}
     assert [str(finding) for finding in lint([tmp_path], package_path=[tmp_path])] == []
 
 

@@ -175,6 +175,6 @@ def test_rviz_configuration(robots, ros):
 def test_everything_is_installed(robots, ros):
     for package in robots[ros].iterdir():
         rule = re.search(r"install\(DIRECTORY ([\w ]+)\n", (package / "CMakeLists.txt").read_text())
-        folders = {path.name for path in package.iterdir() if path.is_dir()} - {"hooks"}
+        folders = {path.name for path in package.iterdir() if path.is_dir()} - {"hooks", "test"}
         assert set(rule[1].split()) == folders
         assert all(any((package / folder).iterdir()) for folder in folders)

@@ -89,9 +89,9 @@ def test_two_layers_must_not_write_the_same_file(small_template):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("summary = ", "template.toml: "),
-        ("summary = 'x'", "missing or unknown key: 'layer'"),
-        ("summary = 'x'\nlayer = []\n[[question]]\nname = 'a'\nwhat = 1", "missing or unknown key: .*what"),
+        ("summary = ", r"template\.toml:1: Invalid value, and then it ends"),
+        ("summary = 'x'", r"template\.toml:1: the template lacks its `layer`"),
+        ("summary = 'x'\nlayer = []\n[[question]]\nname = 'a'\nwhat = 1", r"toml:5: no `what` in a \[\[question\]\]"),
     ],
 )
 def test_broken_toml(tmp_path, text, message):

@@ -8,10 +8,23 @@ from datetime import datetime, timezone
 from importlib import import_module
 from pathlib import Path
 
+from urdfkit.cli import updating
 from urdfkit.cli.identity import identity
+from urdfkit.cli.things import Kind, add_update, chosen
+from urdfkit.cli.updating import drawn, findings
 from urdfkit.errors import UrdfkitError, UsageError
-from urdfkit.resources import templates_dir
-from urdfkit.scaffold import Question, Template, applies, computed, create, load_template, read_recipe, template_names
+from urdfkit.scaffold import (
+    Question,
+    Template,
+    applies,
+    computed,
+    create,
+    fill,
+    is_fresh,
+    named_template,
+    read_recipe,
+    template_names,
+)
 
 ADDED = ("sensor",)
 """What is added to a description that is there: ``urdfkit new KIND`` is the module ``urdfkit.cli.new_KIND``."""
@@ -24,30 +37,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
         parser: of this command.
     """
     parser.epilog = "examples:\n  urdfkit new robot scout\n  urdfkit new robot scout --ros noetic --into src --yes"
-    kinds = parser.add_subparsers(dest="thing", metavar="KIND", required=True)
+    parser.add_argument(
+        "--update",
+        action="store_true",
+        help="make again in place what `new` has made here, leaving alone what was edited",
+    )
+    add_update(parser)
+    kinds = parser.add_subparsers(dest="thing", metavar="KIND", parser_class=Kind)
     for name in template_names():
-        template = load_template(templates_dir() / name)
-        kind = kinds.add_parser(
-            name,
-            help=template.summary,
-            description=f"Write {template.summary}.",
-            formatter_class=argparse.RawDescriptionHelpFormatter,
-            epilog="\n".join(["examples:", *(f"  urdfkit new {name} {example}" for example in template.examples)]),
-        )
-        for question in template.questions:
-            _add(kind, question)
-        kind.add_argument(
-            "--into", metavar="DIR", default=".", help="folder to write to (default: the one you stand in)"
-        )
-        kind.add_argument(
-            "--from",
-            dest="recipe",
-            metavar="FILE",
-            help="answers in TOML, such as each result keeps; options come first",
-        )
-        kind.add_argument("-y", "--yes", action="store_true", help="ask nothing: defaults for what is left out")
-        for option in template.asks_later:
-            kind.add_argument(f"--{option}", dest=f"later_{option}", nargs="?", const="", help=argparse.SUPPRESS)
+        kinds.add_parser(name, help=named_template(name).summary).set_defaults(thing=name)
     for name in ADDED:
         module = import_module(f"urdfkit.cli.new_{name}")
         module.configure(kinds.add_parser(name, help=module.SUMMARY))
@@ -64,7 +62,11 @@ def run(arguments: argparse.Namespace) -> int:
     """
     if arguments.thing in ADDED:
         return int(import_module(f"urdfkit.cli.new_{arguments.thing}").run(arguments))
-    template = load_template(templates_dir() / arguments.thing)
+    if arguments.thing is None:
+        if not arguments.update:
+            raise UsageError(f"new: the following arguments are required: KIND ({', '.join(template_names())})")
+        return updating.run(None, {}, Path(arguments.above_into), arguments, own=arguments.above_template)
+    template = chosen(arguments.thing, arguments.template)
     for option in template.asks_later:
         if getattr(arguments, f"later_{option}") is not None:
             there = ", ".join(question.option for question in template.questions if question.kind != "package")
@@ -77,35 +79,27 @@ def run(arguments: argparse.Namespace) -> int:
     into = Path(arguments.into)
     for name, answer in given.items():
         template.question(name).accept(answer)
+    if arguments.update:
+        return updating.run(template, given, into, arguments)
+    if arguments.diff:
+        raise UsageError("--diff goes with --update: there is nothing yet to compare with")
+    template = updating.placed(template, into)
     if arguments.recipe is not None:
         given = read_recipe(template, Path(arguments.recipe), given)
     given = {**identity(template), **given}
     if not arguments.yes and sys.stdin.isatty() and sys.stderr.isatty():
         given |= _ask(template, given)
-    answers = template.answers(given)
-    answers |= computed(template.folder.name, answers)
+    answers = template.answers(given, fresh=is_fresh(into))
+    answers |= computed(template.name, answers)
     answers |= {"year": str(datetime.now(timezone.utc).year), "into": into.as_posix()}
-    files = create(template, answers, into, check=_findings)
-    _tell(template, answers, files, into.resolve(), quiet=arguments.quiet)
-    return 0
+    files = create(template, answers, into, check=findings, finish=drawn if answers.get("picture") == "yes" else None)
+    teleop = template.teleop and arguments.teleop
+    _tell(template, answers, files, into.resolve(), quiet=arguments.quiet or bool(teleop))
+    if not teleop:
+        return 0
+    from urdfkit.cli import main
 
-
-def _add(parser: argparse.ArgumentParser, question: Question) -> None:
-    unit = f" [{question.unit}]" if question.unit else ""
-    choices = f": {', '.join(question.choices)}" if question.choices else ""
-    default = f" (default: {question.default.removeprefix('=').strip()})" if question.default else ""
-    text = f"{question.prompt}{unit}{choices}{default}{'; ' if question.help else ''}{question.help}".replace("%", "%%")
-    if question.default is None:
-        parser.add_argument(question.name, nargs="?", metavar=question.name.upper(), help=text)
-    elif question.kind == "flag":
-        parser.add_argument(question.option, dest=question.name, action="store_const", const="yes", help=text)
-        parser.add_argument(
-            f"--no-{question.option[2:]}", dest=question.name, action="store_const", const="no", help=argparse.SUPPRESS
-        )
-    else:
-        metavar = question.unit or question.name.upper()
-        action = "append" if question.several else "store"
-        parser.add_argument(question.option, dest=question.name, metavar=metavar, action=action, help=text)
+    return main(["sim", "teleop", str(into / fill(template.teleop, answers, where="teleop"))])
 
 
 def _ask(template: Template, given: dict[str, str]) -> dict[str, str]:
@@ -139,27 +133,18 @@ def _answered(question: Question, default: str | None) -> str:
     return line.strip()
 
 
-def _findings(folder: Path) -> list[str]:
-    from urdfkit.description.world import load_world
-    from urdfkit.lint import lint
-    from urdfkit.resources import models_in
-
-    for world in (*folder.glob("*.sdf"), *folder.glob("*.world")):
-        load_world(world)
-    if not models_in(folder):
-        return []
-    found = lint([folder], package_path=[folder])
-    return [f"{f.code} {f.message} ({Path(f.file).name}:{f.line})" for f in found if f.severity != "info"]
-
-
 def _tell(template: Template, answers: dict[str, str], files: list[Path], into: Path, *, quiet: bool) -> None:
     """Print what was written and, unless `quiet`, what to do with it."""
     counts: dict[str, int] = {}
     for file in files:
         top = file.relative_to(into).parts[0]
         counts[top] = counts.get(top, 0) + 1
+    spare = template.spare(answers)
     for top, count in counts.items():
-        print(f"{Path(answers['into'], top).as_posix()}  {count} file{'s' if count > 1 else ''}")
+        if top not in spare:
+            print(f"{Path(answers['into'], top).as_posix()}  {count} file{'s' if count > 1 else ''}")
+    if beside := [top for top in counts if top in spare]:
+        print(f"{Path(answers['into']).as_posix()}  {', '.join(beside)}")
     for title, commands in [] if quiet else template.next_steps(answers):
         print(f"\n{title or 'next'}:")
         for command in commands:

@@ -1,21 +1,33 @@
 """Write packages from templates: questions, answers, files, all or nothing."""
 
 from urdfkit.scaffold.computed import computed
+from urdfkit.scaffold.filling import fill
 from urdfkit.scaffold.names import check_package_name, sanitised
-from urdfkit.scaffold.new import create
+from urdfkit.scaffold.new import create, is_fresh
 from urdfkit.scaffold.question import Question, applies
-from urdfkit.scaffold.recipe import read_recipe
-from urdfkit.scaffold.template import Template, load_template, template_names
+from urdfkit.scaffold.reading import load_template
+from urdfkit.scaffold.recipe import read_made, read_recipe
+from urdfkit.scaffold.sources import named_template, template_at, template_names
+from urdfkit.scaffold.template import Template
+from urdfkit.scaffold.update import Change, find_recipe, updating
 
 __all__ = [
+    "Change",
     "Question",
     "Template",
     "applies",
     "check_package_name",
     "computed",
     "create",
+    "fill",
+    "find_recipe",
+    "is_fresh",
     "load_template",
+    "named_template",
+    "read_made",
     "read_recipe",
     "sanitised",
+    "template_at",
     "template_names",
+    "updating",
 ]

@@ -3,21 +3,46 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import shutil
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
 from urdfkit.atomic import move_into_place, staging
 from urdfkit.errors import ResourceError
 from urdfkit.scaffold.filling import fill
-from urdfkit.scaffold.recipe import recipe_text
+from urdfkit.scaffold.recipe import digest, recipe_text
 from urdfkit.scaffold.template import Template
 
 Checker = Callable[[Path], Sequence[str]]
 """Looks at the rendered folder before it is moved into place; returns what is wrong with it, a line each."""
 
+Finisher = Callable[[Path], None]
+"""Adds to the rendered folder what no template holds, such as a picture of the robot."""
 
-def create(template: Template, answers: Mapping[str, str], folder: Path, *, check: Checker | None = None) -> list[Path]:
+_OF_A_FRESH_CLONE = {".git", ".gitattributes", ".gitignore", "LICENSE", "README.md"}
+
+
+def is_fresh(folder: Path) -> bool:
+    """Return whether a folder is not there yet, is empty, or holds no more than a repository just cloned does.
+
+    Args:
+        folder: what is going to be written to.
+    """
+    if not folder.is_dir():
+        return not os.path.lexists(folder)
+    there = {path.name for path in folder.iterdir() if not path.name.startswith(".urdfkit-")}
+    return not there or (".git" in there and there <= _OF_A_FRESH_CLONE)
+
+
+def create(
+    template: Template,
+    answers: Mapping[str, str],
+    folder: Path,
+    *,
+    check: Checker | None = None,
+    finish: Finisher | None = None,
+) -> list[Path]:
     """Write what a template makes into `folder`.
 
     It is rendered into a temporary folder there, checked, and moved into place. Whatever goes wrong, an interrupt
@@ -28,6 +53,7 @@ def create(template: Template, answers: Mapping[str, str], folder: Path, *, chec
         answers: answers by question, with the built-in ones.
         folder: made if it is not there.
         check: has to find nothing.
+        finish: adds what no template holds.
 
     Returns:
         The files, absolute, sorted.
@@ -35,25 +61,73 @@ def create(template: Template, answers: Mapping[str, str], folder: Path, *, chec
     Raises:
         ResourceError: something of that name is there, the result does not pass `check`, or it cannot be written.
     """
-    for name in sorted({target.parts[0] for _, target in template.files(answers)}):
+    spare = template.spare(answers)
+    for name in sorted({target.parts[0] for _, target in template.files(answers)} - spare):
         if os.path.lexists(folder / name):
             raise ResourceError(f"{folder / name} is already there; nothing is overwritten")
     with made(folder), staging(folder) as stage:
-        targets = template.render(answers, stage) + _recipe(template, answers, stage)
-        if check is not None and (found := check(stage)):
-            more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
-            raise ResourceError(f"nothing was written: the result would not be clean: {found[0]}{more}")
+        render(template, answers, stage, without={name for name in spare if os.path.lexists(folder / name)})
+        files = finished(template, answers, stage, check=check, finish=finish)
         move_into_place(stage, folder)
-    return sorted((folder / target).resolve() for target in targets)
+    return sorted((folder / target).resolve() for target in files)
 
 
-def _recipe(template: Template, answers: Mapping[str, str], stage: Path) -> list[Path]:
-    """Write the answers down where the template wants them; return the file's path in the result."""
+def render(template: Template, answers: Mapping[str, str], stage: Path, *, without: Collection[str] = ()) -> None:
+    """Write what a template makes into a temporary folder.
+
+    Args:
+        template: what to write.
+        answers: answers by question, with the built-in ones.
+        stage: has to exist.
+        without: topmost names that are left out.
+
+    Raises:
+        ResourceError: the template is wrong, or it cannot be written.
+    """
+    template.render(answers, stage)
+    for name in without:
+        if (stage / name).is_dir():
+            shutil.rmtree(stage / name)
+        else:
+            (stage / name).unlink()
+
+
+def finished(
+    template: Template,
+    answers: Mapping[str, str],
+    stage: Path,
+    *,
+    check: Checker | None = None,
+    finish: Finisher | None = None,
+) -> list[Path]:
+    """Check what was rendered, add what no template holds, and write down the answers and what was made from them.
+
+    Args:
+        template: what was rendered.
+        answers: answers by question, with the built-in ones.
+        stage: where it was rendered to.
+        check: has to find nothing.
+        finish: adds what no template holds.
+
+    Returns:
+        All files, relative to `stage`.
+
+    Raises:
+        ResourceError: the result does not pass `check`, or it cannot be written.
+    """
+    if check is not None and (found := check(stage)):
+        more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+        raise ResourceError(f"nothing was written: the result would not be clean: {found[0]}{more}")
+    if finish is not None:
+        finish(stage)
+    files = sorted(path.relative_to(stage) for path in stage.rglob("*") if path.is_file())
     if not template.recipe:
-        return []
+        return files
     target = Path(fill(template.recipe, answers, where=f"{template.folder}/template.toml"))
-    (stage / target).write_text(recipe_text(template, answers), encoding="utf-8")
-    return [target]
+    digests = {path.as_posix(): digest((stage / path).read_bytes()) for path in files}
+    (stage / target).parent.mkdir(parents=True, exist_ok=True)
+    (stage / target).write_text(recipe_text(template, answers, digests), encoding="utf-8")
+    return [*files, target]
 
 
 @contextmanager

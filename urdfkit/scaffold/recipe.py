@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import sys
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.scaffold.question import Question, applies
@@ -17,16 +20,47 @@ else:
     import tomli as tomllib  # type: ignore[import-not-found, unused-ignore]
 
 
-def recipe_text(template: Template, answers: Mapping[str, str]) -> str:
+MADE = "made"
+"""The table of a recipe that says what was made, and when: no answers."""
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """What a recipe says was made from it.
+
+    Attributes:
+        kind: the template's name.
+        year: of the copyright.
+        source: the folder of a template that is not ours, as it was given; empty for ours.
+        digests: of each file that was written, by its path from the folder it was written to.
+    """
+
+    kind: str
+    year: str
+    source: str
+    digests: Mapping[str, str]
+
+
+def digest(content: bytes) -> str:
+    """Return what tells a file that was edited from one that was not.
+
+    Args:
+        content: of the file.
+    """
+    return hashlib.sha256(content).hexdigest()[:16]
+
+
+def recipe_text(template: Template, answers: Mapping[str, str], digests: Mapping[str, str]) -> str:
     """Return the file that holds these answers, without those to questions that are for other answers.
 
     Args:
         template: what asked.
-        answers: answers by question.
+        answers: answers by question, with the built-in ones.
+        digests: of what was written, by path.
     """
-    kind = template.folder.name
+    kind = template.name
     lines = [
-        f"# The same again: urdfkit new {kind} --from FILE, options changing what is here.",
+        f"# Again: urdfkit new {kind} --from FILE, or in place urdfkit new --update; options change what is here.",
         f'template = "{kind}"',
     ]
     lines += [
@@ -34,7 +68,44 @@ def recipe_text(template: Template, answers: Mapping[str, str]) -> str:
         for question in template.questions
         if applies(question.when, answers)
     ]
+    lines += ["", "# What was written, so that --update leaves alone what you edit. Not for you to edit.", f"[{MADE}]"]
+    lines += [f'year = "{answers["year"]}"'] if "year" in answers else []
+    lines += [f"source = {json.dumps(template.source, ensure_ascii=False)}"] if template.source else []
+    lines += ["", f"[{MADE}.files]", *(f"{json.dumps(path)} = {json.dumps(said)}" for path, said in digests.items())]
     return "\n".join(lines) + "\n"
+
+
+def read_made(path: Path) -> Made:
+    """Return what a recipe says was made from it.
+
+    Args:
+        path: the file.
+
+    Raises:
+        ResourceError: it cannot be read.
+    """
+    table = _read(path)
+    made = table.get(MADE)
+    made = made if isinstance(made, dict) else {}
+    files = made.get("files")
+    return Made(
+        str(table.get("template", "")),
+        str(made.get("year", "")),
+        str(made.get("source", "")),
+        {str(name): str(said) for name, said in files.items()} if isinstance(files, dict) else {},
+    )
+
+
+def _read(path: Path, before: str = "") -> dict[str, Any]:
+    try:
+        table: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
+        return table
+    except OSError as error:
+        raise ResourceError(f"{before}{path}: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise ResourceError(f"{before}{path} is not UTF-8: {error.reason}") from error
+    except tomllib.TOMLDecodeError as error:
+        raise ResourceError(f"{before}{path}: {error}") from error
 
 
 def read_recipe(template: Template, path: Path, instead: Mapping[str, str]) -> dict[str, str]:
@@ -51,17 +122,11 @@ def read_recipe(template: Template, path: Path, instead: Mapping[str, str]) -> d
         ResourceError: it cannot be read.
         UsageError: an answer of it is wrong, or it is another template's.
     """
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise ResourceError(f"--from {path}: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise ResourceError(f"--from {path} is not UTF-8: {error.reason}") from error
-    except tomllib.TOMLDecodeError as error:
-        raise ResourceError(f"--from {path}: {error}") from error
-    kind = table.pop("template", template.folder.name)
-    if kind != template.folder.name:
-        raise UsageError(f"--from {path} is for `urdfkit new {kind}`, not for `urdfkit new {template.folder.name}`")
+    table = _read(path, "--from ")
+    table.pop(MADE, None)
+    kind = table.pop("template", template.name)
+    if kind != template.name:
+        raise UsageError(f"{path} is for `urdfkit new {kind}`, not for `urdfkit new {template.name}`")
     try:
         found = {
             name: question.accept(_text(question, value))
@@ -70,12 +135,25 @@ def read_recipe(template: Template, path: Path, instead: Mapping[str, str]) -> d
         }
     except UsageError as error:
         raise UsageError(f"{path}: {error}") from error
+    for question in [q for q in template.questions if q.name in found]:
+        # What followed from other answers does so again.
+        follows = question.default_for or (question.default or "").startswith("=")
+        if follows and instead and found[question.name] == _default(question, found):
+            del found[question.name]
     found |= instead
     known = {question.name: question.default or "" for question in template.questions} | found
     for question in template.questions:
         if question.name not in instead and not applies(question.when, known):
             found.pop(question.name, None)
     return found
+
+
+def _default(question: Question, answers: Mapping[str, str]) -> str | None:
+    """Return the default after these answers; None where there are not enough of them."""
+    try:
+        return question.default_given(answers)
+    except ResourceError:
+        return None
 
 
 def _value(question: Question, answer: str) -> str:

@@ -8,25 +8,20 @@ for each of them.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
-from urdfkit.resources import templates_dir
 from urdfkit.scaffold.expression import holds
 from urdfkit.scaffold.filling import fill, repeat_lines
 from urdfkit.scaffold.question import Question, When, applies, numbers
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib  # type: ignore[import-not-found, unused-ignore]
-
 BUILT_IN = ("year", "into")
 """Placeholders that nobody is asked for: the year of a copyright, the folder that is written to."""
+
+FRESH = "fresh"
+"""What a default may depend on beside answers: ``yes`` where the folder written to is new, empty or a fresh clone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,12 +30,14 @@ class Layer:
 
     With ``@question@`` in the folder's name it is the folder of that answer, of several answers each one's.
     With `append`, what a file holds goes behind what the layers before have written into the file of that name.
+    What is `spare` is left out where something of that name is there already, instead of refusing all.
     """
 
     folder: str
     into: tuple[str, ...]
     when: When
     append: bool = False
+    spare: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +98,9 @@ class Template:
         next: what to do with the result.
         recipe: the file of the result that keeps the answers; empty for none.
         examples: what may follow ``urdfkit new TEMPLATE``, for its help.
+        source: its folder as it was given, of a template that is not ours; empty for ours.
+        name: what it is called: the THING of ``urdfkit new``.
+        teleop: the folder of the result that can be driven right away; empty for none.
     """
 
     folder: Path
@@ -114,6 +114,9 @@ class Template:
     recipe: str = ""
     examples: tuple[str, ...] = ()
     facts: tuple[Fact, ...] = ()
+    source: str = ""
+    name: str = ""
+    teleop: str = ""
 
     def question(self, name: str) -> Question:
         """Return the question of that name.
@@ -129,11 +132,12 @@ class Template:
                 return question
         raise UsageError(f"no question `{name}`{did_you_mean(name, [q.name for q in self.questions])}")
 
-    def answers(self, given: Mapping[str, str]) -> dict[str, str]:
+    def answers(self, given: Mapping[str, str], *, fresh: bool = False) -> dict[str, str]:
         """Return an answer to every question: the given ones checked, the others by default; and the facts.
 
         Args:
             given: answers by question.
+            fresh: whether the folder that is written to is new, empty or a fresh clone.
 
         Raises:
             UsageError: an answer is wrong, missing, or at odds with another.
@@ -144,7 +148,7 @@ class Template:
         for question in self.questions:
             if question.name in given and not applies(question.when, found):
                 raise UsageError(f"{question.option} is for {_options(question.when)}")
-            answer = given.get(question.name, question.default_given(found))
+            answer = given.get(question.name, question.default_given(found | {FRESH: "yes" if fresh else "no"}))
             if answer is None:
                 raise UsageError(f"{question.prompt[0].lower()}{question.prompt[1:]} is missing")
             found[question.name] = question.accept(answer)
@@ -178,6 +182,23 @@ class Template:
                         raise ResourceError(f"template: {source} and {written[target]} both become {target}")
                     written[target] = source
                     yield source, target
+
+    def spare(self, answers: Mapping[str, str]) -> set[str]:
+        """Return what is left out where it is there already: the topmost names of files and folders.
+
+        Args:
+            answers: answers by question, with the built-in ones.
+
+        Raises:
+            ResourceError: the template is wrong.
+        """
+        return {
+            (Path(folder) / source.relative_to(home)).parts[0]
+            for layer in self.layers
+            if layer.spare and applies(layer.when, answers)
+            for home, source in self._sources(layer, answers)
+            for folder in layer.into
+        }
 
     def _sources(self, layer: Layer, answers: Mapping[str, str]) -> Iterator[tuple[Path, Path]]:
         """Yield the files of a layer, each with the folder of the layer it lies in."""
@@ -253,71 +274,6 @@ class Template:
             for step in self.next
             if applies(step.when, answers)
         ]
-
-
-def template_names() -> list[str]:
-    """Return the names of the templates we ship, sorted.
-
-    Raises:
-        ResourceError: the installation is incomplete.
-    """
-    return sorted(path.parent.name for path in templates_dir().glob("*/template.toml"))
-
-
-def load_template(folder: Path) -> Template:
-    """Read the ``template.toml`` of a template.
-
-    Args:
-        folder: the template.
-
-    Raises:
-        ResourceError: there is none, or it is wrong.
-    """
-    path = folder / "template.toml"
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise ResourceError(f"{path}: {error.strerror}") from error
-    except tomllib.TOMLDecodeError as error:
-        raise ResourceError(f"{path}: {error}") from error
-    try:
-        return _template(folder, table)
-    except (KeyError, TypeError) as error:
-        raise ResourceError(f"{path}: missing or unknown key: {error}") from error
-
-
-def _template(folder: Path, table: dict[str, Any]) -> Template:
-    return Template(
-        folder=folder,
-        summary=table["summary"],
-        questions=tuple(Question(**_tuples(entry) | {"when": _when(entry)}) for entry in table.get("question", ())),
-        asks_later=tuple(table.get("asks_later", ())),
-        words=tuple(Word(**entry) for entry in table.get("word", ())),
-        layers=tuple(
-            Layer(entry["folder"], tuple(entry.get("into", (".",))), _when(entry), entry.get("append", False))
-            for entry in table["layer"]
-        ),
-        checks=tuple(
-            Check(entry.get("holds", ""), entry["otherwise"], _when(entry)) for entry in table.get("check", ())
-        ),
-        next=tuple(
-            Next(entry.get("title", ""), tuple(entry["commands"]), _when(entry)) for entry in table.get("next", ())
-        ),
-        recipe=table.get("recipe", ""),
-        facts=tuple(
-            Fact(entry["name"], tuple(_when({"when": when}) for when in entry["any"]))
-            for entry in table.get("fact", ())
-        ),
-        examples=tuple(table.get("examples", ())),
-    )
-
-
-def _tuples(entry: dict[str, Any]) -> dict[str, Any]:
-    return {key: tuple(value) if isinstance(value, list) else value for key, value in entry.items()}
-
-
-def _when(entry: dict[str, Any]) -> When:
-    return {name: tuple(values) for name, values in entry.get("when", {}).items()}
 
 
 def _options(when: When) -> str:

@@ -15,7 +15,7 @@ from urdfkit.resources import templates_dir
 from urdfkit.scaffold.computed import computed
 from urdfkit.scaffold.meshes import URI, Meshes
 from urdfkit.scaffold.new import made
-from urdfkit.scaffold.template import load_template
+from urdfkit.scaffold.reading import load_template
 
 KINDS = ("description", "gazebo", "bringup")
 

@@ -1,0 +1,22 @@
+"""The controllers' settings can be read, and no joint has two controllers."""
+
+from pathlib import Path
+
+import yaml
+
+CONFIG = Path(__file__).resolve().parents[1] / "config"
+
+
+def lists_of_joints(settings):
+    """Yield what is listed as joints, wherever it is."""
+    for key, value in settings.items():
+        if key == "joints":
+            yield value
+        elif isinstance(value, dict):
+            yield from lists_of_joints(value)
+
+
+def test_joints_have_one_controller():
+    for path in sorted(CONFIG.glob("*.yaml")):
+        joints = [joint for listed in lists_of_joints(yaml.safe_load(path.read_text())) for joint in listed]
+        assert len(set(joints)) == len(joints), path

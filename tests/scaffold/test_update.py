@@ -1,0 +1,161 @@
+"""Made again in place: what was edited stays, what was not follows, and all of it or nothing."""
+
+from pathlib import Path
+
+import pytest
+
+from urdfkit.errors import ResourceError, UsageError
+from urdfkit.scaffold import create, find_recipe, load_template, read_made, read_recipe, updating
+
+
+@pytest.fixture
+def template(small_template):
+    path = small_template / "template.toml"
+    path.write_text(
+        path.read_text().replace("        asks_later", '        recipe = "@name@/made.toml"\n        asks_later', 1)
+    )
+    (small_template / "all/@name@/more.txt").write_text("more @colour@\n")
+    return load_template(small_template)
+
+
+@pytest.fixture
+def place(template, tmp_path):
+    folder = tmp_path / "place"
+    create(template, template.answers({"name": "box"}) | {"year": "2026", "into": "."}, folder)
+    return folder
+
+
+def changed(template, place, apply=True, check=None, **given):
+    """Update; return what became of which file."""
+    recipe, into = find_recipe(template, place)
+    made = read_made(recipe)
+    answers = template.answers(read_recipe(template, recipe, given)) | {"year": made.year, "into": "."}
+    with updating(template, answers, into, made, check=check) as update:
+        if apply:
+            update.apply()
+        return {change.path.as_posix(): change.kind for change in update.changes}
+
+
+def contents(folder):
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_without_a_change_there_is_none(template, place):
+    before = contents(place)
+    assert changed(template, place) == {}
+    assert contents(place) == before
+
+
+def test_what_was_not_edited_follows(template, place):
+    assert changed(template, place, size="2") == {"box/src/box.txt": "replace", "box/made.toml": "replace"}
+    assert (place / "box/src/box.txt").read_text().startswith("box is 2 m")
+    assert changed(template, place) == {}
+
+
+def test_files_come_and_go(template, place):
+    assert changed(template, place, colour="blue") == {
+        "box/COLOUR": "add",
+        "box/made.toml": "replace",
+        "box/more.txt": "replace",
+        "paint/COLOUR": "add",
+    }
+    assert (place / "paint/COLOUR").read_text() == "blue"
+    assert changed(template, place, colour="red")["box/COLOUR"] == "remove"
+    assert not (place / "box/COLOUR").exists()
+
+
+def test_what_was_edited_stays_and_is_told(template, place):
+    path = place / "box/src/box.txt"
+    path.write_text("mine\n")
+    assert changed(template, place, colour="blue")["box/more.txt"] == "replace"
+    assert "box/src/box.txt" not in changed(template, place, colour="red")  # the template says what it said
+    assert changed(template, place, size="3")["box/src/box.txt"] == "beside"
+    assert path.read_text() == "mine\n"
+    assert path.with_name("box.txt.new").read_text().startswith("box is 3 m")
+    assert changed(template, place) == {}
+
+
+def test_what_was_deleted_stays_away(template, place):
+    (place / "box/more.txt").unlink()
+    assert changed(template, place, size="2")["box/more.txt"] == "keep"
+    assert not (place / "box/more.txt").exists()
+
+
+def test_an_edited_file_that_is_no_more_is_kept(template, place):
+    changed(template, place, colour="blue")
+    (place / "paint/COLOUR").write_text("azure")
+    assert changed(template, place, colour="red")["paint/COLOUR"] == "keep"
+    assert (place / "paint/COLOUR").read_text() == "azure"
+
+
+def test_a_file_of_the_users_own_in_the_way(template, place):
+    (place / "box/COLOUR").write_text("mine")
+    assert changed(template, place, colour="blue")["box/COLOUR"] == "beside"
+    assert (place / "box/COLOUR").read_text() == "mine"
+
+
+def test_a_change_of_the_template(template, place, small_template):
+    (small_template / "all/@name@/more.txt").write_text("better @colour@\n")
+    assert changed(template, place)["box/more.txt"] == "replace"
+    assert (place / "box/more.txt").read_text() == "better red\n"
+
+
+def test_shown_only(template, place):
+    before = contents(place)
+    assert changed(template, place, apply=False, size="2")
+    assert contents(place) == before
+
+
+def test_what_follows_from_answers_follows_again(template, place):
+    recipe, _ = find_recipe(template, place)
+    assert template.answers(read_recipe(template, recipe, {"size": "4"}))["twice"] == "8"
+    changed(template, place, twice="9")
+    assert template.answers(read_recipe(template, recipe, {"size": "4"}))["twice"] == "9"
+
+
+def test_what_does_not_pass_changes_nothing(template, place):
+    before = contents(place)
+    with pytest.raises(ResourceError, match="would not be clean: bad"):
+        changed(template, place, size="2", check=lambda folder: ["bad"])
+    assert contents(place) == before
+
+
+def test_a_failure_undoes_all(template, place, monkeypatch):
+    before = contents(place)
+    rename = Path.rename
+
+    def full(self, target):
+        if Path(target) == place / "box/made.toml" and self.parent.name == "box":
+            raise OSError(28, "No space left on device")
+        return rename(self, target)
+
+    recipe, into = find_recipe(template, place)
+    answers = template.answers(read_recipe(template, recipe, {"colour": "blue"})) | {"year": "2026", "into": "."}
+    with updating(template, answers, into, read_made(recipe)) as update:
+        monkeypatch.setattr(Path, "rename", full)
+        with pytest.raises(ResourceError, match=r"nothing was changed: cannot write .*made\.toml: No space left"):
+            update.apply()
+        monkeypatch.setattr(Path, "rename", rename)
+    assert contents(place) == before
+
+
+def test_found_from_inside_the_package(template, place):
+    assert find_recipe(template, place / "box")[1] == place
+
+
+def test_where_nothing_was_made(template, tmp_path):
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(ResourceError, match=r"nothing to update in .*: no \*/made\.toml"):
+        find_recipe(template, tmp_path / "empty")
+
+
+def test_of_several_one_is_named(template, place):
+    create(template, template.answers({"name": "tin"}) | {"year": "2026", "into": "."}, place)
+    with pytest.raises(ResourceError, match=r"several to update in .*name one by --into"):
+        find_recipe(template, place)
+    assert find_recipe(template, place / "tin")[0].parent.name == "tin"
+
+
+def test_names_are_kept(template, place):
+    with pytest.raises(UsageError, match="--update keeps names, and would make tin"):
+        changed(template, place, name="tin")

@@ -1,0 +1,185 @@
+"""``urdfkit new --update``: show what would change, ask, change it. And what each result has to pass first."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import os
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from urdfkit.errors import ResourceError, UsageError
+from urdfkit.scaffold import (
+    Change,
+    Template,
+    computed,
+    find_recipe,
+    named_template,
+    read_made,
+    read_recipe,
+    template_at,
+    template_names,
+    updating,
+)
+
+_WORDS = {
+    "add": "new",
+    "replace": "changed",
+    "remove": "removed",
+    "beside": "edited by you: what it would be is put beside it as {name}.new",
+    "keep": "left as you have it",
+}
+_COLOURS = {"+": "32", "-": "31", "@": "36"}
+
+
+def run(
+    template: Template | None,
+    given: Mapping[str, str],
+    folder: Path,
+    arguments: argparse.Namespace,
+    *,
+    own: str | None = None,
+) -> int:
+    """Show what would change and, when told to, change it.
+
+    Args:
+        template: of what is made again; None for the one that the recipe names.
+        given: answers in the place of the recipe's.
+        folder: it was written to, or a package in it.
+        arguments: from the command line.
+        own: the folder of a template of the user's own.
+
+    Returns:
+        The exit code: 1 where something would change and nothing was changed.
+
+    Raises:
+        UrdfkitError: it could not be done; nothing was changed then.
+    """
+    recipe, into = find_recipe(template, folder)
+    made = read_made(recipe)
+    template = placed(template, into) if template else _made_by(made.kind, made.source, own, into)
+    answers = template.answers(read_recipe(template, recipe, given))
+    answers |= computed(template.name, answers)
+    answers |= {"into": into.as_posix()} | ({"year": made.year} if made.year else {})
+    finish = drawn if answers.get("picture") == "yes" else None
+    with updating(template, answers, into, made, check=findings, finish=finish) as update:
+        real = [change for change in update.changes if change.kind != "keep"]
+        if not real:
+            print(f"{into}: nothing to update", file=sys.stderr)
+            return 0
+        _show(update.changes, recipe.relative_to(into), colour=_coloured(arguments.color), quiet=arguments.quiet)
+        if _said(arguments, "diff"):
+            return 1
+        if not _said(arguments, "yes") and not _agreed(len(real)):
+            return 1
+        update.apply()
+    return 0
+
+
+def findings(folder: Path) -> list[str]:
+    """Return what is wrong with a result, a line each.
+
+    Args:
+        folder: where it was rendered to.
+
+    Raises:
+        UrdfkitError: a file of it cannot be read.
+    """
+    from urdfkit.description.world import load_world
+    from urdfkit.lint import lint
+    from urdfkit.resources import models_in
+
+    for world in (*folder.glob("*.sdf"), *folder.glob("*.world")):
+        load_world(world)
+    if not models_in(folder):
+        return []
+    found = lint([folder], package_path=[folder])
+    return [f"{f.code} {f.message} ({Path(f.file).name}:{f.line})" for f in found if f.severity != "info"]
+
+
+def drawn(folder: Path) -> None:
+    """Draw the robot into ``docs`` of its package.
+
+    Args:
+        folder: where it was rendered to.
+
+    Raises:
+        UrdfkitError: it cannot be loaded, or drawn.
+    """
+    from urdfkit.description import load
+    from urdfkit.resources import models_in
+    from urdfkit.scaffold.drawing import drawing_of
+
+    for model in models_in(folder):
+        robot = load(model, package_path=[folder])
+        picture = drawing_of(robot)
+        if picture is None:
+            raise ResourceError(f"there is nothing of {robot.name} to draw but meshes: --no-picture")
+        docs = model.parents[1] / "docs"
+        docs.mkdir(exist_ok=True)
+        (docs / f"{robot.name}.png").write_bytes(picture)
+
+
+def _made_by(kind: str, source: str, own: str | None, into: Path) -> Template:
+    """Return the template that a recipe names."""
+    if own is not None:
+        return placed(template_at(own), into)
+    if not source:
+        return named_template(kind)
+    if not Path(into, source).is_dir():
+        there = ", ".join(template_names())
+        raise ResourceError(f"the template {source} that {kind} was made by is gone: --template DIR (ours: {there})")
+    return replace(template_at(str(into / source)), source=source)
+
+
+def placed(template: Template, into: Path) -> Template:
+    """Return a template of the user's own with its place as seen from the folder that is written to.
+
+    Args:
+        template: any.
+        into: the folder.
+    """
+    if not template.source or Path(template.source).is_absolute():
+        return template
+    return replace(template, source=os.path.relpath(template.folder, into.resolve()))
+
+
+def _show(changes: tuple[Change, ...], recipe: Path, *, colour: bool, quiet: bool) -> None:
+    for change in changes:
+        print(f"{change.path.as_posix()}: {_WORDS[change.kind].format(name=change.path.name)}")
+        if quiet or change.kind == "keep" or change.path == recipe:
+            continue
+        for line in _difference(change):
+            code = _COLOURS.get(line[:1])
+            print(f"\x1b[{code}m{line}\x1b[0m" if colour and code else line)
+
+
+def _difference(change: Change) -> Iterator[str]:
+    try:
+        before, after = change.before.decode().splitlines(), change.after.decode().splitlines()
+    except UnicodeDecodeError:
+        yield "  (not text)"
+        return
+    for line in difflib.unified_diff(before, after, n=2, lineterm=""):
+        if not line.startswith(("---", "+++")):
+            yield line
+
+
+def _said(arguments: argparse.Namespace, option: str) -> bool:
+    """Return whether an option was given, behind the thing or before it."""
+    return bool(getattr(arguments, option, False) or getattr(arguments, f"above_{option}", False))
+
+
+def _agreed(count: int) -> bool:
+    if not (sys.stdin.isatty() and sys.stderr.isatty()):
+        raise UsageError(
+            f"{count} files would change and nothing was changed: --yes changes them, --diff only shows it"
+        )
+    print(f"Change {count} files? [y/N] ", end="", file=sys.stderr, flush=True)
+    return sys.stdin.readline().strip().lower() in ("y", "yes")
+
+
+def _coloured(choice: str) -> bool:
+    return choice == "always" or (choice == "auto" and sys.stdout.isatty() and "NO_COLOR" not in os.environ)
