@@ -1,0 +1,75 @@
+"""The tutorial on a robot from nothing: its commands in order, then the workspace that they leave, built for real."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from urdfkit.cli import main
+from urdfkit.description import load
+from urdfkit.lint import lint
+
+PAGE = Path(__file__).parents[2] / "docs/tutorials/new_robot.md"
+SYSTEM = "/usr/sbin:/usr/bin:/sbin:/bin"
+
+
+def shown() -> list[str]:
+    return re.findall(r"^\$ (.+)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Type what the page says, but for what serves a page until it is stopped."""
+    folder = tmp_path_factory.mktemp("tutorial")
+    here = Path.cwd()
+    os.chdir(folder)
+    try:
+        for command in shown():
+            words = shlex.split(command)
+            if words[0] == "urdfkit" and words[1] != "view" and words[1:3] != ["sim", "teleop"]:
+                assert main(words[1:]) == 0, command
+    finally:
+        os.chdir(here)
+    return folder
+
+
+def test_every_step_is_there(place: Path) -> None:
+    said = " ".join(shown())
+    for step in ("new robot", "lint", "view", "new world", "sim teleop", "sim run", "new sensor", "colcon build"):
+        assert step in said
+    model = place / "ws/src/scout_description/urdf/scout.urdf.xacro"
+    assert {"lidar_link", "camera_link", "rear_lidar_link"} <= set(load(model).link_by_name)
+    assert [finding.code for finding in lint([place / "ws/src"]) if finding.severity != "info"] == []
+
+
+def test_the_rear_lidar_sees(place: Path) -> None:
+    scan = json.loads((place / "rear.json").read_text())
+    assert len(scan["ranges"]) == 541
+
+
+@pytest.mark.ros
+def test_the_workspace_builds(place: Path) -> None:
+    if shutil.which("colcon", path=SYSTEM) is None:
+        if os.environ.get("CI"):
+            pytest.fail("colcon is not installed")
+        pytest.skip("colcon is not installed")
+    build, source = (command for command in shown() if command.startswith(("cd ws", ". install")))
+    done = subprocess.run(
+        ["/bin/sh", "-c", f"{build} && {source} && echo $GZ_SIM_RESOURCE_PATH"],
+        cwd=place,
+        env={"PATH": SYSTEM, "HOME": str(place), "LANG": "C.UTF-8"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert f"{place}/ws/install/scout_description/share" in done.stdout
+    assert (place / "ws/install/scout_gazebo/share/scout_gazebo/worlds/lab.sdf").is_file()
+    assert (place / "ws/install/scout_bringup/share/scout_bringup/launch/scout.launch.py").is_file()
