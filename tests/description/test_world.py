@@ -560,7 +560,6 @@ def test_what_is_refused_is_named_with_its_place(tmp_path: Path, text: str, said
         ("<polyline/>", "<polyline> cannot be simulated; extrude it"),
         ("<mesh><uri>a.stl</uri><submesh><name>s</name></submesh></mesh>", "<submesh> of a collision is not read"),
         ("<mesh/>", "<mesh> lacks its <uri>"),
-        ("<mesh><uri>nowhere.stl</uri></mesh>", "no file nowhere.stl"),
         ("<sphere/>", "<sphere> lacks its <radius>"),
         ("<sphere><radius>-1</radius></sphere>", "<radius> is -1; it must be greater than zero"),
         ("<box><size>1 0 1</size></box>", "<size> is `1 0 1`; every edge must be longer than zero"),
@@ -573,6 +572,19 @@ def test_shapes_that_are_refused(tmp_path: Path, text: str, said: str) -> None:
         geometry_of(tmp_path, text)
     assert said in str(caught.value)
     assert str(caught.value).startswith(f"{tmp_path}/test.world:4:")
+
+
+def test_a_collision_whose_mesh_is_not_there_is_noted_with_its_place_and_names_no_file(tmp_path: Path) -> None:
+    text = """<model name="m"><static>1</static><link name="l"><collision name="hull"><geometry><mesh>
+    <uri>nowhere.stl</uri></mesh></geometry></collision></link></model>"""
+    world = world_of(tmp_path, text)
+    (note,) = world.notes
+    assert note == (
+        f"{tmp_path}/test.world:4:5: no file nowhere.stl; collision `hull` is left out: nothing touches it there"
+    )
+    (shape,) = world.models[0].links[0].collisions
+    assert isinstance(shape.geometry, Mesh)
+    assert shape.file == ""
 
 
 def test_static_things_need_no_mass(tmp_path: Path) -> None:

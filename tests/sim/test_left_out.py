@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.cli import main
-from urdfkit.errors import ResourceError
+from urdfkit.errors import ResourceError, SimulationError
 from urdfkit.sim import Simulator
 
 INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
@@ -42,3 +42,69 @@ def test_a_robot_of_which_nothing_is_left_to_touch_is_refused(tmp_path: Path) ->
 def test_the_command_runs_on(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["sim", "run", str(written(tmp_path, BOX + MESH.format("gone.stl"))), "--for", "0.01"]) == 0
     assert len([line for line in capsys.readouterr().err.splitlines() if "gone.stl" in line]) == 1
+
+
+def world_with(folder: Path, collisions: str, *, static: bool) -> Path:
+    (folder / "broken.stl").write_bytes(b"no mesh")
+    path = folder / "w.sdf"
+    path.write_text(
+        f'<sdf version="1.7"><world name="w"><model name="rock"><static>{int(static)}</static><pose>2 0 1 0 0 0</pose>'
+        f'<link name="l">{collisions}</link></model></world></sdf>'
+    )
+    return path
+
+
+def collision(name: str, geometry: str) -> str:
+    return f'<collision name="{name}"><geometry>{geometry}</geometry></collision>'
+
+
+def sdf_mesh(name: str) -> str:
+    return f"<mesh><uri>{name}</uri></mesh>"
+
+
+SDF_BOX = collision("box", "<box><size>1 1 1</size></box>")
+
+
+@pytest.mark.parametrize("static", [True, False])
+@pytest.mark.parametrize(("mesh", "said"), [("gone.stl", "no file gone.stl"), ("broken.stl", "is cut off")])
+def test_so_is_one_of_a_worlds_models(tmp_path: Path, mesh: str, said: str, static: bool) -> None:
+    robot = written(tmp_path, BOX)
+    world = world_with(tmp_path, collision("hull", sdf_mesh(mesh)) + SDF_BOX, static=static)
+    notes: list[str] = []
+    simulator = Simulator(robot, world=world, note=notes.append)
+    simulator.run(0.1)
+    (note,) = [each for each in notes if mesh in each]
+    assert note.startswith(f"{world}:1:")
+    assert said in note
+    assert note.endswith("collision `hull` is left out: nothing touches it there")
+
+
+def test_a_static_model_may_have_nothing_left_and_a_free_one_may_not(tmp_path: Path) -> None:
+    robot = written(tmp_path, BOX)
+    for mesh in ("gone.stl", "broken.stl"):
+        lost = collision("hull", sdf_mesh(mesh))
+        Simulator(robot, world=world_with(tmp_path, lost, static=True), note=lambda _: None).run(0.01)
+        free = world_with(tmp_path, lost, static=False)
+        with pytest.raises(SimulationError, match=r"no collision of model `rock` has a mesh that can be read"):
+            Simulator(robot, world=free, note=lambda _: None)
+
+
+def test_a_broken_visual_of_a_world_is_not_seen_and_the_rest_is(tmp_path: Path) -> None:
+    visual = f'<visual name="coat"><geometry>{sdf_mesh("broken.stl")}</geometry></visual>'
+    world = world_with(tmp_path, SDF_BOX + visual, static=True)
+    notes: list[str] = []
+    simulator = Simulator(written(tmp_path, BOX), world=world, note=notes.append)
+    assert simulator.looks() == ()
+    assert next(each for each in notes if "coat" in each).endswith("is left out: what it would look like is not seen")
+
+
+def test_a_misspelt_material_of_a_world_is_told_with_the_nearest(tmp_path: Path) -> None:
+    paint = "<material><script><name>Gazebo/{0}</name></script></material>"
+    visual = '<visual name="{0}"><geometry><sphere><radius>1</radius></sphere></geometry>' + paint + "</visual>"
+    world = world_with(tmp_path, SDF_BOX + visual.format("Oragne") + visual.format("Red"), static=True)
+    notes: list[str] = []
+    Simulator(written(tmp_path, BOX), world=world, note=notes.append)
+    (note,) = [each for each in notes if "material" in each]
+    assert note.endswith(
+        "no material `Gazebo/Oragne`; did you mean `Gazebo/Orange`?; the visual keeps its plain colour"
+    )

@@ -17,6 +17,7 @@ from urdfkit.sim.engine.engine import Provider
 from urdfkit.sim.engine.warmup import announcement, warmup
 from urdfkit.sim.entries import Entries, Entry
 from urdfkit.sim.given import nearest
+from urdfkit.sim.left_out import without_broken
 from urdfkit.sim.simulated import SimulatedRobot, ground_height
 from urdfkit.sim.spawn import Spawn
 from urdfkit.sim.things import bodies_of_model, require_no_joints
@@ -63,10 +64,11 @@ class Assembly:
         sleep: bool = True,
     ) -> None:
         require_no_joints(world)
-        self.world = world
         self.revision = 0
         self._dt, self.provider, self._sleep, self._note = dt, provider, sleep, note
         self._make = Entries(note, package_path)
+        models = tuple([without_broken(model, self._make.meshes, note) for model in world.models])
+        self.world = world = replace(world, models=models)
         self._entries: dict[str, Entry] = {first.name: Entry(None, (first,), {first.name: IDENTITY})}
         things: list[WorldModel | WorldRobot] = [*world.models, *world.robots]
         for thing in things:
@@ -164,6 +166,7 @@ class Assembly:
             raise SimulationError(f"world `{self.world.name}` has a `{thing.name}` already; call it `{free}`")
         world = self.world
         if isinstance(thing, WorldModel):
+            thing = without_broken(thing, self._make.meshes, self._note)
             self.world = add_model(world, thing)
         else:
             self.world = replace(world, robots=(*world.robots, thing))

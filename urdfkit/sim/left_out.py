@@ -1,10 +1,15 @@
-"""What to say of shapes whose mesh is missing or broken."""
+"""What to do with shapes whose mesh is missing or broken, and what to say of them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
 
-from urdfkit.scene import Scene
+from urdfkit.description.robot import Mesh
+from urdfkit.description.world import WorldLink, WorldModel, WorldShape
+from urdfkit.errors import ResourceError, SimulationError
+from urdfkit.scene import MeshLoader, Scene
 
 
 def remark_left_out(scene: Scene, note: Callable[[str], None]) -> None:
@@ -19,3 +24,59 @@ def remark_left_out(scene: Scene, note: Callable[[str], None]) -> None:
     for each in scene.problems:
         what = "nothing touches it there" if each.role == "collision" else "what it would look like is not seen"
         note(f"{each.error}; shape `{each.name}` is left out: {what}")
+
+
+def without_broken(model: WorldModel, meshes: MeshLoader, note: Callable[[str], None]) -> WorldModel:
+    """Return a model of a world without the shapes whose mesh is broken, each noted by name.
+
+    Args:
+        model: as read; a shape whose mesh is not there names no file, and was noted then.
+        meshes: reads the mesh files.
+        note: tells the user something.
+
+    Raises:
+        SimulationError: no collision is left of what is free to move: it would fall through the floor.
+    """
+    found = _without(model, meshes, note)
+
+    def touched(of: WorldModel) -> int:
+        return sum(len(link.collisions) for _, _, link in of.all_links())
+
+    if touched(model) and not touched(found) and not model.static:
+        raise SimulationError(
+            f"no collision of model `{model.name}` has a mesh that can be read: it would fall through the floor; mend "
+            "one, or make the model <static>",
+            position=model.position,
+        )
+    return found
+
+
+def _without(model: WorldModel, meshes: MeshLoader, note: Callable[[str], None]) -> WorldModel:
+    """Return a model with the shapes that can be had; the very same where these are all."""
+
+    def kept(shape: WorldShape, what: str) -> bool:
+        if not isinstance(shape.geometry, Mesh):
+            return True
+        if not shape.file:
+            return False
+        try:
+            meshes.load(Path(shape.file), shape.geometry.scale)
+        except ResourceError as error:
+            note(f"{shape.position or model.name}: {error}; {what}")
+            return False
+        return True
+
+    def sound(link: WorldLink) -> WorldLink:
+        seen = tuple(
+            [s for s in link.visuals if kept(s, f"visual `{s.name}` is left out: what it would look like is not seen")]
+        )
+        touched = tuple(
+            [s for s in link.collisions if kept(s, f"collision `{s.name}` is left out: nothing touches it there")]
+        )
+        same = seen == link.visuals and touched == link.collisions
+        return link if same else replace(link, visuals=seen, collisions=touched)
+
+    links = tuple([sound(link) for link in model.links])
+    models = tuple([_without(each, meshes, note) for each in model.models])
+    same = all(a is b for a, b in zip((*links, *models), (*model.links, *model.models), strict=True))
+    return model if same else replace(model, links=links, models=models)
