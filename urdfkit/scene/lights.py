@@ -38,6 +38,11 @@ class Lighting:
     background: Color = BACKGROUND
 
     @property
+    def has_shadows(self) -> bool:
+        """Whether a light casts shadows."""
+        return bool(self.lights[:, 11].any())
+
+    @property
     def air(self) -> Array:
         """Ambient light and background; shape (2, 3)."""
         return np.array([self.ambient, self.background])

@@ -8,7 +8,7 @@ from typing import Literal, Protocol, get_args
 from numpy.typing import ArrayLike
 
 from urdfkit.errors import SimulationError, did_you_mean
-from urdfkit.scene.gl.probe import Found, probe
+from urdfkit.scene.gl.probe import Found, on_processor, probe
 from urdfkit.scene.image import Painter, Picture
 from urdfkit.scene.lens import Lens
 from urdfkit.scene.lights import Lighting
@@ -16,7 +16,7 @@ from urdfkit.scene.rays.table import RayTable
 
 Renderer = Literal["auto", "ray", "gl"]
 RENDERERS: tuple[str, ...] = get_args(Renderer)
-"""OpenGL where it works, else rays; rays; OpenGL."""
+"""Whichever is quicker of those that work, see `painter_of`; rays; OpenGL."""
 
 
 class TakesPictures(Protocol):
@@ -58,6 +58,9 @@ def painter_of(
 ) -> TakesPictures:
     """Return what takes pictures of a table's shapes.
 
+    With ``auto`` it is OpenGL where a graphics card draws, or no light casts shadows; else rays, which are quicker with
+    shadows than a driver that draws on the processor, and need 60 MB less (`tests/bench/bench_pictures.py`).
+
     Args:
         table: the shapes.
         lighting: what shines.
@@ -71,6 +74,8 @@ def painter_of(
     if not found.works:
         if "not installed" not in found.name:
             note(f"OpenGL does not work here ({found.name}): pictures are taken by casting rays")
+        return Painter(table, lighting)
+    if renderer == "auto" and on_processor(found.name) and lighting.has_shadows:
         return Painter(table, lighting)
     from urdfkit.scene.gl.painter import GlPainter
 

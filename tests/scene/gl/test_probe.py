@@ -8,8 +8,9 @@ import pytest
 
 from tests.scene.gl.test_same_picture import table_of, zoo
 from tests.scene.test_image import lit
+from urdfkit.description.world import Light
 from urdfkit.errors import SimulationError
-from urdfkit.scene.gl.probe import Found, ask
+from urdfkit.scene.gl.probe import Found, ask, on_processor
 from urdfkit.scene.image import Painter
 from urdfkit.scene.renderer import check, painter_of
 
@@ -57,6 +58,33 @@ def test_rays_take_pictures_where_opengl_does_not(found: Found, notes: list[str]
     assert isinstance(painter, Painter)
     assert len(said) == len(notes)
     assert all(line.startswith(note) for line, note in zip(said, notes, strict=True))
+
+
+SUN = Light("sun", "directional", cast_shadows=True)
+
+
+@pytest.mark.parametrize(
+    ("renderer", "name", "lights", "rays"),
+    [
+        ("auto", "llvmpipe (LLVM 15.0.6, 256 bits)", (SUN,), True),
+        ("auto", "llvmpipe (LLVM 15.0.6, 256 bits)", (), False),
+        ("auto", "NVIDIA H200/PCIe/SSE2", (SUN,), False),
+        ("gl", "llvmpipe (LLVM 15.0.6, 256 bits)", (SUN,), False),
+    ],
+)
+def test_the_quicker_one_takes_pictures(renderer: str, name: str, lights, rays: bool) -> None:
+    said: list[str] = []
+    nowhere = Found(True, "no such backend", name)  # whoever asks for a context is told so, and then casts rays
+    painter_of(table_of(*zoo()), lit(*lights), renderer, said.append, lambda: nowhere)
+    assert (not said) == rays
+
+
+@pytest.mark.parametrize(
+    ("name", "processor"),
+    [("Apple Software Renderer", True), ("SwiftShader Device", True), ("AMD Radeon Graphics (radeonsi)", False)],
+)
+def test_names_of_drivers_tell_where_they_draw(name: str, processor: bool) -> None:
+    assert on_processor(name) == processor
 
 
 def test_a_renderer_that_is_forced_and_does_not_work_is_refused() -> None:

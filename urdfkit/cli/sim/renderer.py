@@ -11,6 +11,6 @@ def add_renderer(parser: argparse.ArgumentParser) -> None:
         "--renderer",
         choices=("auto", "ray", "gl"),
         default="auto",
-        help="who takes the cameras' pictures: ray casts rays, gl draws by OpenGL, auto by OpenGL where it works "
+        help="who takes the cameras' pictures: ray casts rays, gl draws by OpenGL, auto whichever is quicker "
         "(default: auto)",
     )
