@@ -189,3 +189,26 @@ def test_rule_pages_and_catalogue(capsys):
     assert any(line.split()[:3] == ["X101", "error", "[*]"] for line in catalogue)
     assert main(["rule", "I5033"]) == 2
     assert "did you mean `I503`" in capsys.readouterr().err
+
+
+def test_of_several_files_the_broken_ones_do_not_hide_the_others(package, capsys):
+    Path("world.urdf").write_text("<sdf/>")
+    Path("cut.urdf").write_text('<robot name="x"><link')
+    assert main(["lint", "world.urdf", "cut.urdf", "urdf/clean.urdf", "--jobs", "1", "--no-cache"]) == 2
+    said = capsys.readouterr()
+    assert "cut.urdf:1:17: E001" in said.out
+    assert said.err == "urdfkit: world.urdf:1:1: <sdf> is no robot description\n"
+    assert main(["lint", "world.urdf"]) == 2
+
+
+def test_a_broken_file_in_a_folder_is_not_passed_over(package, capsys):
+    broken = {"empty.urdf": "", "cut.xacro": "<robo", "pointer.urdf": "version https://git-lfs.github.com/spec/v1\n"}
+    broken["root.urdf"] = '<rbot name="r"><link name="a"/></rbot>'
+    for name, text in broken.items():
+        Path("urdf", name).write_text(text)
+    Path("urdf", "other.xacro").write_text("<launch/>")
+    assert main(["lint", "urdf", "--select", "E", "--format", "json"]) == 1
+    found = {Path(one["file"]).name: one["code"] for one in json.loads(capsys.readouterr().out)}
+    assert found == {"empty.urdf": "E001", "cut.xacro": "E001", "pointer.urdf": "E001", "root.urdf": "E008"}
+    assert main(["lint", "urdf/root.urdf", "--fix", "--unsafe-fixes"]) == 0
+    assert Path("urdf", "root.urdf").read_text().strip() == '<robot name="r"><link name="a"/></robot>'

@@ -211,3 +211,29 @@ def test_the_tuple_is_what_the_engine_runs():
     layers = (*rules.source_rules(), *rules.fault_rules(), *rules.robot_rules(), *rules.suppression_rules())
     assert set(layers) == set(RULES)
     assert len(layers) == len(RULES)
+
+
+def test_a_misspelt_parameter_is_one_finding_and_its_default_is_called_one(write):
+    sides = "".join(
+        f'<link name="{side}"/><joint name="{side}_joint" type="continuous"><parent link="a"/><child link="{side}"/>'
+        f'<origin xyz="0 {y} 0"/><axis xyz="0 1 0"/></joint>'
+        for side, y in (("left", 0.15), ("right", -0.15))
+    )
+    plugin = (
+        '<gazebo><plugin name="d" filename="libgazebo_ros_diff_drive.so"><leftJoint>left_joint</leftJoint>'
+        "<rightJoint>right_joint</rightJoint>{}<wheelDiameter>0.15</wheelDiameter>"
+        "</plugin></gazebo>"
+    )
+
+    def found(written):
+        path = write("r.urdf", f'<link name="a"/>{sides}{plugin.format(written)}')
+        return [(f.code, f.message) for f in lint(path, select=("S", "Z"))]
+
+    (only,) = found("<wheelSeperation>0.3</wheelSeperation>")
+    assert only[0] == "Z805"
+    assert {code for code, _ in found("<wheel_separation>0.3</wheel_separation>")} == {"Z806"}
+    (default,) = found("")
+    assert default == (
+        "S901",
+        "<wheelSeparation> is 0.34 m by default, but `left_joint` and `right_joint` are 0.3 m apart",
+    )

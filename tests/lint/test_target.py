@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from urdfkit.errors import UsageError
 from urdfkit.lint.engine import Options, run
 from urdfkit.lint.entries import Entry
-from urdfkit.lint.target import guess
+from urdfkit.lint.target import TARGETS, family_of, guess, known_target
 
 AMENT = "<export><build_type>ament_cmake</build_type></export>"
 CATKIN = "<buildtool_depend>catkin</buildtool_depend>"
@@ -51,3 +52,64 @@ def test_a_run_says_what_it_was_for_and_each_package_has_its_own(write):
     assert outcome.notes == ("linted for gz: new depends on ros_gz_sim", "linted for ros1: old is built with catkin")
     assert run(entries, Options(guess_target=True, target="mujoco")).notes == ()
     assert run(entries, Options()).findings == ()
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "ros1",
+        "ros2",
+        "gz",
+        "classic",
+        "mujoco",
+        "isaac",
+        "drake",
+        "moveit",
+        "urdfkit",
+        "ros1-noetic",
+        "ros2-humble",
+        "gz-harmonic",
+        "classic-11",
+    ],
+)
+def test_targets_may_name_a_release(name):
+    assert known_target(name) == name
+    assert family_of(name) in TARGETS
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("ros2-jazy", "did you mean `ros2-jazzy`"),
+        ("gz-hamonic", "did you mean `gz-harmonic`"),
+        ("mujocco", "did you mean `mujoco`"),
+        ("ros1-x", "ros1 has hydro, "),
+        ("ros2-noetic", "did you mean `ros1-noetic`"),
+        ("xyz", "one of ros1, ros2, gz, "),
+        ("isaac-5", "did you mean `isaac`"),
+    ],
+)
+def test_a_target_that_is_misspelt_is_refused_with_the_nearest(name, message):
+    with pytest.raises(UsageError, match=message):
+        known_target(name)
+
+
+def test_a_release_alone_will_do():
+    assert known_target("noetic") == "ros1-noetic"
+    assert known_target("jazzy") == "ros2-jazzy"
+
+
+def test_what_a_release_does_not_have_is_found(write):
+    path = write(
+        "r.urdf",
+        '<link name="a"/><gazebo><plugin name="p" filename="libgazebo_ros_p3d.so"/></gazebo>'
+        '<ros2_control name="s" type="system"><hardware><plugin>gazebo_ros2_control/GazeboSystem</plugin></hardware>'
+        "</ros2_control>",
+    )
+
+    def codes(target):
+        found = run([Entry(path)], Options(select=("Z807", "C709"), target=target)).findings
+        return [finding.code for finding in found]
+
+    assert codes("ros2-humble") == codes("ros2") == []
+    assert codes("ros2-jazzy") == codes("rolling") == ["Z807", "C709"]

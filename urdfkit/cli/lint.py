@@ -47,8 +47,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add(
         "--target",
         metavar="NAME",
-        help="ros1, ros2, gz, classic, mujoco, isaac, drake, moveit, or any: what holds for all of them "
-        "(default: guessed from package.xml)",
+        help="ros1, ros2, gz, classic, mujoco, isaac, drake, moveit or urdfkit, the first four with a release where it "
+        "matters (ros2-jazzy, gz-harmonic), or any: what holds for all of them (default: guessed from package.xml)",
     )
     add("--format", choices=FORMATS, default="text", help="text (default), json, sarif, github or junit")
     add("--statistics", action="store_true", help="count by rule instead of listing")
@@ -132,7 +132,8 @@ class _Run:
         entries = self._entries()
         if arguments.fix or arguments.diff:
             return self._fix(entries)
-        outcome = lint(entries, self.options, cached=not arguments.no_cache, jobs=arguments.jobs or _cores())
+        jobs = arguments.jobs or _cores()
+        outcome = lint(entries, self.options, cached=not arguments.no_cache, jobs=jobs, keep_going=True)
         return self._report(outcome), outcome
 
     def _settings(self) -> Settings | None:
@@ -248,6 +249,8 @@ class _Run:
         outcome = self._left(whole)
         for note in () if arguments.quiet else outcome.notes:
             print(f"urdfkit: {note}", file=sys.stderr)
+        for reason in outcome.refused:
+            print(f"urdfkit: {reason}", file=sys.stderr)
         if arguments.write_baseline is not None:
             from urdfkit.lint.baseline import write
 
@@ -256,6 +259,8 @@ class _Run:
                 print(f"urdfkit: {count} findings are known by {arguments.write_baseline} now", file=sys.stderr)
             return 0
         show(outcome, form=arguments.format, statistics=arguments.statistics, color=arguments.color)
+        if outcome.refused:
+            return 2
         return 1 if any(finding.severity != "info" for finding in outcome.findings) else 0
 
 

@@ -11,12 +11,13 @@ from urdfkit.description.expand import expand_leniently
 from urdfkit.description.packages import Packages
 from urdfkit.description.parse import parse
 from urdfkit.description.source import Origin, Position
-from urdfkit.lint.entries import Entry, find_entries
+from urdfkit.lint.entries import Entry, find_entries, is_nearly_robot
 from urdfkit.lint.finding import SEVERITIES, Finding, Found
 from urdfkit.lint.model import Model
 from urdfkit.lint.rule import FaultRule, RobotRule, Rule, SourceRule
 from urdfkit.lint.rules import around_rules, fault_rules, robot_rules, source_rules
 from urdfkit.lint.select import selection
+from urdfkit.lint.target import family_of, known_target, release_of
 from urdfkit.record import field, record
 
 TYPE_CHECKING = False
@@ -27,9 +28,6 @@ if TYPE_CHECKING:
     from urdfkit.description.source import Source, Span
     from urdfkit.lint.cache import Cache
     from urdfkit.lint.suppress import Suppression
-
-TARGETS = ("ros1", "ros2", "gz", "classic", "mujoco", "isaac", "drake", "moveit")
-"""Consumers that ``--target`` may name; without one every rule counts that holds for any of them."""
 
 _EVERYWHERE = ("xml", "misspelt-directive", "directive-attribute", "too-large", "too-many")
 """Kinds of faults that count in a file which others include, too: the rest may be due to what only those define."""
@@ -45,7 +43,7 @@ class Options:
     Attributes:
         select: codes, or beginnings of codes, to report; all where it is empty.
         ignore: codes, or beginnings, not to report.
-        target: the consumer the robot is meant for, one of `TARGETS`.
+        target: the consumer the robot is meant for, as `known_target` returns it.
         arguments: values for ``$(arg …)``.
         package_path: folders to look for packages in first.
         texts: contents to lint instead of those on disk, by absolute path.
@@ -71,6 +69,7 @@ class Outcome:
         files: every file that was read, absolute; by the same name.
         notes: what targets were guessed, one line each.
         cached: how many entry files had not changed since they were linted before.
+        refused: why some of several files could not be linted, one line each.
     """
 
     findings: tuple[Finding, ...]
@@ -78,6 +77,7 @@ class Outcome:
     files: Mapping[str, Path]
     notes: tuple[str, ...] = ()
     cached: int = 0
+    refused: tuple[str, ...] = ()
 
 
 def lint(
@@ -95,7 +95,7 @@ def lint(
         paths: one or more files or folders, or names of robots we ship.
         select: codes, or beginnings of codes, to report; all where it is empty.
         ignore: codes, or beginnings, not to report.
-        target: the consumer the robot is meant for, one of `TARGETS`.
+        target: the consumer the robot is meant for, one of `TARGETS`, or with its release: ``ros2-jazzy``.
         arguments: values for ``$(arg …)``.
         package_path: folders to look for packages in first.
 
@@ -112,7 +112,9 @@ def lint(
     return list(run(find_entries(several), options).findings)
 
 
-def run(entries: Iterable[Entry], options: Options, *, cached: bool = False, jobs: int = 1) -> Outcome:
+def run(
+    entries: Iterable[Entry], options: Options, *, cached: bool = False, jobs: int = 1, keep_going: bool = False
+) -> Outcome:
     """Lint entry files.
 
     Args:
@@ -120,29 +122,33 @@ def run(entries: Iterable[Entry], options: Options, *, cached: bool = False, job
         options: how.
         cached: take what was found before where nothing has changed since, and keep what is found now.
         jobs: how many processes to lint in at most.
+        keep_going: lint the others where some of several cannot be linted, and say why not in the outcome.
 
     Raises:
         UsageError: a code or the target is not known.
         ResourceError: an entry cannot be read, or a third-party rule cannot be imported.
+        ModelError: an entry is no robot description.
     """
-    known_target(options.target)
+    options = Options(**{**options.__dict__, "target": known_target(options.target)})
     entries = list(entries)
     checker = Checker(options, cached=cached)
+    check = checker.tried if keep_going and len(entries) > 1 else checker.check
     found = {entry: known for entry in entries if (known := checker.known(entry)) is not None}
     hits = len(found)
     left = [entry for entry in entries if entry not in found]
     if jobs > 1 and len(left) >= _AT_ONCE and not options.texts:
         from urdfkit.lint.parallel import check_all
 
-        found.update(zip(left, check_all(left, options, cached=cached, jobs=jobs), strict=True))
+        found.update(zip(left, check_all(left, options, cached=cached, jobs=jobs, keep_going=keep_going), strict=True))
     else:
-        found.update((entry, checker.check(entry)) for entry in left)
+        found.update((entry, check(entry)) for entry in left)
     every = [found[entry] for entry in entries]
     files = {name: Path(path) for one in every for name, path in one.files.items()}
     used = {place for one in every for place in one.used}
     findings = merged(finding for one in every for finding in one.findings if not _is_in_use(finding, used))
     notes = dict.fromkeys(one.note for one in every if one.note)
-    return Outcome(tuple(findings), Sources(checker.sources, files), files, tuple(notes), hits)
+    refused = tuple(dict.fromkeys(one.refused for one in every if one.refused))
+    return Outcome(tuple(findings), Sources(checker.sources, files), files, tuple(notes), hits, refused)
 
 
 def _is_in_use(finding: Finding, used: set[str]) -> bool:
@@ -152,20 +158,6 @@ def _is_in_use(finding: Finding, used: set[str]) -> bool:
     codes = finding.message.split("`")[1::2]
     at = str(finding.span.start)
     return any(place.startswith(f"{at} ") and (not codes or place.split()[-1] in codes) for place in used)
-
-
-def known_target(name: str | None) -> str | None:
-    """Return the name of a target.
-
-    Raises:
-        UsageError: there is none of that name.
-    """
-    if name is not None and name not in TARGETS:
-        from urdfkit.errors import UsageError, did_you_mean
-
-        hint = did_you_mean(name, TARGETS) or f"; one of {', '.join(TARGETS)}"
-        raise UsageError(f"--target {name} is not known{hint}")
-    return name
 
 
 class Sources(dict[str, "Source"]):
@@ -204,12 +196,12 @@ def model_of(path: Path, options: Options, *, packages: Packages | None = None) 
 
     expanded = expand_leniently(path, arguments=options.arguments, packages=packages, texts=options.texts)
     root = expanded.root
-    if root is not None and root.tag != "robot":
+    if root is not None and root.tag != "robot" and not is_nearly_robot(root.tag):
         from urdfkit.errors import ModelError
 
         raise ModelError(f"<{root.tag}> is no robot description", position=root.origin.position)
     robot = parse(root if root is not None else _nothing(path))
-    return Model(expanded, robot, options.target, as_written)
+    return Model(expanded, robot, family_of(options.target), as_written, release_of(options.target))
 
 
 class Checker:
@@ -248,6 +240,15 @@ class Checker:
         if self.cache is not None:
             self.cache.put(entry, found, model.expanded)
         return found
+
+    def tried(self, entry: Entry) -> Found:
+        """Lint one entry file of several; what cannot be linted is said in the outcome."""
+        from urdfkit.errors import UrdfkitError
+
+        try:
+            return self.check(entry)
+        except UrdfkitError as error:
+            return Found((), {}, refused=str(error))
 
     def examine(self, entry: Entry) -> tuple[Found, Model]:
         """Lint one entry file; return what was found, and the model it was found in."""

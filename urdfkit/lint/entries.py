@@ -21,6 +21,7 @@ _MAX_DEPTH = 12
 
 # Compiled on first use: to lint one named file takes none of the last four.
 _COMMENT = r"(?s)<!--.*?(?:-->|\Z)"  # one that is never closed is looked at once
+_FIRST = r"<([A-Za-z_][\w:.-]*)"
 _ROOT = r"<(robot)\b((?:\"[^\"]*\"|'[^']*'|[^>\"'])*)>|<[A-Za-z_]"
 _NAMED = r"(?<![\w:])name\s*="
 _INCLUDE = r"<(?:xacro:)?include\b[^<>]*?filename\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
@@ -88,9 +89,11 @@ def descriptions(folder: Path) -> Iterator[tuple[Path, str]]:
 
 def _robots_in(folder: Path) -> list[Entry]:
     texts = {path: _text(path) for path in _walk(folder, 0)}
-    robots = {path: text for path, text in texts.items() if _is_robot(text)}
+    robots = {path: text for path, text in texts.items() if _is_robot(text) or _is_broken(text)}
     included = _included(robots)
-    return [Entry(path, (), _is_library(robots[path])) for path in robots if path not in included]
+    return [
+        Entry(path, (), _is_robot(text) and _is_library(text)) for path, text in robots.items() if path not in included
+    ]
 
 
 def _of_file(path: Path) -> list[Entry]:
@@ -169,6 +172,19 @@ def _patterns(text: str) -> list[re.Pattern[str]]:
 def _is_robot(text: str) -> bool:
     root = re.search(_ROOT, text)
     return root is not None and root[1] is not None
+
+
+def _is_broken(text: str) -> bool:
+    """Whether a file is none of another format, but nothing at all, cut off, or a robot whose root is misspelt."""
+    first = re.search(_FIRST, text)
+    return first is None or is_nearly_robot(first[1]) or (first[1] == "robot" and not _is_robot(text))
+
+
+def is_nearly_robot(tag: str) -> bool:
+    """Whether a root element is called nearly ``robot``."""
+    from difflib import SequenceMatcher
+
+    return tag != "robot" and SequenceMatcher(None, tag.lower(), "robot").ratio() >= 0.75
 
 
 def _is_library(text: str) -> bool:

@@ -134,12 +134,14 @@ class Found:
         files: name in findings → file, absolute, of every file that was read.
         note: what target was guessed and why, one line; empty where none was.
         used: the places of comments that suppress something here, each with a code.
+        refused: why it could not be linted, one line; empty where it could.
     """
 
     findings: tuple[Finding, ...]
     files: Mapping[str, str]
     note: str = ""
     used: tuple[str, ...] = ()
+    refused: str = ""
 
 
 def _call(call: Expansion) -> dict[str, Any]:

@@ -48,12 +48,14 @@ class Model:
         robot: the robot in it; empty where there is none.
         target: the consumer it is meant for; None for all of them.
         expand_as_written: makes the robot without mending prefixes; see `as_written`.
+        release: of the target (``jazzy``); empty where it does not matter.
     """
 
     expanded: Expanded
     robot: Robot
     target: str | None = None
     expand_as_written: Callable[[], Robot] | None = field(default=None, repr=False)
+    release: str = ""
 
     @cached_property
     def as_written(self) -> Robot:

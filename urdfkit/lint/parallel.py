@@ -23,7 +23,7 @@ _checkers: list[Checker] = []
 """The checker of this process, once it has one: what it learns of packages serves all its files."""
 
 
-def check_all(entries: Sequence[Entry], options: Options, *, cached: bool, jobs: int) -> list[Found]:
+def check_all(entries: Sequence[Entry], options: Options, *, cached: bool, jobs: int, keep_going: bool) -> list[Found]:
     """Lint entry files in several processes.
 
     Args:
@@ -31,6 +31,7 @@ def check_all(entries: Sequence[Entry], options: Options, *, cached: bool, jobs:
         options: how.
         cached: keep what is found.
         jobs: how many processes at most.
+        keep_going: see `urdfkit.lint.engine.run`.
 
     Raises:
         UrdfkitError: what one of them could not do.
@@ -42,7 +43,9 @@ def check_all(entries: Sequence[Entry], options: Options, *, cached: bool, jobs:
     count = min(jobs, len(entries))
     try:
         with ProcessPoolExecutor(count, context, _begin, (options, cached)) as pool:
-            return list(pool.map(_check, entries, chunksize=max(1, len(entries) // (8 * count))))
+            return list(
+                pool.map(_try if keep_going else _check, entries, chunksize=max(1, len(entries) // (8 * count)))
+            )
     except BrokenProcessPool as error:
         raise ResourceError("a process that linted was ended from outside; try --jobs 1") from error
 
@@ -55,3 +58,9 @@ def _check(entry: Entry) -> Found:
     checker = _checkers[0]
     checker.sources.clear()
     return checker.check(entry)
+
+
+def _try(entry: Entry) -> Found:
+    checker = _checkers[0]
+    checker.sources.clear()
+    return checker.tried(entry)

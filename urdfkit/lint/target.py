@@ -7,6 +7,20 @@ from pathlib import Path
 
 from urdfkit.record import record
 
+TARGETS = ("ros1", "ros2", "gz", "classic", "mujoco", "isaac", "drake", "moveit", "urdfkit")
+"""Consumers that ``--target`` may name; without one every rule counts that holds for any of them."""
+
+DISTROS: dict[str, tuple[str, ...]] = {
+    "ros1": ("hydro", "indigo", "jade", "kinetic", "lunar", "melodic", "noetic"),
+    "ros2": ("foxy", "galactic", "humble", "iron", "jazzy", "kilted", "lyrical", "rolling"),
+    "gz": ("citadel", "edifice", "fortress", "garden", "harmonic", "ionic", "jetty"),
+    "classic": ("7", "8", "9", "10", "11"),
+}
+"""Target → its releases, oldest first (REP-3, REP-2000, gazebosim.org/docs/all/releases)."""
+
+WITHOUT_CLASSIC = frozenset(("jazzy", "kilted", "lyrical", "rolling"))
+"""Releases of ROS 2 that have neither Gazebo classic nor its plugins (rosdistro#40759 and #41224)."""
+
 _COMMENT = r"(?s)<!--.*?(?:-->|\Z)"
 _BUILD = r"<build(?:tool_depend|_type)\b[^>]*>\s*([\w.-]+)\s*<"
 _NEEDS = r"<(?:\w*depend|name)\b[^>]*>\s*([\w.-]+)\s*<"
@@ -75,3 +89,40 @@ def guess(path: Path) -> Guess:
     if not versions and len(others) == 1:
         return Guess(others.pop(), f"depends on {known[0]}", manifest)
     return Guess(None, "is for ROS 1 and ROS 2" if len(versions | others) > 1 else "names no build tool", manifest)
+
+
+def known_target(name: str | None) -> str | None:
+    """Return the name of a target, which may name a release: ``ros2`` or ``ros2-jazzy``; a release alone will do.
+
+    Raises:
+        UsageError: there is none of that name.
+    """
+    if name is None or name in TARGETS:
+        return name
+    from urdfkit.errors import UsageError, did_you_mean
+
+    family, separator, distro = name.partition("-")
+    if distro and distro in DISTROS.get(family, ()):
+        return name
+    for known, distros in DISTROS.items():
+        if name in distros and not name.isdecimal():
+            return f"{known}-{name}"
+    releases = {one: known for known, distros in DISTROS.items() for one in distros}
+    if separator and family in DISTROS:
+        hint = did_you_mean(distro, DISTROS[family]) or did_you_mean(distro, releases)
+        near = hint.partition("`")[2].partition("`")[0]
+        said = f"; did you mean `{releases[near]}-{near}`?" if near else f"; {family} has {', '.join(DISTROS[family])}"
+        raise UsageError(f"--target {name} is not known{said}")
+    hint = did_you_mean(name, (*TARGETS, *releases, *(f"{known}-{one}" for one, known in releases.items())))
+    families = f"; one of {', '.join(TARGETS)}"
+    raise UsageError(f"--target {name} is not known{hint or families}")
+
+
+def family_of(target: str | None) -> str | None:
+    """Return the target without its release."""
+    return target.partition("-")[0] if target is not None else None
+
+
+def release_of(target: str | None) -> str:
+    """Return the release that a target names; empty where it names none."""
+    return target.partition("-")[2] if target is not None else ""

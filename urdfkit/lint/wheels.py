@@ -72,7 +72,10 @@ def drives(model: Model) -> Iterator[TwoSided]:
 
 
 def written(model: Model, drive: TwoSided, meaning: str) -> tuple[float, Element, str] | None:
-    """Return the number written for a parameter, its element and its tag; the default at the plugin where none is."""
+    """Return the number written for a parameter, its element and its tag; the default at the plugin where none is.
+
+    None where it is not known, or written under a name that this plugin does not read: that is a finding of its own.
+    """
     from urdfkit.description.numbers import number
     from urdfkit.description.plugins import values
 
@@ -82,9 +85,19 @@ def written(model: Model, drive: TwoSided, meaning: str) -> tuple[float, Element
     for text, element in values(drive.plugin, parameter):
         value = number(text)
         return None if value is None or model.is_unresolved(element) else (value, element, parameter.tag)
-    if parameter.default is None:
+    if parameter.default is None or _is_meant(drive, meaning, parameter.tag):
         return None
     return float(parameter.default), drive.plugin.element, parameter.tag
+
+
+def _is_meant(drive: TwoSided, meaning: str, tag: str) -> bool:
+    """Whether a parameter is misspelt, or written as another generation of the plugin reads it."""
+    from urdfkit.description.plugins.unread import tables, unread
+
+    others = (other.by_meaning(meaning) for other in tables(drive.plugin))
+    if any(drive.plugin.element.find(other.tag) is not None for other in others if other is not None):
+        return True
+    return any(each.meant == tag for each in unread(drive.plugin, drive.spec))
 
 
 def mismatch(
@@ -105,7 +118,7 @@ def mismatch(
     return rule.at(
         model,
         element,
-        f"<{tag}> is {number:g} m, but {beside.format(text)}",
+        f"<{tag}> is {number:g} m{'' if element.tag == tag else ' by default'}, but {beside.format(text)}",
         joint=drive.left[0].joint.name,
         fix=new_text(model, element, text, "unsafe", f"Write {text}") if element.tag == tag else None,
     )

@@ -42,8 +42,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _options(arguments: argparse.Namespace) -> Options:
-    from urdfkit.lint.engine import Options, known_target
+    from urdfkit.lint.engine import Options
     from urdfkit.lint.settings import find
+    from urdfkit.lint.target import known_target
 
     settings = find(Path.cwd())
     target = arguments.target or settings.target

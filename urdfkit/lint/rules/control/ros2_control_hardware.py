@@ -5,6 +5,7 @@ from __future__ import annotations
 from urdfkit.lint.edits import nearest, new_text
 from urdfkit.lint.gazebo import plugins
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+from urdfkit.lint.target import WITHOUT_CLASSIC
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -31,7 +32,8 @@ class HardwareMismatch(RobotRule):
     Each plugin that runs the controller manager in Gazebo has hardware of its own: gazebo_ros2_control has
     ``gazebo_ros2_control/GazeboSystem``, gz_ros2_control ``gz_ros2_control/GazeboSimSystem`` and ign_ros2_control
     ``ign_ros2_control/IgnitionSystem``. Names that are nearly one of them, or nearly ``mock_components/GenericSystem``,
-    are reported too; other hardware passes.
+    are reported too; other hardware passes. From Jazzy on (``--target ros2-jazzy``) there is no Gazebo classic, and so
+    no ``gazebo_ros2_control/GazeboSystem``.
 
     ## Why is this bad?
     pluginlib finds no such class: the controller manager stops.
@@ -80,7 +82,9 @@ class HardwareMismatch(RobotRule):
             package = text.partition("/")[0]
             if text in MOCKS:
                 continue
-            if text in HARDWARE.values():
+            if text == HARDWARE["gazebo_ros2_control"] and model.release in WITHOUT_CLASSIC:
+                right, message = HARDWARE["gz_ros2_control"], f"`{text}` does not exist for {model.release}"
+            elif text in HARDWARE.values():
                 # In Humble gz_ros2_control has the hardware of both names.
                 if len(hosts) != 1 or package in hosts or {package, *hosts} == {"gz_ros2_control", "ign_ros2_control"}:
                     continue

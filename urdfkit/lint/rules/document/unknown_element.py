@@ -23,8 +23,8 @@ class UnknownElement(RobotRule):
 
     ## What it does
     Looks at what is inside ``<link>``, ``<joint>``, ``<inertial>``, ``<visual>``, ``<collision>`` and ``<geometry>``.
-    Elements with a prefix belong to somebody else. ``<robot>`` may hold extensions of any name: there an element is
-    reported where its name is nearly that of a link, a joint or another that belongs there.
+    Elements with a prefix belong to somebody else. The root is ``<robot>``, which may hold extensions of any name:
+    there an element is reported where its name is nearly that of a link, a joint or another that belongs there.
 
     ## Why is this bad?
     Readers skip it without a word: a typing error, or a macro call without prefix, takes wheels, damping or inertia
@@ -69,6 +69,10 @@ class UnknownElement(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each element that has no meaning where it stands."""
         robot = model.robot.element
+        if robot.tag != "robot":
+            fix = new_tag(model, robot, "robot", "unsafe", "Call it <robot>")
+            message = f"<{robot.tag}> is no robot description"
+            yield self.at(model, robot, message, help="did you mean `robot`?", fix=fix, severity="error")
         for child in robot.children:
             if (meant := misspelt_in_robot(child)) is not None:
                 fix = new_tag(model, child, meant, "unsafe", f"Call it <{meant}>")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.gazebo import plugins, specs
 from urdfkit.lint.rule import RobotRule
+from urdfkit.lint.target import WITHOUT_CLASSIC
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ class PluginLibWrongGeneration(RobotRule):
     ## What it does
     With ``--target gz`` it looks for libraries of Gazebo classic (``libgazebo_ros_….so``), with ``classic`` and
     ``ros1`` for systems of the new Gazebo (``gz-sim-…-system``), and with ``ros1`` or ``ros2`` for those that only
-    the other has.
+    the other has. From Jazzy on (``ros2-jazzy``) ROS 2 has no Gazebo classic.
 
     ## Why is this bad?
     "Failed to load plugin": the robot stands there without drive or sensor.
@@ -71,7 +72,7 @@ class PluginLibWrongGeneration(RobotRule):
             elif name.startswith(("gz-sim", "ignition-gazebo", "gz_ros2_control", "ign_ros2_control")):
                 generations = {"gz"}
             wanted = {"gz": {"gz"}, "classic": {"ros1", "ros2"}, "ros1": {"ros1"}, "ros2": {"ros2", "gz"}}
-            allowed = wanted[model.target or "gz"]
+            allowed = {"gz"} if model.release in WITHOUT_CLASSIC else wanted[model.target or "gz"]
             if not generations or not generations.isdisjoint(allowed):
                 continue
             kinds = {spec.kind for spec in specs(plugin)}
@@ -84,7 +85,7 @@ class PluginLibWrongGeneration(RobotRule):
             yield self.at(
                 model,
                 plugin.element,
-                f"`{(plugin.filename or '').strip()}` does not exist for {model.target}",
+                f"`{(plugin.filename or '').strip()}` does not exist for {model.release or model.target}",
                 attribute="filename",
                 help=f"there it is {min(instead)}" if instead else None,
             )
