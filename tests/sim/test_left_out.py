@@ -95,7 +95,9 @@ def test_a_broken_visual_of_a_world_is_not_seen_and_the_rest_is(tmp_path: Path) 
     notes: list[str] = []
     simulator = Simulator(written(tmp_path, BOX), world=world, note=notes.append)
     assert simulator.looks() == ()
-    assert next(each for each in notes if "coat" in each).endswith("is left out: what it would look like is not seen")
+    (note,) = [each for each in notes if "coat" in each]
+    assert note.startswith(f"{world}:1:")
+    assert "visual `coat` is not seen: mesh broken.stl is cut off" in note
 
 
 def test_a_misspelt_material_of_a_world_is_told_with_the_nearest(tmp_path: Path) -> None:

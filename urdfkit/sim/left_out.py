@@ -54,7 +54,7 @@ def without_broken(model: WorldModel, meshes: MeshLoader, note: Callable[[str], 
 def _without(model: WorldModel, meshes: MeshLoader, note: Callable[[str], None]) -> WorldModel:
     """Return a model with the shapes that can be had; the very same where these are all."""
 
-    def kept(shape: WorldShape, what: str) -> bool:
+    def is_had(shape: WorldShape, *, seen: bool) -> bool:
         if not isinstance(shape.geometry, Mesh):
             return True
         if not shape.file:
@@ -62,19 +62,17 @@ def _without(model: WorldModel, meshes: MeshLoader, note: Callable[[str], None])
         try:
             meshes.load(Path(shape.file), shape.geometry.scale)
         except ResourceError as error:
-            note(f"{shape.position or model.name}: {error}; {what}")
+            touched = f"{error}; collision `{shape.name}` is left out: nothing touches it there"
+            told = f"visual `{shape.name}` is not seen: {error}" if seen else touched
+            note(f"{shape.position or model.name}: {told}")
             return False
         return True
 
     def sound(link: WorldLink) -> WorldLink:
-        seen = tuple(
-            [s for s in link.visuals if kept(s, f"visual `{s.name}` is left out: what it would look like is not seen")]
-        )
-        touched = tuple(
-            [s for s in link.collisions if kept(s, f"collision `{s.name}` is left out: nothing touches it there")]
-        )
-        same = seen == link.visuals and touched == link.collisions
-        return link if same else replace(link, visuals=seen, collisions=touched)
+        visuals = tuple([shape for shape in link.visuals if is_had(shape, seen=True)])
+        collisions = tuple([shape for shape in link.collisions if is_had(shape, seen=False)])
+        same = visuals == link.visuals and collisions == link.collisions
+        return link if same else replace(link, visuals=visuals, collisions=collisions)
 
     links = tuple([sound(link) for link in model.links])
     models = tuple([_without(each, meshes, note) for each in model.models])

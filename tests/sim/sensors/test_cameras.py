@@ -194,6 +194,20 @@ def test_cameras_of_the_new_gazebo(post) -> None:
     assert {t.name for t in simulator.bus.topics} >= {"/b/image", "/b/camera_info"}
 
 
+def test_points_with_x_forward_have_the_frame_that_looks_along_x(post) -> None:
+    optical = camera(more="<optical_frame_id>o</optical_frame_id>")
+    simulator = post(eye(type="rgbd_camera", inside=optical, more="<topic>b</topic>"), room=ROOM)
+    frames = {}
+    for topic in ("image", "depth_image", "points", "camera_info"):
+        (message,) = heard(simulator, f"/b/{topic}")
+        frames[topic] = message.header.frame_id
+    own = frames.pop("points")
+    assert set(frames.values()) == {"o"}
+    assert own != "o"
+    (plain,) = heard(post(eye(type="rgbd_camera", more="<topic>b</topic>"), room=ROOM), "/b/image")
+    assert own == plain.header.frame_id
+
+
 def test_noise_has_its_mean_and_deviation(post) -> None:
     noisy = camera(500, 400, more=noise(0.02, 0.01))
     (plain,) = heard(post(eye(ros1(), inside=camera(500, 400)), room=ROOM), "/cam/image_raw")

@@ -102,6 +102,7 @@ class Camera(Mounted):
     Attributes:
         eyes: its cameras.
         deep: whether it tells depths, or which shapes it sees.
+        sensor_frame: its own, which looks along x; `frame` may be an optical one.
     """
 
     namespace = "{model}"
@@ -113,6 +114,7 @@ class Camera(Mounted):
             several = several[:1]
         self.eyes = [self._eye(each, setup, read) for each in several]
         self.optics = self.eyes[0].optics
+        self.sensor_frame = self.frame
         if (optical := self.optics.element.find("optical_frame_id")) is not None and optical.text:
             self.frame = optical.text
         self._advertise(setup, read, topics)

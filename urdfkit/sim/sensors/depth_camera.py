@@ -88,7 +88,8 @@ class GzDepthCamera(Camera):
         return depth_image(sight.t, self.frame, sight.picture.depth)
 
     def _points(self, sight: Sight) -> Any:
-        return points(sight.t, self.frame, self.optics.lens, sight.picture.depth, sight.picture.rgb, optical=False)
+        picture = sight.picture
+        return points(sight.t, self.sensor_frame, self.optics.lens, picture.depth, picture.rgb, optical=False)
 
 
 class GzRgbdCamera(GzDepthCamera):
