@@ -122,6 +122,8 @@ def test_publishes_what_it_says(robot_template, tmp_path, ros, sim, drive):
     name = "/scout" if ros == "noetic" else ""
     assert heard[f"{name}/scan"].header.frame_id == "lidar_link"
     assert heard[f"{name}/camera/image_raw"].header.frame_id == "camera_optical_frame"
+    frame = "depth_link" if sim == "gz" else "depth_optical_frame"  # of points with x, or with z forward
+    assert heard[f"{name}/depth/points"].header.frame_id == frame
     # It does not see itself.
     assert all(reading == float("inf") for reading in heard[f"{name}/scan"].ranges)
     assert heard[f"{name}/imu"].linear_acceleration.z == pytest.approx(9.81, abs=0.3)
