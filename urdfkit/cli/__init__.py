@@ -15,7 +15,6 @@ from importlib import import_module
 from io import TextIOWrapper
 from keyword import iskeyword
 
-from urdfkit.cli.parser import Parser, add_common
 from urdfkit.errors import UrdfkitError
 
 TYPE_CHECKING = False
@@ -98,6 +97,13 @@ def program() -> None:
 
 
 def _run(arguments: list[str]) -> int:
+    if arguments[:1] == ["lint"]:
+        from urdfkit.cli.plain import plain
+
+        if (parsed := plain(arguments[1:])) is not None:
+            return int(_module("lint").run(parsed))
+    from urdfkit.cli.parser import Parser, add_common
+
     command = next((a for a in arguments if not a.startswith("-")), None)
     parser = Parser(
         prog="urdfkit",

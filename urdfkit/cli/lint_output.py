@@ -49,10 +49,13 @@ def show(outcome: Outcome, *, form: str, statistics: bool, color: str) -> None:
 
 
 def _text(outcome: Outcome, color: str) -> None:
-    from urdfkit.cli.parser import columns
     from urdfkit.lint.report.text import TextReport, summary
 
-    width = columns() if sys.stdout.isatty() else None
+    width = None
+    if sys.stdout.isatty():
+        from urdfkit.cli.parser import columns
+
+        width = columns()
     report = TextReport(outcome.sources, colour=_colour(color), width=width)
     for finding in outcome.findings:
         print(report.finding(finding), end="\n\n")

@@ -20,6 +20,7 @@ from _thread import RLock  # threading itself takes half a millisecond to import
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from types import ModuleType
 
 from urdfkit.description.expanded import Expanded
 from urdfkit.description.packages import Packages
@@ -28,6 +29,8 @@ from urdfkit.errors import ResourceError, XmlError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from urdfkit.description.run import Run
 
 _LOCK = RLock()
@@ -118,11 +121,31 @@ def is_xacro(path: str | Path) -> bool:
     return not str(path).lower().endswith(".urdf")
 
 
+def _stock() -> Any:
+    """Import xacro without what only its own command line needs: that takes as long as expanding a small file."""
+    if "xacro" not in sys.modules and "xacro.cli" not in sys.modules:
+        stand_in: Any = ModuleType("xacro.cli")
+        stand_in.process_args = _process_args
+        sys.modules["xacro.cli"] = stand_in
+        try:
+            import xacro
+        finally:
+            del sys.modules["xacro.cli"]
+    import xacro
+
+    return xacro
+
+
+def _process_args(*arguments: Any, **options: Any) -> Any:
+    from xacro.cli import process_args
+
+    return process_args(*arguments, **options)
+
+
 @contextmanager
 def _xacro_for(run: Run) -> Iterator[None]:
     """Lend xacro's module globals to one run."""
-    import xacro
-
+    xacro = _stock()
     with _LOCK:
         lent = run.take(xacro)
         saved = {name: getattr(xacro, name) for name in lent}

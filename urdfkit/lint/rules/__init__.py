@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from urdfkit.lint.table import AROUND, FAULTS, ROBOT, SOURCE, SUPPRESSION, TARGETED, traits
+from urdfkit.lint.table import AROUND, FAULTS, ROBOT, SOURCE, SUPPRESSION, TARGETED
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -59,6 +59,8 @@ def robot_rules(robot: Robot | None = None, target: str | None = None) -> tuple[
     """
     if robot is None:
         return tuple(_rules((*ROBOT, *AROUND, *TARGETED)))
+    from urdfkit.lint.glance import traits
+
     found = traits(robot)
     rows = ROBOT if target is None else (*ROBOT, *TARGETED)
     return tuple(_rules(row for row in rows if not row[0] or not found.isdisjoint(row[0].split())))
