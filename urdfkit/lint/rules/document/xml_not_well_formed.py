@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import FaultRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from urdfkit.description.faults import Fault
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+    from urdfkit.lint.syntax import Document
 
 
 class XmlNotWellFormed(FaultRule):
@@ -33,12 +39,35 @@ class XmlNotWellFormed(FaultRule):
       <link name="base"/>
     </robot>
     ```
+
+    ## Fix safety
+    Unsafe: a root that is never closed is closed at the end; there may be more missing than that.
     """
 
     code = "E001"
     name = "xml-not-well-formed"
+    fix = "unsafe"
     kinds = ("xml",)
 
     def claims(self, fault: Fault) -> bool:
         """Return whether the fault is about XML as such, not about an unbound prefix."""
         return fault.kind == "xml" and "unbound prefix" not in fault.message
+
+    def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
+        """Yield the finding; a file that ends too early is pointed at where what is written ends."""
+        if not fault.message.startswith("the file ends too early"):
+            yield from super().check(fault, model)
+            return
+        document = model.document(fault.position.file)
+        source = document.source
+        end = len(source.text.rstrip())
+        yield self.at(model, source.position(max(end - 1, 0)), fault.message, fix=_closed(document, end))
+
+
+def _closed(document: Document, end: int) -> Fix | None:
+    """Return the fix that closes the root where nothing else is open."""
+    root = next(iter(document.roots), None)
+    if root is None or root.empty or any(not tag.empty and tag.close is None for tag in root.walk() if tag is not root):
+        return None
+    there = document.source.span(end, end)
+    return Fix("unsafe", f"Close <{root.name}>", (Edit(there, f"\n</{root.name}>"),))

@@ -44,7 +44,7 @@ class PropertyUsedBeforeDefinition(FaultRule):
 
     ## Fix safety
     Unsafe: where the use is in an included file, the include is moved behind the definition, and with it all that the
-    file defines. Within one file nothing is moved.
+    file defines. Within one file the definition is moved above the first use; what it needs itself may come later.
     """
 
     code = "X105"
@@ -65,7 +65,7 @@ class PropertyUsedBeforeDefinition(FaultRule):
             f"property `{fault.name}` is used before it is defined",
             attribute=fault.attribute,
             help=f"move the definition{definition} above this use",
-            fix=_later_include(fault, model),
+            fix=_later_include(fault, model) or _earlier_definition(fault, model),
         )
 
 
@@ -96,3 +96,27 @@ def _later_include(fault: Fault, model: Model) -> Fix | None:
     there = source.span(definition.close_end, definition.close_end)
     title = f"Include {PurePosixPath(used).name} after what it uses is defined"
     return Fix("unsafe", title, (removal(document, include), Edit(there, text)))
+
+
+def _earlier_definition(fault: Fault, model: Model) -> Fix | None:
+    """Return the fix that moves a definition above its first use in the same file."""
+    defined = fault.defined_at
+    if defined is None or fault.position.file != defined.file:
+        return None
+    document, definition = model.document(defined.file), model.tag(defined)
+    uses = [other.position for other in model.expanded.faults if other.defined_at == defined]
+    if definition is None or any(use.file != defined.file for use in uses):
+        return None
+    first = model.tag(min(uses))
+    while first is not None and first.parent is not definition.parent:
+        first = first.parent
+    if first is None or first.start >= definition.start:
+        return None
+    source = document.source
+    moved = source.text[definition.start : definition.close_end]
+    line = source.text[source.text.rfind("\n", 0, first.start) + 1 : first.start]
+    there = source.span(first.start, first.start)
+    text = f"{moved}\n{line}" if not line.strip() else moved
+    return Fix(
+        "unsafe", f"Define `{fault.name}` above its first use", (Edit(there, text), removal(document, definition))
+    )
