@@ -19,14 +19,19 @@ def test_an_arm_is_moved_by_its_sliders_and_a_depth_camera_gives_a_cloud(serve, 
     ceiling = "urdfkit.connection.order('walls', { corners: [[-1, 0], [1, 0]], thickness: 2, height: 0.1 })"
     name = page.evaluate(ceiling)["name"]  # the camera looks up
     page.evaluate("(name) => urdfkit.connection.order('place', { name, pose: [0, 0, 2.2] })", name)
+    # It is bolted down: where its base is need not be told, where its end is might.
+    until(lambda: page.locator("#tip-at").is_visible())
+    assert page.locator("#tip-name").inner_text() == "gripper_finger_link1"
+    assert len(page.locator("#tip-at").inner_text().split(", ")) == 3
+    assert not page.locator("#position, #heading, #velocity").filter(visible=True).count()
     page.locator("#open-arms").click()
     until(lambda: page.locator(".real").first.inner_text().startswith("is at"), 60)
     row = page.locator(".controller li").first
     joint = row.get_attribute("data-joint")
     unit = page.locator(".controller .unit").first.inner_text()
     assert unit in ("rad", "m")
-    row.locator("input[type=number]").fill("0.4")
-    row.locator("input[type=number]").press("Enter")
+    row.locator("input.number").fill("0.4")
+    row.locator("input.number").press("Enter")
     until(lambda: abs(float(row.locator(".real").inner_text().split()[2]) - 0.4) < 0.1, 60)
     keep(page, "arms")
     assert joint
@@ -66,11 +71,18 @@ def served(port: int, name: str):
     return server
 
 
+def seen(visits, url: str):
+    """Open a page of a server behind which nothing runs."""
+    page = visits.open(url, ready=False, viewport=SIZE)
+    page.wait_for_selector("body[data-ready=true]")
+    return page
+
+
 def test_a_page_comes_back_when_the_server_does(visits, until, keep, tmp_path, monkeypatch) -> None:
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     port = free_port()
     first = served(port, "first")
-    page = visits.open(first.url, viewport=SIZE)
+    page = seen(visits, first.url)
     first.stop()
     until(lambda: page.locator("#state").inner_text() in ("urdfkit is not running", "reconnecting"), 60)
     second = served(port, "second")
@@ -95,7 +107,7 @@ def test_a_page_of_another_site_gets_no_websocket(visits, until, tmp_path) -> No
     import threading
 
     target = served(0, "target")
-    visits.open(target.url, viewport=SIZE)  # the cookie is there
+    seen(visits, target.url)  # the cookie is there
 
     class Evil(http.server.BaseHTTPRequestHandler):
         def do_GET(self) -> None:

@@ -25,6 +25,21 @@ REMEMBER = """
     remembered.push({ t: time, x: pose.x, y: pose.y, drives: driver !== null }));
 """
 """Keep time, place and whether somebody drives as the simulation tells them, of one moment, however late heard."""
+IN_THE_WAY = """
+  (() => {
+    const { scene, stage } = urdfkit, THREE = MeshCat.THREE;
+    const box = scene.bounds(), ray = new THREE.Raycaster(), eye = stage.viewer.camera.position;
+    const others = [...scene.groups.visual.values()].filter((group) => !scene.own.includes(group.parent));
+    const found = [];
+    for (const to of [box.getCenter(new THREE.Vector3()), new THREE.Vector3(0, box.max.y, 0)]) {
+      ray.set(eye, to.clone().sub(eye).normalize());
+      ray.far = eye.distanceTo(to) - 0.1;
+      found.push(...ray.intersectObjects(others, true).map(({ object }) => scene.owner(object)));
+    }
+    return found;
+  })()
+"""
+"""The bodies of the world between the camera and the robot."""
 AHEAD = Axes((1.0, 0.0, 0.0, 0.0), 0.5, 1.0)
 
 
@@ -365,7 +380,7 @@ def test_what_is_spawned_appears_on_the_page_and_what_is_removed_vanishes() -> N
 
 
 @pytest.mark.browser
-def test_the_first_view_is_of_the_robot_not_of_the_house_around_it(serve, visits, keep) -> None:
+def test_the_view_is_of_the_robot_not_of_the_house_around_it(serve, visits, keep, until) -> None:
     page = visits.open(serve("sim", "teleop", "simpleton", "--world", "house").url)
     keep(page, "house")
     robot, everything = page.evaluate("[urdfkit.scene.own.length, urdfkit.scene.nodes.length]")
@@ -373,6 +388,26 @@ def test_the_first_view_is_of_the_robot_not_of_the_house_around_it(serve, visits
     assert 0.2 < page.evaluate("urdfkit.stage.radius") < 0.6
     far = "urdfkit.stage.viewer.camera.position.distanceTo(urdfkit.stage.viewer.controls.target)"
     assert page.evaluate(far) < 5.0
+    assert page.evaluate(IN_THE_WAY) == []  # nothing of the house is between camera and robot
+    # A wall that comes in between is seen through, until it is no longer in the way.
+    build = """([eye]) => { const { scene, stage, page } = urdfkit; page.following = false;
+      const THREE = MeshCat.THREE, { camera, controls } = stage.viewer;
+      const at = scene.own[0].getWorldPosition(new THREE.Vector3());
+      const [x, , z] = at.clone().lerp(camera.position, 0.5).toArray();
+      return page.connection.order("walls", { corners: [[x - 1, -z - 1], [x + 1, -z + 1]], thickness: 0.05 }); }"""
+    name = page.evaluate(build, [None])["name"]
+    until(lambda: page.evaluate("urdfkit.scene.faded.size") > 0)
+    keep(page, "house-through-a-wall")
+    page.evaluate("(name) => urdfkit.connection.order('remove', { name })", name)
+    until(lambda: page.evaluate("urdfkit.scene.faded.size") == 0)
+    page.keyboard.press("f")
+    assert page.evaluate(IN_THE_WAY) == []
+    page.locator("#open-camera").click()
+    page.get_by_label("Follow", exact=True).check()
+    x = page.evaluate(X)
+    page.keyboard.down("w")  # the keys drive, though a button of the panel has the focus
+    until(lambda: page.evaluate(X) > x + 0.2)
+    page.keyboard.up("w")
 
 
 def test_a_ride_is_recorded_until_it_is_interrupted(serve, tmp_path, until) -> None:

@@ -65,6 +65,7 @@ def run(arguments: argparse.Namespace) -> int:
             page.open()  # the browser starts, and shows the robot, while the engine is made ready
             with told_of_faults(server):
                 likeness.show(server)
+                server.declare("progress", label="making the engine ready …")
                 ride = _ride(arguments, robot, world, likeness, server)
             simulator = ride.simulator
             with recording(simulator, arguments.record) as ride.look, noted(server.port, server.url, simulator.name):

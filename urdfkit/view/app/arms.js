@@ -1,7 +1,7 @@
 // Arms: a slider for every joint of every controller, with where the joint really is.
 
 import { h, short } from "./dom.js";
-import { field } from "./number.js";
+import { numberField } from "./number.js";
 
 const ARM = "M5 20h6M8 20v-6l-2-4 5-5 4 2M15 7l3-3M15 7l4 1M6 10a1 1 0 1 0 0 .1";
 const PERIOD = 60; // ms between two commands while a slider is dragged
@@ -28,7 +28,7 @@ export function arms(page) {
 
   function row(controller, joint) {
     const id = `arm-${controller}-${joint.name}`.replaceAll(/[^\w-]/g, "-");
-    const number = field({ min: joint.lower, max: joint.upper, unit: joint.unit, value: short(joint.value, 3), "aria-label": `${joint.name} of ${controller} [${joint.unit}]` });
+    const number = numberField({ min: joint.lower, max: joint.upper, unit: joint.unit, value: short(joint.value, 3), "aria-label": `${joint.name} of ${controller} [${joint.unit}]` });
     const slider = h("input", { type: "range", id, min: joint.lower, max: joint.upper, step: "any" });
     slider.value = joint.value;
     const real = h("span.real.quiet", { title: "where it is" }, "");

@@ -1,7 +1,7 @@
 // Pictures and films of the stage, to keep.
 
 import { h, icon, short } from "./dom.js";
-import { field } from "./number.js";
+import { numberField } from "./number.js";
 
 const SHOT = "M4 7h4l2-3h4l2 3h4v13H4zM12 10a3.5 3.5 0 1 0 0 7a3.5 3.5 0 0 0 0-7z";
 const FILM = "M20 12a8 8 0 1 1-3-6.2M20 3v4h-4M10 9l5 3-5 3z";
@@ -75,7 +75,7 @@ export function capture(page) {
   page.tools.action({ id: "shot", title: "Screenshot", icon: SHOT, order: 60, run: shoot });
   page.shortcut({ key: "s", does: "save a screenshot", group: "Tools", run: () => void shoot() });
 
-  const seconds = field({ id: "turn-seconds", min: 1, max: 60, step: 1, value: 6, unit: "s" });
+  const seconds = numberField({ id: "turn-seconds", min: 1, max: 60, step: 1, value: 6, unit: "s" });
   const bar = h("progress", { max: 1, value: 0, hidden: true, "aria-label": "Recording" });
   const button = h("button#turntable", { type: "button" }, icon(FILM), h("span", {}, "Record a turn"));
   let running = false;

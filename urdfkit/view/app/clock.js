@@ -1,7 +1,7 @@
 // Time: pause, steps, speed, reset, and the readout of how it stands.
 
 import { fixed, h, icon } from "./dom.js";
-import { field } from "./number.js";
+import { numberField } from "./number.js";
 
 const $ = (id) => document.getElementById(id);
 const STEP = "M6 5v14l8-7zM17 5v14";
@@ -10,7 +10,7 @@ const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10];
 export function clock(page) {
   let me = null;
   const say = (error) => page.toast(error.message, "error");
-  const steps = field({ id: "steps", min: 1, max: 10000, step: 1, whole: true, value: 1, "aria-label": "Steps", title: "Steps" });
+  const steps = numberField({ id: "steps", min: 1, max: 10000, step: 1, whole: true, value: 1, "aria-label": "Steps", title: "Steps" });
   const step = h("button", { type: "button", id: "step", title: "Go on by so many steps", "aria-label": "Step", hidden: true }, icon(STEP), h("span", {}, "Step"));
   const speed = h("select", { id: "factor", "aria-label": "Speed of time", title: "Speed of time" });
   speed.append(...SPEEDS.map((factor) => h("option", { value: factor, selected: factor === 1 }, `×${factor}`)), h("option", { value: "" }, "max"));

@@ -1,7 +1,7 @@
 // A form for a message: a field for every value, nested as the message is.
 
 import { h } from "./dom.js";
-import { field, readNumber } from "./number.js";
+import { numberField, readNumber } from "./number.js";
 
 export class Form {
   /** @param message an empty message, whose values say of what kind they are */
@@ -29,7 +29,7 @@ export class Form {
       input = h("input", { type: "checkbox", checked: value });
       read = () => input.checked;
     } else if (typeof value === "number") {
-      input = field({ value });
+      input = numberField({ value });
       read = () => {
         const written = readNumber(input.value);
         if (Number.isNaN(written)) throw new Error(`${words}: “${input.value}” is no number, such as 0.5`);

@@ -1,7 +1,7 @@
 // The joint panel: a slider and a number for every joint, in radians or degrees, inside the limits or beyond them.
 
 import { check, h, short } from "./dom.js";
-import { field } from "./number.js";
+import { numberField } from "./number.js";
 
 const SLIDERS = "M4 7h9M17 7h3M15 5v4M4 17h3M11 17h9M9 15v4";
 const DEGREES = 180 / Math.PI;
@@ -95,7 +95,7 @@ export class Joints {
   #row(joint) {
     const { name } = joint;
     const label = h("label", { title: name, for: `joint-${name}` }, name);
-    const number = field();
+    const number = numberField();
     const unit = h("span.unit");
     const slider = h("input", { type: "range", step: "any", id: `joint-${name}` });
     const ends = h("div.joint-ends", {}, h("span"), h("span"));

@@ -27,7 +27,7 @@ export function wrong(text, { min = null, max = null, unit = "", whole = false }
  * Make a field for a number. It has `valueAsNumber`; its listeners of "change" hear of numbers only.
  * @param bounds {min, max, step, unit, whole} and what else an input takes; "aria-label" says what it is
  */
-export function field({ min = null, max = null, step = null, unit = "", whole = false, ...attributes } = {}) {
+export function numberField({ min = null, max = null, step = null, unit = "", whole = false, ...attributes } = {}) {
   const input = h("input.number", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", ...attributes });
   const bounds = { min, max, unit, whole };
   let good = input.value; // what stood there before a person began to write

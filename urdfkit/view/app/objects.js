@@ -2,7 +2,7 @@
 
 import { h, short } from "./dom.js";
 import { Mover } from "./mover.js";
-import { field } from "./number.js";
+import { numberField } from "./number.js";
 
 const WORLD = "M12 3l8 4.5v9L12 21l-8-4.5v-9zM12 12l8-4.5M12 12v9M12 12L4 7.5";
 const PLACE = "M12 21s-6-6-6-11a6 6 0 0 1 12 0c0 5-6 11-6 11zM12 8a2 2 0 1 0 0 4a2 2 0 0 0 0-4z";
@@ -107,7 +107,7 @@ export class Objects {
     const object = this.objects.find((each) => each.name === name);
     const inputs = FIELDS.map((field, i) => {
       const angle = i > 2;
-      const input = field({ step: angle ? 5 : 0.1, value: short(angle ? (pose[i] * 180) / Math.PI : pose[i], 3), "aria-label": `${field} of ${name} [${angle ? "°" : "m"}]` });
+      const input = numberField({ step: angle ? 5 : 0.1, value: short(angle ? (pose[i] * 180) / Math.PI : pose[i], 3), "aria-label": `${field} of ${name} [${angle ? "°" : "m"}]` });
       input.addEventListener("change", () => {
         const values = inputs.map(({ valueAsNumber }, k) => valueAsNumber * (k > 2 ? Math.PI / 180 : 1));
         this.#place(values);

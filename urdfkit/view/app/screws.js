@@ -1,7 +1,7 @@
 // Parameters that can be changed while it runs: gravity, friction, masses, gains.
 
 import { h, short } from "./dom.js";
-import { field } from "./number.js";
+import { numberField } from "./number.js";
 
 const SCREW = "M12 3v6M9 3h6M9 9h6l-1 9-2 3-2-3zM9.4 12h5.2M9.8 15h4.4";
 const PLANETS = { Earth: -9.81, Mars: -3.72, Moon: -1.62, none: 0 };
@@ -26,7 +26,7 @@ export function screws(page) {
   }
 
   function number(value, label, changed, bounds = { min: 0 }) {
-    const input = field({ ...bounds, value: short(value, 6), "aria-label": label });
+    const input = numberField({ ...bounds, value: short(value, 6), "aria-label": label });
     input.addEventListener("change", () => changed(input.valueAsNumber, input));
     input.addEventListener("keydown", (event) => event.key === "Enter" && input.blur());
     return input;

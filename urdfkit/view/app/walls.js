@@ -2,7 +2,7 @@
 /* global MeshCat */
 
 import { h, short } from "./dom.js";
-import { field } from "./number.js";
+import { numberField } from "./number.js";
 
 const THREE = MeshCat.THREE;
 const WALL = "M3 6h18v12H3zM3 12h18M9 6v6M15 12v6";
@@ -25,7 +25,7 @@ export class Walls {
       page.stage.viewer.scene.add(object);
     }
     const number = (id, words, value, min, max) => {
-      const input = field({ id: `wall-${id}`, value, min, max, step: 0.05, unit: "m" });
+      const input = numberField({ id: `wall-${id}`, value, min, max, step: 0.05, unit: "m" });
       return [input, h("label", {}, `${words} `, input, h("span.unit", {}, "m"))];
     };
     const [height, tall] = number("height", "height", 2.5, 0.05, 20);
