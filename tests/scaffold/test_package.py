@@ -8,7 +8,7 @@ import pytest
 from urdfkit.cli import main
 from urdfkit.lint import lint
 
-KINDS = ("plain", "description", "gazebo", "bringup")
+KINDS = ("plain", "description", "gazebo", "control", "bringup")
 
 
 @pytest.fixture
@@ -38,7 +38,7 @@ def test_colcon(workspace, debian):
     assert new("base", "--ros", "humble") == 0
     for kind in KINDS:
         assert new(f"scout_{kind}", "--kind", kind, "--depends", "base") == 0
-    assert "5 packages finished" in debian("colcon build")
+    assert "6 packages finished" in debian("colcon build")
     assert (workspace / "install/scout_gazebo/share/scout_gazebo/config/bridge.yaml").is_file()
     found = debian(". install/setup.sh && echo $GZ_SIM_RESOURCE_PATH")
     assert f"{workspace}/install/scout_description/share" in found

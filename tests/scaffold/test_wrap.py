@@ -90,17 +90,17 @@ def test_it_becomes_packages(export, capsys, ros):
         "launch meshes rviz urdf" in (package / "CMakeLists.txt").read_text()
         or "meshes" in (package / "CMakeLists.txt").read_text()
     )
-    text = (package / "urdf/my_arm.urdf").read_bytes().decode()
+    text = (package / "urdf/my_arm.urdf.xacro").read_bytes().decode()
     assert 'filename="package://my_arm_description/meshes/base_link.STL"' in text
     assert "filename='package://my_arm_description/meshes/fine/link1.stl'" in text
     assert "\r\n" in text
     assert "\n" not in text.replace("\r\n", "")
     assert "<!-- written by a CAD program -->" in text
-    assert "my_arm.urdf" in (package / f"launch/display.launch{'' if ros == 'noetic' else '.py'}").read_text()
+    assert "my_arm.urdf.xacro" in (package / f"launch/display.launch{'' if ros == 'noetic' else '.py'}").read_text()
     assert "Fixed Frame: base_link" in (package / "rviz/my_arm.rviz").read_text()
     errors = [finding for finding in lint([package], package_path=[src]) if finding.severity == "error"]
     assert errors == []
-    robot = load(package / "urdf/my_arm.urdf", package_path=[src])
+    robot = load(package / "urdf/my_arm.urdf.xacro", package_path=[src])
     simulator = Simulator(robot, note=lambda _: None)
     simulator.run(0.05)
 

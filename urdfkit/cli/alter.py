@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import shutil
 import sys
 from pathlib import Path
 
@@ -73,22 +74,48 @@ def _generation(path: Path, robot: Robot, sim: str | None) -> str:
     return "classic-ros2" if ros2 else "classic"
 
 
-def apply(alterations: Sequence[Alteration], model: ModelArgument, arguments: argparse.Namespace) -> int:
+def apply(
+    alterations: Sequence[Alteration],
+    model: ModelArgument,
+    arguments: argparse.Namespace,
+    *,
+    stage: Path | None = None,
+    folder: Path | None = None,
+) -> int:
     """Lint what would be, then show the difference or write.
+
+    Args:
+        alterations: of files that are there, and new ones beside them.
+        model: what is changed.
+        arguments: from the command line.
+        stage: new packages that go with it, which are moved into `folder`.
+        folder: where they go.
 
     Raises:
         ResourceError: something would be worse than it was, or cannot be written.
     """
-    from urdfkit.scaffold.alteration import write_all
+    from urdfkit.atomic import move_into_place
+    from urdfkit.scaffold.alteration import Alteration, write_all
 
-    if new := _new_findings(alterations, model):
+    if new := _new_findings(alterations, model, stage):
         more = f" (and {len(new) - 1} more)" if len(new) > 1 else ""
         raise ResourceError(f"nothing was changed: that would bring {new[0].code} {new[0].message}{more}")
     if arguments.diff:
         for alteration in alterations:
             sys.stdout.write(alteration.diff())
+        if stage is not None and folder is not None:
+            for path in (each for each in sorted(stage.rglob("*")) if each.is_file() and each.name != "LICENSE"):
+                sys.stdout.write(Alteration(folder / path.relative_to(stage), None, path.read_bytes()).diff())
         return 0
-    write_all(alterations)
+    moved = move_into_place(stage, folder) if stage is not None and folder is not None else []
+    try:
+        write_all(alterations)
+    except BaseException:
+        for path in moved:
+            shutil.rmtree(path, ignore_errors=True)
+        raise
+    for path in moved:
+        print(f"{_shown(path)}  new")
     for alteration in alterations:
         print(f"{_shown(alteration.path)}  {'new' if alteration.before is None else 'changed'}")
     if not arguments.quiet:
@@ -97,16 +124,25 @@ def apply(alterations: Sequence[Alteration], model: ModelArgument, arguments: ar
     return 0
 
 
-def _new_findings(alterations: Sequence[Alteration], model: ModelArgument) -> list[Finding]:
+def _new_findings(alterations: Sequence[Alteration], model: ModelArgument, stage: Path | None) -> list[Finding]:
     """Return what the linter has against the description as it would be, and not as it is."""
     from urdfkit.lint.engine import Options, run
     from urdfkit.lint.entries import find_entries
     from urdfkit.scaffold.alteration import texts
 
     entries = find_entries([model.path])
+    folders = (*([stage] if stage is not None else []), *model.package_path)
 
     def found(overlay: dict[str, str]) -> list[Finding]:
-        options = Options(arguments=model.arguments, package_path=model.package_path, texts=overlay, guess_target=True)
+        # The rule about dependencies reads package.xml where it lies, not as it will be.
+        told = any(alteration.path.name == "package.xml" for alteration in alterations)
+        options = Options(
+            ignore=("K956",) if told else (),
+            arguments=model.arguments,
+            package_path=folders,
+            texts=overlay,
+            guess_target=True,
+        )
         return [finding for finding in run(entries, options).findings if finding.severity != "info"]
 
     before, after = found({}), found(dict(texts(alterations)))

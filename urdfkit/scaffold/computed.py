@@ -32,6 +32,7 @@ def _package(answers: Mapping[str, str]) -> dict[str, str]:
         "plain": f"{name}: to put code into.",
         "description": f"The robot {robot}: its links, joints, shapes and masses.",
         "gazebo": f"Worlds for the robot {robot}, and the launch file that puts it into them.",
+        "control": f"The controllers of the robot {robot}.",
         "bringup": f"One launch file that starts all of the robot {robot}.",
     }
     lines = "".join(f"\n  {package}" for package in depends)
@@ -43,6 +44,9 @@ def _package(answers: Mapping[str, str]) -> dict[str, str]:
         "model": f"{robot}.urdf.xacro",
         "root": "base_footprint",
         "folders": "",
+        "controllers": "",
+        "managed": "",
+        "spawned": "",
         "components": f" COMPONENTS{lines}\n" if depends else "",
         "catkin_depends": f"\n  CATKIN_DEPENDS{lines}\n" if depends else "",
     }

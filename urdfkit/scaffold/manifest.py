@@ -23,16 +23,15 @@ def package_of(path: Path) -> Path | None:
     return next((folder for folder in path.resolve().parents if (folder / "package.xml").is_file()), None)
 
 
-def with_dependency(package: Path, name: str) -> Alteration | None:
-    """Return the change to package.xml that makes it need another package.
-
-    None where it does, or one of the packages beside it (a ``_gazebo`` to a ``_description``).
+def with_dependency(package: Path, name: str, *, alone: bool = False) -> Alteration | None:
+    """Return the change to package.xml that makes it need another package; None where it does already.
 
     Args:
         package: its folder.
         name: of the other package.
+        alone: whether it does not do that one of the packages beside it (a ``_gazebo`` to a ``_description``) does.
     """
-    manifests = [package / "package.xml", *sorted(package.parent.glob("*/package.xml"))]
+    manifests = [package / "package.xml", *([] if alone else sorted(package.parent.glob("*/package.xml")))]
     if any(name in _NEEDS.findall(_text(path)) for path in manifests):
         return None
     path = package / "package.xml"

@@ -70,13 +70,12 @@ def wrap(
         more = f" and {len(meshes.missing) - 1} more" if len(meshes.missing) > 1 else ""
         raise ResourceError(f"{file}: no file for `{meshes.missing[0]}`{more}; nothing was written: --meshes DIR?")
     with made(folder), staging(folder) as stage:
-        model = stage / f"{name}_description/urdf/{name}.urdf"
-        model.parent.mkdir(parents=True)
-        model.write_bytes(content)
-        meshes.copy(stage / f"{name}_description")
+        model = stage / f"{name}_description/urdf/{name}.urdf.xacro"
         given = {"model": model.name, "folders": " meshes" if meshes.copies else ""}
         for kind in KINDS:
             _render(stage, kind, name, {**answers, **given, "root": "base_link"})
+        model.write_bytes(content)
+        meshes.copy(stage / f"{name}_description")
         said = list(mend(stage))
         robot = _loaded(model, stage, file)
         _root(stage / f"{name}_description", robot.roots()[0].name)
@@ -105,7 +104,6 @@ def _render(stage: Path, kind: str, name: str, answers: Mapping[str, str]) -> No
     full = template.answers({**given, "name": f"{name}_{kind}", "kind": kind})
     full |= computed("package", full)
     template.render({**full, **answers, "name": f"{name}_{kind}", "kind": kind}, stage)
-    (stage / f"{name}_{kind}/urdf/{name}.urdf.xacro").unlink(missing_ok=True)
 
 
 def _loaded(model: Path, stage: Path, file: Path) -> Robot:

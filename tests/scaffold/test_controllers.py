@@ -1,0 +1,223 @@
+"""`urdfkit new controllers`: joints that nothing drives get a controller, those that something drives no second one."""
+
+import shutil
+
+import pytest
+import yaml
+
+from urdfkit.cli import main
+from urdfkit.description import load
+from urdfkit.lint import lint
+from urdfkit.messages import TRAJECTORY, from_fields
+from urdfkit.resources import robots_dir
+from urdfkit.scaffold.joint_roles import roles
+from urdfkit.sim import Simulator
+
+INERTIAL = '<inertial><mass value="{0}"/><inertia ixx="{1}" ixy="0" ixz="0" iyy="{1}" iyz="0" izz="{1}"/></inertial>'
+BOX = "<{0}><geometry><box size='{1}'/></geometry></{0}>"
+WHEEL = """
+  <link name="{name}">
+    <inertial><mass value="0.5"/><inertia ixx="0.0009" ixy="0" ixz="0" iyy="0.0016" iyz="0" izz="0.0009"/></inertial>
+    <visual><origin rpy="${{pi/2}} 0 0"/><geometry><cylinder radius="{r}" length="0.04"/></geometry></visual>
+    <collision><origin rpy="${{pi/2}} 0 0"/><geometry><cylinder radius="{r}" length="0.04"/></geometry></collision>
+  </link>
+  <joint name="{name}_joint" type="continuous">
+    <parent link="base"/><child link="{name}"/><origin xyz="{x} {y} 0"/><axis xyz="0 1 0"/>
+    <limit effort="5" velocity="20"/>
+  </joint>"""
+LINK = """
+  <link name="{name}">
+    {inertial}
+    <visual><origin xyz="0 0 0.1"/><geometry><box size="0.04 0.04 0.2"/></geometry></visual>
+  </link>
+  <joint name="{name}_joint" type="{type}">
+    <parent link="{parent}"/><child link="{name}"/><origin xyz="0 0 {z}"/><axis xyz="{axis}"/>
+    <limit lower="{low}" upper="1.5" effort="30" velocity="2"/>{more}
+  </joint>"""
+
+
+def part(name, parent, *, type="revolute", z=0.2, axis="0 1 0", low=-1.5, more=""):
+    inertial = INERTIAL.format(0.3, 0.002)
+    return LINK.format(**locals())
+
+
+ARM = (
+    part("shoulder", "base", z=0.05, axis="0 0 1")
+    + part("elbow", "shoulder")
+    + part("finger", "elbow", type="prismatic", low=0)
+    + part("other", "elbow", type="prismatic", low=0, more='<mimic joint="finger_joint"/>')
+)
+ROVER = WHEEL.format(name="left", x=0, y=0.16, r=0.08) + WHEEL.format(name="right", x=0, y=-0.16, r=0.08)
+
+
+def robot(place, body, build="ament_cmake", needs=""):
+    """Write a package with a robot that nothing drives."""
+    folder = place / "rover_description"
+    (folder / "urdf").mkdir(parents=True)
+    base = (
+        '<link name="base_footprint"/><joint name="base_joint" type="fixed"><parent link="base_footprint"/>'
+        f'<child link="base"/></joint>\n  <link name="base">{INERTIAL.format(5, 0.05)}'
+        f"{BOX.format('visual', '0.3 0.25 0.1')}{BOX.format('collision', '0.3 0.25 0.1')}</link>"
+    )
+    (folder / "urdf/rover.urdf.xacro").write_text(
+        '<?xml version="1.0"?>\n<robot name="rover" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+        f"  {base}{body}\n</robot>\n"
+    )
+    (folder / "package.xml").write_text(
+        '<?xml version="1.0"?>\n<package format="3">\n  <name>rover_description</name>\n  <version>0.1.0</version>\n'
+        '  <description>a rover</description>\n  <maintainer email="a@example.com">a</maintainer>\n'
+        "  <license>MIT</license>\n\n"
+        f"  <buildtool_depend>{build}</buildtool_depend>\n{needs}</package>\n"
+    )
+    return folder
+
+
+@pytest.fixture
+def place(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def new(*options):
+    return main(["new", "controllers", "--into", "rover_description", *options])
+
+
+def clean(folder):
+    return [str(finding) for finding in lint([folder], package_path=[folder.parent]) if finding.severity != "info"]
+
+
+FLAVOURS = {
+    "gz": ("ament_cmake", "", []),
+    "classic": ("catkin", "", []),
+    "classic-ros2": ("ament_cmake", "  <exec_depend>gazebo_ros</exec_depend>\n", ["--sim", "classic"]),
+}
+
+
+@pytest.mark.parametrize("flavour", FLAVOURS)
+def test_wheels_drive(place, flavour):
+    build, needs, options = FLAVOURS[flavour]
+    folder = robot(place, ROVER, build, needs)
+    before = (folder / "urdf/rover.urdf.xacro").read_text()
+    assert new(*options) == 0
+    after = (folder / "urdf/rover.urdf.xacro").read_text()
+    assert after == before.replace("</robot>", '  <xacro:include filename="control.xacro"/>\n</robot>')
+    assert clean(folder) == []
+    simulator = Simulator(load(folder / "urdf/rover.urdf.xacro", package_path=[place]), note=lambda _: None)
+    reached = []
+    for _ in range(2):
+        for _ in range(5):
+            simulator.command((0.3, 0, 0), (0, 0, 0))
+            simulator.run(0.2)
+        reached.append(simulator.link_poses()[0, 0])
+    assert reached[1] - reached[0] == pytest.approx(0.3, rel=0.01)
+
+
+@pytest.mark.parametrize("flavour", FLAVOURS)
+def test_arms_get_where_they_are_told(place, flavour):
+    build, needs, options = FLAVOURS[flavour]
+    folder = robot(place, ARM, build, needs)
+    assert new(*options) == 0
+    assert clean(folder) == []
+    simulator = Simulator(
+        load(folder / "urdf/rover.urdf.xacro", package_path=[place]), note=lambda _: None, fixed_base=True
+    )
+    names = {status.name.rsplit("/", 1)[-1]: status.name for status in simulator.controllers.list()}
+    assert {"arm_controller", "gripper_controller"} <= set(names)
+    topics = ("/rover/arm_controller/command", "/arm_controller/joint_trajectory")
+    topic = next(topic.name for topic in simulator.bus.topics if topic.name in topics)
+    point = {"positions": [0.7, -0.5], "time_from_start": {"sec": 1, "nanosec": 0}}
+    joints = ["shoulder_joint", "elbow_joint"]
+    simulator.bus.publish(topic, TRAJECTORY, from_fields(TRAJECTORY, {"joint_names": joints, "points": [point]}))
+    simulator.run(2.0)
+    assert [simulator.state.position(joint) for joint in joints] == pytest.approx([0.7, -0.5], abs=1e-2)
+
+
+def test_two_drivers_on_one_joint_are_never_written(place, capsys):
+    for name in ("mybot", "seven_dof_arm", "rrbot", "gem_e2", "simpleton"):
+        shutil.copytree(robots_dir() / name, place / name)
+        model = place / name / f"{name}_description/urdf/{name}.urdf.xacro"
+        before = model.read_bytes()
+        assert main(["new", "controllers", "--into", str(model)]) == 2
+        said = capsys.readouterr().err
+        assert "is driven already, by" in said
+        assert "no joint left that a controller could move; nothing was changed" in said
+        assert model.read_bytes() == before
+
+
+def test_what_is_driven_stays_and_the_rest_is_added(place, capsys):
+    drive = """
+  <gazebo><plugin filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive">
+    <left_joint>left_joint</left_joint><right_joint>right_joint</right_joint>
+    <wheel_separation>0.32</wheel_separation><wheel_radius>0.08</wheel_radius>
+  </plugin></gazebo>"""
+    folder = robot(place, ROVER + ARM + drive)
+    assert new() == 0
+    said = capsys.readouterr().err
+    assert "`left_joint` is driven already, by plugin `gz::sim::systems::DiffDrive`" in said
+    assert "`other_joint` follows `finger_joint`" in said
+    settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())
+    assert set(settings) == {"controller_manager", "arm_controller", "gripper_controller"}
+    assert settings["arm_controller"]["ros__parameters"]["joints"] == ["shoulder_joint", "elbow_joint"]
+    assert settings["gripper_controller"]["ros__parameters"]["joints"] == ["finger_joint"]
+    assert clean(folder) == []
+    assert new("--name", "another_control") == 2  # everything is driven now
+
+
+def test_wheels_that_are_no_pair_are_told_of(place):
+    odd = ROVER + WHEEL.format(name="third", x=0.2, y=0, r=0.08)
+    crooked = ROVER.replace('xyz="0 -0.16 0"', 'xyz="0.02 -0.16 0"')
+    unequal = WHEEL.format(name="left", x=0, y=0.16, r=0.08) + WHEEL.format(name="right", x=0, y=-0.16, r=0.07)
+    for number, body in enumerate((odd, crooked, unequal)):
+        folder = robot(place / str(number), body)
+        found = roles(load(folder / "urdf/rover.urdf.xacro"))
+        assert found.wheels is None
+        assert found.arms == ()
+        assert any("looks like a wheel, but not like one of a pair" in note for note in found.notes)
+
+
+def test_sizes_are_the_models(place):
+    front = (WHEEL.format(name=f"front_{side}", x=0.2, y=y, r=0.08) for side, y in (("left", 0.16), ("right", -0.16)))
+    four = "".join(front) + ROVER
+    found = roles(load(robot(place, four + WHEEL.format(name="caster", x=-0.2, y=0, r=0.05)) / "urdf/rover.urdf.xacro"))
+    assert found.wheels is not None
+    assert (found.wheels.left, found.wheels.right) == (
+        ("left_joint", "front_left_joint"),
+        ("right_joint", "front_right_joint"),
+    )
+    assert (found.wheels.separation, found.wheels.radius) == (0.32, 0.08)
+    assert "`caster_joint` turns freely, as a caster" in found.notes
+
+
+def test_diff_changes_nothing(place, capsys):
+    folder = robot(place, ROVER)
+    before = {path: path.read_bytes() for path in place.rglob("*") if path.is_file()}
+    assert new("--diff") == 0
+    said = capsys.readouterr().out
+    assert "+  base_controller" in said or "+base_controller:" in said
+    assert {path: path.read_bytes() for path in place.rglob("*") if path.is_file()} == before
+    assert folder.is_dir()
+
+
+def test_nothing_is_overwritten(place, capsys):
+    folder = robot(place, ROVER)
+    (place / "rover_control").mkdir()
+    assert new() == 2
+    assert "rover_control is already there; nothing is overwritten" in capsys.readouterr().err
+    (place / "rover_control").rmdir()
+    (folder / "urdf/control.xacro").write_text("<robot/>")
+    assert new() == 2
+    assert "control.xacro is already there" in capsys.readouterr().err
+    assert not (place / "rover_control").exists()
+
+
+@pytest.mark.ros
+def test_the_package_builds(place, debian):
+    robot(place / "src", ROVER + ARM, "catkin")
+    (place / "src/rover_description/CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.0.2)\nproject(rover_description)\n\nfind_package(catkin REQUIRED)\n"
+        "catkin_package()\n"
+    )
+    assert main(["new", "controllers", "--into", "src/rover_description"]) == 0
+    assert "found 0 problems" in debian("catkin_lint -W2 --strict --offline src/rover_control")
+    debian("catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3 install")
+    assert (place / "install/share/rover_control/config/controllers.yaml").is_file()

@@ -1,0 +1,131 @@
+"""``urdfkit new controllers``: controllers for the joints of a description that is there."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from datetime import datetime, timezone
+from pathlib import Path
+
+from urdfkit.cli.alter import add_description, apply, description
+from urdfkit.errors import ResourceError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from urdfkit.description.robot import Robot
+    from urdfkit.scaffold.alteration import Alteration
+    from urdfkit.scaffold.control import Controller
+
+SUMMARY = "controllers for the joints of a description that is there"
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments."""
+    parser.description = (
+        "Write controllers: a differential drive for wheels, trajectories for arms and fingers; "
+        "what is driven already stays"
+    )
+    parser.epilog = (
+        "examples:\n"
+        "  urdfkit new controllers --into arm_description --diff\n"
+        "  urdfkit new controllers --into arm_description --name arm_control"
+    )
+    add_description(parser)
+    parser.add_argument("--name", help="of the new package beside the description's (default: ROBOT_control)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Load, tell what the joints are for, write a package, change the model.
+
+    Raises:
+        UrdfkitError: it could not be done; nothing was written then.
+    """
+    from urdfkit.atomic import staging
+    from urdfkit.scaffold import check_package_name, sanitised
+    from urdfkit.scaffold.control import controllers
+    from urdfkit.scaffold.joint_roles import roles
+    from urdfkit.scaffold.manifest import package_of
+
+    model, robot, generation = description(arguments)
+    if generation == "gz" and _is_fortress(robot):
+        generation = "fortress"
+    found = roles(robot)
+    for note in () if arguments.quiet else found.notes:
+        print(f"urdfkit: {note}", file=sys.stderr)
+    made = controllers(found)
+    if not made:
+        raise ResourceError(f"robot `{robot.name}` has no joint left that a controller could move; nothing was changed")
+    name = sanitised(robot.name or model.path.stem)
+    package = check_package_name(arguments.name or f"{name}_control")
+    own = package_of(model.path)
+    folder = (own or model.path.parent).parent
+    if (folder / package).exists():
+        raise ResourceError(f"{folder / package} is already there; nothing is overwritten")
+    with staging(folder) as stage:
+        _render(stage, package, name, made, robot, generation)
+        alterations = _altered(model.path, robot, made, name, generation, package)
+        code = apply(alterations, model, arguments, stage=stage, folder=folder)
+    if not arguments.quiet and not arguments.diff:
+        launch = (
+            "roslaunch {0} {1}_control.launch" if generation == "classic" else "ros2 launch {0} {1}_control.launch.py"
+        )
+        print(f"  {launch.format(package, name)}  # once the robot is in Gazebo")
+    for each in () if arguments.quiet else made:
+        print(f"urdfkit: {each.name}: {', '.join(each.joints)}", file=sys.stderr)
+    return code
+
+
+def _is_fortress(robot: Robot) -> bool:
+    return any("ignition-gazebo-" in file.read_text("utf-8", "replace") for file in robot.files if file.is_file())
+
+
+def _render(stage: Path, package: str, name: str, made: list[Controller], robot: Robot, generation: str) -> None:
+    from urdfkit.cli.identity import identity
+    from urdfkit.resources import templates_dir
+    from urdfkit.scaffold import computed, load_template
+    from urdfkit.scaffold.control import needs, parameters
+
+    template = load_template(templates_dir() / "package")
+    ros = {"classic": "noetic", "fortress": "humble", "classic-ros2": "humble"}.get(generation, "jazzy")
+    given = {"name": package, "kind": "control", "ros": ros, "depends": " ".join(needs(made, generation))}
+    given["about"] = f"The controllers of the robot {name}."
+    answers: Mapping[str, str] = template.answers({**identity(template), **given})
+    more = parameters(made, generation=generation, base=robot.roots()[0].name)
+    year = {"year": str(datetime.now(timezone.utc).year), "into": "."}
+    template.render({**answers, **computed("package", answers), **more, **year, "robot": name}, stage)
+
+
+def _altered(
+    path: Path, robot: Robot, made: list[Controller], name: str, generation: str, package: str
+) -> list[Alteration]:
+    from urdfkit.scaffold.alteration import Alteration
+    from urdfkit.scaffold.control import markup
+    from urdfkit.scaffold.insertion import insert_before_end, xacro_prefix
+    from urdfkit.scaffold.manifest import package_of, with_dependency, with_installed
+
+    before = path.read_bytes()
+    text = markup(robot, made, name=name, generation=generation, package=package)
+    prefix = xacro_prefix(before) if path.suffix == ".xacro" else None
+    if prefix is None:
+        if generation != "classic" and path.suffix != ".xacro":
+            raise ResourceError(
+                f"{path} is no xacro, so that it cannot find its controllers: call it {path.stem}.urdf.xacro first"
+            )
+        return [Alteration(path, before, insert_before_end(before, text, path=path))]
+    home = path.parent / "control.xacro"
+    if home.exists():
+        raise ResourceError(f"{home} is already there; nothing is overwritten")
+    body = "\n".join(f"  {line}" for line in text.splitlines())
+    whole = (
+        '<?xml version="1.0"?>\n'
+        f"<!-- Which joints are moved, and how; the controllers are in {package}. -->\n"
+        f'<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n{body}\n</robot>\n'
+    )
+    after = insert_before_end(before, f'<{prefix}:include filename="control.xacro"/>', path=path)
+    changes = [Alteration(home, None, whole.encode()), Alteration(path, before, after)]
+    if (own := package_of(path)) is not None:
+        needed = with_dependency(own, package, alone=True) if generation != "classic" else None
+        changes = [each for each in (needed, with_installed(own, path, home)) if each is not None] + changes
+    return changes

@@ -1,0 +1,183 @@
+"""What the joints of a robot are for: wheels, arms, fingers, and those that nothing drives."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from urdfkit.description.robot import Cylinder, Joint, Link, Robot, Sphere, Vector
+from urdfkit.scaffold.mounting import rotation
+
+_FINGER = re.compile(r"finger|jaw|claw", re.IGNORECASE)
+_GRIPPER = re.compile(r"grip", re.IGNORECASE)
+_CASTER = re.compile(r"cast[eo]r", re.IGNORECASE)
+_MOVED = ("revolute", "continuous", "prismatic")
+_TELLS_ONLY = re.compile(r"joint_?state|JointStatePublisher", re.IGNORECASE)
+_ALIKE = 1e-3
+"""How far wheels of one axle may be from being mirror images [m]."""
+
+Matrix = tuple[Vector, Vector, Vector]
+
+
+@dataclass(frozen=True, slots=True)
+class Wheels:
+    """The driven wheels of a robot that turns by their difference.
+
+    Attributes:
+        left: joints.
+        right: joints.
+        separation: from the left to the right [m].
+        radius: of each [m].
+    """
+
+    left: tuple[str, ...]
+    right: tuple[str, ...]
+    separation: float
+    radius: float
+
+
+@dataclass(frozen=True, slots=True)
+class Roles:
+    """The joints by what they are for.
+
+    Attributes:
+        wheels: None where there are none that make a differential drive.
+        arms: joints of each chain, from its base on.
+        fingers: of grippers.
+        notes: joints that no controller is for, and why, a line each.
+    """
+
+    wheels: Wheels | None
+    arms: tuple[tuple[str, ...], ...]
+    fingers: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def roles(robot: Robot) -> Roles:
+    """Tell what the joints are for, by their type, axis, place and name, in the zero position.
+
+    Args:
+        robot: a tree.
+    """
+    notes: list[str] = []
+    driven = dict(_driven(robot))
+    parents = {joint.child: joint for joint in robot.joints}
+    left_over: list[Joint] = []
+    for joint in robot.joints:
+        if joint.type not in _MOVED:
+            continue
+        chain = [joint, *_above(joint, parents)]
+        if joint.name in driven:
+            notes.append(f"`{joint.name}` is driven already, by {driven[joint.name]}")
+        elif joint.mimic is not None:
+            notes.append(f"`{joint.name}` follows `{joint.mimic.joint}`")
+        elif any(_CASTER.search(f"{each.name} {each.child}") for each in chain):
+            notes.append(f"`{joint.name}` turns freely, as a caster")
+        else:
+            left_over.append(joint)
+    fingers = [joint for joint in left_over if _is_finger(joint)]
+    rolling = [joint for joint in left_over if joint not in fingers and _rolls(joint, robot, parents)]
+    wheels = _wheels(rolling, robot, parents)
+    if wheels is None:
+        notes += [f"`{joint.name}` looks like a wheel, but not like one of a pair" for joint in rolling]
+    arms: dict[str, list[str]] = {}
+    for joint in left_over:
+        if joint not in fingers and joint not in rolling:
+            base = [each for each in (joint, *_above(joint, parents)) if each in left_over and each not in fingers][-1]
+            arms.setdefault(base.name, []).append(joint.name)
+    return Roles(wheels, tuple(map(tuple, arms.values())), tuple(joint.name for joint in fingers), tuple(notes))
+
+
+def _driven(robot: Robot) -> Iterator[tuple[str, str]]:
+    """Yield joints that something drives already, and what."""
+    for transmission in robot.transmissions:
+        yield from ((joint.name, f"transmission `{transmission.name}`") for joint in transmission.joints if joint.name)
+    for control in robot.ros2_control:
+        for joint in control.element.find_all("joint"):
+            if joint.find("command_interface") is not None:
+                yield joint.get("name") or "", f"<ros2_control> `{control.name}`"
+    names = {joint.name for joint in robot.joints}
+    for block in robot.gazebo:
+        for plugin in block.plugins:
+            if _TELLS_ONLY.search(f"{plugin.filename} {plugin.name}"):
+                continue
+            for element in plugin.element.walk():
+                yield from ((word, f"plugin `{plugin.name}`") for word in element.text.split() if word in names)
+
+
+def _is_finger(joint: Joint) -> bool:
+    names = f"{joint.name} {joint.child}"
+    return bool(_FINGER.search(names) or (joint.type == "prismatic" and _GRIPPER.search(names)))
+
+
+def _above(joint: Joint, parents: dict[str | None, Joint]) -> list[Joint]:
+    """Return the joints that move between a joint and the root, the nearest first."""
+    found = []
+    above = parents.get(joint.parent)
+    while above is not None:
+        if above.type in _MOVED:
+            found.append(above)
+        above = parents.get(above.parent)
+    return found
+
+
+def _rolls(joint: Joint, robot: Robot, parents: dict[str | None, Joint]) -> bool:
+    """Whether it is a wheel on the base: it turns without end about an axis across, and carries nothing that moves."""
+    if joint.type != "continuous" or _above(joint, parents):
+        return False
+    if any(joint in _above(other, parents) for other in robot.joints if other.type in _MOVED):
+        return False
+    rows, _ = _placement(joint, parents)
+    across = sum(row * axis for row, axis in zip(rows[1], joint.axis, strict=True))
+    length = sum(axis * axis for axis in joint.axis) ** 0.5
+    return bool(length > 0 and abs(across) / length > 0.99)
+
+
+def _wheels(joints: list[Joint], robot: Robot, parents: dict[str | None, Joint]) -> Wheels | None:
+    """Return the differential drive that wheels make: as many left as right, mirrored, all of one radius."""
+    if len(joints) < 2 or len(joints) % 2:
+        return None
+    places = {joint.name: _placement(joint, parents)[1] for joint in joints}
+    radii = [_radius(robot.link_by_name.get(joint.child or "")) for joint in joints]
+    middle = sum(place[1] for place in places.values()) / len(places)
+    left = sorted((name for name in places if places[name][1] > middle), key=lambda name: places[name][0])
+    right = sorted((name for name in places if places[name][1] < middle), key=lambda name: places[name][0])
+    if len(left) != len(right) or None in radii:
+        return None
+    known = [radius for radius in radii if radius is not None]
+    spans = [places[a][1] - places[b][1] for a, b in zip(left, right, strict=True)]
+    mirrored = all(
+        abs(places[a][0] - places[b][0]) < _ALIKE and abs(places[a][2] - places[b][2]) < _ALIKE
+        for a, b in zip(left, right, strict=True)
+    )
+    if not mirrored or max(spans) - min(spans) > _ALIKE or max(known) - min(known) > _ALIKE:
+        return None
+    return Wheels(tuple(left), tuple(right), round(spans[0], 6), known[0])
+
+
+def _radius(link: Link | None) -> float | None:
+    shapes = [shape.geometry for shape in link.collisions] if link is not None else []
+    shapes += [shape.geometry for shape in link.visuals] if link is not None else []
+    return next((shape.radius for shape in shapes if isinstance(shape, Cylinder | Sphere)), None)
+
+
+def _placement(joint: Joint, parents: dict[str | None, Joint]) -> tuple[Matrix, Vector]:
+    """Return the frame of a joint in that of the root: the rows of its rotation, and where it is [m]."""
+    chain = [joint]
+    while (above := parents.get(chain[-1].parent)) is not None:
+        chain.append(above)
+    rows: Matrix = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    at: Vector = (0, 0, 0)
+    for each in reversed(chain):
+        x, y, z = (sum(a * b for a, b in zip(row, each.origin.xyz, strict=True)) for row in rows)
+        at = (at[0] + x, at[1] + y, at[2] + z)
+        turn = rotation(each.origin.rpy)
+        first, second, third = (_times(row, turn) for row in rows)
+        rows = (first, second, third)
+    return rows, at
+
+
+def _times(row: Vector, matrix: Matrix) -> Vector:
+    x, y, z = (sum(row[k] * matrix[k][i] for k in range(3)) for i in range(3))
+    return x, y, z
