@@ -147,7 +147,6 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
             "--wheel-torque is for --drive diff or ackermann",
         ),
         (["robot", "scout", "--wheel-base", "2"], "--wheel-base is for --drive skid or ackermann or omni"),
-        (["robot", "car", "--drive", "ackermann", "--ros", "noetic"], "has no Ackermann drive for ROS 1: --ros jazzy"),
         (
             ["robot", "car", "--drive", "omni", "--wheel-base", "0.1"],
             "the wheels would touch each other: --wheel-base",

@@ -189,7 +189,7 @@ def test_what_several_answers_may_not_be(several, given, message):
 
 
 def test_facts_and_words_that_are_lists(small_template):
-    (small_template / "all/@name@/list.txt").write_text("begin\n- @part@ of @name@\nend\n")
+    (small_template / "all/@name@/list.txt").write_text("begin\n- @part@ of @name@\nend @thrice@\n")
     with (small_template / "template.toml").open("a") as file:
         file.write(
             """
@@ -200,6 +200,10 @@ def test_facts_and_words_that_are_lists(small_template):
             name = "part"
             by = "special"
             says = { no = [], yes = ["arm", "@name@ hand"] }
+            [[word]]
+            name = "thrice"
+            by = "special"
+            says = { no = "none", yes = "= 3*size/7" }
             """
         )
     template = load_template(small_template)
@@ -212,4 +216,8 @@ def test_facts_and_words_that_are_lists(small_template):
         assert answers["special"] == special
         folder = small_template.parent / f"{given['name']}{special}"
         template.render(answers, folder)
-        assert (folder / given["name"] / "list.txt").read_text().splitlines() == ["begin", *lines, "end"]
+        assert (folder / given["name"] / "list.txt").read_text().splitlines() == [
+            "begin",
+            *lines,
+            "end 0.4286" if special == "yes" else "end none",
+        ]

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
-from urdfkit.scaffold.expression import holds
+from urdfkit.scaffold.expression import holds, value_of
 from urdfkit.scaffold.filling import fill, repeat_lines
 from urdfkit.scaffold.question import Question, When, applies, numbers
 
@@ -45,7 +45,8 @@ class Word:
     """A placeholder that nobody is asked for: what it says follows `by` the answer to a question, or a fact.
 
     By a question that takes several answers it is several words, one for each answer that has one. Where it says a
-    list, a line with it comes once for each text of the list: not at all for an empty one.
+    list, a line with it comes once for each text of the list: not at all for an empty one. What begins with ``=`` is
+    computed from the answers, to four digits.
     """
 
     name: str
@@ -252,7 +253,9 @@ class Template:
             said = word.says.get(answers[word.by])
             if said is None:
                 raise ResourceError(f"{where}: word `{word.name}` says nothing for {word.by} `{answers[word.by]}`")
-            if isinstance(said, str):
+            if isinstance(said, str) and said.startswith("="):
+                single[word.name] = f"{value_of(said[1:], numbers(single)):.4g}"
+            elif isinstance(said, str):
                 single[word.name] = fill(said, single, where=where)
             else:
                 several[word.name] = tuple(fill(text, single, where=where) for text in said)

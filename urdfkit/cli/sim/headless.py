@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 CHUNK = 1.0
 """Simulated seconds between looks at the clock."""
 
+AGAIN = 0.1
+"""Simulated seconds between velocity commands to controllers, which forget them."""
+
 PROGRESS = 0.5
 """Wall seconds between lines of progress."""
 
@@ -205,7 +208,8 @@ def ramp(simulator: Simulator, command: tuple[float, float, float], seconds: flo
     """Publish a velocity command that rises evenly from zero.
 
     It is published as often as the drives look at it, each time with the mean of the ramp until the next time: what the
-    drives hold in between adds up to exactly the ramp.
+    drives hold in between adds up to exactly the ramp. Controllers hold a command for half a second or so, and hear it
+    ten times a second from then on.
 
     Args:
         simulator: not yet advanced.
@@ -225,6 +229,8 @@ def ramp(simulator: Simulator, command: tuple[float, float, float], seconds: flo
             part = (risen + max(0.0, end - seconds)) / period
         linear, angular = (part * vx, part * vy, 0.0), (0.0, 0.0, part * wz)
         simulator.at(begin, lambda linear=linear, angular=angular: simulator.command(linear, angular))  # type: ignore[misc]
+    if simulator.controllers.command_topics:
+        simulator.every(AGAIN, lambda: simulator.command((vx, vy, 0.0), (0.0, 0.0, wz)), start=seconds + AGAIN)
     if not simulator.command_topics:
         simulator.command((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))  # raises
 
