@@ -160,3 +160,38 @@ def test_a_spawner_in_python(workspace):
     assert ("K960", "arm.launch.py", 1, launch.read_text().index("arm_contr") + 1) in found(workspace)
     launch.write_text("n = " + node.format("arm_controller"))
     assert not [row for row in found(workspace) if row[0] == "K960"]
+
+
+def test_launch_files_need_what_they_start_and_include(workspace):
+    (workspace / "arm_start" / "launch" / "arm.launch.py").write_text(
+        "from ament_index_python.packages import get_package_share_directory\n"
+        "from launch_ros.actions import Node\n"
+        "OURS = 'arm_description'\n"
+        "def generate_launch_description():\n"
+        "    share = get_package_share_directory('other_settings')\n"
+        "    nodes = [Node(package='rviz2', executable='rviz2'), Node(package='rviz2', executable='again')]\n"
+        "    nodes += [Node(package=OURS, executable='x'), Node(package=name(), executable='y')]\n"
+    )
+    (workspace / "arm_description" / "view.launch").write_text(
+        '<launch>\n<!-- <node pkg="gone" type="x"/> -->\n<node pkg="rviz" type="rviz"/>\n'
+        '<include file="$(find arm_start)/launch/x.launch"/></launch>\n'
+    )
+    findings = [finding for finding in lint(workspace) if finding.code == "K956"]
+    assert [(f.file.rpartition("/")[2], f.line, f.message.split("`")[1]) for f in findings] == [
+        ("view.launch", 3, "rviz"),
+        ("view.launch", 4, "arm_start"),
+        ("arm.launch.py", 5, "other_settings"),
+        ("arm.launch.py", 6, "rviz2"),
+    ]
+
+
+def test_links_in_settings_are_compared_with_those_of_every_description_around(workspace):
+    settings = workspace / "arm_start" / "config" / "controllers.yaml"
+    settings.write_text("base_frame: bas\ntip_link: uper\nrobot_base_frame: somewhere\n# base_frame: bse\n")
+    findings = [finding for finding in lint(workspace) if finding.code == "K961"]
+    assert [(f.line, f.column, f.message) for f in findings] == [
+        (1, 13, "`base_frame` is `bas`, which is no link of `arm`; did you mean `base`?"),
+        (2, 11, "`tip_link` is `uper`, which is no link of `arm`; did you mean `upper`?"),
+    ]
+    (workspace / "arm_description" / "urdf" / "other.urdf").write_text('<robot name="o"><link name="bas"/></robot>')
+    assert {f.line for f in lint(workspace) if f.code == "K961" and "`arm`" in f.message} == {2}

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from urdfkit.description.source import Source
 
 _FIND = r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)/([^\s\"'<>$(){}:;,|&*]+)(?=[\s\"'<:;])"
+_USES = r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)|<(?:node|composable_node)\b[^<>]*?\bpkg\s*=\s*[\"']([\w-]+)[\"']"
+_STARTS = frozenset(("Node", "LifecycleNode", "ComposableNode", "ComposableNodeContainer"))
 _ASKS = frozenset(("exists", "isfile", "isdir", "is_file", "is_dir"))
 _SHARE = frozenset(("get_package_share_directory", "get_package_share_path", "FindPackageShare"))
 _JOINS = frozenset(("join", "PathJoinSubstitution"))
@@ -44,6 +46,29 @@ def package_paths(source: Source) -> Iterator[PackagePath]:
     text = uncommented(source)
     for at in re.finditer(_FIND, text):
         yield PackagePath(at[1], at[2], at.start(), at.end())
+
+
+def packages_used(source: Source) -> Iterator[tuple[str, int, int]]:
+    """Yield the packages whose files or programs a launch file names as constants, with their offsets."""
+    if not source.file.endswith(".py"):
+        for at in re.finditer(_USES, uncommented(source)):
+            group = 1 if at[1] is not None else 2
+            yield at[group], at.start(group), at.end(group)
+        return
+    if (tree := parsed(source)) is None:
+        return
+    import ast
+
+    reader = Reader(tree)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call):
+            continue
+        name = reader.share(node)
+        if name is None and name_of(node.func) in _STARTS:
+            given = next((word.value for word in node.keywords if word.arg == "package"), None)
+            name = reader.text(given) if given is not None else None
+        if name is not None:
+            yield name, *place(source, node)
 
 
 def uncommented(source: Source) -> str:

@@ -157,6 +157,7 @@ ROBOT: tuple[Row, ...] = (
 AROUND: tuple[Row, ...] = (
     ("", "packaging.launch_path_missing", "LaunchPathMissing"),
     ("", "packaging.controller_joint_undefined", "ControllerJointUndefined"),
+    ("", "packaging.frame_undefined", "FrameUndefined"),
     ("", "packaging.spawned_controller_undefined", "SpawnedControllerUndefined"),
 )
 """Rules on the robot that are asked where there are launch files or YAML around it."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
+from urdfkit.lint.around import names_around
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
@@ -69,7 +69,7 @@ class ControllerJointUndefined(RobotRule):
             for named in joints(source):
                 if named.name in known:
                     continue
-                others = _possible(model) if others is None else others
+                others = names_around(model, "joint") if others is None else others
                 if any(re.fullmatch(pattern, named.name) for pattern in others):
                     continue
                 yield Finding(
@@ -81,25 +81,3 @@ class ControllerJointUndefined(RobotRule):
                     source.span(named.start, named.start + len(named.name)),
                     joint=named.name,
                 )
-
-
-def _possible(model: Model) -> list[str]:
-    """Return patterns of the joints that descriptions in any package around may have, arguments being as they like."""
-    from urdfkit.description.surroundings import dependencies_in, manifest, neighbours, package_of
-    from urdfkit.lint.entries import descriptions
-
-    near = neighbours(model.package) if model.package is not None else {}
-    folders: set[Path] = set()
-    for file in model.around:
-        package = package_of(Path(file))
-        if package is not None:
-            folders |= {package, *(near[name] for name in dependencies_in(manifest(package)) if name in near)}
-    texts = {str(path.absolute()): text for folder in sorted(folders) for path, text in descriptions(folder)}
-    own = {str(Path(file).absolute()): written.text for file, written in model.expanded.sources.items()}
-    is_fixed = not any(re.search(r"<(?:xacro:)?(?:if|unless|arg)\b", text) for text in own.values())
-    texts = {path: text for path, text in texts.items() if path not in own} if is_fixed else {**own, **texts}
-    return [
-        ".*".join(re.escape(part) for part in re.split(r"\$\([^()]*\)|\$\{[^{}]*\}", name))
-        for text in texts.values()
-        for name in re.findall(r"<joint\b[^>]*?\bname\s*=\s*[\"']([^\"']*)", text)
-    ]
