@@ -64,3 +64,10 @@ def test_an_unwritable_place_is_one_line(capsys: pytest.CaptureFixture[str], mon
     monkeypatch.setattr("urdfkit.cli.rule.run", refused)
     assert main(["rule"]) == 2
     assert capsys.readouterr().err == "urdfkit: /robots/arm.urdf: Permission denied\n"
+
+
+def test_a_misspelt_option_is_told_before_what_it_leaves_out(capsys):
+    assert main(["sim", "run", "simpleton", "--fro", "2"]) == 2
+    assert capsys.readouterr().err == "urdfkit: sim run: unrecognized arguments: --fro; did you mean `--for`?\n"
+    assert main(["sim", "run", "simpleton"]) == 2
+    assert "arguments are required: --for" in capsys.readouterr().err

@@ -40,6 +40,7 @@ class Parser(argparse.ArgumentParser):
         kwargs.setdefault("formatter_class", HelpFormatter)
         super().__init__(*args, **kwargs)
         self._is_parsing = False
+        self._words: list[str] = []
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Take options between positional arguments too: ``urdfkit tf simpleton --json base camera``.
@@ -50,6 +51,7 @@ class Parser(argparse.ArgumentParser):
         words = list(sys.argv[1:] if args is None else args)
         if self._is_parsing or self._subparsers is not None or {"-h", "--help"} & set(words):
             return super().parse_known_args(words, namespace)
+        self._words = words
         self._is_parsing = True  # argparse's own way to do it calls this method again
         usage, self.usage = (
             self.usage,
@@ -70,11 +72,21 @@ class Parser(argparse.ArgumentParser):
             UsageError: always.
         """
         hint = ""
+        # What is misspelt is often what seems to be missing.
+        if "unrecognized arguments" not in message and (misspelt := self._unknown_option()) is not None:
+            message = f"unrecognized arguments: {misspelt}"
         if unknown := re.search(r"unrecognized arguments: (\S+)", message):
             hint = did_you_mean(unknown[1], self._option_string_actions)
         elif choice := re.search(r"invalid choice: '([^']*)' \(choose from (.*)\)", message):
             hint = did_you_mean(choice[1], re.findall(r"[\w-]+", choice[2]))
         raise UsageError(f"{self.prog.removeprefix('urdfkit').strip()}: {message}{hint}".removeprefix(": "))
+
+
+    def _unknown_option(self) -> str | None:
+        """Return the first long option that this command does not have."""
+        options = self._words[: self._words.index("--")] if "--" in self._words else self._words
+        named = (word.partition("=")[0] for word in options if word.startswith("--"))
+        return next((name for name in named if name not in self._option_string_actions), None)
 
 
 def add_model(parser: argparse.ArgumentParser, *, optional: bool = True) -> None:
