@@ -26,7 +26,7 @@ from urdfkit.scaffold import (
     template_names,
 )
 
-ADDED = ("controllers", "sensor")
+ADDED = ("arm", "controllers", "sensor")
 """What is added to a description that is there: ``urdfkit new KIND`` is the module ``urdfkit.cli.new_KIND``."""
 
 

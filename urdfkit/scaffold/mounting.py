@@ -51,6 +51,19 @@ def spot(link: Link, where: str, offset: tuple[float, float]) -> Vector | None:
     return round(x, 4), round(middle[1], 4), round(z, 4)
 
 
+def extent(link: Link) -> Vector | None:
+    """Return how long, wide and high a link is [m]; None where that is not known without reading a mesh.
+
+    Args:
+        link: with boxes, cylinders, capsules or balls.
+    """
+    bounds = _bounds(link)
+    if bounds is None:
+        return None
+    x, y, z = (high - low for low, high in zip(*bounds, strict=True))
+    return x, y, z
+
+
 def _listed(robot: Robot) -> str:
     return f"links: {', '.join(list(robot.link_by_name)[:8])}"
 
