@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import Visits
+from tests.cli.lab import drawn
 
 pytest.importorskip("meshcat")
 pytest.importorskip("numba")
@@ -100,13 +101,12 @@ def look_from_above(page, distance: float = 7.0) -> None:
         }""",
         distance,
     )
-    page.wait_for_timeout(100)
+    drawn(page)
 
 
 def test_step_and_speed(page, keep, until) -> None:
     page.get_by_role("button", name="Pause").click()
     until(lambda: page.locator("#rtf").inner_text() == "paused")
-    page.wait_for_timeout(150)
     before = page.evaluate(TIME)
     page.locator("#steps").fill("25")
     page.get_by_role("button", name="Step", exact=True).click()
@@ -184,10 +184,9 @@ def test_plots_zoom_stand_still_and_follow_again(page, keep, until) -> None:
     until(lambda: page.locator(".legend").get_by_text("no field `q`").is_visible())
     page.keyboard.down("w")
     page.keyboard.down("a")
-    page.wait_for_timeout(1200)
+    until(lambda: page.evaluate("[...urdfkit.plots.curves.values()][0].curve.t.length") > 100)
     page.keyboard.up("w")
     page.keyboard.up("a")
-    until(lambda: page.evaluate("[...urdfkit.plots.curves.values()][0].curve.t.length") > 40)
     box = page.locator("#plot").bounding_box()
     page.mouse.move(box["x"] + box["width"] * 0.7, box["y"] + 60)
     page.mouse.wheel(0, -800)
@@ -219,6 +218,8 @@ def test_objects_are_inserted_moved_turned_and_deleted(page, keep, until) -> Non
     until(lambda: page.evaluate("urdfkit.scene.byLink.has('world/crate')"))
     where = order(page, "where", name="crate")["pose"]
     assert where[:2] == [pytest.approx(1.0, abs=0.05), pytest.approx(0.8, abs=0.05)]
+    page.mouse.move(*spot(page, 1.0, 0.8, 0.3))
+    until(lambda: page.locator("#tip").text_content() == "crate")
     page.mouse.click(*spot(page, 1.0, 0.8, 0.3))
     until(lambda: page.locator(".object h3").inner_text() == "crate")
     page.get_by_label("yaw of crate").fill("45")
@@ -226,7 +227,7 @@ def test_objects_are_inserted_moved_turned_and_deleted(page, keep, until) -> Non
     until(lambda: order(page, "where", name="crate")["pose"][5] == pytest.approx(math.pi / 4, abs=0.02))
     page.get_by_role("button", name="Move by hand").click()
     handle = spot(page, *order(page, "where", name="crate")["pose"][:3])
-    page.wait_for_timeout(200)
+    drawn(page)
     page.mouse.move(*handle)
     page.mouse.down()
     goal = spot(page, -1.0, 1.0, order(page, "where", name="crate")["pose"][2])
@@ -254,7 +255,7 @@ def test_walls_with_a_door_are_drawn_and_the_world_is_saved(page, keep, until, t
     until(lambda: "walls" in names(page))
     until(lambda: page.evaluate("urdfkit.scene.byLink.has('world/walls')"))
     page.keyboard.press("Escape")
-    page.wait_for_timeout(300)
+    drawn(page)
     keep(page, "walls")
     with page.expect_download() as download:
         page.locator("#save-world").click()

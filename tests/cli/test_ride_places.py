@@ -7,6 +7,8 @@ import socket
 import numpy as np
 import pytest
 
+from tests.cli.lab import drawn
+
 pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 pytestmark = pytest.mark.browser
@@ -42,10 +44,11 @@ def test_an_arm_is_moved_by_its_sliders_and_a_depth_camera_gives_a_cloud(serve, 
     page.evaluate(f"{clouds}[0].box.click()")
     until(lambda: page.evaluate(f"{clouds}[0].on && {clouds}[0].count > 200"), 60)
     assert page.evaluate(f"{clouds}[0].cloud.colored")
-    page.wait_for_timeout(300)
+    drawn(page)
     keep(page, "cloud")
     before = page.evaluate(f"{clouds}[0].points.geometry.uuid")
-    page.wait_for_timeout(600)
+    frames = page.evaluate("Number(document.body.dataset.frames)")
+    until(lambda: page.evaluate("Number(document.body.dataset.frames)") > frames + 30)
     assert page.evaluate(f"{clouds}[0].points.geometry.uuid") == before  # the buffers are used again
     assert visits.problems == []
 

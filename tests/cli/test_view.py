@@ -11,6 +11,7 @@ import pytest
 pytest.importorskip("pinocchio")
 pytest.importorskip("meshcat")
 
+from tests.cli.lab import drawn
 from urdfkit.cli import main
 
 ARM = """<robot name="arm">
@@ -64,7 +65,7 @@ def test_a_slider_moves_a_link(arm_served, visits, keep, until) -> None:
     slide(page, "shoulder", 0)
     slide(page, "slide", 0)
     until(lambda: page.evaluate(Y_OF_UPPER) == pytest.approx(0, abs=1e-9))
-    page.wait_for_timeout(50)  # a picture later
+    drawn(page)
     before = page.screenshot()
     keep(page, "open")
 
@@ -74,7 +75,7 @@ def test_a_slider_moves_a_link(arm_served, visits, keep, until) -> None:
     # the finger's place is Python's: 0.1 up, then 0.4 + 0.2 along the tilted arm
     until(lambda: page.evaluate("urdfkit.link(2).position.x") == pytest.approx(0.6 * math.sin(0.8), abs=1e-6))
     assert page.evaluate("urdfkit.link(2).position.z") == pytest.approx(0.1 + 0.6 * math.cos(0.8), abs=1e-6)
-    page.wait_for_timeout(50)  # a picture later
+    drawn(page)
     assert page.screenshot() != before
     keep(page, "slider")
     assert visits.problems == []

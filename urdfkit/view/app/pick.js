@@ -110,7 +110,7 @@ export class Pick {
     const link = hit?.link ?? null;
     if (link !== this.hovered) this.page.emit("hover", link);
     this.hovered = link;
-    this.page.labels.tip(link, event);
+    this.page.labels.tip(link?.replace(/^world\//, ""), event);
   }
 
   // A double click makes what is there the middle of the view.

@@ -39,12 +39,18 @@ export class Scene {
     if (command.type === "delete" && path.length === 1) {
       this.generation += 1;
       this.used = new Set();
-      for (const groups of Object.values(this.groups)) groups.clear();
     }
+    if (command.type === "delete") this.#forget(path.join("/"));
     const geometry = command.type === "set_object" ? command.object.geometries?.[0] : null;
     if (geometry?.type === "_shared") this.#shared(path, command.object, geometry.name);
     else original(command);
     if (command.type === "set_object") this.#group(path);
+  }
+
+  #forget(above) {
+    for (const groups of Object.values(this.groups)) {
+      for (const path of groups.keys()) if (path === above || path.startsWith(`${above}/`)) groups.delete(path);
+    }
   }
 
   #group(path) {
