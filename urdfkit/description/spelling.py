@@ -78,9 +78,18 @@ def _near(name: str, candidates: tuple[str, ...]) -> str | None:
     for candidate in candidates:
         if sorted(candidate) == sorted(name.lower()):
             return candidate
+    lower = name.lower()
+    if not any(_may_be_near(lower, candidate) for candidate in candidates):
+        return None  # Nearly always; difflib takes a while to load.
     from difflib import get_close_matches
 
-    return next(iter(get_close_matches(name.lower(), candidates, n=1, cutoff=_LIKENESS)), None)
+    return next(iter(get_close_matches(lower, candidates, n=1, cutoff=_LIKENESS)), None)
+
+
+def _may_be_near(name: str, candidate: str) -> bool:
+    """Whether two names have so many letters in common that difflib may find them alike enough."""
+    shared = sum(min(name.count(letter), candidate.count(letter)) for letter in set(name))
+    return 2.0 * shared >= _LIKENESS * (len(name) + len(candidate))
 
 
 def _fits(directive: str, element: Any, is_prefixed: bool) -> bool:

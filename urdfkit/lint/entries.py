@@ -210,4 +210,5 @@ def _walk(folder: Path, depth: int) -> Iterator[Path]:
 def _text(path: Path) -> str:
     from urdfkit.description.source import Source
 
-    return re.sub(_COMMENT, "", Source.read(path).text)
+    text = Source.read(path).text
+    return re.sub(_COMMENT, "", text) if "<!--" in text else text

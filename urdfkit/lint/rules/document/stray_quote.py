@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 _ALWAYS = "`\u2018\u2019\u201c\u201d"
 _QUOTES = "\"'"
 _INVISIBLE = "[\u00a0\u200b-\u200f\u2060\ufeff]"
-_SUSPECT = "[`\u2018\u2019\u201c\u201d\u00a0\u200b-\u200f\u2060\ufeff]|>\\s*[\"']|[\"']\\s*</|=\\s*(?:\"'|'\")|'\"|\"'"
+_BETWEEN = ">\\s*[\"']|[\"']\\s*</"
+_FOREIGN = f"[{_ALWAYS}]|{_INVISIBLE}"
 
 
 class StrayQuote(RobotRule):
@@ -75,7 +76,7 @@ class StrayQuote(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each value with a character too many."""
-        if not any(re.search(_SUSPECT, source.text) for source in model.expanded.sources.values()):
+        if not any(_is_suspect(source.text) for source in model.expanded.sources.values()):
             return
         for element in model.robot.element.walk():
             for attribute, value in element.attributes.items():
@@ -87,6 +88,13 @@ class StrayQuote(RobotRule):
             if clean is not None and not model.is_unresolved(element):
                 fix = new_text(model, element, clean, "safe", f"Write `{clean}`")
                 yield self.at(model, element, f"<{element.tag}>: {_message(element.text, clean)}", fix=fix)
+
+
+def _is_suspect(text: str) -> bool:
+    """Whether there may be such a character. Plain texts need not wait for patterns of others."""
+    if "`" in text or "'\"" in text or "\"'" in text or re.search(_BETWEEN, text):
+        return True
+    return not text.isascii() and re.search(_FOREIGN, text) is not None
 
 
 def _cleaned(value: str) -> str | None:
