@@ -380,6 +380,16 @@ def test_who_drives_keeps_others_from_changing_things(page, served, visits, unti
     page.bring_to_front()
     page.keyboard.down("w")
     until(lambda: other.locator("#driver-other").is_visible())
+    said = other.locator("#driver-other").bounding_box()
+    for name in ("#readout", "#pad", *(f"#tools button >> nth={k}" for k in range(4))):
+        there = other.locator(name).bounding_box()
+        assert said is not None
+        assert there is None or (
+            said["x"] + said["width"] <= there["x"]
+            or there["x"] + there["width"] <= said["x"]
+            or said["y"] + said["height"] <= there["y"]
+            or there["y"] + there["height"] <= said["y"]
+        ), name
     ask = "urdfkit.connection.order('gravity', { gravity: [0, 0, -9.81] }).catch((error) => error.message)"
     until(lambda: "somebody else is driving" in str(other.evaluate(ask)))
     page.keyboard.up("w")
