@@ -72,14 +72,14 @@ def write_tools(folder):
         tool.chmod(0o755)
 
 
-def write_packages(folder, build=True):
+def write_packages(folder):
     """Write the packages of ROS 1 that a robot's packages and launch files name."""
     for name, programs in PACKAGES_OF_ROS_1.items():
         package = folder / name
         package.mkdir(parents=True)
         (package / "package.xml").write_text(
             f'<package format="2"><name>{name}</name><version>0.0.0</version><description>stub</description>'
-            '<maintainer email="a@b.c">a</maintainer><license>none</license>'
+            '<maintainer email="a@example.com">a</maintainer><license>none</license>'
             "<buildtool_depend>catkin</buildtool_depend></package>"
         )
         (package / "CMakeLists.txt").write_text(

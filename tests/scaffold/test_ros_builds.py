@@ -4,14 +4,15 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
+from tests.scaffold.ros_stubs import write_launch_modules, write_packages, write_tools
 from urdfkit.cli import main
 from urdfkit.description import load
 from urdfkit.resources import robots_dir
+from urdfkit.scaffold import create
 
 pytestmark = pytest.mark.ros
 
@@ -45,29 +46,6 @@ def workspace(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.fixture
-def with_xacro(tmp_path):
-    """Return a PATH with an `xacro` on it (Debian packages none)."""
-    tool = tmp_path / "bin" / "xacro"
-    tool.parent.mkdir()
-    tool.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m urdfkit expand "$@"\n')
-    tool.chmod(0o755)
-    return f"{tool.parent}:{SYSTEM}"
-
-
-def stub_gazebo_ros(src):
-    """Write the one file of gazebo_ros that the launch file includes."""
-    package = src / "gazebo_ros"
-    (package / "launch").mkdir(parents=True)
-    (package / "package.xml").write_text(
-        '<package format="2"><name>gazebo_ros</name><version>0.0.0</version><description>stub</description>'
-        '<maintainer email="a@b.c">a</maintainer><license>none</license></package>'
-    )
-    names = ("world_name", "gui", "paused", "use_sim_time")
-    arguments = "".join(f'<arg name="{name}"/>' for name in names)
-    (package / "launch/empty_world.launch").write_text(f"<launch>{arguments}</launch>")
-
-
 def shipped(build_tool):
     """Return robot → its packages, of those robots we ship that a build tool builds."""
     return {
@@ -78,53 +56,91 @@ def shipped(build_tool):
     }
 
 
-def test_catkin(workspace, with_xacro):
-    """A new robot and all robots of ROS 1 that we ship, in one workspace."""
-    require("catkin catkin-lint python3-roslaunch rospack-tools", "catkin_make", "catkin_lint", "roslaunch", "rospack")
+def written(template, ros, drives):
+    """Write every drive, with an arm that grips and without, some with all sensors; return their names."""
+    names = []
+    for drive in drives:
+        for arm in ({}, {"arm": "5", "gripper": "yes"}):
+            names.append(f"{drive}_arm" if arm else f"{drive}_bot")
+            sensors = "lidar lidar3d camera depth imu gps" if drive in ("skid", "omni") else ""
+            given = {"name": names[-1], "ros": ros, "drive": drive, "sensor": sensors, **arm}
+            create(template, template.answers(given) | {"year": "2026", "into": "."}, Path("src"))
+    return names
+
+
+DRIVES = ("diff", "skid", "ackermann", "omni", "none")
+TESTED = ["description", "gazebo", "control", "bringup"]
+
+
+def test_catkin_make(robot_template, workspace):
+    """New robots and all robots of ROS 1 that we ship, in one workspace: linted, built, tested, installed, launched."""
+    require(
+        "catkin catkin-lint python3-nose python3-roslaunch rospack-tools liburdfdom-tools",
+        *("catkin_make", "catkin_lint", "roslaunch", "rospack", "nosetests3", "check_urdf"),
+    )
     src = workspace / "src"
-    new = {"scout": "diff", "skidder": "skid", "glider": "omni", "stander": "none"}
-    for name, drive in new.items():
-        sensors = ["--sensor", "lidar,lidar3d,camera,depth,imu,gps"] if name in ("skidder", "glider") else []
-        more = ["--ros", "noetic", "--drive", drive, *sensors, "--into", "src", "--yes"]
-        assert main(["new", "robot", name, *more]) == 0
+    new = written(robot_template, "noetic", DRIVES)
     robots = shipped("catkin")
     assert len(robots) >= 6
     for package in (package for packages in robots.values() for package in packages):
         shutil.copytree(package, src / package.name)
     assert "found 0 problems" in run(workspace, "catkin_lint -W2 --strict --offline src")
+    write_packages(src / "stubs")
+    write_tools(workspace / "bin")
+    path = f"{workspace}/bin:{SYSTEM}"
     run(workspace, "catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3 install")
+    tests = " ".join(f"run_tests_diff_arm_{package}" for package in TESTED)
+    run(workspace, f"catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3 {tests}", PATH=path)
+    told = run(workspace, "catkin_test_results build/test_results")
+    assert re.search(r"Summary: 1[0-9] tests, 0 errors, 0 failures, 0 skipped", told), told
     share = workspace / "install/share"
-    stub_gazebo_ros(share)
+    shutil.copytree(src / "stubs/gazebo_ros/launch", share / "gazebo_ros/launch")
     commands, names = [], [*new, *robots]
     for name in names:
         assert (share / f"{name}_description/urdf/{name}.urdf.xacro").is_file()
         assert list((share / f"{name}_gazebo/worlds").glob("*.world"))
         commands.append(f"echo FOUND $(rospack find {name}_description)")
-        for launch in sorted(share.glob(f"{name}_*/launch/*.launch")):
+        # What is started with everything includes the rest.
+        whole = (f"{name}.launch", "display.launch")
+        packages = ("bringup", "description") if name in new else ("*",)
+        for launch in [path for kind in packages for path in sorted(share.glob(f"{name}_{kind}/launch/*.launch"))]:
+            if name in new and launch.name not in whole:
+                continue
             commands.append(f"echo LAUNCH; roslaunch --dump-params {launch.parents[1].name} {launch.name}")
-    said = run(workspace, f"set -e; . install/setup.bash; export PATH={with_xacro}; {'; '.join(commands)}")
+    said = run(workspace, f"set -e; . install/setup.bash; export PATH={path}; {'; '.join(commands)}")
     said = re.sub(r"\\\n +(\\(?= ))?", "", said)  # YAML wraps long lines
     for name in names:
         assert f"FOUND {share / f'{name}_description'}\n" in said
         assert said.count(f'<robot name=\\"{name}\\"') + said.count(f'<robot name="{name}"') >= 2, name
 
 
-def test_colcon(workspace):
-    require(
-        "colcon python3-colcon-{ros,cmake,recursive-crawl,output} ament-cmake",
-        "colcon",
-        "cmake",
-        modules=("colcon_ros", "colcon_cmake", "colcon_recursive_crawl", "ament_package"),
+def test_catkin_build(workspace):
+    """The other build tool of ROS 1, which builds each package by itself."""
+    require("catkin-tools", "catkin")
+    assert main(["new", "robot", "rover", "--ros", "noetic", "--arm", "5", "--into", "src", "--yes", "-q"]) == 0
+    said = run(
+        workspace, "catkin config --init --install >/dev/null && catkin build --no-status --no-color --no-notify"
     )
-    new = {"scout": "diff", "skidder": "skid", "car": "ackermann", "glider": "omni", "stander": "none"}
-    for name, drive in new.items():
-        sensors = ["--sensor", "lidar,lidar3d,camera,depth,imu,gps"] if name in ("car", "glider") else []
-        assert main(["new", "robot", name, "--drive", drive, *sensors, "--into", "src", "--yes"]) == 0
+    assert "All 5 packages succeeded!" in said  # one of them its own
+    for package in TESTED:
+        assert (workspace / f"install/share/rover_{package}/package.xml").is_file()
+
+
+def test_colcon(robot_template, workspace):
+    """New robots and all robots of ROS 2 that we ship, in one workspace: built, tested, installed, found."""
+    require(
+        "colcon python3-colcon-{ros,cmake,recursive-crawl,output,test-result} ament-cmake ament-cmake-pytest "
+        "liburdfdom-tools",
+        *("colcon", "cmake", "check_urdf"),
+        modules=("colcon_ros", "colcon_cmake", "colcon_recursive_crawl", "colcon_test_result", "ament_package"),
+    )
+    new = written(robot_template, "jazzy", DRIVES)
     robots = shipped("ament_cmake")
     assert len(robots) >= 3
     for package in (package for packages in robots.values() for package in packages):
         shutil.copytree(package, workspace / "src" / package.name)
-    count = 3 * len(new) + sum(len(packages) for packages in robots.values())
+    count = len(list((workspace / "src").iterdir()))
+    assert count == sum(4 if name.endswith("_arm") else 3 for name in new) + sum(map(len, robots.values()))
     assert f"{count} packages finished" in run(workspace, "colcon build")
     for name, packages in robots.items():
         for package in packages:
@@ -132,9 +148,20 @@ def test_colcon(workspace):
             assert {path.name for path in package.glob("launch/*")} <= {path.name for path in there.glob("launch/*")}
         model = workspace / f"install/{name}_description/share/{name}_description/urdf/{name}.urdf.xacro"
         assert load(model).name == name
-    share = workspace / "install/scout_description/share"
+    share = workspace / "install/diff_bot_description/share"
     found = run(workspace, ". install/setup.sh && echo $GZ_SIM_RESOURCE_PATH")
     assert str(share) in found.split()[-1].split(":")
-    for path in ("launch/scout.launch.py", "config/bridge.yaml", "worlds/empty.sdf"):
-        assert (workspace / "install/scout_gazebo/share/scout_gazebo" / path).is_file()
-    assert load(Path(share, "scout_description/urdf/scout.urdf.xacro")).name == "scout"
+    for path in ("launch/diff_bot.launch.py", "config/bridge.yaml", "worlds/empty.sdf"):
+        assert (workspace / "install/diff_bot_gazebo/share/diff_bot_gazebo" / path).is_file()
+    assert load(Path(share, "diff_bot_description/urdf/diff_bot.urdf.xacro")).name == "diff_bot"
+    write_launch_modules(workspace / "modules")
+    write_tools(workspace / "bin")
+    packages = " ".join(f"diff_arm_{package}" for package in TESTED)
+    run(
+        workspace,
+        f"colcon test --packages-select {packages}",
+        PATH=f"{workspace}/bin:{SYSTEM}",
+        PYTHONPATH=str(workspace / "modules"),
+    )
+    told = run(workspace, "colcon test-result --all")
+    assert re.search(r"Summary: 1[0-9] tests, 0 errors, 0 failures, 0 skipped", told), told
