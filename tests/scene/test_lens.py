@@ -105,3 +105,13 @@ def test_opencv_calibrates_a_camera_to_what_it_was_given(lens: Lens) -> None:
     here, _ = cv2.projectPoints(outer, np.zeros(3), np.zeros(3), true, coefficients(lens))
     there, _ = cv2.projectPoints(outer, np.zeros(3), np.zeros(3), k, d)
     assert np.abs(here - there).max() < 1.5
+
+
+@pytest.mark.parametrize(("width", "height"), [(64, 48), (1, 1), (3, 5), (63, 49), (6, 2), (640, 480)])
+def test_rays_come_tile_by_tile_and_each_pixel_once(width: int, height: int) -> None:
+    lens = Lens(width, height, 1.2)
+    row, column = np.divmod(np.arange(width * height), width)
+    within = (row % 4) * 4 + column % 4
+    assert np.array_equal(lens.order, np.lexsort((within, column // 4, row // 4)))
+    row, column = np.divmod(lens.order, width)
+    assert np.array_equal(lens.directions, lens.towards(column.astype(float), row.astype(float)))

@@ -14,6 +14,9 @@ Array = NDArray[np.float64]
 TILE = 4
 """Pixels that are neighbours in the picture are neighbours among the rays: tiles of 4 × 4."""
 
+AT_ONCE = 2**14
+"""Directions that are worked out at once."""
+
 
 @dataclass(frozen=True)
 class Distortion:
@@ -76,9 +79,15 @@ class Lens:
     @cached_property
     def order(self) -> NDArray[np.int64]:
         """For each ray the number of its pixel, row by row; shape (width · height,)."""
-        row, column = np.divmod(np.arange(self.width * self.height), self.width)
-        within = (row % TILE) * TILE + column % TILE
-        return np.lexsort((within, column // TILE, row // TILE))
+        found, start = np.empty(self.width * self.height, dtype=np.int64), 0
+        whole = self.width - self.width % TILE
+        for first in range(0, self.height, TILE):
+            rows = np.arange(first, min(first + TILE, self.height))[:, None] * self.width + np.arange(self.width)
+            tiles = rows[:, :whole].reshape(len(rows), -1, TILE).transpose(1, 0, 2)
+            for part in (tiles.ravel(), rows[:, whole:].ravel()):
+                found[start : start + len(part)] = part
+                start += len(part)
+        return found
 
     @cached_property
     def directions(self) -> Array:
@@ -86,8 +95,11 @@ class Lens:
 
         Pixels that nothing is projected to look backwards along x: they see nothing.
         """
-        row, column = np.divmod(self.order, self.width)
-        return self.towards(column.astype(float), row.astype(float))
+        found = np.empty((self.width * self.height, 3))
+        for first in range(0, len(found), AT_ONCE):  # what is worked on meanwhile takes several times as much memory
+            row, column = np.divmod(self.order[first : first + AT_ONCE], self.width)
+            found[first : first + AT_ONCE] = self.towards(column.astype(float), row.astype(float))
+        return found
 
     @property
     def lost(self) -> float:
