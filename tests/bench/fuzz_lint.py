@@ -67,8 +67,81 @@ _NASTY = (
 )
 
 
+_GROWING = (
+    "9**9**9",
+    "10**9 * 'x'",
+    "[0] * 10**10",
+    "1 &lt;&lt; 10**9",
+    "list(range(10**9))",
+    "python.sum(range(10**12))",
+    "python.sum(i * j for i in range(10**5) for j in range(10**5))",
+    "'%099999999d' % 1",
+    "'x'.ljust(10**10)",
+    "factorial(10**7)",
+    "(lambda f: f(f))(lambda f: f(f) + f(f))",
+    "(lambda f: f(f, 40))(lambda f, n: 1 if n == 0 else f(f, n - 1) + f(f, n - 1))",
+    "[x.extend(x) for x in [[1]] for i in range(99)]",
+    "list(map(list, map(range, [99999] * 99999)))",
+    "str([[[[0] * 99] * 99] * 99])",
+    "round(5, -10**9)",
+    "math.prod([10**1000] * 9999)",
+    "','.join(['x' * 9999] * 999)",
+)
+"""Expressions that Python would go on with until the memory is full."""
+
+_WRAPPED = (
+    "({})",
+    "[{}]",
+    "[{} for i in range(99)]",
+    "len(str({}))",
+    "({}) * 2",
+    "max([{}, 1])",
+    "lambda: {}",
+    "{} or 1",
+)
+
+
+def hostile(content: bytes, lot: random.Random) -> bytes:
+    """Put expressions, properties, macros or blocks that grow without end into a file."""
+    kind = lot.randrange(4)
+    if kind == 0:
+        expression = lot.choice(_GROWING)
+        for _ in range(lot.randrange(3)):
+            expression = lot.choice(_WRAPPED).format(expression)
+        if lot.random() < 0.2:
+            at = lot.randrange(len(expression))
+            expression = expression[:at] + expression[at + 1 :]
+        values = list(re.finditer(rb'="([^"<]*)"', content))
+        if values:
+            found = lot.choice(values)
+            command = b"$(eval %s)" if lot.random() < 0.2 else b"${%s}"
+            return content[: found.start(1)] + command % expression.encode() + content[found.end(1) :]
+    levels, width = lot.randrange(3, 12), lot.randrange(2, 12)
+    inner = lot.choice(('<link name="x"/>', "<gazebo/>", '<link name="${1 + 1}"/>', ""))
+    if kind == 1:
+        lines = [f'<xacro:macro name="m0">{inner}</xacro:macro>']
+        lines += [f'<xacro:macro name="m{n}">{f"<xacro:m{n - 1}/>" * width}</xacro:macro>' for n in range(1, levels)]
+        lines.append(f"<xacro:m{levels - 1}/>")
+    elif kind == 2:
+        lines = [f'<xacro:property name="p0">{inner}</xacro:property>']
+        insert = '<xacro:insert_block name="p{}"/>'
+        block = '<xacro:property name="p{}">{}</xacro:property>'
+        lines += [block.format(n, insert.format(n - 1) * width) for n in range(1, levels)]
+        lines.append(insert.format(levels - 1))
+    else:
+        value = lot.choice(("${{p{0}}}" * width, "${{p{0} * 2}}", "${{[p{0}, p{0}]}}", "${{p{0} + p{0}}}"))
+        lines = ['<xacro:property name="p0" value="lol 1"/>']
+        lines += [f'<xacro:property name="p{n}" value="{value.format(n - 1)}"/>' for n in range(1, 30)]
+        lines.append('<link name="${p29}"/>')
+    return content.replace(b"</robot>", "\n".join(lines).encode() + b"\n</robot>")
+
+
 def mutated(content: bytes, lot: random.Random) -> bytes:
-    """Change a file: a few bytes, or a few elements."""
+    """Change a file: a few bytes, a few elements, or what is computed."""
+    if lot.random() < 0.2:
+        content = hostile(content, lot)
+        if lot.random() < 0.7:
+            return content
     for _ in range(lot.choice((1, 1, 1, 2, 3, 8))):
         content = lot.choice((_bytes, _bytes, _element, _attribute, _word))(content, lot)
     return content

@@ -18,7 +18,43 @@ XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 MANY = " ".join(f'a{n}=""' for n in range(20_000))
 ENTITIES = '<!ENTITY a0 "ha">' + "".join('<!ENTITY a{} "{}">'.format(n, f"&a{n - 1};" * 10) for n in range(1, 10))
 
+TEN = 10
+MACROS = "".join(f"<xacro:macro name='m{n + 1}'>{f'<xacro:m{n}/>' * TEN}</xacro:macro>" for n in range(8))
+BLOCKS = "".join(
+    f"<xacro:property name='b{n + 1}'>{f'<xacro:insert_block name={chr(34)}b{n}{chr(34)}/>' * TEN}</xacro:property>"
+    for n in range(8)
+)
+LAST = "<xacro:insert_block name='b8'/>"
+LAUGHS = "".join(f"<xacro:property name='p{n + 1}' value='{f'${{p{n}}}' * TEN}'/>" for n in range(12))
+
+
+def computed(expression: str) -> str:
+    return f"<robot {XACRO} name='r'><link name='a'/><gazebo><p>${{{expression}}}</p></gazebo></robot>"
+
+
 HOSTILE = {
+    "power.xacro": (computed("9**9**9"), "X126 `${9**9**9}` is too large: it makes an integer of more than 10,000"),
+    "text.xacro": (computed("'x' * 3 * 10**9"), "a text of more than 100,000 characters"),
+    "list.xacro": (computed("[0] * 10**10"), "a list of more than 100,000 elements"),
+    "range.xacro": (computed("list(range(10**9))"), "a list of more than 100,000 elements"),
+    "loops.xacro": (computed("[i for i in range(9999) for j in range(9999)]"), "more than 2,000,000 steps"),
+    "format.xacro": (computed("'%099999999d' % 1"), "a text of more than 100,000 characters"),
+    "factorial.xacro": (computed("factorial(10**7)"), "it asks for factorial() of more than 1,000"),
+    "sum.xacro": (computed("python.sum(python.range(10**12))"), "a list of more than 100,000 elements"),
+    "deep.xacro": (computed("1+" * 4000 + "1"), "nested"),
+    "macros.xacro": (
+        f"<robot {XACRO} name='r'><xacro:macro name='m0'><link name='x'/></xacro:macro>{MACROS}<xacro:m8/></robot>",
+        "X126 with this call, there are more than 10,000 calls",
+    ),
+    "blocks.xacro": (
+        f"<robot {XACRO} name='r'><xacro:property name='b0'><a/></xacro:property>{BLOCKS}{LAST}</robot>",
+        "more than 300,000 elements and attributes",
+    ),
+    "laughs.xacro": (
+        f"<robot {XACRO} name='r'><xacro:property name='p0' value='lol'/>{LAUGHS}<a b='${{p12}}'/></robot>",
+        "a text of more than 100,000 characters",
+    ),
+    "tags.urdf": (f"<robot name='r'>{'<a/>' * 300_000}</robot>", "tags and comments: more than 100000 are refused"),
     "a bomb of entities.urdf": (f"<!DOCTYPE r [{ENTITIES}]><robot name='r'>&a9;</robot>", "declares the entity `a0`"),
     "an external entity.urdf": ('<!DOCTYPE r SYSTEM "file:///etc/passwd"><robot/>', "external entities are refused"),
     "nesting.urdf": (f"<robot name='r'>{'<a>' * 10_000}{'</a>' * 10_000}</robot>", "nested deeper than 200"),

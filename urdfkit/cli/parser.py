@@ -81,7 +81,6 @@ class Parser(argparse.ArgumentParser):
             hint = did_you_mean(choice[1], re.findall(r"[\w-]+", choice[2]))
         raise UsageError(f"{self.prog.removeprefix('urdfkit').strip()}: {message}{hint}".removeprefix(": "))
 
-
     def _unknown_option(self) -> str | None:
         """Return the first long option that this command does not have."""
         options = self._words[: self._words.index("--")] if "--" in self._words else self._words

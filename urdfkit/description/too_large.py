@@ -8,13 +8,13 @@ MAX_EXPRESSION = 10_000
 """Characters of one expression; people's have some dozens."""
 
 MAX_EXPRESSIONS = 200_000
-"""Expressions evaluated in one run; a robot of 1,200 links has 20,000."""
+"""Expressions evaluated in one run; a robot of 1,200 links has 10,000."""
 
 MAX_DEPTH = 200
 """Levels of brackets and operators of one expression."""
 
 MAX_STEPS = 2_000_000
-"""Steps that all expressions of a run may take together; a robot of 1,200 links takes some 20,000."""
+"""Steps that all expressions of a run may take together; a robot with several arms takes 16,000."""
 
 MAX_CHARACTERS = 100_000
 """Characters of a text that an expression makes."""
@@ -37,8 +37,8 @@ MAX_MACRO_CALLS = 10_000
 MAX_INCLUDES = 2_000
 """Files read in one run, one that is read again counted again."""
 
-MAX_EXPANDED = 150_000
-"""Elements and attributes that macros, blocks and includes of one run make; a robot of 1,200 links has 30,000."""
+MAX_EXPANDED = 300_000
+"""Elements and attributes that macros, blocks and includes of one run make; a robot of 1,200 links has 54,000."""
 
 MAX_YAML = 500_000
 """Bytes of a YAML file that a description loads."""

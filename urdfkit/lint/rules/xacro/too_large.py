@@ -13,7 +13,7 @@ class TooLarge(FaultRule):
     list of more than 100,000 elements, that is longer than 10,000 characters or nested deeper than 200; expressions of
     a file that take more than 2,000,000 steps together, or are more than 200,000; macros that are called more than
     10,000 times, files that are included more than 2,000 times, and macros, blocks and includes that make more than
-    150,000 elements and attributes. Nothing of it is evaluated.
+    300,000 elements and attributes. Nothing of it is evaluated.
 
     ## Why is this bad?
     xacro goes on until the memory is full, or for ever.
