@@ -62,7 +62,7 @@ def mend_directives(document: minidom.Document) -> Iterator[tuple[minidom.Elemen
     Args:
         document: changed in place.
     """
-    for element in list(_elements(document)):
+    for element in list(elements(document)):
         tag = element.tagName
         if (
             tag in _DIRECTIVES
@@ -109,8 +109,10 @@ def names_above(node: Any) -> Iterator[str]:
         above = above.parentNode
 
 
-def _elements(node: Any) -> Iterator[minidom.Element]:
-    for child in node.childNodes:
-        if child.nodeType == child.ELEMENT_NODE:
-            yield child
-            yield from _elements(child)
+def elements(node: Any) -> Iterator[minidom.Element]:
+    """Yield the elements below a node, in document order; children that are added meanwhile are not looked for."""
+    pending = [child for child in reversed(node.childNodes) if child.nodeType == child.ELEMENT_NODE]
+    while pending:
+        element = pending.pop()
+        yield element
+        pending += [child for child in reversed(element.childNodes) if child.nodeType == child.ELEMENT_NODE]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
-from urdfkit.description.prefixes import FOREIGN, is_directive, names_above
+from urdfkit.description.prefixes import FOREIGN, elements, is_directive, names_above
 from urdfkit.description.vocabulary import TAGS
 
 TYPE_CHECKING = False
@@ -36,9 +36,9 @@ def misspelt(document: minidom.Document) -> Iterator[tuple[minidom.Element, str,
     Args:
         document: may be changed while it is gone through.
     """
-    elements = list(document.getElementsByTagName("*"))
+    every = list(elements(document))
     macros: set[str] | None = None
-    for element in elements:
+    for element in every:
         tag = element.tagName
         name = tag.removeprefix("xacro:")
         if name in _OTHERS or ":" in name or (name == tag and (name in TAGS or is_directive(name, element.attributes))):
@@ -49,7 +49,7 @@ def misspelt(document: minidom.Document) -> Iterator[tuple[minidom.Element, str,
         if meant is None or not _fits(meant, element, name != tag):
             continue
         if macros is None:
-            macros = {one.getAttribute("name") for one in elements if one.tagName in ("xacro:macro", "macro")}
+            macros = {one.getAttribute("name") for one in every if one.tagName in ("xacro:macro", "macro")}
         if name not in macros:
             yield element, tag, meant
 
@@ -60,15 +60,18 @@ def misspelt_attributes(document: minidom.Document) -> Iterator[tuple[minidom.El
     Args:
         document: may be changed while it is gone through.
     """
-    for directive, known in ATTRIBUTES.items():
-        for element in list(document.getElementsByTagName(f"xacro:{directive}")):
-            for name in list(element.attributes.keys()):
-                if name in known or name.startswith(("xmlns", "xacro:")):
-                    continue
-                free = tuple(one for one in known if not element.hasAttribute(one))
-                meant = _near(name, free)
-                if meant is not None or directive != "include":  # parameters of an include are another matter
-                    yield element, name, meant
+    for element in list(elements(document)):
+        directive = element.tagName.removeprefix("xacro:")
+        known = ATTRIBUTES.get(directive, ())
+        if not known or directive == element.tagName:
+            continue
+        for name in list(element.attributes.keys()):
+            if name in known or name.startswith(("xmlns", "xacro:")):
+                continue
+            free = tuple(one for one in known if not element.hasAttribute(one))
+            meant = _near(name, free)
+            if meant is not None or directive != "include":  # parameters of an include are another matter
+                yield element, name, meant
 
 
 @lru_cache(maxsize=1_000)

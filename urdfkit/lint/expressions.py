@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import re
 
-UNEXPANDED = r"(?<!\$)\{\$(?!\()[^{}]*\}|\$ +\{[^{}]*\}|(?<!\$)\$\{[^{}\"'<>]*(?=[\"'<>]|\Z)|\$\\\{"
-"""``{$…}``, ``$ {…}``, ``${…`` without end and ``$\\{``."""
+_INSIDE_OUT = r"\{\$(?<!\$\{\$)(?!\()[^{}]*\}"
+_BROKEN = r"\$(?: +\{[^{}]*\}|\\\{|\{(?<!\$\$\{)[^{}\"'<>]*(?=[\"'<>]|\Z))"
+"""``{$…}``; ``$ {…}``, ``$\\{`` and ``${…`` without end. Both begin with a letter, so that they are found fast."""
 
 _SWAPPED = r"(?:(?<!\$)\{\$(?!\()|\$ +\{)([^{}]*)\}"
 
 
 def is_unexpanded(text: str) -> bool:
     """Whether a value, or a whole file, holds an expression that xacro does not evaluate."""
-    return re.search(UNEXPANDED, text) is not None
+    return "$" in text and (re.search(_BROKEN, text) or re.search(_INSIDE_OUT, text)) is not None
 
 
 def righted(text: str) -> str:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 _ALWAYS = "`\u2018\u2019\u201c\u201d"
 _QUOTES = "\"'"
 _INVISIBLE = "[\u00a0\u200b-\u200f\u2060\ufeff]"
-_BETWEEN = ">\\s*[\"']|[\"']\\s*</"
+_BETWEEN = (">\\s*[\"']", '"\\s*</', "'\\s*</")
 _FOREIGN = f"[{_ALWAYS}]|{_INVISIBLE}"
 
 
@@ -92,7 +92,7 @@ class StrayQuote(RobotRule):
 
 def _is_suspect(text: str) -> bool:
     """Whether there may be such a character. Plain texts need not wait for patterns of others."""
-    if "`" in text or "'\"" in text or "\"'" in text or re.search(_BETWEEN, text):
+    if "`" in text or "'\"" in text or "\"'" in text or any(re.search(pattern, text) for pattern in _BETWEEN):
         return True
     return not text.isascii() and re.search(_FOREIGN, text) is not None
 

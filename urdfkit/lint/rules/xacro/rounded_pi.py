@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
     from urdfkit.lint.syntax import Document, Tag
 
-_ANGLES = r"(?<=\s)rpy\s*=\s*(?:\"([^\"<]*)\"|'([^'<]*)')"
+_ANGLES = r"rpy(?<=\srpy)\s*=\s*(?:\"([^\"<]*)\"|'([^'<]*)')"
 _DEFINITION = (
     r"<(?:xacro:)?property\b[^<>]*?\bname\s*=\s*[\"'](PI|Pi|M_PI|pi)[\"'][^<>]*?\bvalue\s*=\s*[\"']\s*([0-9.]+)\s*[\"']"
 )
