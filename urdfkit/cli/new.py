@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable, Mapping
 from datetime import datetime, timezone
 from importlib import import_module
 from pathlib import Path
@@ -88,7 +89,7 @@ def run(arguments: argparse.Namespace) -> int:
         given = read_recipe(template, Path(arguments.recipe), given)
     given = {**identity(template), **given}
     if not arguments.yes and sys.stdin.isatty() and sys.stderr.isatty():
-        given |= _ask(template, given)
+        given |= _asked(template, given, preview=not arguments.no_preview)
     answers = template.answers(given, fresh=is_fresh(into))
     answers |= computed(template.name, answers)
     answers |= {"year": str(datetime.now(timezone.utc).year), "into": into.as_posix()}
@@ -102,7 +103,19 @@ def run(arguments: argparse.Namespace) -> int:
     return main(["sim", "teleop", str(into / fill(template.teleop, answers, where="teleop"))])
 
 
-def _ask(template: Template, given: dict[str, str]) -> dict[str, str]:
+def _asked(template: Template, given: dict[str, str], *, preview: bool) -> dict[str, str]:
+    """Ask for what is left out, with what comes of it in the browser, if that can be."""
+    from urdfkit.cli.preview import Preview, can_preview
+
+    if not preview or not can_preview(template):
+        return _ask(template, given)
+    with Preview(template) as shown:
+        return _ask(template, given, follow=shown.follow)
+
+
+def _ask(
+    template: Template, given: dict[str, str], *, follow: Callable[[Mapping[str, str]], None] = lambda _: None
+) -> dict[str, str]:
     """Ask on the terminal for what is left out; Enter takes the default."""
     found = dict(given)
     for question in template.questions:
@@ -115,6 +128,7 @@ def _ask(template: Template, given: dict[str, str]) -> dict[str, str]:
             try:
                 answer = _answered(question, default)
                 found[question.name] = question.accept(answer or default or "")
+                follow(found)
             except UsageError as error:
                 print(f"  {error}", file=sys.stderr)
     return {q.name: found[q.name] for q in template.questions if q.ask and applies(q.when, found)}

@@ -62,6 +62,8 @@ def _fill(kind: argparse.ArgumentParser, template: Template) -> None:
     )
     kind.add_argument("--template", metavar="DIR", help="a template of your own, in the place of ours")
     kind.add_argument("-y", "--yes", action="store_true", help="ask nothing: defaults for what is left out")
+    shown = "ask without showing the robot in the browser" if template.teleop else argparse.SUPPRESS
+    kind.add_argument("--no-preview", action="store_true", help=shown)
     kind.add_argument(
         "--update",
         action="store_true",

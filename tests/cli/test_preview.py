@@ -1,0 +1,156 @@
+"""`urdfkit new robot` on a terminal: it asks, and the page in the browser follows the answers."""
+
+import asyncio
+import os
+import re
+import select
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from urdfkit.cli.preview import Preview, can_preview
+from urdfkit.description import load
+from urdfkit.errors import ResourceError
+from urdfkit.resources import templates_dir
+from urdfkit.scaffold import load_template
+
+pty = pytest.importorskip("pty")
+TEMPLATE = load_template(templates_dir() / "robot")
+PATIENCE = 40.0
+
+
+class Terminal:
+    """urdfkit at work on a terminal of its own."""
+
+    def __init__(self, folder, *words):
+        self.master, slave = pty.openpty()
+        env = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")}
+        env |= {
+            "HOME": str(folder),
+            "GIT_CONFIG_NOSYSTEM": "1",
+            "GIT_CONFIG_GLOBAL": "/dev/null",
+            "TMPDIR": str(folder),
+        }
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "urdfkit", *words], stdin=slave, stdout=slave, stderr=slave, cwd=folder, env=env
+        )
+        os.close(slave)
+        self.said = ""
+
+    def until(self, pattern):
+        """Read until something is said; return the match."""
+        end = time.monotonic() + PATIENCE
+        while (found := re.search(pattern, self.said)) is None:
+            assert time.monotonic() < end, self.said
+            if select.select([self.master], [], [], 0.2)[0]:
+                try:
+                    self.said += os.read(self.master, 65536).decode()
+                except OSError:  # the other side is closed
+                    raise AssertionError(self.said) from None
+        self.said = self.said[found.end() :]
+        return found
+
+    def type(self, line):
+        os.write(self.master, f"{line}\n".encode())
+
+    def close(self):
+        if self.process.poll() is None:
+            self.process.terminate()
+        self.process.wait(PATIENCE)
+        os.close(self.master)
+
+
+@pytest.fixture
+def terminal(tmp_path):
+    made = []
+
+    def start(*words):
+        made.append(Terminal(tmp_path, *words))
+        return made[-1]
+
+    yield start
+    for each in made:
+        each.close()
+
+
+def links_on(url):
+    """Return the links that a page shows."""
+    from urdfkit.view.client import connect
+
+    async def ask():
+        async with await connect(url) as client:
+            while (text := await client.text(PATIENCE)) is not None:
+                if text["type"] == "model":
+                    return {node.rsplit("/", 1)[-1] for node in text["nodes"]}
+        raise AssertionError("no model")
+
+    return asyncio.run(ask())
+
+
+def test_the_page_follows_the_answers(terminal, tmp_path):
+    asking = terminal("new", "robot")
+    asking.until("Name of the robot")
+    asking.type("rover")
+    url = asking.until(r"preview: (http://127\.0\.0\.1:\d+/\?token=\S+)")[1]
+    assert "left_wheel" in " ".join(links_on(url))
+    asking.until(r"ROS distribution[^\n]*: ")
+    asking.type("jazzy")
+    asking.until(r"Drive [^\n]*: ")
+    asking.type("skid")
+    asking.until(r"Length of the base[^\n]*: ")
+    end = time.monotonic() + PATIENCE
+    while "front_left_wheel" not in " ".join(links_on(url)):
+        assert time.monotonic() < end
+        time.sleep(0.2)
+    for _ in range(30):
+        asking.type("")
+    asking.until(r"rover_description +\d+ files")
+    asking.process.wait(PATIENCE)
+    assert load(tmp_path / "rover_description/urdf/rover.urdf.xacro").name == "rover"
+    assert list(tmp_path.glob("urdfkit-preview-*")) == []
+    with pytest.raises(ResourceError):
+        links_on(url)
+
+
+def test_without_a_preview_it_only_asks(terminal, tmp_path):
+    asking = terminal("new", "robot", "rover", "--no-preview")
+    asking.until("ROS distribution")
+    for _ in range(30):
+        asking.type("")
+    assert "preview:" not in asking.until(r"(?s).*rover_description +\d+ files")[0]
+
+
+def test_an_interrupt_leaves_nothing(terminal, tmp_path):
+    asking = terminal("new", "robot", "rover")
+    asking.until("ROS distribution")
+    asking.type("jazzy")
+    url = asking.until(r"preview: (http://\S+)")[1]
+    asking.process.send_signal(signal.SIGINT)
+    assert asking.process.wait(PATIENCE) == 130
+    assert list(tmp_path.iterdir()) == []
+    with pytest.raises(ResourceError):
+        links_on(url)
+
+
+def test_answers_that_make_no_robot_leave_the_last_one(monkeypatch):
+    monkeypatch.setattr(Preview, "_start", lambda self: None)
+    with Preview(TEMPLATE) as shown:
+        shown.follow({"drive": "diff"})
+        assert list(shown.folder.iterdir()) == []  # no name yet
+        shown.follow({"name": "rover", "drive": "diff"})
+        model = shown.folder / "rover_description/urdf/rover.urdf.xacro"
+        before = model.read_bytes()
+        shown.follow({"name": "rover", "drive": "diff", "wheel_radius": "5"})
+        assert model.read_bytes() == before
+        shown.follow({"name": "other", "drive": "diff", "base_length": "0.6"})
+        assert b'"base_length" value="0.6"' in model.read_bytes()
+        folder = shown.folder
+    assert not folder.exists()
+
+
+def test_nobody_is_shown_what_they_cannot_see(monkeypatch):
+    assert not can_preview(TEMPLATE)  # not on a terminal
+    assert not can_preview(load_template(templates_dir() / "world"))
