@@ -213,7 +213,8 @@ class Session:
 
         kinematics, scene = self.figure.kinematics, self.figure.scene
         self.positions = {name: self.positions.get(name, at) for name, at in home(kinematics).items()}
-        positions = kinematics.positions(kinematics.configuration(self.positions)) | self.positions
+        q = kinematics.configuration(self.positions)
+        positions = kinematics.positions(q) | self.positions
         self.server.show(
             name=kinematics.robot.name or self.model.name,
             nodes=[link_path(name) for name in kinematics.link_names],
@@ -221,6 +222,7 @@ class Session:
             root=kinematics.link_names.index(kinematics.root),
             draw=lambda server: draw(scene, server, server.geometries),
         )
+        self.server.publish(0.0, kinematics.link_poses(q))  # it is seen before the types of messages are loaded
         self.server.declare("inspect", **inspection(kinematics))
         self.server.declare("fault", message=None)
         self._publish()
