@@ -1,0 +1,202 @@
+"""`urdfkit new`: files of a repository, updates in place, templates of one's own, and off to the browser."""
+
+import json
+import subprocess
+
+import pytest
+import yaml
+
+from urdfkit.cli import main
+
+BESIDE = [".devcontainer", ".github", ".gitignore", ".pre-commit-config.yaml", "LICENSE", "README.md"]
+
+
+@pytest.fixture
+def place(tmp_path, monkeypatch):
+    folder = tmp_path / "place"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+    return folder
+
+
+@pytest.fixture
+def scout(place):
+    assert main(["new", "robot", "scout", "--yes", "-q"]) == 0
+    return place
+
+
+def beside(folder):
+    return sorted(path.name for path in folder.iterdir() if not path.name.startswith(("scout", ".git")))
+
+
+@pytest.mark.parametrize("ros", ["humble", "noetic", "none"])
+def test_files_of_a_repository(place, ros):
+    assert main(["new", "robot", "scout", "--ros", ros, "--into", "new", "--yes", "-q"]) == 0
+    new = place / "new"
+    assert sorted(path.name for path in new.iterdir() if not path.name.startswith("scout")) == BESIDE
+    ci = yaml.safe_load((new / ".github/workflows/ci.yml").read_text())
+    assert set(ci["jobs"]) == ({"lint"} if ros == "none" else {"lint", "build"})
+    container = json.loads((new / ".devcontainer/devcontainer.json").read_text())
+    assert container["image"] == {"none": "mcr.microsoft.com/devcontainers/python:3.12"}.get(ros, f"ros:{ros}")
+    if ros != "none":
+        assert ci["jobs"]["build"]["container"] == f"ros:{ros}-ros-base"
+    hooks = [
+        h["id"]
+        for repo in yaml.safe_load((new / ".pre-commit-config.yaml").read_text())["repos"]
+        for h in repo["hooks"]
+    ]
+    assert "urdfkit-lint" in hooks
+    assert "![scout](scout_description/docs/scout.png)" in (new / "README.md").read_text()
+    assert (new / "scout_description/docs/scout.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_in_a_folder_with_something_in_it_there_are_packages_only(place):
+    (place / "mine").write_text("")
+    assert main(["new", "robot", "scout", "--yes", "-q"]) == 0
+    assert beside(place) == ["mine"]
+    assert main(["new", "robot", "scoot", "--repository", "--yes", "-q"]) == 0
+    assert set(beside(place)) == {"mine", "scoot_description", "scoot_gazebo", "scoot_bringup", *BESIDE} - {
+        ".github",
+        ".gitignore",
+    }
+
+
+def test_in_a_fresh_clone_what_is_there_stays(place):
+    subprocess.run(["git", "init", "-q"], check=True)
+    (place / "README.md").write_text("mine")
+    assert main(["new", "robot", "scout", "--yes", "-q"]) == 0
+    assert (place / "README.md").read_text() == "mine"
+    assert (place / ".github/workflows/ci.yml").is_file()
+    assert main(["new", "robot", "--update", "--mass", "8", "--yes", "-q"]) == 0
+    assert (place / "README.md").read_text() == "mine"
+    assert not (place / "README.md.new").exists()
+
+
+def test_without_a_picture(place):
+    assert main(["new", "robot", "scout", "--no-picture", "--no-repository", "--yes", "-q"]) == 0
+    assert sorted(path.name for path in place.iterdir()) == ["scout_bringup", "scout_description", "scout_gazebo"]
+    assert not (place / "scout_description/docs").exists()
+    assert "![" not in (place / "scout_description/README.md").read_text()
+
+
+def test_the_same_answers_give_the_same_bytes(place):
+    for into in ("one", "two"):
+        assert main(["new", "robot", "scout", "--sensor", "camera", "--into", into, "--yes", "-q"]) == 0
+    one, two = (
+        {path.relative_to(place / into): path.read_bytes() for path in (place / into).rglob("*") if path.is_file()}
+        for into in ("one", "two")
+    )
+    assert one == two
+
+
+def test_update(scout, capsys):
+    assert main(["new", "--update"]) == 0
+    assert "nothing to update" in capsys.readouterr().err
+    assert main(["new", "robot", "--update", "--mass", "8", "--diff"]) == 1
+    shown = capsys.readouterr().out
+    assert '-  <xacro:property name="base_mass" value="5"/>' in shown
+    assert "scout_description/docs" not in shown  # it looks the same
+    assert main(["new", "robot", "--update", "--mass", "8"]) == 2
+    captured = capsys.readouterr()
+    assert "files would change and nothing was changed: --yes changes them, --diff only shows it" in captured.err
+    assert 'value="5"' in (scout / "scout_description/urdf/scout.urdf.xacro").read_text()
+    (scout / "scout_description/README.md").write_text("mine")
+    assert main(["new", "robot", "--update", "--mass", "8", "--yes"]) == 0
+    assert "scout_description/README.md: edited by you: what it would be is put beside it as README.md.new" in (
+        capsys.readouterr().out
+    )
+    assert (scout / "scout_description/README.md").read_text() == "mine"
+    assert 'value="8"' in (scout / "scout_description/urdf/scout.urdf.xacro").read_text()
+    assert main(["lint", "."]) == 0
+    assert main(["new", "--update", "--into", "scout_description"]) == 0
+
+
+def test_colours(scout, capsys):
+    assert main(["new", "robot", "--update", "--mass", "8", "--diff", "--color", "always"]) == 1
+    assert '\x1b[31m-  <xacro:property name="base_mass" value="5"/>\x1b[0m' in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["robot", "rover", "--update"], "--update keeps names, and would make rover_bringup, rover_description"),
+        (["robot", "--update", "--mass", "1000"], "no material is that heavy"),
+        (["robot", "--update", "--mas", "8"], "did you mean `--mass`"),
+        (["robot", "--update", "--into", "nowhere"], "nothing to update in nowhere"),
+        (["world", "--update"], "urdfkit-new.toml"),
+    ],
+)
+def test_what_cannot_be_updated(scout, capsys, arguments, message):
+    assert main(["new", *arguments]) == 2
+    said = capsys.readouterr().err
+    assert message in said
+    assert said.count("\n") == 1
+
+
+OWN = """
+summary = "a box"
+recipe = "@name@/urdfkit-new.toml"
+[[question]]
+name = "name"
+prompt = "Name"
+kind = "package"
+[[question]]
+name = "size"
+prompt = "Size"
+kind = "number"
+default = "1"
+[[question]]
+name = "colour"
+prompt = "Colour"
+kind = "choice"
+choices = ["red", "blue"]
+default = "red"
+[[layer]]
+folder = "all"
+[[layer]]
+folder = "blue"
+when = { colour = ["blue"] }
+[[next]]
+commands = ["look at @colour@"]
+"""
+
+
+@pytest.fixture
+def own(place):
+    folder = place.parent / "template"
+    for path, text in (("all/@name@/box.txt", "@size@ m"), ("blue/@name@/COLOUR", "blue"), ("template.toml", OWN)):
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(text)
+    return folder
+
+
+def test_a_template_of_ones_own(place, own, capsys):
+    assert main(["new", "robot", "box", "--template", "../template", "--colour", "blue", "--yes"]) == 0
+    assert "look at blue" in capsys.readouterr().out
+    assert 'source = "../template"' in (place / "box/urdfkit-new.toml").read_text()
+    (own / "blue/@name@/COLOUR").write_text("azure")
+    assert main(["new", "--update", "--yes"]) == 0
+    assert (place / "box/COLOUR").read_text() == "azure"
+    assert main(["new", "robot", "--template=../template", "--update", "--size", "2", "--yes"]) == 0
+    assert (place / "box/box.txt").read_text() == "2 m"
+    own.rename(own.with_name("moved"))
+    assert main(["new", "--update"]) == 2
+    assert "the template ../template that template was made by is gone: --template DIR" in capsys.readouterr().err
+    assert main(["new", "--update", "--template", "../moved"]) == 2
+    assert "is for `urdfkit new template`, not for `urdfkit new moved`" in capsys.readouterr().err
+
+
+def test_help_is_of_the_template(place, own, capsys):
+    with pytest.raises(SystemExit):
+        main(["new", "robot", "--template", "../template", "--help"])
+    shown = capsys.readouterr().out
+    assert "--colour" in shown
+    assert "--drive" not in shown
+
+
+def test_off_to_the_browser(place, monkeypatch, capsys):
+    called = []
+    monkeypatch.setattr("urdfkit.cli.main", lambda words: called.append(words) or 0)
+    assert main(["new", "robot", "scout", "--into", "ws", "--yes", "--teleop"]) == 0
+    assert called == [["sim", "teleop", "ws/scout_description"]]
+    assert "next:" not in capsys.readouterr().out
