@@ -15,16 +15,31 @@ from urdfkit.description.world import load_world
 from urdfkit.resources import robots_dir
 from urdfkit.scaffold import create
 
+ARMED = {"arm": "5", "gripper": "yes", "drive": "omni"}
+ROBOTS = {
+    "jazzy": {"ros": "jazzy"},
+    "jazzy with an arm": {"ros": "jazzy", **ARMED},
+    "humble": {"ros": "humble"},
+    "humble in Gazebo Classic": {"ros": "humble", "sim": "classic"},
+    "humble in Gazebo Classic with an arm": {"ros": "humble", "sim": "classic", **ARMED},
+    "lyrical, still": {"ros": "lyrical", "drive": "none"},
+    "noetic": {"ros": "noetic"},
+    "noetic with an arm": {"ros": "noetic", **ARMED},
+    "a car of noetic": {"ros": "noetic", "drive": "ackermann"},
+}
+OF_ROS_1 = [name for name in ROBOTS if "noetic" in name]
+OF_ROS_2 = [name for name in ROBOTS if "noetic" not in name]
+
 
 @pytest.fixture(scope="module")
 def robots(robot_template, tmp_path_factory):
-    """Both generations of a robot, by distribution."""
+    """Robots of all generations, by what they are."""
     found = {}
-    for ros in ("jazzy", "noetic"):
-        folder = tmp_path_factory.mktemp(ros)
-        answers = robot_template.answers({"name": "scout", "ros": ros}) | {"year": "2026", "into": "."}
+    for name, given in ROBOTS.items():
+        folder = tmp_path_factory.mktemp("robot")
+        answers = robot_template.answers({"name": "scout", **given}) | {"year": "2026", "into": "."}
         create(robot_template, answers, folder)
-        found[ros] = folder
+        found[name] = folder
     return found
 
 
@@ -69,17 +84,18 @@ def launch_modules(monkeypatch):
     return kinds
 
 
-@pytest.mark.parametrize(
-    "path",
-    [
-        "scout_description/launch/display.launch.py",
-        "scout_gazebo/launch/scout.launch.py",
-        "scout_bringup/launch/scout.launch.py",
-        "scout_bringup/launch/teleop.launch.py",
-    ],
-)
-def test_ros2_launch_files(robots, launch_modules, path):
-    launched(robots["jazzy"], path, launch_modules)
+def launch_files(folder, pattern):
+    """Return the launch files of a robot's packages; each package but the bringup of a robot that stands has one."""
+    found = [path.relative_to(folder).as_posix() for path in sorted(folder.glob(f"*/launch/{pattern}"))]
+    assert {path.split("/")[0] for path in found} == {path.parent.name for path in folder.glob("*/package.xml")}
+    return found
+
+
+@pytest.mark.parametrize("robot", OF_ROS_2)
+def test_ros2_launch_files(robots, launch_modules, robot):
+    for path in launch_files(robots[robot], "*.launch.py"):
+        Recorder.made.clear()
+        launched(robots[robot], path, launch_modules)
 
 
 @pytest.mark.parametrize(
@@ -116,31 +132,25 @@ def launched(folder, path, launch_modules):
             assert made.args[0] in declared
 
 
-@pytest.mark.parametrize(
-    "path",
-    [
-        "scout_description/launch/display.launch",
-        "scout_gazebo/launch/scout.launch",
-        "scout_bringup/launch/scout.launch",
-        "scout_bringup/launch/teleop.launch",
-    ],
-)
-def test_ros1_launch_files(robots, path):
-    folder = robots["noetic"]
-    root = ET.parse(folder / path).getroot()
-    known = depends(folder / path.split("/")[0])
-    declared = {arg.get("name") for arg in root.findall("arg")}
-    text = ET.tostring(root, encoding="unicode")
-    assert {node.get("pkg") for node in root.iter("node")} <= known
-    assert set(re.findall(r"\$\(arg (\w+)\)", text)) <= declared
-    for package, rest in re.findall(r"\$\(find (\w+)\)/([\w./]+)", text):
-        assert package in known
-        if package.startswith("scout_"):
-            assert (folder / package / rest).is_file()
+@pytest.mark.parametrize("robot", OF_ROS_1)
+def test_ros1_launch_files(robots, robot):
+    folder = robots[robot]
+    for path in launch_files(folder, "*.launch"):
+        root = ET.parse(folder / path).getroot()
+        known = depends(folder / path.split("/")[0])
+        declared = {arg.get("name") for arg in root.findall("arg")}
+        text = ET.tostring(root, encoding="unicode")
+        assert {node.get("pkg") for node in root.iter("node")} <= known
+        assert set(re.findall(r"\$\(arg (\w+)\)", text)) <= declared
+        for package, rest in re.findall(r"\$\(find (\w+)\)/([\w./]+)", text):
+            assert package in known
+            if package.startswith("scout_"):
+                assert (folder / package / rest).is_file()
 
 
-def test_bridge_carries_what_the_plugins_publish(robots):
-    folder = robots["jazzy"]
+@pytest.mark.parametrize("robot", ["jazzy", "humble", "lyrical, still"])
+def test_bridge_carries_what_the_plugins_publish(robots, robot):
+    folder = robots[robot]
     bridge = yaml.safe_load((folder / "scout_gazebo/config/bridge.yaml").read_text())
     robot = load(folder / "scout_description/urdf/scout.urdf.xacro")
     topics = {"topic", "odom_topic", "tf_topic"}
@@ -157,7 +167,10 @@ def test_bridge_carries_what_the_plugins_publish(robots):
         assert entry["direction"] == ("ROS_TO_GZ" if entry["ros_topic_name"] == "cmd_vel" else "GZ_TO_ROS")
 
 
-@pytest.mark.parametrize(("ros", "path"), [("jazzy", "empty.sdf"), ("noetic", "empty.world")])
+@pytest.mark.parametrize(
+    ("ros", "path"),
+    [("jazzy", "empty.sdf"), ("noetic", "empty.world"), ("humble in Gazebo Classic", "empty.world")],
+)
 def test_worlds_load(robots, ros, path):
     assert load_world(robots[ros] / "scout_gazebo/worlds" / path).name == "empty"
 
@@ -171,10 +184,25 @@ def test_rviz_configuration(robots, ros):
     assert config["Visualization Manager"]["Global Options"]["Fixed Frame"] == "base_footprint"
 
 
-@pytest.mark.parametrize("ros", ["jazzy", "noetic"])
+@pytest.mark.parametrize("ros", ROBOTS)
 def test_everything_is_installed(robots, ros):
     for package in robots[ros].iterdir():
         rule = re.search(r"install\(DIRECTORY ([\w ]+)\n", (package / "CMakeLists.txt").read_text())
         folders = {path.name for path in package.iterdir() if path.is_dir()} - {"hooks", "test"}
         assert set(rule[1].split()) == folders
         assert all(any((package / folder).iterdir()) for folder in folders)
+
+
+def test_humble_has_the_names_of_fortress(robots):
+    texts = {
+        path: path.read_text()
+        for path in robots["humble"].rglob("*")
+        if path.is_file() and path.suffix in (".xacro", ".sdf", ".yaml", ".dsv")
+    }
+    whole = "\n".join(texts.values())
+    assert "gz-sim" not in whole
+    assert "gz::sim" not in whole
+    assert "gz.msgs" not in whole
+    assert 'filename="ignition-gazebo-diff-drive-system" name="ignition::gazebo::systems::DiffDrive"' in whole
+    assert "gz_type_name: ignition.msgs.Twist" in whole
+    assert "prepend-non-duplicate;IGN_GAZEBO_RESOURCE_PATH;share" in whole
