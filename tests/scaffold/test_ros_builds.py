@@ -1,5 +1,6 @@
 """What `urdfkit new robot` writes, and the robots we ship, are built, installed and launched by Debian's real tools."""
 
+import itertools
 import os
 import re
 import shutil
@@ -59,8 +60,8 @@ def shipped(build_tool):
 def written(template, ros, drives):
     """Write every drive, with an arm that grips and without, some with all sensors; return their names."""
     names = []
-    for drive in drives:
-        for arm in ({}, {"arm": "5", "gripper": "yes"}):
+    for drive, joints in zip(drives, itertools.cycle("34567"), strict=False):
+        for arm in ({}, {"arm": joints, "gripper": "yes"}):
             names.append(f"{drive}_arm" if arm else f"{drive}_bot")
             sensors = "lidar lidar3d camera depth imu gps" if drive in ("skid", "omni") else ""
             given = {"name": names[-1], "ros": ros, "drive": drive, "sensor": sensors, **arm}
