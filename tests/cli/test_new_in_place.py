@@ -1,5 +1,6 @@
 """`urdfkit new`: files of a repository, updates in place, templates of one's own, and off to the browser."""
 
+import io
 import json
 import subprocess
 
@@ -109,6 +110,19 @@ def test_update(scout, capsys):
     assert 'value="8"' in (scout / "scout_description/urdf/scout.urdf.xacro").read_text()
     assert main(["lint", "."]) == 0
     assert main(["new", "--update", "--into", "scout_description"]) == 0
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+@pytest.mark.parametrize(("typed", "mass"), [("y\n", "8"), ("n\n", "5"), ("\n", "5"), ("", "5")])
+def test_asked_on_a_terminal(scout, monkeypatch, typed, mass):
+    monkeypatch.setattr("sys.stdin", Terminal(typed))
+    monkeypatch.setattr("sys.stderr", Terminal())
+    assert main(["new", "robot", "--update", "--mass", "8"]) == (0 if mass == "8" else 1)
+    assert f'name="base_mass" value="{mass}"' in (scout / "scout_description/urdf/scout.urdf.xacro").read_text()
 
 
 def test_colours(scout, capsys):
