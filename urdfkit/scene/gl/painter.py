@@ -139,9 +139,8 @@ class GlPainter:
             drawing.draw(shot, deep=True, clear=True)
         found = np.empty((lens.height, lens.width, 2), dtype=np.float32)
         target["deep"].read_into(found, components=2, dtype="f4")
-        seen = found[..., 1] >= FIRST
-        depth = np.where(seen, found[..., 0], np.float32(np.inf))
-        return Picture(rgb, depth, np.where(seen, np.rint(found[..., 1] - FIRST), -1).astype(np.int64))
+        shapes = np.maximum(found[..., 1].astype(np.int64) - int(FIRST), -1)
+        return Picture(rgb, np.where(shapes >= 0, found[..., 0], np.float32(np.inf)), shapes)
 
     def _reach(self, origin: Array) -> tuple[Array, Array]:
         """Return how far the box of each shape is from the camera, at least and at most [m]; shape (shapes,) each."""
