@@ -48,6 +48,7 @@ GROWING = [
     "python.sum([[0] * 9999] * 99, [])",
     "python.type('A', (), {})",
     "xacro.tokenize('x' * 9999, 'a](x+x+)+y[')",
+    "xacro.tokenize('a' + 'x' * 50, 'a](x+x+)+y[b')",
     "-" * 5000 + "1",
     "(" * 3000 + "1" + ")" * 3000,
     "1+" * 4000 + "1",

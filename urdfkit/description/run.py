@@ -21,6 +21,7 @@ from urdfkit.description.too_large import (
     MAX_EXPANDED,
     MAX_INCLUDES,
     MAX_MACRO_CALLS,
+    TooLarge,
     TooMany,
     check_length,
     excess,
@@ -97,6 +98,7 @@ class Run:
         dict.__setitem__(symbols["python"], "vars", self._refuse_vars)
         for level in ("message", "warning", "error"):
             dict.__setitem__(symbols["xacro"], level, self._speaker(level))
+        dict.__setitem__(symbols["xacro"], "tokenize", self._tokenize)
         dict.__setitem__(symbols["xacro"], "print_location", lambda *_, **__: "")
         empty = minidom.Text()
         empty.data = "\n\n"
@@ -365,6 +367,12 @@ class Run:
 
     def _refuse_vars(self, *_: object) -> None:
         raise self.xacro.XacroException("vars() is not available: it looks inside Python's own objects")
+
+    def _tokenize(self, s: str, sep: str = ",; ", skip_empty: bool = True) -> Any:
+        # xacro puts the separators into a regular expression between brackets.
+        if "]" in sep[1:]:
+            raise TooLarge("a `]` among the separators of tokenize() makes any regular expression of them")
+        return self.xacro.tokenize(s, sep, skip_empty)
 
     def _speaker(self, level: str) -> Any:
         def speak(*words: object, **_: object) -> str:

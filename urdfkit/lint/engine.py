@@ -338,24 +338,37 @@ class Checker:
 
 def merged(findings: Iterable[Finding]) -> list[Finding]:
     """Return the findings sorted by place; what was found at one place in several expansions becomes one finding."""
-    groups: dict[tuple[str, Span], list[Finding]] = {}
+    groups: dict[tuple[str, Span], list[_Together]] = {}
     for finding in findings:
         together = groups.setdefault((finding.code, finding.span), [])
-        for index, known in enumerate(together):
-            if known.message == finding.message or (not set(known.chains) & set(finding.chains) and finding.chains):
-                together[index] = _together(known, finding)
-                break
-        else:
-            together.append(finding)
+        if not any(one.takes(finding) for one in together):
+            together.append(_Together(finding))
     return sorted(
-        (finding for group in groups.values() for finding in group), key=lambda f: (f.span, f.code, f.message)
+        (one.finding() for group in groups.values() for one in group), key=lambda f: (f.span, f.code, f.message)
     )
 
 
-def _together(first: Finding, second: Finding) -> Finding:
-    worse = first if SEVERITIES.index(first.severity) <= SEVERITIES.index(second.severity) else second
-    chains = tuple(dict.fromkeys((*first.chains, *second.chains)))
-    return worse if chains == worse.chains else Finding(**{**worse.__dict__, "chains": chains})
+class _Together:
+    """What was found at one place in several expansions: a macro may have thousands."""
+
+    def __init__(self, first: Finding) -> None:
+        self._worst = first
+        self._chains = dict.fromkeys(first.chains)
+
+    def takes(self, finding: Finding) -> bool:
+        """Take a finding that says the same, or the same of another expansion; return whether it is one."""
+        is_another = bool(finding.chains) and self._chains.keys().isdisjoint(finding.chains)
+        if not is_another and self._worst.message != finding.message:
+            return False
+        if SEVERITIES.index(finding.severity) < SEVERITIES.index(self._worst.severity):
+            self._worst = finding
+        self._chains.update(dict.fromkeys(finding.chains))
+        return True
+
+    def finding(self) -> Finding:
+        """Return the worst of them, with the chains of all."""
+        chains = tuple(self._chains)
+        return self._worst if chains == self._worst.chains else Finding(**{**self._worst.__dict__, "chains": chains})
 
 
 def codes() -> tuple[str, ...]:
