@@ -122,6 +122,20 @@ def test_step_and_speed(page, keep, until) -> None:
     until(lambda: 0.8 < float(page.locator("#rtf").inner_text().lstrip("×")) < 1.2)
 
 
+def test_nothing_is_drawn_while_nothing_moves(page, until) -> None:
+    frames = "Number(document.body.dataset.frames)"
+    start = page.evaluate(frames)
+    until(lambda: page.evaluate(frames) > start + 20)  # after the reset it has come to rest
+    drawn(page)
+    page.evaluate("window.pictures = 0; urdfkit.page.on('drawn', () => (window.pictures += 1))")
+    start = page.evaluate(frames)
+    until(lambda: page.evaluate(frames) > start + 60)
+    assert page.evaluate("window.pictures") <= 3
+    page.keyboard.down("w")
+    until(lambda: page.evaluate("window.pictures") > 5)
+    page.keyboard.up("w")
+
+
 def test_sliders_that_stay_and_stop(page, keep, until) -> None:
     page.locator("#open-drive").click()
     page.get_by_text("Sliders that stay").click()
