@@ -10,7 +10,8 @@ from urdfkit.description import load
 from urdfkit.lint import lint
 from urdfkit.messages import TRAJECTORY, from_fields
 from urdfkit.resources import robots_dir
-from urdfkit.scaffold.joint_roles import roles
+from urdfkit.scaffold.control import controllers
+from urdfkit.scaffold.joint_roles import Roles, roles
 from urdfkit.sim import Simulator
 
 INERTIAL = '<inertial><mass value="{0}"/><inertia ixx="{1}" ixy="0" ixz="0" iyy="{1}" iyz="0" izz="{1}"/></inertial>'
@@ -186,6 +187,22 @@ def test_sizes_are_the_models(place):
     )
     assert (found.wheels.separation, found.wheels.radius) == (0.32, 0.08)
     assert "`caster_joint` turns freely, as a caster" in found.notes
+
+
+def test_chains_are_called_by_what_their_joints_have_in_common():
+    chains = (
+        ("front_left_hip", "front_left_knee"),
+        ("shoulder_joint", "elbow_joint"),
+        ("joint_1", "joint_2"),
+        ("pan",),
+    )
+    made = controllers(Roles(None, chains, (), ()))
+    assert [each.name for each in made] == [
+        "front_left_controller",
+        "arm_controller",
+        "arm_2_controller",
+        "pan_controller",
+    ]
 
 
 def test_diff_changes_nothing(place, capsys):

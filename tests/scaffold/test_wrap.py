@@ -191,6 +191,18 @@ def test_nothing_is_overwritten(export, capsys):
     assert not (export.parent / "my_arm_description").exists()
 
 
+@pytest.mark.parametrize("ros", ["jazzy", "noetic"])
+def test_what_was_wrapped_can_be_added_to(export, ros):
+    assert main(["import", "export/urdf/arm.urdf", "--ros", ros]) == 0
+    assert main(["new", "controllers", "--into", "my_arm_description"]) == 0
+    assert main(["new", "sensor", "camera", "--into", "my_arm_description", "--parent", "link1"]) == 0
+    here = export.parent
+    robot = load(here / "my_arm_description/urdf/my_arm.urdf.xacro", package_path=[here])
+    names = {status.name for status in Simulator(robot, note=lambda _: None).controllers.list()}
+    assert any(name.endswith("controller") for name in names)
+    assert "camera_optical_frame" in robot.link_by_name
+
+
 @pytest.mark.ros
 def test_the_packages_build(export, debian):
     assert main(["import", "export/urdf/arm.urdf", "--ros", "noetic", "--into", "src"]) == 0

@@ -57,9 +57,10 @@ def run(arguments: argparse.Namespace) -> int:
     made = controllers(found)
     if not made:
         raise ResourceError(f"robot `{robot.name}` has no joint left that a controller could move; nothing was changed")
-    name = sanitised(robot.name or model.path.stem)
-    package = check_package_name(arguments.name or f"{name}_control")
     own = package_of(model.path)
+    named = own.name if own is not None and own.name.endswith("_description") else robot.name or model.path.stem
+    name = sanitised(named.removesuffix("_description"))
+    package = check_package_name(arguments.name or f"{name}_control")
     folder = (own or model.path.parent).parent
     if (folder / package).exists():
         raise ResourceError(f"{folder / package} is already there; nothing is overwritten")
@@ -103,7 +104,7 @@ def _altered(
     from urdfkit.scaffold.alteration import Alteration
     from urdfkit.scaffold.control import markup
     from urdfkit.scaffold.insertion import insert_before_end, xacro_prefix
-    from urdfkit.scaffold.manifest import package_of, with_dependency, with_installed
+    from urdfkit.scaffold.manifest import package_of, with_installed
 
     before = path.read_bytes()
     text = markup(robot, made, name=name, generation=generation, package=package)
@@ -113,7 +114,8 @@ def _altered(
             raise ResourceError(
                 f"{path} is no xacro, so that it cannot find its controllers: call it {path.stem}.urdf.xacro first"
             )
-        return [Alteration(path, before, insert_before_end(before, text, path=path))]
+        changes = [Alteration(path, before, insert_before_end(before, text, path=path))]
+        return [*_told(path, package, generation), *changes]
     home = path.parent / "control.xacro"
     if home.exists():
         raise ResourceError(f"{home} is already there; nothing is overwritten")
@@ -125,7 +127,16 @@ def _altered(
     )
     after = insert_before_end(before, f'<{prefix}:include filename="control.xacro"/>', path=path)
     changes = [Alteration(home, None, whole.encode()), Alteration(path, before, after)]
-    if (own := package_of(path)) is not None:
-        needed = with_dependency(own, package, alone=True) if generation != "classic" else None
-        changes = [each for each in (needed, with_installed(own, path, home)) if each is not None] + changes
-    return changes
+    installed = with_installed(own, path, home) if (own := package_of(path)) is not None else None
+    return [*_told(path, package, generation), *([installed] if installed is not None else []), *changes]
+
+
+def _told(path: Path, package: str, generation: str) -> list[Alteration]:
+    """Return the change to package.xml of a description that says where its controllers are."""
+    from urdfkit.scaffold.manifest import package_of, with_dependency
+
+    own = package_of(path)
+    if own is None or generation == "classic":
+        return []
+    needed = with_dependency(own, package, alone=True)
+    return [needed] if needed is not None else []

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import count, takewhile
 
 from urdfkit.description.robot import Joint, Robot
 from urdfkit.scaffold.joint_roles import Roles, Wheels
+from urdfkit.scaffold.names import sanitised
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,11 +77,23 @@ def controllers(found: Roles) -> list[Controller]:
     made = []
     if found.wheels is not None:
         made.append(Controller("base_controller", "diff_drive", found.wheels.left + found.wheels.right, found.wheels))
-    for number, joints in enumerate(found.arms, 1):
-        made.append(Controller("arm_controller" if number == 1 else f"arm_{number}_controller", "trajectory", joints))
+    taken = {"gripper_controller", "base_controller"}
+    for joints in found.arms:
+        name = _name(joints)
+        number = next(n for n in count(1) if (name if n == 1 else f"{name}_{n}") + "_controller" not in taken)
+        taken.add(full := (name if number == 1 else f"{name}_{number}") + "_controller")
+        made.append(Controller(full, "trajectory", joints))
     if found.fingers:
         made.append(Controller("gripper_controller", "trajectory", found.fingers))
     return made
+
+
+def _name(joints: tuple[str, ...]) -> str:
+    """Return what the joints of a chain have in common at the beginning of their names; ``arm`` for nothing."""
+    words = [joint.removesuffix("_joint").split("_") for joint in joints]
+    common = [each[0] for each in takewhile(lambda each: len(set(each)) == 1, zip(*words, strict=False))]
+    name = sanitised("_".join(common)) if common else "arm"
+    return "arm" if name in ("joint", "link", "robot") else name
 
 
 def markup(robot: Robot, made: list[Controller], *, name: str, generation: str, package: str) -> str:
