@@ -10,6 +10,7 @@ from typing import ClassVar
 import pytest
 import yaml
 
+from urdfkit.cli import main
 from urdfkit.description import load
 from urdfkit.description.world import load_world
 from urdfkit.resources import robots_dir
@@ -105,6 +106,16 @@ def test_ros2_launch_files(robots, launch_modules, robot):
 )
 def test_ros2_launch_files_of_the_robots_we_ship(launch_modules, path):
     launched(robots_dir() / path.parts[0], "/".join(path.parts[1:]), launch_modules)
+
+
+@pytest.mark.parametrize("ros", ["humble", "jazzy"])
+def test_ros2_launch_files_of_single_packages(tmp_path, launch_modules, ros):
+    for kind in ("description", "gazebo", "control", "bringup"):
+        words = ["new", "package", f"scout_{kind}", "--kind", kind, "--ros", ros, "--into", str(tmp_path), "--yes"]
+        assert main(words) == 0
+    for path in launch_files(tmp_path, "*.launch.py"):
+        Recorder.made.clear()
+        launched(tmp_path, path, launch_modules)
 
 
 def launched(folder, path, launch_modules):
