@@ -65,7 +65,9 @@ def run(arguments: argparse.Namespace) -> int:
         return int(import_module(f"urdfkit.cli.new_{arguments.thing}").run(arguments))
     if arguments.thing is None:
         if not arguments.update:
-            raise UsageError(f"new: the following arguments are required: KIND ({', '.join([*template_names(), *ADDED])})")
+            raise UsageError(
+                f"new: the following arguments are required: KIND ({', '.join([*template_names(), *ADDED])})"
+            )
         return updating.run(None, {}, Path(arguments.above_into), arguments, own=arguments.above_template)
     template = chosen(arguments.thing, arguments.template)
     for option in template.asks_later:
