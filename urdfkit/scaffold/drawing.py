@@ -38,6 +38,9 @@ def drawing_of(robot: Robot) -> bytes | None:
     return _png(_Plate(solids).pixels()) if solids else None
 
 
+_Span = tuple[float, float, int]
+
+
 class _Plate:
     """The plane that is looked through: what each place of it sees."""
 
@@ -73,7 +76,7 @@ class _Plate:
 
     def pixels(self) -> list[list[Vector]]:
         """Return the colours, row by row, 0..1."""
-        found = [[self._colour(u, v) for u in range(WIDTH)] for v in range(HEIGHT)]
+        found = [self._row(v) for v in range(HEIGHT)]
         edges = [
             (u, v)
             for v in range(HEIGHT - 1)
@@ -82,26 +85,34 @@ class _Plate:
         ]
         near = {(u + du, v + dv) for u, v in edges for du, dv in ((0, 0), (1, 0), (0, 1))}
         for u, v in sorted(near):
-            parts = [self._colour(u + du, v + dv) for du, dv in _WITHIN]
+            parts = [self._colour(u + du, v + dv, *self._across(v + dv)) for du, dv in _WITHIN]
             found[v][u] = _scaled(_sum(_sum(parts[0], parts[1]), _sum(parts[2], parts[3])), 0.25)
         return found
 
-    def _colour(self, u: float, v: float) -> Vector:
+    def _row(self, v: int) -> list[Vector]:
+        seen, lit = self._across(v)
+        return [self._colour(u, v, seen, lit) for u in range(WIDTH)] if seen or lit else [_GROUND] * WIDTH
+
+    def _across(self, v: float) -> tuple[list[_Span], list[_Span]]:
+        """Return which solids, and which shadows, there may be in a row: from where to where, and its number."""
+        seen, lit = (
+            [(low_u, high_u, k) for k, (low_u, low_v, high_u, high_v) in enumerate(boxes) if low_v <= v <= high_v]
+            for boxes in (self._boxes, self._shadows)
+        )
+        return seen, lit
+
+    def _colour(self, u: float, v: float, seen: list[_Span], lit: list[_Span]) -> Vector:
         nearest, found = float("inf"), None
-        for k, (low_u, low_v, high_u, high_v) in enumerate(self._boxes):
-            if low_u <= u <= high_u and low_v <= v <= high_v:
-                met = self._seen[k].meet(u, v)
-                if met is not None and met[0] < nearest:
-                    nearest, found = met[0], (self._solids[k], met[1])
+        for low, high, k in seen:
+            if low <= u <= high and (met := self._seen[k].meet(u, v)) is not None and met[0] < nearest:
+                nearest, found = met[0], (self._solids[k], met[1])
         if found is not None:
             solid, normal = found
             shine = max(0.0, _dot(rotate(solid.turn, normal), self._light))
             return _scaled(solid.rgb, min(1.0, _AMBIENT + (1.1 - _AMBIENT) * shine))
-        for k, (low_u, low_v, high_u, high_v) in enumerate(self._shadows):
-            if low_u <= u <= high_u and low_v <= v <= high_v:
-                met = self._lit[k].meet(u, v)
-                if met is not None and met[0] > -1e-9:
-                    return _SHADOW
+        for low, high, k in lit:
+            if low <= u <= high and (met := self._lit[k].meet(u, v)) is not None and met[0] > -1e-9:
+                return _SHADOW
         return _GROUND
 
 
