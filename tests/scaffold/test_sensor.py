@@ -45,7 +45,11 @@ def everything(folder):
 
 
 def robot(place, ros):
-    assert main(["new", "robot", "scout", "--ros", ros, "--yes"]) == 0
+    """Copy a new robot, made once for all tests."""
+    made = place.parent / f"robot_of_{ros}"
+    if not made.is_dir():
+        assert main(["new", "robot", "scout", "--ros", ros, "--into", str(made), "--no-picture", "--yes"]) == 0
+    shutil.copytree(made, place, dirs_exist_ok=True)
     return place / "scout_description"
 
 
@@ -252,6 +256,11 @@ def test_what_cannot_be_is_refused_and_nothing_changed(place, capsys, options, s
     assert says in said
     assert said.count("\n") == 1
     assert everything(place) == before
+
+
+def test_where_there_is_no_robot_it_says_which_option(place, capsys):
+    assert main(["new", "sensor", "lidar"]) == 2
+    assert capsys.readouterr().err.startswith("urdfkit: no --into given and no robot description")
 
 
 def test_the_same_name_twice_is_refused(place, capsys):

@@ -183,6 +183,24 @@ def test_what_cannot_be_is_refused_and_nothing_written(place, capsys, options, s
     assert list(place.iterdir()) == []
 
 
+@pytest.mark.parametrize(
+    ("sim", "file", "plugin"),
+    [("gz", "lab.sdf", "gz-sim-physics-system"), ("fortress", "lab.sdf", "ignition-gazebo-physics-system")],
+)
+def test_each_gazebo_has_its_plugins(place, sim, file, plugin):
+    assert new("lab", "--sim", sim) == 0
+    text = (place / file).read_text()
+    assert f'filename="{plugin}"' in text
+    assert "@" not in text
+
+
+def test_gazebo_classic_has_its_own(place):
+    assert new("lab", "--sim", "classic") == 0
+    text = (place / "lab.world").read_text()
+    assert "<plugin" not in text
+    assert "model://ground_plane" in text
+
+
 def test_nothing_is_overwritten(place, capsys):
     (place / "lab.sdf").write_text("mine")
     assert "lab.sdf is already there" in refusal(capsys)

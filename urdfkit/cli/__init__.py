@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from types import ModuleType
 
 COMMANDS = {
-    "new": "write description, Gazebo, control and bringup packages",
+    "new": "write robots, worlds and packages; add sensors, arms and controllers",
     "import": "wrap a bare URDF, as of a CAD program, into packages",
     "lint": "find and mend the defects of a URDF or xacro",
     "rule": "print the page of a lint rule, or the catalogue",

@@ -52,7 +52,10 @@ def description(arguments: argparse.Namespace) -> tuple[ModelArgument, Robot, st
     if into is not None and not Path(into).expanduser().exists():
         near = did_you_mean(into, [path.name for path in Path.cwd().iterdir()])
         raise ResourceError(f"--into {into}: no such file or folder{near}")
-    model = find_model([*([into] if into is not None else []), *arguments.arg], package_path=arguments.package_path)
+    try:
+        model = find_model([*([into] if into is not None else []), *arguments.arg], package_path=arguments.package_path)
+    except ResourceError as error:
+        raise ResourceError(str(error).replace("no MODEL given", "no --into given")) from error
     robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
     return model, robot, _generation(model.path, robot, arguments.sim)
 
