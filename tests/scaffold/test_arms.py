@@ -2,13 +2,18 @@
 
 import itertools
 import math
+import tempfile
+from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, reject, settings
+from hypothesis import strategies as st
 
 from urdfkit.description import load
 from urdfkit.errors import UsageError
 from urdfkit.kinematics import Kinematics
+from urdfkit.lint import lint
 from urdfkit.resources import find_model
 from urdfkit.scaffold import create
 from urdfkit.sim import Simulator
@@ -96,6 +101,34 @@ def test_stretched_out_to_any_side_it_tips_nothing_over(made, tell, drive):
         simulator.run(2.5)
         tilt = max(tilt, math.hypot(*simulator.link_poses()[0, 3:5]))
     assert tilt < 2e-3
+
+
+@settings(max_examples=6, deadline=None, suppress_health_check=list(HealthCheck))
+@given(
+    drive=st.sampled_from(["diff", "skid", "ackermann", "omni"]),
+    arm=st.sampled_from(["3", "4", "5", "6", "7"]),
+    size=st.tuples(st.floats(0.25, 1.2), st.floats(0.2, 0.8), st.floats(0.05, 0.3), st.floats(0.04, 0.15)),
+    mass=st.floats(2, 60),
+    share=st.floats(0.5, 1.5),
+)
+def test_every_size_that_is_accepted_stands_stretched_out(robot_template, tell, drive, arm, size, mass, share):
+    names = ("base_length", "base_width", "base_height", "wheel_radius")
+    answers = dict(zip(names, map("{:.3f}".format, size), strict=True)) | {"mass": f"{mass:.2f}", "drive": drive}
+    answers |= {"name": "scout", "arm": arm, "arm_reach": f"{share * size[0]:.3f}"}
+    try:
+        answers = robot_template.answers(answers)
+    except UsageError:
+        reject()
+    with tempfile.TemporaryDirectory() as folder:
+        create(robot_template, answers | {"year": "2026", "into": "."}, Path(folder))
+        assert [str(finding) for finding in lint([folder], package_path=[folder])] == []
+        simulator = simulated(load(find_model([f"{folder}/scout_description"]).path))
+    for pan in (0.0, 1.6, 2.8):
+        joints = {"shoulder_pan_joint": pan, "shoulder_lift_joint": 1.57, "elbow_joint": 0.0}
+        tell(simulator, "jazzy", joints | ({} if arm == "3" else {"wrist_pitch_joint": 0.0}), 2)
+        simulator.run(2.5)
+        assert math.hypot(*simulator.link_poses()[0, 3:5]) < 2e-3
+        assert simulator.state.position("shoulder_lift_joint") == pytest.approx(1.57, abs=1e-2)
 
 
 @pytest.mark.parametrize(
