@@ -121,20 +121,21 @@ def _remember_pairs(a: Arrays, b: Arrays, shapes: dict[int, int]) -> None:
     """Carry over the impulses of contacts of pairs, those of sleepers too, in the order of their pairs."""
     room = len(b["contact_gap"])
     known = [
-        (shapes[one], shapes[other], feature, impulse)
-        for one, other, feature, impulse in (*_last_pairs(a), *_sleeping_pairs(a))
+        (shapes[one], shapes[other], feature, impulse, point)
+        for one, other, feature, impulse, point in (*_last_pairs(a), *_sleeping_pairs(a))
         if one in shapes and other in shapes and feature >= 0
     ]
     known = sorted(known, key=lambda each: each[:2])[:room]  # stable: features keep their order
     first = len(b["memory"]) - 3 * room
-    for k, (one, other, feature, impulse) in enumerate(known):
+    for k, (one, other, feature, impulse, point) in enumerate(known):
         b["last_a"][k], b["last_b"][k], b["last_feature"][k], b["last_at"][k] = one, other, feature, k
         b["memory"][first + 3 * k : first + 3 * k + 3] = impulse
+        b["last_point"][k] = point
     b["counts"][LAST_PAIRS] = len(known)
 
 
-Pair = tuple[int, int, int, Array]
-"""Two shapes, the feature at which they touch, and the impulse, normal first."""
+Pair = tuple[int, int, int, Array, Array]
+"""Two shapes, the feature at which they touch, the impulse, normal first, and where."""
 
 
 def _last_pairs(arrays: Arrays) -> Iterator[Pair]:
@@ -142,7 +143,7 @@ def _last_pairs(arrays: Arrays) -> Iterator[Pair]:
     for k in range(int(arrays["counts"][LAST_PAIRS])):
         at = first + 3 * int(arrays["last_at"][k])
         one, other, feature = (int(arrays[name][k]) for name in ("last_a", "last_b", "last_feature"))
-        yield one, other, feature, arrays["memory"][at : at + 3]
+        yield one, other, feature, arrays["memory"][at : at + 3], arrays["last_point"][k]
 
 
 def _sleeping_pairs(arrays: Arrays) -> Iterator[Pair]:
@@ -151,4 +152,4 @@ def _sleeping_pairs(arrays: Arrays) -> Iterator[Pair]:
     for k in range(room - 1, room - 1 - int(arrays["counts"][SLEEPING]), -1):
         one, other, feature = (int(arrays[name][k]) for name in ("contact_shape", "contact_against", "contact_feature"))
         if other >= 0:
-            yield one, other, feature, arrays["contact_impulse"][k][[2, 0, 1]]
+            yield one, other, feature, arrays["contact_impulse"][k][[2, 0, 1]], arrays["contact_point"][k]

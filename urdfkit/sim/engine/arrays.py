@@ -96,6 +96,7 @@ FLOATS: dict[str, Size] = {
     "contact_mu": ("c",),
     "contact_impulse": ("c", "3"),
     "pair_before": ("c", "3"),
+    "last_point": ("c", "3"),
     "shape_middle": ("k", "3"),
     "shape_half": ("k", "3"),
     "shape_at": ("k", "3"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from urdfkit.sim.engine.arrays import At
@@ -24,6 +25,9 @@ from urdfkit.sim.engine.spatial import (
     store_vector,
     sub,
 )
+
+UNKNOWN = -1.0
+"""Stands for an impulse that has not been found; no contact pulls."""
 
 
 @inlined
@@ -146,33 +150,65 @@ def collide_pairs(floats: Any, integers: Any, count: int, room: int, pairs: int,
 
 
 @inlined
+def take(floats: Any, integers: Any, k: int, j: int, first_slot: int) -> None:
+    """Give a contact what the j-th of the last step's exerted, and nobody else."""
+    memory = field(floats, integers, At.last)
+    slot = first_slot + 3 * field(integers, integers, At.last_at)[j]
+    store_vector(field(floats, integers, At.pair_before), k, (memory[slot], memory[slot + 1], memory[slot + 2]))
+    field(integers, integers, At.last_feature)[j] = -1
+
+
+@inlined
 def find_again(floats: Any, integers: Any, first: int, count: int, last: int, first_slot: int) -> int:
     """Move what is remembered of the contacts of pairs to where their like is now; return how many to remember.
 
-    Both lists are in the order of their pairs, so one walk through them does.
+    Both lists are in the order of their pairs, so one walk through them does. What touches in another way than before,
+    as a corner on a face that was on its edge, gets the impulse of the nearest of its pair that nobody else has.
     """
     memory = field(floats, integers, At.last)
     last_a = field(integers, integers, At.last_a)
     last_b = field(integers, integers, At.last_b)
     last_feature = field(integers, integers, At.last_feature)
     last_at = field(integers, integers, At.last_at)
+    last_point = field(floats, integers, At.last_point)
     contact_shape = field(integers, integers, At.contact_shape)
     contact_against = field(integers, integers, At.contact_against)
     contact_feature = field(integers, integers, At.contact_feature)
+    contact_point = field(floats, integers, At.contact_point)
     pair_before = field(floats, integers, At.pair_before)
-    at = 0
-    for k in range(first, count):
+    at, k = 0, first
+    while k < count:
         a, b = contact_shape[k], contact_against[k]
         while at < last and (last_a[at] < a or (last_a[at] == a and last_b[at] < b)):
             at += 1
-        store_vector(pair_before, k, ZERO)
-        j = at
-        while j < last and last_a[j] == a and last_b[j] == b:
-            if last_feature[j] == contact_feature[k]:
-                slot = first_slot + 3 * last_at[j]
-                store_vector(pair_before, k, (memory[slot], memory[slot + 1], memory[slot + 2]))
-                break
-            j += 1
+        left, end = 0, at
+        while end < last and last_a[end] == a and last_b[end] == b:
+            left += last_feature[end] >= 0
+            end += 1
+        start, unknown = k, 0
+        while k < count and contact_shape[k] == a and contact_against[k] == b:
+            store_vector(pair_before, k, (UNKNOWN, 0.0, 0.0))
+            unknown += 1
+            for j in range(at, end):
+                if last_feature[j] == contact_feature[k]:
+                    take(floats, integers, k, j, first_slot)
+                    left, unknown = left - 1, unknown - 1
+                    break
+            k += 1
+        for new in range(start, k):
+            if unknown == 0 or pair_before[3 * new] != UNKNOWN:
+                continue
+            nearest, way = -1, math.inf
+            for j in range(at, end):
+                if left > 0 and last_feature[j] >= 0:
+                    apart = sub(load_vector(contact_point, new), load_vector(last_point, j))
+                    if dot(apart, apart) < way:
+                        nearest, way = j, dot(apart, apart)
+            if nearest >= 0:
+                take(floats, integers, new, nearest, first_slot)
+                left -= 1
+            else:
+                store_vector(pair_before, new, ZERO)
     for j in range(last):
         slot = first_slot + 3 * last_at[j]
         memory[slot] = memory[slot + 1] = memory[slot + 2] = 0.0
@@ -180,6 +216,7 @@ def find_again(floats: Any, integers: Any, first: int, count: int, last: int, fi
         j = k - first
         last_a[j], last_b[j], last_feature[j] = contact_shape[k], contact_against[k], contact_feature[k]
         last_at[j] = k
+        store_vector(last_point, j, load_vector(contact_point, k))
         slot = first_slot + 3 * k
         memory[slot], memory[slot + 1], memory[slot + 2] = load_vector(pair_before, k)
     return count - first

@@ -26,8 +26,10 @@ from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, limited, overloaded, smooth
 from urdfkit.sim.engine.solve import solve
 from urdfkit.sim.engine.world.hold import hold
 from urdfkit.sim.engine.world.islands import contacts_of
+from urdfkit.sim.engine.world.sweeps import sweep
 from urdfkit.sim.engine.world.trees import evaluate
 
+FORCE = 100
 FEW = 8
 """Rows more than dofs up to which the matrix of the rows is the faster one for a single tree."""
 
@@ -100,12 +102,15 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             before[k] = last[slot[k]]
         held = False
         if rows > 0 and (single < 0 or rows > island_dofs + FEW):
-            guesses = hold(floats, integers, root, rows)
+            guesses = 0 if single < 0 and rows > FORCE else hold(floats, integers, root, rows)
             held = guesses != 0
             if held:
                 counts[GUESSES] = guesses
                 counts[ITERATED] += guesses <= 0
-        if rows > 0 and not held:
+        if rows > 0 and not held and single < 0:
+            counts[GUESSES] = -sweep(floats, integers, root, rows)
+            counts[ITERATED] += 1
+        elif rows > 0 and not held:
             whiten(floats, integers, rows, single, width, False)
             guesses = solve(floats, integers, rows)
             push(floats, integers, rows, single, width, False)

@@ -174,14 +174,18 @@ def insert_pair(floats: Any, integers: Any, k: int) -> None:
     contact_against = field(integers, integers, At.contact_against)
     contact_feature = field(integers, integers, At.contact_feature)
     contact_impulse = field(floats, integers, At.contact_impulse)
+    contact_point = field(floats, integers, At.contact_point)
+    last_point = field(floats, integers, At.last_point)
     counts = field(integers, integers, At.counts)
     a, b = contact_shape[k], contact_against[k]
     j = counts[LAST_PAIRS]
     while j > 0 and (last_a[j - 1] > a or (last_a[j - 1] == a and last_b[j - 1] > b)):
         last_a[j], last_b[j] = last_a[j - 1], last_b[j - 1]
         last_feature[j], last_at[j] = last_feature[j - 1], last_at[j - 1]
+        store_vector(last_point, j, load_vector(last_point, j - 1))
         j -= 1
     last_a[j], last_b[j], last_feature[j], last_at[j] = a, b, contact_feature[k], k
+    store_vector(last_point, j, load_vector(contact_point, k))
     counts[LAST_PAIRS] += 1
     slot = integers[SLOTS] - 3 * integers[CONTACTS] + 3 * k
     last[slot] = contact_impulse[3 * k + 2]
