@@ -21,12 +21,14 @@ from urdfkit.sim.engine.dynamics import solve_forward
 from urdfkit.sim.engine.world.blocks import arrange
 from urdfkit.sim.engine.world.products import row_speed
 from urdfkit.sim.engine.world.revise import first_hold
-from urdfkit.sim.engine.world.rounds import go_round
+from urdfkit.sim.engine.world.rounds import HEAP, go_round
 from urdfkit.sim.engine.world.slip import STIFFNESS, feel
-from urdfkit.sim.engine.world.states import try_states
+from urdfkit.sim.engine.world.states import REVISIONS, try_states
 
 WILD = 30.0
 """Ratio of impulses that mean nothing to the largest of the last step, or that stops what moves."""
+HEAP_REVISIONS = 3
+"""Most sets of rows that are tried in a heap."""
 LEAST = 2e-5
 """Velocity [m/s or rad/s] up to which penetrations and gaps are left where nothing else will do: 20 nm in 1 ms."""
 
@@ -73,7 +75,8 @@ def hold(floats: Any, integers: Any, root: int, rows: int) -> int:
     velocity; if not, all but working memory is as it was.
 
     Returns:
-        How many sets of rows were tried, or negative how many rounds it took; 0 where it did not succeed.
+        How many sets of rows were tried, or negative how many rounds it took; 0 where it did not succeed: in heaps,
+        which have no rounds.
     """
     tree_dof = field(integers, integers, At.tree_dof)
     tree_block = field(integers, integers, At.tree_block)
@@ -112,14 +115,15 @@ def hold(floats: Any, integers: Any, root: int, rows: int) -> int:
     for k in range(rows):
         most = max(most, max(abs(before[k]), abs(g[k]) * stiffness[k] / STIFFNESS))
     most *= WILD
-    done = try_states(floats, integers, root, rows, n, tiny, most)
+    heap = rows > HEAP and island_next[root] >= 0
+    done = try_states(floats, integers, root, rows, n, tiny, most, HEAP_REVISIONS if heap else REVISIONS)
     # Between trees, biases are more than penetrations: see `exchange`.
     if done == 0 and island_next[root] < 0 and leave(floats, integers, rows):
         first_hold(floats, integers, rows)
-        again = try_states(floats, integers, root, rows, n, tiny, most)
+        again = try_states(floats, integers, root, rows, n, tiny, most, REVISIONS)
         done = 1 + again if again > 0 else 0
         take_up(floats, integers, rows)
-    if done == 0:
+    if done == 0 and not heap:
         # At the velocities of the last step, that is, at rest where it was.
         tree = root
         while tree >= 0:

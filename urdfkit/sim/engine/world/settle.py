@@ -17,7 +17,7 @@ from urdfkit.sim.engine.arrays import (
     WIDTH,
     At,
 )
-from urdfkit.sim.engine.compilation import compiled, field
+from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.dynamics import solve_forward
 from urdfkit.sim.engine.flight import flies, fly
 from urdfkit.sim.engine.limits import passes_limits, whirls
@@ -26,12 +26,42 @@ from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, limited, overloaded, smooth
 from urdfkit.sim.engine.solve import solve
 from urdfkit.sim.engine.world.hold import hold
 from urdfkit.sim.engine.world.islands import contacts_of
+from urdfkit.sim.engine.world.rounds import HEAP
 from urdfkit.sim.engine.world.sweeps import sweep
 from urdfkit.sim.engine.world.trees import evaluate
 
-FORCE = 100
+MESSY = 50
+"""Steps of an island that was not solved exactly before that is tried again."""
 FEW = 8
 """Rows more than dofs up to which the matrix of the rows is the faster one for a single tree."""
+
+
+@inlined
+def messy(floats: Any, integers: Any, root: int) -> bool:
+    """Return whether a tree of an island was lately in one that could not be solved exactly."""
+    swept = field(integers, integers, At.swept)
+    island_next = field(integers, integers, At.island_next)
+    most, tree = 0, root
+    while tree >= 0:
+        most = max(most, swept[tree])
+        tree = island_next[tree]
+    # All wait together.
+    tree = root
+    while tree >= 0:
+        swept[tree] = most - 1 if most > 0 else 0
+        tree = island_next[tree]
+    return most > 0
+
+
+@inlined
+def note_mess(floats: Any, integers: Any, root: int) -> None:
+    """Note that an island could not be solved exactly."""
+    swept = field(integers, integers, At.swept)
+    island_next = field(integers, integers, At.island_next)
+    tree = root
+    while tree >= 0:
+        swept[tree] = MESSY
+        tree = island_next[tree]
 
 
 @compiled
@@ -102,7 +132,12 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             before[k] = last[slot[k]]
         held = False
         if rows > 0 and (single < 0 or rows > island_dofs + FEW):
-            guesses = 0 if single < 0 and rows > FORCE else hold(floats, integers, root, rows)
+            heap = single < 0 and rows > HEAP
+            guesses = 0
+            if not (heap and messy(floats, integers, root)):
+                guesses = hold(floats, integers, root, rows)
+                if heap and guesses == 0:
+                    note_mess(floats, integers, root)
             held = guesses != 0
             if held:
                 counts[GUESSES] = guesses

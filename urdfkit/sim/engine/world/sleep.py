@@ -1,6 +1,8 @@
 """Sleep: trees at rest are left as they are, with the forces they rest on, until something happens to them.
 
-An island falls asleep once all its trees have been slower than `QUIET` for `PATIENCE`, with nothing asked of them. It
+An island falls asleep once all its trees have stayed where they are for `PATIENCE`, with nothing asked of them: none
+has gone farther than it would at a speed of `QUIET`, or was ever faster than `LOUD`. What lies in a heap trembles a
+little where contacts come and go, and yet is at rest. It
 wakes as a whole when what is awake comes within reach of a contact, or when what is asked of one of its trees, its
 place, its velocity or gravity is not what it was. The contacts of sleepers are kept from the end of their room on, so
 that they can be told and found again.
@@ -18,7 +20,9 @@ from urdfkit.sim.engine.world.near import bound
 from urdfkit.sim.engine.world.trees import begin
 
 QUIET = 1e-4
-"""Speed [m/s, rad/s] below which a dof counts as at rest: MuJoCo's ``sleep_tolerance``."""
+"""Speed [m/s, rad/s] below which, on the whole, a dof counts as at rest: MuJoCo's ``sleep_tolerance``."""
+LOUD = 1e-2
+"""Speed [m/s, rad/s] of a dof that is not at rest, however short: ODE's thresholds for bodies to be disabled."""
 PATIENCE = 0.5
 """How long an island is at rest before it sleeps [s]."""
 ASKED = 8
@@ -85,7 +89,10 @@ def asked_of(floats: Any, integers: Any, d: int, k: int) -> float:
 
 @inlined
 def is_quiet(floats: Any, integers: Any, tree: int) -> bool:
-    """Return whether a tree may sleep, hardly moves, and nothing is asked of it that could move it."""
+    """Return whether a tree may sleep, hardly moves, and nothing is asked of it that could move it.
+
+    How far each dof has gone since the tree began to be at rest is kept in ``strayed``.
+    """
     if field(integers, integers, At.sleeps)[tree] == 0:
         return False
     v = field(floats, integers, At.v)
@@ -94,8 +101,15 @@ def is_quiet(floats: Any, integers: Any, tree: int) -> bool:
     kp = field(floats, integers, At.kp)
     kd = field(floats, integers, At.kd)
     tree_dof = field(integers, integers, At.tree_dof)
+    strayed = field(floats, integers, At.strayed)
+    dt = field(floats, integers, At.numbers)[DT]
+    still = field(floats, integers, At.still)[tree]
     for d in range(tree_dof[tree], tree_dof[tree + 1]):
-        if not abs(v[d]) < QUIET or applied[d] != 0.0 or motor_velocity[d] != 0.0 or kp[d] != 0.0 or kd[d] != 0.0:
+        strayed[d] = (strayed[d] if still > 0.0 else 0.0) + dt * v[d]
+    for d in range(tree_dof[tree], tree_dof[tree + 1]):
+        if not abs(v[d]) < LOUD or not abs(strayed[d]) < QUIET * max(PATIENCE, still):
+            return False
+        if applied[d] != 0.0 or motor_velocity[d] != 0.0 or kp[d] != 0.0 or kd[d] != 0.0:
             return False
     return True
 
