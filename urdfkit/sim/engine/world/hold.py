@@ -23,12 +23,10 @@ from urdfkit.sim.engine.world.products import row_speed
 from urdfkit.sim.engine.world.revise import first_hold
 from urdfkit.sim.engine.world.rounds import HEAP, go_round
 from urdfkit.sim.engine.world.slip import STIFFNESS, feel
-from urdfkit.sim.engine.world.states import REVISIONS, try_states
+from urdfkit.sim.engine.world.states import try_states
 
 WILD = 30.0
 """Ratio of impulses that mean nothing to the largest of the last step, or that stops what moves."""
-HEAP_REVISIONS = 3
-"""Most sets of rows that are tried in a heap."""
 LEAST = 2e-5
 """Velocity [m/s or rad/s] up to which penetrations and gaps are left where nothing else will do: 20 nm in 1 ms."""
 
@@ -116,11 +114,11 @@ def hold(floats: Any, integers: Any, root: int, rows: int) -> int:
         most = max(most, max(abs(before[k]), abs(g[k]) * stiffness[k] / STIFFNESS))
     most *= WILD
     heap = rows > HEAP and island_next[root] >= 0
-    done = try_states(floats, integers, root, rows, n, tiny, most, HEAP_REVISIONS if heap else REVISIONS)
+    done = try_states(floats, integers, root, rows, n, tiny, most)
     # Between trees, biases are more than penetrations: see `exchange`.
     if done == 0 and island_next[root] < 0 and leave(floats, integers, rows):
         first_hold(floats, integers, rows)
-        again = try_states(floats, integers, root, rows, n, tiny, most, REVISIONS)
+        again = try_states(floats, integers, root, rows, n, tiny, most)
         done = 1 + again if again > 0 else 0
         take_up(floats, integers, rows)
     if done == 0 and not heap:

@@ -19,7 +19,7 @@ from urdfkit.sim.engine.guess import SLIDES
 from urdfkit.sim.engine.world.cones import descend, leave_wedged, set_out, take_over
 from urdfkit.sim.engine.world.products import row_speed
 from urdfkit.sim.engine.world.slip import feel, slide
-from urdfkit.sim.engine.world.states import REVISIONS, try_states
+from urdfkit.sim.engine.world.states import try_states
 
 HARDNESS = (1e-3, 1e-3, 1e-3, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2)
 """Of each round, the stiffness of its rows over that of rows that hold."""
@@ -70,7 +70,7 @@ def try_from_here(floats: Any, integers: Any, root: int, rows: int, n: int, tiny
             first = row_speed(floats, integers, k + 1, speed) + g[k + 1]
             second = row_speed(floats, integers, k + 2, speed) + g[k + 2]
             slide(floats, integers, k, near[k + 1], near[k + 2], math.sqrt(first * first + second * second), x[k])
-    if try_states(floats, integers, root, rows, n, tiny, most, REVISIONS) > 0:
+    if try_states(floats, integers, root, rows, n, tiny, most) > 0:
         return True
     for d in range(n):
         speed[d] = kept[d]

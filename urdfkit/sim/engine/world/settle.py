@@ -30,7 +30,7 @@ from urdfkit.sim.engine.world.rounds import HEAP
 from urdfkit.sim.engine.world.sweeps import sweep
 from urdfkit.sim.engine.world.trees import evaluate
 
-MESSY = 50
+MESSY = 100
 """Steps of an island that was not solved exactly before that is tried again."""
 FEW = 8
 """Rows more than dofs up to which the matrix of the rows is the faster one for a single tree."""

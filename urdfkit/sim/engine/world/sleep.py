@@ -1,7 +1,7 @@
 """Sleep: trees at rest are left as they are, with the forces they rest on, until something happens to them.
 
 An island falls asleep once all its trees have stayed where they are for `PATIENCE`, with nothing asked of them: none
-has gone farther than it would at a speed of `QUIET`, or was ever faster than `LOUD`. What lies in a heap trembles a
+has gone farther than it would at a speed of `QUIET` (`TURNING`), or was ever faster than `LOUD`. What lies in a heap trembles a
 little where contacts come and go, and yet is at rest. It
 wakes as a whole when what is awake comes within reach of a contact, or when what is asked of one of its trees, its
 place, its velocity or gravity is not what it was. The contacts of sleepers are kept from the end of their room on, so
@@ -21,6 +21,11 @@ from urdfkit.sim.engine.world.trees import begin
 
 QUIET = 1e-4
 """Speed [m/s, rad/s] below which, on the whole, a dof counts as at rest: MuJoCo's ``sleep_tolerance``."""
+TURNING = 5e-3
+"""The same for the turning of a free body, which nothing brakes where it lies on two points [rad/s].
+
+MuJoCo, too, allows what is small to turn faster, ODE 0.01 rad/s.
+"""
 LOUD = 1e-2
 """Speed [m/s, rad/s] of a dof that is not at rest, however short: ODE's thresholds for bodies to be disabled."""
 PATIENCE = 0.5
@@ -104,10 +109,13 @@ def is_quiet(floats: Any, integers: Any, tree: int) -> bool:
     strayed = field(floats, integers, At.strayed)
     dt = field(floats, integers, At.numbers)[DT]
     still = field(floats, integers, At.still)[tree]
-    for d in range(tree_dof[tree], tree_dof[tree + 1]):
+    first, tree_body = tree_dof[tree], field(integers, integers, At.tree_body)
+    free = tree_body[tree + 1] - tree_body[tree] == 1 and field(integers, integers, At.tree_floats)[tree] != 0
+    for d in range(first, tree_dof[tree + 1]):
         strayed[d] = (strayed[d] if still > 0.0 else 0.0) + dt * v[d]
-    for d in range(tree_dof[tree], tree_dof[tree + 1]):
-        if not abs(v[d]) < LOUD or not abs(strayed[d]) < QUIET * max(PATIENCE, still):
+    for d in range(first, tree_dof[tree + 1]):
+        slow = TURNING if free and d >= first + 3 else QUIET
+        if not abs(v[d]) < LOUD or not abs(strayed[d]) < slow * max(PATIENCE, still):
             return False
         if applied[d] != 0.0 or motor_velocity[d] != 0.0 or kp[d] != 0.0 or kd[d] != 0.0:
             return False

@@ -146,7 +146,7 @@ def ease(floats: Any, integers: Any, rows: int, tiny: float) -> bool:
 
 
 @compiled
-def try_states(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: float, most: float, revisions: int) -> int:
+def try_states(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: float, most: float) -> int:
     """Find what rows do, beginning with what ``state`` says; return how many sets were tried, 0 if in vain.
 
     Impulses beyond `most` come of rows that contradict each other: what they say about the rest means nothing.
@@ -155,7 +155,7 @@ def try_states(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: f
     x = field(floats, integers, At.x)
     one_before = two_before = -1
     changed = True
-    for tried in range(revisions):
+    for tried in range(REVISIONS):
         if changed:
             start_over(floats, integers, rows, n)
         assemble(floats, integers, root, rows, n, False)
