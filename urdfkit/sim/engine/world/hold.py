@@ -21,7 +21,7 @@ from urdfkit.sim.engine.dynamics import solve_forward
 from urdfkit.sim.engine.world.blocks import arrange
 from urdfkit.sim.engine.world.products import row_speed
 from urdfkit.sim.engine.world.revise import first_hold
-from urdfkit.sim.engine.world.rounds import HEAP, go_round
+from urdfkit.sim.engine.world.rounds import go_round
 from urdfkit.sim.engine.world.slip import STIFFNESS, feel
 from urdfkit.sim.engine.world.states import try_states
 
@@ -73,8 +73,7 @@ def hold(floats: Any, integers: Any, root: int, rows: int) -> int:
     velocity; if not, all but working memory is as it was.
 
     Returns:
-        How many sets of rows were tried, or negative how many rounds it took; 0 where it did not succeed: in heaps,
-        which have no rounds.
+        How many sets of rows were tried, or negative how many rounds it took; 0 where it did not succeed.
     """
     tree_dof = field(integers, integers, At.tree_dof)
     tree_block = field(integers, integers, At.tree_block)
@@ -113,7 +112,6 @@ def hold(floats: Any, integers: Any, root: int, rows: int) -> int:
     for k in range(rows):
         most = max(most, max(abs(before[k]), abs(g[k]) * stiffness[k] / STIFFNESS))
     most *= WILD
-    heap = rows > HEAP and island_next[root] >= 0
     done = try_states(floats, integers, root, rows, n, tiny, most)
     # Between trees, biases are more than penetrations: see `exchange`.
     if done == 0 and island_next[root] < 0 and leave(floats, integers, rows):
@@ -121,7 +119,7 @@ def hold(floats: Any, integers: Any, root: int, rows: int) -> int:
         again = try_states(floats, integers, root, rows, n, tiny, most)
         done = 1 + again if again > 0 else 0
         take_up(floats, integers, rows)
-    if done == 0 and not heap:
+    if done == 0:
         # At the velocities of the last step, that is, at rest where it was.
         tree = root
         while tree >= 0:

@@ -30,37 +30,44 @@ from urdfkit.sim.engine.world.rounds import HEAP
 from urdfkit.sim.engine.world.sweeps import sweep
 from urdfkit.sim.engine.world.trees import evaluate
 
+TRIALS = 3
+"""Steps in a row in which a heap was not solved exactly, after which it is swept: the first seldom is, see `sweeps`."""
 MESSY = 100
-"""Steps of an island that was not solved exactly before that is tried again."""
+"""Steps for which it is, before an exact solution is tried again."""
 FEW = 8
 """Rows more than dofs up to which the matrix of the rows is the faster one for a single tree."""
 
 
 @inlined
 def messy(floats: Any, integers: Any, root: int) -> bool:
-    """Return whether a tree of an island was lately in one that could not be solved exactly."""
+    """Return whether a tree of a heap was lately in one that could not be solved exactly, one step more ago then."""
     swept = field(integers, integers, At.swept)
     island_next = field(integers, integers, At.island_next)
-    most, tree = 0, root
+    most, tree = -TRIALS, root
     while tree >= 0:
         most = max(most, swept[tree])
         tree = island_next[tree]
     # All wait together.
     tree = root
-    while tree >= 0:
-        swept[tree] = most - 1 if most > 0 else 0
+    while tree >= 0 and most > 0:
+        swept[tree] = most - 1
         tree = island_next[tree]
     return most > 0
 
 
 @inlined
-def note_mess(floats: Any, integers: Any, root: int) -> None:
-    """Note that an island could not be solved exactly."""
+def note_mess(floats: Any, integers: Any, root: int, solved: bool) -> None:
+    """Note whether a heap could be solved exactly: in ``swept``, negative, how often it could not."""
     swept = field(integers, integers, At.swept)
     island_next = field(integers, integers, At.island_next)
+    least, tree = 0, root
+    while tree >= 0:
+        least = min(least, swept[tree])
+        tree = island_next[tree]
+    least = 0 if solved else least - 1
     tree = root
     while tree >= 0:
-        swept[tree] = MESSY
+        swept[tree] = MESSY if least <= -TRIALS else least
         tree = island_next[tree]
 
 
@@ -136,8 +143,8 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             guesses = 0
             if not (heap and messy(floats, integers, root)):
                 guesses = hold(floats, integers, root, rows)
-                if heap and guesses == 0:
-                    note_mess(floats, integers, root)
+                if heap:
+                    note_mess(floats, integers, root, guesses > 0)
             held = guesses != 0
             if held:
                 counts[GUESSES] = guesses

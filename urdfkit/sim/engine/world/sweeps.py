@@ -244,18 +244,21 @@ def sweep(floats: Any, integers: Any, root: int, rows: int) -> int:
     moved = math.inf
     while done < SWEEPS and moved > STILL:
         moved = 0.0
-        k = 0
-        while k < rows:
-            if mu[k] > 0.0:
+        # There and back: a load is carried up and down.
+        k = 0 if done % 2 == 0 else rows
+        while (k < rows) if done % 2 == 0 else (k > 0):
+            if done % 2 != 0:
+                k -= 3 if k >= 3 and mu[k - 3] > 0.0 else 1
+            rubs = mu[k] > 0.0
+            if rubs:
                 moved = max(moved, put_right(floats, integers, k))
-                k += 3
-                continue
-            if A[3 * k] > 0.0:
+            elif A[3 * k] > 0.0:
                 old = x[k]
                 x[k] = min(high[k], max(low[k], old - A[3 * k] * speed_of(floats, integers, k)))
                 give(floats, integers, k, x[k] - old)
                 moved = max(moved, abs(x[k] - old) / A[3 * k])
-            k += 1
+            if done % 2 == 0:
+                k += 3 if rubs else 1
         done += 1
         if done % LEAVE_EVERY == 0:
             leave_unmet(floats, integers, rows)
@@ -263,6 +266,7 @@ def sweep(floats: Any, integers: Any, root: int, rows: int) -> int:
     if met + brought > 0.0:
         # Impulses never bring energy: they are all made smaller, and stay in their cones.
         share = max(0.0, -met / brought)
+        field(integers, integers, At.counts)[10] += 1
         for k in range(rows):
             give(floats, integers, k, (share - 1.0) * x[k])
             x[k] *= share
