@@ -99,6 +99,8 @@ class Reference:
     def _settle(self, M: Array, bias: Array, start: Array, dofs: Array, contact_rows: list[Row]) -> None:
         """Find the velocities of an island's dofs."""
         a, n = self.a, len(start)
+        if len(dofs) == 0:
+            return
         own = np.ix_(dofs, dofs)
         has_servo = bool(servos(a)[dofs].any())
         joint_rows = self._joint_rows(start, dofs)

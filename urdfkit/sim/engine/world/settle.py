@@ -30,7 +30,7 @@ from urdfkit.sim.engine.world.rounds import HEAP
 from urdfkit.sim.engine.world.sweeps import sweep
 from urdfkit.sim.engine.world.trees import evaluate
 
-TRIALS = 3
+TRIALS = 8
 """Steps in a row in which a heap was not solved exactly, after which it is swept: the first seldom is, see `sweeps`."""
 MESSY = 100
 """Steps for which it is, before an exact solution is tried again."""
@@ -150,7 +150,7 @@ def settle(floats: Any, integers: Any, root: int) -> int:
                 counts[GUESSES] = guesses
                 counts[ITERATED] += guesses <= 0
         if rows > 0 and not held and single < 0:
-            counts[GUESSES] = -sweep(floats, integers, root, rows)
+            counts[GUESSES] = -sweep(floats, integers, rows)
             counts[ITERATED] += 1
         elif rows > 0 and not held:
             whiten(floats, integers, rows, single, width, False)

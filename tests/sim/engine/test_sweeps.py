@@ -1,0 +1,96 @@
+"""Heaps too large to be solved exactly: bounded work, impulses inside their cones, no sinking, and sleep."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from urdfkit.sim.engine.arrays import FOUND_ROWS, GUESSES
+from urdfkit.sim.engine.world.blocks import MOST_TREES
+from urdfkit.sim.engine.world.sweeps import SWEEPS
+
+SPEC = spec_from_file_location("worlds", Path(__file__).with_name("worlds.py"))
+worlds = module_from_spec(SPEC)
+SPEC.loader.exec_module(worlds)
+cube, slab, rover = worlds.cube, worlds.slab, worlds.rover
+
+X = 3.0
+"""Where things are, away from the robot [m]."""
+
+
+def tray(count, half, *, seed=0, top=2.5):
+    """Return the walls of a tray, and boxes tumbled above it."""
+    rng = np.random.default_rng(seed)
+    at, long = half + 0.025, 2.0 * half + 0.1
+    things = [
+        slab(f"wall{k}", (X + at * x, at * y, 0.25), (0.05 if x else long, 0.05 if y else long, top), static=True)
+        for k, (x, y) in enumerate(((1, 0), (-1, 0), (0, 1), (0, -1)))
+    ]
+    side = int(2.0 * half / 0.18)
+    for k in range(count):
+        row, column, layer = k % side - (side - 1) / 2.0, k // side % side - (side - 1) / 2.0, k // side**2
+        place = (X + 0.18 * row, 0.18 * column, 0.15 + 0.21 * layer)
+        turned = rng.normal(size=4)
+        things.append(replace(cube(f"b{k}", place, side=0.12), pose=(*place, *(turned / np.linalg.norm(turned)))))
+    return things
+
+
+def heights(engine):
+    return np.array([body.pose[2] for body in engine.bodies.values()])
+
+
+def cone_excess(engine):
+    """Return by how much impulses leave their cones, over the largest of them."""
+    a = engine._arrays
+    n = int(a["counts"][FOUND_ROWS])
+    mu, x = a["mu"][:n], a["x"][:n]
+    normals = np.flatnonzero(mu > 0.0)
+    across = np.hypot(x[normals + 1], x[normals + 2])
+    excess = np.maximum(across - mu[normals] * x[normals], -x[normals])
+    return excess.max() / max(x[normals].max(), 1e-12)
+
+
+def test_eighty_boxes_take_bounded_work_and_come_to_sleep(engine_of):
+    engine = rover(engine_of, bodies=tray(80, 0.4))
+    counts = engine._arrays["counts"]
+    swept = 0
+    for _ in range(150):
+        engine.step(10)
+        guesses = int(counts[GUESSES])
+        if int(counts[FOUND_ROWS]) > 600:
+            swept += 1
+            # Never the matrix of all rows, and no more sweeps than so many.
+            assert -SWEEPS - 1 <= guesses != 0
+            assert cone_excess(engine) < 1e-9
+    assert swept > 50
+    before = heights(engine)
+    engine.step(2500)
+    assert np.abs(heights(engine) - before).mean() < 5e-3
+    assert max((contact.depth for contact in engine.contacts()), default=0.0) < 1e-4
+    assert (engine._arrays["asleep"][-80:] != 0).sum() >= 78
+
+
+def test_a_heap_that_stays_awake_does_not_sink(engine_of):
+    engine = rover(engine_of, bodies=tray(MOST_TREES + 3, 0.4), sleep=False)
+    engine.step(2500)
+    before = heights(engine)
+    for _ in range(10):
+        engine.step(100)
+        assert max(contact.depth for contact in engine.contacts()) < 1e-4
+    assert (before - heights(engine)).mean() < 1e-4
+
+
+def test_what_touches_with_another_feature_goes_on_with_its_impulse(engine_of):
+    engine = rover(engine_of, bodies=[cube(f"box{k}", (X, 0.0, 0.1 + 0.2 * k)) for k in range(3)], sleep=False)
+    engine.step(50)
+    arrays = engine._arrays
+    loads = [contact.force for contact in engine.contacts() if contact.b.startswith("box") and contact.a != "box0"]
+    arrays["last_feature"][:4] += 1000
+    engine.step()
+    assert arrays["counts"][GUESSES] == 1
+    again = [contact.force for contact in engine.contacts() if contact.b.startswith("box") and contact.a != "box0"]
+    assert again == pytest.approx(loads, abs=1e-9)
