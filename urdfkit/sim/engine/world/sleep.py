@@ -3,8 +3,8 @@
 An island falls asleep once all its trees have stayed where they are for `PATIENCE`, with nothing asked of them: none
 has gone farther than it would at a speed of `QUIET` (`TURNING`), or was ever faster than `LOUD`. What lies in a heap
 trembles a little where contacts come and go, and yet is at rest. It wakes as a whole when what is awake comes within
-reach of a contact, or when what is asked of one of its trees, its place, its velocity or gravity is not what it was. The contacts of sleepers are kept from the end of their room on, so
-that they can be told and found again.
+reach of a contact, or when what is asked of one of its trees, its place, its velocity or gravity is not what it was.
+The contacts of sleepers are kept from the end of their room on, so that they can be told and found again.
 """
 
 from __future__ import annotations
