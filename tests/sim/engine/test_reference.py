@@ -74,3 +74,18 @@ def test_integral_gains_agree(engine_of, antiwindup):
         engine.step(400)
         states.append(np.concatenate([state(engine), engine.effort, engine.integral]))
     assert states[0] == pytest.approx(states[1], abs=1e-8)
+
+
+def test_bodies_fall_alike_beside_a_robot_without_joints(engine_of):
+    from urdfkit.description.robot import Sphere
+    from urdfkit.scene import Shape
+    from urdfkit.sim.engine.body import Body, Piece
+
+    ball = Piece(Shape("collision", "ball", "collision", Sphere(0.1), np.eye(4)), Surface(1.0, 1.0))
+    body = Body("ball", (2.0, 0.0, 0.5, 0.0, 0.0, 0.0, 1.0), [ball], mass=1.0, inertia=0.004 * np.eye(3))
+    engines = pair(engine_of, '<robot name="n"><link name="base"/></robot>', bodies=[body], sleep=False)
+    for engine in engines:
+        engine.step(400)
+    poses = [engine.bodies["ball"].pose for engine in engines]
+    assert poses[0] == pytest.approx(poses[1], abs=1e-9)
+    assert poses[0][2] == pytest.approx(0.1, abs=1e-6)
