@@ -68,7 +68,6 @@ def carry_over(before: Engine, old: Made, after: Engine, new: Made) -> None:
             b[name][_span(b, "tree_dof", j)] = a[name][_span(a, "tree_dof", i)]
         b["s"][_span(b, "tree_s", j)] = a["s"][_span(a, "tree_s", i)]
         b["still"][j] = 0.0 if a["asleep"][i] else a["still"][i]
-        b["swept"][j] = a["swept"][i]
     shapes = _shapes(before, old, after, new)
     _remember(a, b, trees, shapes)
     _remember_pairs(a, b, shapes)

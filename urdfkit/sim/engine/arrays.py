@@ -151,7 +151,6 @@ INTEGERS: dict[str, Size] = {
     "near": ("t",),
     "sleeps": ("t",),
     "asleep": ("t",),
-    "swept": ("t",),
     "tree_order": ("t",),
     "tree_meet": ("t+1",),
     "meet_a": ("f",),

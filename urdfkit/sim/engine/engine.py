@@ -150,7 +150,6 @@ class Engine(Part):
         a["memory"][:] = a["effort"][:] = a["tau"][:] = 0.0
         a["counts"][:] = a["asleep"][:] = 0
         a["still"][:] = 0.0
-        a["swept"][:] = 0
         self._evaluate()
 
     def step(self, n: int = 1) -> None:

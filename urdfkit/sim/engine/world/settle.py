@@ -17,7 +17,7 @@ from urdfkit.sim.engine.arrays import (
     WIDTH,
     At,
 )
-from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.compilation import compiled, field
 from urdfkit.sim.engine.dynamics import solve_forward
 from urdfkit.sim.engine.flight import flies, fly
 from urdfkit.sim.engine.limits import passes_limits, whirls
@@ -26,49 +26,11 @@ from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, limited, overloaded, smooth
 from urdfkit.sim.engine.solve import solve
 from urdfkit.sim.engine.world.hold import hold
 from urdfkit.sim.engine.world.islands import contacts_of
-from urdfkit.sim.engine.world.rounds import HEAP
 from urdfkit.sim.engine.world.sweeps import sweep
 from urdfkit.sim.engine.world.trees import evaluate
 
-TRIALS = 8
-"""Steps in a row in which a heap was not solved exactly, after which it is swept: the first seldom is, see `sweeps`."""
-MESSY = 100
-"""Steps for which it is, before an exact solution is tried again."""
 FEW = 8
 """Rows more than dofs up to which the matrix of the rows is the faster one for a single tree."""
-
-
-@inlined
-def messy(floats: Any, integers: Any, root: int) -> bool:
-    """Return whether a tree of a heap was lately in one that could not be solved exactly, one step more ago then."""
-    swept = field(integers, integers, At.swept)
-    island_next = field(integers, integers, At.island_next)
-    most, tree = -TRIALS, root
-    while tree >= 0:
-        most = max(most, swept[tree])
-        tree = island_next[tree]
-    # All wait together.
-    tree = root
-    while tree >= 0 and most > 0:
-        swept[tree] = most - 1
-        tree = island_next[tree]
-    return most > 0
-
-
-@inlined
-def note_mess(floats: Any, integers: Any, root: int, solved: bool) -> None:
-    """Note whether a heap could be solved exactly: in ``swept``, negative, how often it could not."""
-    swept = field(integers, integers, At.swept)
-    island_next = field(integers, integers, At.island_next)
-    least, tree = 0, root
-    while tree >= 0:
-        least = min(least, swept[tree])
-        tree = island_next[tree]
-    least = 0 if solved else least - 1
-    tree = root
-    while tree >= 0:
-        swept[tree] = MESSY if least <= -TRIALS else least
-        tree = island_next[tree]
 
 
 @compiled
@@ -139,17 +101,13 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             before[k] = last[slot[k]]
         held = False
         if rows > 0 and (single < 0 or rows > island_dofs + FEW):
-            heap = single < 0 and rows > HEAP
-            guesses = 0
-            if not (heap and messy(floats, integers, root)):
-                guesses = hold(floats, integers, root, rows)
-                if heap:
-                    note_mess(floats, integers, root, guesses > 0)
+            guesses = hold(floats, integers, root, rows)
             held = guesses != 0
             if held:
                 counts[GUESSES] = guesses
                 counts[ITERATED] += guesses <= 0
         if rows > 0 and not held and single < 0:
+            # More trees than blocks are for.
             counts[GUESSES] = -sweep(floats, integers, rows)
             counts[ITERATED] += 1
         elif rows > 0 and not held:
