@@ -38,6 +38,8 @@ HEAP = 100
 """Rows beyond which an island is a heap."""
 HEAP_ROUNDS = 2
 """Most rounds of a heap: the next step goes on from there."""
+GROSS = 1e-3
+"""Velocity [m/s or rad/s] by which rounds may leave a heap off the law: beyond, what is pushed down sinks."""
 TRIED_AFTER = 5
 """Rounds after which what rows do is tried once more, see `states`: where slips are slow to settle that is quicker."""
 SOLVED = 1e-10
@@ -84,14 +86,16 @@ def go_round(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: flo
     """Go on from the velocities of now and the impulses ``before``, until the law is met or no better met.
 
     Returns:
-        How many rounds it took, one more than the most where velocities only come near the law.
+        How many rounds it took, one more than the most where velocities only come near the law; 0 for a heap where
+        they do not: rows are no longer what they were, then.
     """
     x = field(floats, integers, At.x)
     before = field(floats, integers, At.before)
     for k in range(rows):
         x[k] = MEMORY * before[k]
     off, least, stuck = math.inf, math.inf, 0
-    for done in range(HEAP_ROUNDS if rows > HEAP else MORE_ROUNDS):
+    heap = rows > HEAP
+    for done in range(HEAP_ROUNDS if heap else MORE_ROUNDS):
         if done == TRIED_AFTER and try_from_here(floats, integers, root, rows, n, tiny, most):
             return done
         feel(floats, integers, rows)
@@ -110,4 +114,4 @@ def go_round(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: flo
         least = min(least, off)
         if off <= OFF or stuck >= STUCK:
             break
-    return MORE_ROUNDS + 1
+    return 0 if heap and off > GROSS else MORE_ROUNDS + 1

@@ -73,6 +73,8 @@ def settle(floats: Any, integers: Any, root: int) -> int:
     # the second part is done again.
     halfway = False
     attempt = 0
+    # What `hold` gives up, for more trees than blocks are for or for more rows than it comes near to, is swept.
+    swept = False
     while True:
         has_servo = False
         rows = island_dofs = 0
@@ -100,14 +102,16 @@ def settle(floats: Any, integers: Any, root: int) -> int:
         for k in range(rows):
             before[k] = last[slot[k]]
         held = False
-        if rows > 0 and (single < 0 or rows > island_dofs + FEW):
+        if rows > 0 and not swept and (single < 0 or rows > island_dofs + FEW):
             guesses = hold(floats, integers, root, rows)
             held = guesses != 0
             if held:
                 counts[GUESSES] = guesses
                 counts[ITERATED] += guesses <= 0
-        if rows > 0 and not held and single < 0:
-            # More trees than blocks are for.
+            elif single < 0:
+                swept = True
+                continue
+        if swept:
             counts[GUESSES] = -sweep(floats, integers, rows)
             counts[ITERATED] += 1
         elif rows > 0 and not held:

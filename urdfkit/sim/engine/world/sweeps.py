@@ -27,7 +27,7 @@ LEAVE_EVERY = 10
 """Sweeps after which what could not be taken back of penetrations is left."""
 STILL = 1e-9
 """Change of velocity [m/s or rad/s] in a sweep that ends them."""
-MEMORY = 0.95
+MEMORY = 1.0
 """How much of the last step's impulses is started from: with all of them a tower that sways would sway ever more."""
 FLAT = 1e-9
 """Determinant of what three rows of a contact feel of the masses, over the product of its diagonal, that is none."""
