@@ -27,6 +27,8 @@ MuJoCo, too, allows what is small to turn faster, ODE 0.01 rad/s.
 """
 LOUD = 1e-2
 """Speed [m/s, rad/s] of a dof that is not at rest, however short: ODE's thresholds for bodies to be disabled."""
+LOUD_TURNING = 5e-2
+"""The same for the turning of a free body [rad/s]: a corner of a brick goes at a tenth of that [m/s]."""
 PATIENCE = 0.5
 """How long an island is at rest before it sleeps [s]."""
 ASKED = 8
@@ -113,8 +115,9 @@ def is_quiet(floats: Any, integers: Any, tree: int) -> bool:
     for d in range(first, tree_dof[tree + 1]):
         strayed[d] = (strayed[d] if still > 0.0 else 0.0) + dt * v[d]
     for d in range(first, tree_dof[tree + 1]):
-        slow = TURNING if free and d >= first + 3 else QUIET
-        if not abs(v[d]) < LOUD or not abs(strayed[d]) < slow * max(PATIENCE, still):
+        turns = free and d >= first + 3
+        slow = TURNING if turns else QUIET
+        if not abs(v[d]) < (LOUD_TURNING if turns else LOUD) or not abs(strayed[d]) < slow * max(PATIENCE, still):
             return False
         if applied[d] != 0.0 or motor_velocity[d] != 0.0 or kp[d] != 0.0 or kd[d] != 0.0:
             return False
