@@ -59,6 +59,8 @@ class Loose:
         speed = _six(twist)
         R = self._rotation()
         self._v[:3], self._v[3:] = R.T @ speed[:3], R.T @ speed[3:]
+        # What somebody moves is not at rest.
+        self._arrays["still"][self._tree] = 0.0
 
     def put_back(self) -> None:
         """Put it where it started, at rest, with nothing that pushes it."""

@@ -149,6 +149,7 @@ class Part:
         set_configuration(model, self._arrays, q, self._tree)
         self._own_v[:] = v
         self._own_effort[:] = self._own_tau[:] = self.integral[:] = 0.0
+        self._arrays["still"][self._tree] = 0.0
 
 
 _PER_DOF = (

@@ -1,4 +1,4 @@
-"""Islands too large to be solved exactly in good time: sweeps over their contacts, as many as are worth it.
+"""Islands that are too large for blocks, or that rounds do not come near to: sweeps over their contacts.
 
 One contact after the other gets the impulse that puts it right, all others staying as they are (block Gauss-Seidel,
 projected onto the law): held where its cone allows that, or else sliding, or open. Impulses begin with those of the
@@ -27,8 +27,6 @@ LEAVE_EVERY = 10
 """Sweeps after which what could not be taken back of penetrations is left."""
 STILL = 1e-9
 """Change of velocity [m/s or rad/s] in a sweep that ends them."""
-MEMORY = 1.0
-"""How much of the last step's impulses is started from: with all of them a tower that sways would sway ever more."""
 FLAT = 1e-9
 """Determinant of what three rows of a contact feel of the masses, over the product of its diagonal, that is none."""
 KEPT = 9
@@ -239,7 +237,7 @@ def sweep(floats: Any, integers: Any, rows: int) -> int:
     for k in range(rows):
         y[k] = speed_of(floats, integers, k)
     for k in range(rows):
-        x[k] = MEMORY * before[k]
+        x[k] = before[k]
         give(floats, integers, k, x[k])
     done = 0
     moved = math.inf
