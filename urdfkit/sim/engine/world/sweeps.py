@@ -140,9 +140,9 @@ def prepare(floats: Any, integers: Any, rows: int) -> None:
     while k < rows:
         own, at = felt(floats, integers, k, k), KEPT * k // 3
         if mu[k] > 0.0:
-            b, c = felt(floats, integers, k + 1, k + 1), felt(floats, integers, k + 2, k + 2)
-            d, e = felt(floats, integers, k, k + 1), felt(floats, integers, k, k + 2)
-            keep_inverse(A, at, own, b, c, d, e, felt(floats, integers, k + 1, k + 2))
+            ss, tt = felt(floats, integers, k + 1, k + 1), felt(floats, integers, k + 2, k + 2)
+            ns, nt = felt(floats, integers, k, k + 1), felt(floats, integers, k, k + 2)
+            keep_inverse(A, at, own, ss, tt, ns, nt, felt(floats, integers, k + 1, k + 2))
             k += 3
             continue
         A[3 * k] = 1.0 / own if own > 0.0 else 0.0
