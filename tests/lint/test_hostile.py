@@ -37,7 +37,7 @@ HOSTILE = {
     "text.xacro": (computed("'x' * 3 * 10**9"), "a text of more than 100,000 characters"),
     "list.xacro": (computed("[0] * 10**10"), "a list of more than 100,000 elements"),
     "range.xacro": (computed("list(range(10**9))"), "a list of more than 100,000 elements"),
-    "loops.xacro": (computed("[i for i in range(9999) for j in range(9999)]"), "more than 2,000,000 steps"),
+    "loops.xacro": (computed("[i for i in range(9999) for j in range(9999)]"), "more than 1,000,000 steps"),
     "format.xacro": (computed("'%099999999d' % 1"), "a text of more than 100,000 characters"),
     "factorial.xacro": (computed("factorial(10**7)"), "it asks for factorial() of more than 1,000"),
     "sum.xacro": (computed("python.sum(python.range(10**12))"), "a list of more than 100,000 elements"),
@@ -48,7 +48,7 @@ HOSTILE = {
     ),
     "blocks.xacro": (
         f"<robot {XACRO} name='r'><xacro:property name='b0'><a/></xacro:property>{BLOCKS}{LAST}</robot>",
-        "more than 300,000 elements and attributes",
+        "more than 150,000 elements and attributes",
     ),
     "laughs.xacro": (
         f"<robot {XACRO} name='r'><xacro:property name='p0' value='lol'/>{LAUGHS}<a b='${{p12}}'/></robot>",

@@ -13,7 +13,7 @@ MAX_EXPRESSIONS = 200_000
 MAX_DEPTH = 200
 """Levels of brackets and operators of one expression."""
 
-MAX_STEPS = 2_000_000
+MAX_STEPS = 1_000_000
 """Steps that all expressions of a run may take together; a robot with several arms takes 16,000."""
 
 MAX_CHARACTERS = 100_000
@@ -37,7 +37,7 @@ MAX_MACRO_CALLS = 10_000
 MAX_INCLUDES = 2_000
 """Files read in one run, one that is read again counted again."""
 
-MAX_EXPANDED = 300_000
+MAX_EXPANDED = 150_000
 """Elements and attributes that macros, blocks and includes of one run make; a robot of 1,200 links has 54,000."""
 
 MAX_YAML = 500_000
