@@ -426,9 +426,8 @@ def test_measuring_and_publishing_a_point(page, keep, until) -> None:
     page.get_by_role("button", name="Measure between two points").click()
     page.mouse.click(*spot(page, 1.0, 1.0))
     page.mouse.click(*spot(page, 1.0, -1.0))
-    until(lambda: page.locator(".measure-label").count() == 1)
-    length = re.fullmatch(r"([\d.]+) m", page.locator(".measure-label").inner_text())
-    assert length is not None
+    label = page.locator(".measure-label")
+    length = until(lambda: label.count() == 1 and re.fullmatch(r"([\d.]+) m", label.inner_text()))
     assert float(length[1]) == pytest.approx(2.0, abs=0.02)  # a pixel is about a centimetre
     page.get_by_role("button", name="Publish a point").click()
     page.mouse.click(*spot(page, -1.0, 1.0))

@@ -133,7 +133,7 @@ def test_everything_has_a_name_and_the_keyboard_reaches_it(page) -> None:
     assert order == sorted(order)
 
 
-def test_a_panel_can_be_kept_open_beside_others(page, keep) -> None:
+def test_a_panel_can_be_kept_open_beside_others(page, keep, until) -> None:
     page.get_by_role("button", name="Keep Joints open").click()
     panel(page, "tree")
     assert page.locator("#panel-joints").is_visible()
@@ -144,7 +144,7 @@ def test_a_panel_can_be_kept_open_beside_others(page, keep) -> None:
         seen = f"""(() => {{ const [a, b] = ["#panel-{name}", "#panel"].map((s) =>
             document.querySelector(s).getBoundingClientRect());
             return Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) >= Math.min(a.height, 150) - 1; }})()"""
-        page.wait_for_function(seen)
+        until(lambda seen=seen: page.evaluate(seen))
         keep(page, f"pinned-{name}")
     page.get_by_role("button", name="Close Joints").click()
     assert page.locator("#panel-joints").is_hidden()

@@ -81,7 +81,7 @@ def test_the_inspector_tells_numbers_and_where_they_are_written(page, lab: Path,
     keep(page, "inspect-joint")
 
 
-def test_marks_names_wires_and_opacity(page, keep) -> None:
+def test_marks_names_wires_and_opacity(page, keep, until) -> None:
     panel(page, "show")
     shown = "(kind) => urdfkit.markers.made[kind].filter((mark) => mark.parent).length"
     counts = {
@@ -95,7 +95,7 @@ def test_marks_names_wires_and_opacity(page, keep) -> None:
         page.get_by_role("checkbox", name=words, exact=True).check()
         assert page.evaluate(shown, kind) == count
     page.get_by_role("checkbox", name="Names").check()
-    page.wait_for_function("document.querySelectorAll('.name-label:not([hidden])').length === 7")
+    until(lambda: page.evaluate("document.querySelectorAll('.name-label:not([hidden])').length") == 7)
     lying = """() => { const shown = [...document.querySelectorAll(".name-label:not([hidden], [data-covered])")];
         const boxes = shown.map((label) => label.getBoundingClientRect());
         return [shown.length, boxes.some((a, i) => boxes.some((b, k) =>
@@ -111,7 +111,9 @@ def test_marks_names_wires_and_opacity(page, keep) -> None:
     assert count < 7  # from far away the names of what is behind are left out …
     keep(page, "names-far")
     page.evaluate("urdfkit.page.select({ link: 'hand' })")
-    page.wait_for_function("!document.querySelector('.name-label[data-name=hand]').hasAttribute('data-covered')")
+    until(
+        lambda: not page.evaluate("document.querySelector('.name-label[data-name=hand]').hasAttribute('data-covered')")
+    )
     page.evaluate("urdfkit.page.select(null)")  # … but not of what is selected
     page.keyboard.press("f")
     page.get_by_label("Size of marks").fill("1.5")

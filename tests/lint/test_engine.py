@@ -8,6 +8,7 @@ import pytest
 
 from urdfkit.errors import ModelError, ResourceError, UsageError
 from urdfkit.lint import RULES, lint
+from urdfkit.lint.entries import find_entries
 
 WHEEL = """<link name="base"/>
 <xacro:macro name="tensor" params="c"><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="${c}"/></xacro:macro>
@@ -237,3 +238,9 @@ def test_a_misspelt_parameter_is_one_finding_and_its_default_is_called_one(write
         "S901",
         "<wheelSeparation> is 0.34 m by default, but `left_joint` and `right_joint` are 0.3 m apart",
     )
+
+
+def test_a_link_to_nowhere_is_passed_over(tmp_path):
+    (tmp_path / "bad.urdf").write_text('<robot name="r"><link name="a"/><link name="b"/></robot>')
+    (tmp_path / ".#bad.urdf").symlink_to("somebody@somewhere.1234")
+    assert [entry.path.name for entry in find_entries([tmp_path])] == ["bad.urdf"]

@@ -23,6 +23,7 @@ def codes(path, **options) -> list[str]:
         (LINK.replace("TRAIL", "<!-- urdfkit: ignore -->"), []),
         (LINK.replace("TRAIL", "<!-- urdfkit: ignore J403, I503 measured so -->"), []),
         (LINK.replace("TRAIL", "<!-- urdfkit: ignore I502 -->"), ["I503"]),
+        (LINK.replace("TRAIL", "<!-- urdfkit: ignore ZZZ -->"), ["I503", "E018"]),
         (LINK.replace(TENSOR, f"<!-- urdfkit: ignore I503 -->\n    {TENSOR}"), []),
         ("<!-- urdfkit: ignore I503 -->\n" + LINK, []),
         ("<!--urdfkit:ignore\n I503-->\n\n" + LINK, []),

@@ -114,3 +114,10 @@ def test_summary_and_statistics():
         "Found 2 errors, 1 warning, 1 note (1 fixable with --fix, 1 with --fix --unsafe-fixes)."
     )
     assert [line.split()[:2] for line in statistics([unsafe, error, fixable])] == [["2", "T203"], ["1", "J405"]]
+
+
+def test_what_a_terminal_would_obey_is_not_printed():
+    source = Source("f.xacro", "\x1b]0;pwn\x07\x1b[2J<robot>\x9b")
+    shown = TextReport({"f.xacro": source}).finding(at(1, 1, 2))
+    assert not any(ord(letter) < 32 or 127 <= ord(letter) < 160 for letter in shown.replace("\n", ""))
+    assert "<robot>" in shown

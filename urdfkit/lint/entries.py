@@ -203,7 +203,8 @@ def _walk(folder: Path, depth: int) -> Iterator[Path]:
         if child.is_dir(follow_symlinks=False):
             if depth < _MAX_DEPTH and child.name not in _SKIPPED and not child.name.startswith("."):
                 yield from _walk(folder / child.name, depth + 1)
-        elif child.name.endswith(SUFFIXES):
+        # A link to nowhere is no file: an editor's lock, or what somebody else has not got.
+        elif child.name.endswith(SUFFIXES) and child.is_file():
             yield folder / child.name
 
 

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 _COMMENT = re.compile(r"\s*urdfkit:\s*([\w-]*)(.*)", re.DOTALL)
 _CODE = re.compile(r"[A-Z]+[0-9][0-9A-Z]*")
+_MEANT = re.compile(r"[A-Z][0-9A-Z]{2,}")
+"""What stands first and is meant for a code, so that ``ignore ZZZ`` does not stand for every rule."""
 _SEPARATOR = re.compile(r"[\s,;:]+")
 
 
@@ -78,9 +80,9 @@ def suppressed(
 
 
 def _codes(text: str) -> tuple[str, ...]:
-    codes = []
+    codes: list[str] = []
     for word in _SEPARATOR.split(text.strip()):
-        if not _CODE.fullmatch(word):
+        if not (_CODE if codes else _MEANT).fullmatch(word):
             break
         codes.append(word)
     return tuple(codes)

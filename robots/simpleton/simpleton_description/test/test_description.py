@@ -21,7 +21,7 @@ def said(*command, given=""):
 
 def urdf():
     """Return the expanded robot."""
-    return said(*(["xacro"] if shutil.which("xacro") else ["urdfkit", "expand"]), MODEL)
+    return said(*(["urdfkit", "expand"] if shutil.which("urdfkit") else ["xacro"]), MODEL)
 
 
 def test_is_one_tree():
