@@ -45,9 +45,11 @@ def test_it_is_packages_with_all_they_need(folder):
         assert {"CMakeLists.txt", "LICENSE", "README.md", "launch"} <= {path.name for path in package.iterdir()}
         installed = (package / "CMakeLists.txt").read_text().partition("install(DIRECTORY ")[2].split("\n")[0].split()
         shipped = {
-            path.name for path in package.iterdir() if path.is_dir() and path.name not in ("hooks", "__pycache__")
+            path.name for path in package.iterdir() if path.is_dir() and path.name not in ("hooks", "__pycache__", "test")
         }
         assert set(installed) == shipped, package.name
+        if (package / "test").is_dir():
+            assert "catkin_add_nosetests(test)" in (package / "CMakeLists.txt").read_text()
         for other in names - {package.name}:
             used = any(other in path.read_text() for path in package.glob("launch/*"))
             assert used == (f"<exec_depend>{other}</exec_depend>" in written), (package.name, other)
