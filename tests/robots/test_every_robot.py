@@ -44,9 +44,8 @@ def test_it_is_packages_with_all_they_need(folder):
         assert f"<name>{package.name}</name>" in written
         assert {"CMakeLists.txt", "LICENSE", "README.md", "launch"} <= {path.name for path in package.iterdir()}
         installed = (package / "CMakeLists.txt").read_text().partition("install(DIRECTORY ")[2].split("\n")[0].split()
-        shipped = {
-            path.name for path in package.iterdir() if path.is_dir() and path.name not in ("hooks", "__pycache__", "test")
-        }
+        folders = {path.name for path in package.iterdir() if path.is_dir()}
+        shipped = folders - {"hooks", "__pycache__", "test"}
         assert set(installed) == shipped, package.name
         if (package / "test").is_dir():
             assert "catkin_add_nosetests(test)" in (package / "CMakeLists.txt").read_text()
