@@ -27,6 +27,44 @@ INTERFACES = (
 )
 """The interfaces that hardware_interface has in ROS Noetic."""
 
+_PARTS: dict[str, tuple[str, ...]] = {
+    "transmission": ("type", "joint", "actuator", "plugin", "role"),
+    "transmission/joint": ("hardwareInterface", "mechanicalReduction", "offset", "role"),
+    "transmission/actuator": ("hardwareInterface", "mechanicalReduction", "role"),
+    "ros2_control": ("hardware", "joint", "sensor", "gpio", "transmission"),
+    "ros2_control/hardware": ("plugin", "param", "group"),
+    "ros2_control/joint": ("command_interface", "state_interface", "param", "limits"),
+    "ros2_control/sensor": ("state_interface", "param"),
+    "ros2_control/gpio": ("command_interface", "state_interface", "param"),
+}
+"""What readers look for where (transmission_interface's parser; component_parser.cpp of hardware_interface)."""
+
+_OTHERS = frozenset(("motor", "effort", "reduction", "joints", "sensors", "actuators", "types"))
+"""Names of somebody's own that are near."""
+
+
+def misspelt_parts(element: Element, where: str) -> Iterator[tuple[Element, Element, str]]:
+    """Yield what is misspelt in a ``<transmission>`` or ``<ros2_control>``: parent, child, and how it is called.
+
+    Both may hold elements of anybody's own; only what is nearly one of theirs is misspelt.
+
+    Args:
+        element: a transmission, a block of ros2_control, or a part of one.
+        where: its name, with that of what it is in.
+    """
+    from urdfkit.lint.edits import nearest
+
+    known = _PARTS.get(where)
+    if known is None:
+        return
+    for child in element.children:
+        if child.tag in known:
+            yield from misspelt_parts(child, f"{where}/{child.tag}")
+        elif ":" not in child.tag and child.tag not in _OTHERS:
+            meant = nearest(child.tag, known, likeness=0.8)
+            if meant is not None:
+                yield element, child, meant
+
 
 def written(robot: Robot) -> Iterator[tuple[str, Element, Transmission]]:
     """Yield every ``<hardwareInterface>``: its text, its element and the transmission it is in."""

@@ -68,19 +68,19 @@ def classes() -> dict[str, tuple[str, ...]]:
 def meant_library(stem: str) -> str | None:
     """Return the stem of the library that a name must have meant, None where it may well be another.
 
-    A name means another where every word of it is that of the other, or nearly, or its beginning, or where only the
-    dashes and underscores are others, and a letter at most.
+    A name means another where every word of it is that of the other, or nearly, or its beginning, where only the
+    dashes and underscores are others, and a letter at most, or where it has one more word that any library could have.
     """
     if not stem or stem in classes():
         return None
-    whole = f"{stem}-system" if _SYSTEM.match(stem) and not stem.endswith("system") else stem
+    whole = _with_ending(stem) if _SYSTEM.match(stem) else stem
     if whole in classes():
         return whole
     near = [(likeness, known) for known in classes() if (likeness := _likeness(whole, known))]
     if near:
         return max(near)[1]
     longer = [known for known in classes() if known.startswith(f"{stem}_")]
-    return longer[0] if len(longer) == 1 and stem.count("_") >= 3 else None
+    return longer[0] if len(longer) == 1 and stem.count("_") >= 3 else _without_ending(stem)
 
 
 def meant_class(name: str, known: Iterable[str]) -> str | None:
@@ -89,6 +89,27 @@ def meant_class(name: str, known: Iterable[str]) -> str | None:
 
     return nearest(name, known, likeness=0.9) if "::" in name else None
 
+
+def _with_ending(stem: str) -> str:
+    """Return the name of a system with the word that all of them end with, where it is misspelt or missing."""
+    name, _, last = stem.rpartition("-")
+    return f"{name}-system" if last == "plugin" or _is_like(last, "system", 0.65) else f"{stem}-system"
+
+
+def _without_ending(stem: str) -> str | None:
+    """Return the library whose name a person has put a word behind that any library could have; None if it is none."""
+    name, _, last = stem.rpartition("_")
+    return name if name in classes() and any(_is_like(last, word, 0.8) for word in _GENERAL) else None
+
+
+def _is_like(one: str, other: str, likeness: float) -> bool:
+    from difflib import SequenceMatcher
+
+    return SequenceMatcher(None, one, other, autojunk=False).ratio() >= likeness
+
+
+_GENERAL = ("controller", "plugin", "driver", "sensor", "scanner", "system")
+"""Words that people put behind the names of gazebo_plugins: ``libgazebo_ros_laser_controller.so``."""
 
 _SYSTEM = re.compile("(gz|ign|ignition)[-_](sim|gazebo)[-_]")
 _WORDS = re.compile("[-_]")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.interfaces import has_gazebo_ros_control, is_old
+from urdfkit.lint.interfaces import has_gazebo_ros_control, is_old, misspelt_parts
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -75,7 +75,8 @@ class TransmissionInterfaceMissing(RobotRule):
         severity: Severity | None = "error" if has_gazebo_ros_control(model.robot) else None
         for transmission in model.robot.transmissions:
             for part in transmission.joints if not is_old(transmission) else ():
-                if not part.hardware_interfaces:
+                is_misspelt = any(True for _ in misspelt_parts(part.element, "transmission/joint"))
+                if not part.hardware_interfaces and not is_misspelt:
                     yield self.at(
                         model,
                         part.element,

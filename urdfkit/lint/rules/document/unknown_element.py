@@ -24,7 +24,8 @@ class UnknownElement(RobotRule):
     ## What it does
     Looks at what is inside ``<link>``, ``<joint>``, ``<inertial>``, ``<visual>``, ``<collision>`` and ``<geometry>``.
     Elements with a prefix belong to somebody else. The root is ``<robot>``, which may hold extensions of any name:
-    there an element is reported where its name is nearly that of a link, a joint or another that belongs there.
+    there an element is reported where its name is nearly that of a link, a joint or another that belongs there, and so
+    it is in ``<transmission>`` and ``<ros2_control>``.
 
     ## Why is this bad?
     Readers skip it without a word: a typing error, or a macro call without prefix, takes wheels, damping or inertia
@@ -78,6 +79,7 @@ class UnknownElement(RobotRule):
                 fix = new_tag(model, child, meant, "unsafe", f"Call it <{meant}>")
                 help = f"did you mean `{meant}`?"
                 yield self.at(model, child, _message(robot, child), help=help, fix=fix, severity="error")
+        yield from self._of_control(model)
         for link in model.robot.links:
             for parent, child in _unknown(link.element):
                 hint, fix = _hint(parent, child), _renamed(model, parent, child)
@@ -86,6 +88,15 @@ class UnknownElement(RobotRule):
             for parent, child in _unknown(joint.element):
                 hint, fix = _hint(parent, child), _renamed(model, parent, child)
                 yield self.at(model, child, _message(parent, child), joint=joint.name, help=hint, fix=fix)
+
+    def _of_control(self, model: Model) -> Iterator[Finding]:
+        robot = model.robot
+        for whole in (*(one.element for one in robot.transmissions), *(one.element for one in robot.ros2_control)):
+            from urdfkit.lint.interfaces import misspelt_parts
+
+            for parent, child, meant in misspelt_parts(whole, whole.tag):
+                fix = new_tag(model, child, meant, "unsafe", f"Call it <{meant}>")
+                yield self.at(model, child, _message(parent, child), help=f"did you mean `{meant}`?", fix=fix)
 
 
 def _unknown(element: Element) -> Iterator[tuple[Element, Element]]:
