@@ -114,32 +114,41 @@ def load(text: str) -> Any:
         return read(path)
 
 
-def frames(seconds: float) -> None:
-    """Time frames from the loop's publishing to a client's reading."""
+def frames(seconds: float, rounds: int) -> None:
+    """Time frames from the loop's publishing to a client's reading; CPU with a watcher and without, in turn."""
     running = Running(load(chain(30)))
     publish = running.server.publish
     running.server.publish = lambda t, poses: publish(time.monotonic(), poses)  # type: ignore[method-assign]
-    watcher = running.watch(seconds)
-    ready(watcher)
-    time.sleep(0.5)
-    before, begin = time.process_time(), time.monotonic()
-    sent = running.server._sequence
-    time.sleep(seconds - 1.5)
-    cpu, wall, count = time.process_time() - before, time.monotonic() - begin, running.server._sequence - sent
-    found = json.loads(watcher.communicate(timeout=20)[0])
+    thread = time.pthread_getcpuclockid(running.server._thread.ident or 0)
+    late: list[float] = []
+    rates, size = [], 0
+    spent: dict[str, list[tuple[float, float]]] = {"alone": [], "watched": []}
+    for _ in range(rounds):
+        for kind, rows in spent.items():
+            watcher = running.watch(seconds + 1) if kind == "watched" else None
+            if watcher is not None:
+                ready(watcher)
+            time.sleep(0.5)
+            before, begin = (time.process_time(), time.clock_gettime(thread)), time.monotonic()
+            sent = running.server._sequence
+            time.sleep(seconds)
+            count = running.server._sequence - sent
+            rates.append(count / (time.monotonic() - begin))
+            after = time.process_time(), time.clock_gettime(thread)
+            rows.append((1000 * (after[0] - before[0]) / count, 1000 * (after[1] - before[1]) / count))
+            if watcher is not None:
+                found = json.loads(watcher.communicate(timeout=20)[0])
+                late += [1000 * each for each in found["late"]]
+                size = found["size"]
     running.stop()
-    alone = Running(load(chain(30)))
-    time.sleep(0.5)
-    before, begin = time.process_time(), time.monotonic()
-    time.sleep(seconds - 1.5)
-    idle = (time.process_time() - before) / (time.monotonic() - begin)
-    alone.stop()
-    late = sorted(1000 * each for each in found["late"])
+    late.sort()
+    process = [watched[0] - alone[0] for alone, watched in zip(spent["alone"], spent["watched"], strict=True)]
+    own = [watched[1] for watched in spent["watched"]]
     print(
-        f"frames: {len(late) / seconds:.1f}/s delivered of {count / wall:.1f}/s sent (target 60), {found['size']} "
-        f"bytes (1000), latency p50 {late[len(late) // 2]:.1f} ms p95 {late[int(0.95 * len(late))]:.1f} ms (30), CPU "
-        f"{1000 * cpu / count:.2f} ms per round in all, {1000 * (cpu - idle * wall) / count:.2f} ms of it for the "
-        "watcher (0.5)"
+        f"frames: {len(late) / rounds / (seconds + 1):.1f}/s delivered of {statistics.median(rates):.1f}/s sent "
+        f"(target 60), {size} bytes (1000), latency p50 {late[len(late) // 2]:.1f} ms p95 "
+        f"{late[int(0.95 * len(late))]:.1f} ms (30), CPU per frame {statistics.median(process):.2f} ms for the watcher "
+        f"({min(process):.2f}..{max(process):.2f}), {statistics.median(own):.2f} ms of the server's thread in all (0.5)"
     )
 
 
@@ -282,7 +291,7 @@ if __name__ == "__main__":
     given = parser.parse_args()
     for what in given.what:
         if what == "frames":
-            frames(given.seconds)
+            frames(given.seconds, given.rounds)
         elif what == "watchers":
             watchers(given.seconds, given.rounds)
         elif what == "start":
