@@ -12,14 +12,14 @@ class Page:
     def __init__(self) -> None:
         self.said: list[str | None] = []
 
-    def declare(self, type: str, *, label: str | None) -> None:
+    def declare(self, type: str, **values: str | None) -> None:
         assert type == "progress"
-        self.said.append(label)
+        self.said.append(values["label"])
 
 
 def test_what_is_quick_is_not_mentioned(capfd) -> None:
     page = Page()
-    with progress(page, "drawing …"):  # type: ignore[arg-type]
+    with progress(page, "drawing …"):
         pass
     assert (page.said, capfd.readouterr().err) == ([], "")
 
@@ -27,7 +27,7 @@ def test_what_is_quick_is_not_mentioned(capfd) -> None:
 def test_what_takes_long_is_said_on_the_page_and_in_the_terminal_until_it_is_over(capfd, monkeypatch, until) -> None:
     monkeypatch.setattr(compiling, "PATIENCE", 0.01)
     page = Page()
-    with progress(page, "drawing …"):  # type: ignore[arg-type]
+    with progress(page, "drawing …"):
         until(lambda: page.said)
     assert page.said == ["drawing …", None]
     assert capfd.readouterr().err == "drawing …\n"
@@ -40,7 +40,7 @@ def test_an_error_ends_it_too(monkeypatch, until) -> None:
     page = Page()
 
     def break_down() -> None:
-        with progress(page, "loading …"):  # type: ignore[arg-type]
+        with progress(page, "loading …"):
             until(lambda: page.said)
             raise ValueError("broken")
 

@@ -42,11 +42,11 @@ class Page:
 def test_it_stands_where_the_simulation_starts(name: str) -> None:
     robot, world, page = load_robot(name), load_world("empty"), Page()
     likeness = Likeness(robot, world)
-    likeness.show(page)  # type: ignore[arg-type]
+    likeness.show(page)
     simulator = Simulator(robot, world=world, scene=likeness.scene, note=lambda _: None)
     assert simulator.scene is likeness.scene
     before = page.poses
-    figures = Figures(simulator, page)  # type: ignore[arg-type]
+    figures = Figures(simulator, page)
     figures.show()
     first, second = page.shown
     assert first == second
@@ -58,7 +58,7 @@ def test_a_page_that_is_open_is_told_why_the_server_ends(monkeypatch) -> None:
     page = Page()
 
     def fail() -> None:
-        with told_of_faults(page):  # type: ignore[arg-type]
+        with told_of_faults(page):
             raise SimulationError("no such wheel")
 
     with pytest.raises(SimulationError):

@@ -18,6 +18,7 @@ from urdfkit.errors import MissingDependencyError, UrdfkitError
 if TYPE_CHECKING:
     from types import FrameType
 
+    from urdfkit.view.screen import Board
     from urdfkit.view.server import Server
 
 NEEDED = {"meshcat": "meshcat", "tornado": "tornado", "umsgpack": "u-msgpack-python", "trimesh": "trimesh"}
@@ -102,7 +103,7 @@ class Page:
 
 
 @contextmanager
-def told_of_faults(server: Server) -> Iterator[None]:
+def told_of_faults(server: Board) -> Iterator[None]:
     """Run a block whose error a page that is open already is told too, before the server ends."""
     try:
         yield

@@ -255,7 +255,7 @@ def pack_file(name: str, content: bytes) -> bytes:
     return POSE_HEADER.pack(FILE_MARK, 0, len(encoded), 0, 0.0) + encoded + content
 
 
-def pack_poses(sequence: int, time: float, poses: NDArray[np.float64], *, model: int = 0) -> bytes:
+def pack_poses(sequence: int, time: float, poses: NDArray[np.floating[Any]], *, model: int = 0) -> bytes:
     """Pack poses for the browser.
 
     Args:

@@ -143,7 +143,7 @@ class Server:
         )
         self._post(self.hub.lasting, "model", message)
 
-    def publish(self, time: float, poses: NDArray[np.float64]) -> None:
+    def publish(self, time: float, poses: NDArray[np.floating[Any]]) -> None:
         """Send poses to all browsers; costs the caller microseconds, however many watch.
 
         Args:

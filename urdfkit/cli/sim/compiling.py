@@ -10,27 +10,27 @@ from typing import TYPE_CHECKING
 from urdfkit.cli.page import note
 
 if TYPE_CHECKING:
-    from urdfkit.view.server import Server
+    from urdfkit.view.screen import Board
 
 PATIENCE = 1.0
 """Seconds that something may take without a word."""
 
 
-def compile_kernel(server: Server) -> None:
+def compile_kernel(server: Board) -> None:
     """Compile the physics kernel if it has not been."""
     from urdfkit.sim.engine.warmup import announcement, warmup
 
     _compile(warmup, announcement(), server)
 
 
-def compile_rays(server: Server) -> None:
+def compile_rays(server: Board) -> None:
     """Compile what sensors see by if it has not been; see `compile_kernel`."""
     from urdfkit.scene.rays import announcement, warmup
 
     _compile(warmup, announcement(), server)
 
 
-def _compile(warmup: Callable[[Callable[[int], None]], bool], label: str, server: Server) -> None:
+def _compile(warmup: Callable[[Callable[[int], None]], bool], label: str, server: Board) -> None:
     def say(functions: int) -> None:
         if functions == 0:
             note(label)
@@ -41,7 +41,7 @@ def _compile(warmup: Callable[[Callable[[int], None]], bool], label: str, server
 
 
 @contextmanager
-def progress(server: Server, label: str) -> Iterator[None]:
+def progress(server: Board, label: str) -> Iterator[None]:
     """Say what is being done in the terminal and on the page, if it takes longer than `PATIENCE`.
 
     Args:

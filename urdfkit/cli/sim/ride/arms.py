@@ -15,9 +15,13 @@ from urdfkit.sim.controllers.trajectory import TrajectoryFollower
 from urdfkit.view.orders import Order, Schema, number, text
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from urdfkit.sim.controllers.joint import JointHandle
     from urdfkit.sim.controllers.law import Law
     from urdfkit.sim.simulated import SimulatedRobot
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.server import Server
 
 KEY = "arms"
 """Key that pages want the joints' positions by."""
@@ -126,8 +130,8 @@ class Arm:
 class Arms(Part):
     """The sliders of all controllers."""
 
-    def __init__(self, *common: object) -> None:
-        super().__init__(*common)  # type: ignore[arg-type]
+    def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
+        super().__init__(simulator, server, clock)
         self._arms: dict[str, Arm] = {}
         self._states: list[tuple[str, str]] = []
 

@@ -10,7 +10,11 @@ from urdfkit.cli.sim.ride.values import number_at
 from urdfkit.errors import UsageError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from urdfkit.bus import Subscription
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.server import Server
 
 FIELD = "field:"
 """Begins the key of a curve, which goes on with the topic, a colon and the path in its messages."""
@@ -23,8 +27,8 @@ MOST = 400
 class Curves(Part):
     """Listens to the topics that pages plot numbers of."""
 
-    def __init__(self, *common: object) -> None:
-        super().__init__(*common)  # type: ignore[arg-type]
+    def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
+        super().__init__(simulator, server, clock)
         self._curves: dict[str, _Curve] = {}
 
     def tick(self) -> None:

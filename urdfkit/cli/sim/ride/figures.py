@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from urdfkit.description import Robot
     from urdfkit.scene import Shape
     from urdfkit.sim.simulator import Simulator
-    from urdfkit.view.server import Server
+    from urdfkit.view.screen import Screen
 
 BODY = "world/"
 """Goes before the names of the world's bodies: no link has a slash where a body of the world has its first."""
@@ -30,7 +30,7 @@ class Figures:
         tip: the link that most joints that move lie between and the root; of an arm its end.
     """
 
-    def __init__(self, simulator: Simulator, server: Server) -> None:
+    def __init__(self, simulator: Simulator, server: Screen) -> None:
         self._simulator, self._server = simulator, server
         self._drawn: tuple[str, ...] = ()
         self._shown: dict[str, tuple[Any, ...]] = {}
@@ -60,14 +60,14 @@ class Figures:
         if first:
             scene = Scene(bodies, (*simulator.scene.shapes, *(each for some in shapes.values() for each in some)))
 
-            def picture(server: Server) -> None:
+            def picture(server: Screen) -> None:
                 draw(scene, server, server.geometries)
 
         else:
             gone = [name for name in before if name not in looks or looks[name] != before[name]]
             come = [name for name in drawn if looks[name] != before.get(name)]
 
-            def picture(server: Server) -> None:
+            def picture(server: Screen) -> None:
                 draw_more(
                     [shape for name in come for shape in shapes.get(name, ())],
                     server,

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 import contextlib
+from typing import TYPE_CHECKING
 
 from urdfkit.cli.sim.ride.part import Done, Part, Takes
 from urdfkit.errors import SimulationError
 from urdfkit.view.orders import Order, Schema, numbers, text
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.server import Server
 
 HOLD = 0.3
 """Seconds of simulated time that a push lasts without another; pages repeat it twenty times a second."""
@@ -17,8 +24,8 @@ STRONGEST = 1e5
 class Hands(Part):
     """Who pushes what."""
 
-    def __init__(self, *common: object) -> None:
-        super().__init__(*common)  # type: ignore[arg-type]
+    def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
+        super().__init__(simulator, server, clock)
         self._held: dict[int, str] = {}
 
     @property

@@ -12,7 +12,7 @@ from urdfkit.sim.spawn import Spawn
 if TYPE_CHECKING:
     from urdfkit.description import Robot
     from urdfkit.description.world import World
-    from urdfkit.view.server import Server
+    from urdfkit.view.screen import Screen
 
 
 class Likeness:
@@ -39,7 +39,7 @@ class Likeness:
         self._q = spawn.configuration(kinematics, base)[0]
         require_masses(kinematics, self._q, lambda _: None)  # the simulation says it again
 
-    def show(self, server: Server) -> None:
+    def show(self, server: Screen) -> None:
         """Put it on the page."""
         from urdfkit.view.nodes import draw, link_path
 

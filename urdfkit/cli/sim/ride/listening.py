@@ -8,7 +8,11 @@ from urdfkit.cli.sim.ride.part import Part
 from urdfkit.cli.sim.ride.values import as_json
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from urdfkit.bus import Subscription, Topic
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.server import Server
 
 TIMES, SIZES, EVERY, WHOLE = "times:", "sizes:", "every:", "whole:"
 """Begin the key of a topic's messages: when each came; and how many bytes it has; what it says, cut; in full."""
@@ -32,8 +36,8 @@ MOST = 2000
 class Listening(Part):
     """Listens to the topics that somebody wants every message of, and to no others."""
 
-    def __init__(self, *common: object) -> None:
-        super().__init__(*common)  # type: ignore[arg-type]
+    def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
+        super().__init__(simulator, server, clock)
         self._ears: dict[str, _Ear] = {}
 
     def tick(self) -> None:

@@ -195,7 +195,7 @@ class Ride:
         poses = self.figures.poses()
         if self.tape.playing:
             t, shown = self.tape.picture()
-            self.server.publish(t, shown)  # type: ignore[arg-type]
+            self.server.publish(t, shown)
         else:
             self.server.publish(simulator.t, poses)
             self.tape.keep(simulator.t, poses, simulator.revision)

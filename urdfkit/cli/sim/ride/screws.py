@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.sim.ride.part import Done, Part, Takes
 from urdfkit.sim.controllers.pid import Gains
@@ -10,12 +10,18 @@ from urdfkit.sim.loading import STRONGEST
 from urdfkit.sim.tuning import LEAST_MASS, Tuning
 from urdfkit.view.orders import Order, Schema, number, numbers, text
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.server import Server
+
 
 class Screws(Part):
     """What can be turned."""
 
-    def __init__(self, *common: object) -> None:
-        super().__init__(*common)  # type: ignore[arg-type]
+    def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
+        super().__init__(simulator, server, clock)
         self._tuning = Tuning(self.simulator)
 
     @property

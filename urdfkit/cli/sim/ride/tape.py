@@ -15,8 +15,12 @@ from urdfkit.errors import SimulationError
 from urdfkit.view.orders import Order, Schema, choice, flag, number
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from urdfkit.bridges.recorder import Recorder
     from urdfkit.bus import Bus, Topic
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.server import Server
 
 MOST_BYTES = 96 * 1024 * 1024
 """Of a tape; it stops there."""
@@ -35,8 +39,8 @@ class Tape(Part):
         playing: whether what is shown comes from the tape.
     """
 
-    def __init__(self, *common: object) -> None:
-        super().__init__(*common)  # type: ignore[arg-type]
+    def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
+        super().__init__(simulator, server, clock)
         self._times: list[float] = []
         self._frames: list[NDArray[np.float32]] = []
         self._bytes = 0

@@ -4,11 +4,18 @@ from __future__ import annotations
 
 import struct
 from collections import deque
+from typing import TYPE_CHECKING
 
 from urdfkit.cli.sim.ride.part import Done, Part, Takes
 from urdfkit.cli.sim.ride.values import as_json, numbers_in
 from urdfkit.errors import UsageError, did_you_mean
 from urdfkit.view.orders import Order, Schema, text, tree
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.server import Server
 
 LIST, ECHO = "topics", "echo:"
 """Keys that pages want the list by, and the last message of a topic."""
@@ -25,8 +32,8 @@ SPAN = 6
 class Topics(Part):
     """The list, and what somebody looks at."""
 
-    def __init__(self, *common: object) -> None:
-        super().__init__(*common)  # type: ignore[arg-type]
+    def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
+        super().__init__(simulator, server, clock)
         self._counts: deque[tuple[float, dict[str, int]]] = deque(maxlen=SPAN)
         self._echoes: dict[str, tuple[float, int]] = {}
 
