@@ -180,6 +180,21 @@ def test_without_a_simulation_it_says_how_to_start_one(tmp_path: Path, monkeypat
     assert printed.err.count("\n") == 1
 
 
+def test_a_simulation_that_is_starting_is_found_and_says_what_it_does(tmp_path: Path, monkeypatch, capsys) -> None:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    with Server("sim", port=0) as server, noted(server.port, server.url, "simpleton"):
+        server.declare("progress", label="compiling …")
+        monkeypatch.setattr("urdfkit.cli.topic.session.READY", 0.3)
+        assert main(["topic", "list"]) == 2
+        first, second = capsys.readouterr().err.splitlines()
+        assert first == "urdfkit: the simulation is starting: compiling …"
+        assert "is it still starting?" in second
+        server.declare("progress", label=None)
+        server.declare("fault", message="no such wheel")
+        assert main(["topic", "list"]) == 2
+        assert capsys.readouterr().err == "urdfkit: the simulation says: no such wheel\n"
+
+
 def start(*words: str) -> subprocess.Popen[str]:
     command = [sys.executable, "-m", "urdfkit", "topic", *words]
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ})

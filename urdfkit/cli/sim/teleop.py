@@ -63,14 +63,15 @@ def run(arguments: argparse.Namespace) -> int:
         page = Page(server, host=arguments.host, browser=not arguments.no_browser)
         try:
             page.open()  # the browser starts, and shows the robot, while the engine is made ready
-            with told_of_faults(server):
-                likeness.show(server)
-                server.declare("progress", label="making the engine ready …")
-                ride = _ride(arguments, robot, world, likeness, server)
-            simulator = ride.simulator
-            with recording(simulator, arguments.record) as ride.look, noted(server.port, server.url, simulator.name):
-                note(KEYS if simulator.command_topics else "this robot has no drive that takes velocity commands")
-                ride.run()
+            with noted(server.port, server.url, robot.name or "robot"):  # `urdfkit topic` waits with us
+                with told_of_faults(server):
+                    likeness.show(server)
+                    server.declare("progress", label="making the engine ready …")
+                    ride = _ride(arguments, robot, world, likeness, server)
+                simulator = ride.simulator
+                with recording(simulator, arguments.record) as ride.look:
+                    note(KEYS if simulator.command_topics else "this robot has no drive that takes velocity commands")
+                    ride.run()
         finally:
             server.stop()
     return 0

@@ -69,15 +69,21 @@ def positive(text: str) -> int:
 
 
 async def topics(client: Client) -> list[Row]:
-    """Return the topics there are, sorted by name.
+    """Return the topics there are, sorted by name; wait for a simulation that is starting, and say so.
 
     Raises:
-        ResourceError: the page has none, or the list does not come.
+        ResourceError: the page has none, the list does not come, or the simulation cannot go on.
     """
     await client.watch("topics")
+    said = False
     while (text := await client.text(READY)) is not None:
         if text["type"] == "hello" and text["mode"] != "sim":
             raise ResourceError("that page is a viewer; topics are in a simulation: urdfkit sim teleop MODEL")
+        if text["type"] == "progress" and text["label"] and not said:
+            note(f"urdfkit: the simulation is starting: {text['label']}")
+            said = True
+        if text["type"] == "fault" and text["message"]:
+            raise ResourceError(f"the simulation says: {text['message']}")
         if text["type"] == "topics":
             await client.watch()
             return sorted(
