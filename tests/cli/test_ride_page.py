@@ -364,10 +364,17 @@ def test_what_was_recorded_is_shown_again_and_topics_are_saved(page, keep, until
     )
     until(lambda: page.evaluate(X) < 0.05)
     assert page.locator("#replaying").is_visible()
+    now, begin = page.evaluate("[urdfkit.page.status.time, Number(document.querySelector('#replay-at').min)]")
+    until(lambda: page.locator("#sim-time").inner_text() == f"{begin:.1f} s")  # of the recording
+    assert begin < now - 0.3
+    assert page.locator("#rtf").inner_text() == "replay"
+    assert float(page.locator("#position").inner_text().split(",")[0]) == pytest.approx(0.0, abs=0.05)
     page.locator("#replay-play").click()
     until(lambda: page.evaluate(X) > 0.1)
     keep(page, "replay")
     page.locator("#replay-end").click()
+    until(lambda: page.locator("#rtf").inner_text() != "replay")
+    assert float(page.locator("#sim-time").inner_text().split()[0]) >= now - 0.1
     until(lambda: not page.locator("#replaying").is_visible())
     until(lambda: page.evaluate(X) == pytest.approx(here, abs=0.3))
 

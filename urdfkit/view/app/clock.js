@@ -34,21 +34,43 @@ export function clock(page) {
     $("tip-name").title = `where the frame of ${link} is`;
     $("tip-at").textContent = `${fixed(at.x, 3)}, ${fixed(at.y, 3)}, ${fixed(at.z, 3)} m`;
   }
-  page.on("you", (message) => (me = message.client));
-  page.on("status", (message) => {
+  // Of a replay: what is on the recording at that time, and nothing that it does not hold.
+  let replays = false;
+  function replay(time) {
+    const node = page.scene.nodes[page.followed ?? page.model.root];
+    if (!node) return;
+    const { x: i, y: j, z: k, w } = node.quaternion;
+    const yaw = Math.atan2(2 * (w * k + i * j), 1 - 2 * (j * j + k * k));
+    page.pose = { x: node.position.x, y: node.position.y, yaw };
+    place(page.pose);
+    tip(document.querySelector("#readout [data-base]").hidden ? page.status.tip : null);
+    $("sim-time").textContent = `${time.toFixed(1)} s`;
+    $("rtf").textContent = "replay";
+    $("rtf").title = `the simulation waits at ${page.status.time.toFixed(1)} s`;
+    $("velocity").textContent = "–";
+  }
+  function place({ x, y, yaw }) {
+    $("position").textContent = `${fixed(x, 2)}, ${fixed(y, 2)} m`;
+    $("heading").textContent = `${fixed((yaw * 180) / Math.PI, 0)}°`;
+  }
+  function now(message, bolted) {
     page.pose = message.robots[page.driven] ?? message.pose;
-    page.status = message;
-    const { x, y, yaw } = page.pose;
-    const bolted = message.fixed && !(page.driven in message.robots && page.followed !== undefined);
-    for (const row of document.querySelectorAll("#readout [data-base]")) row.hidden = bolted;
+    place(page.pose);
     tip(bolted ? message.tip : null);
-    const quick = page.driven && message.robots[page.driven] ? message.robots[page.driven].speed : message.speed;
+    const quick = message.robots[page.driven]?.speed ?? message.speed;
     $("sim-time").textContent = `${message.time.toFixed(message.paused ? 3 : 1)} s`;
     $("rtf").textContent = message.paused ? "paused" : `×${message.real_time_factor.toFixed(2)}`;
     $("rtf").title = message.factor === null ? "as fast as it can" : `wanted: ×${message.factor}`;
-    $("position").textContent = `${fixed(x, 2)}, ${fixed(y, 2)} m`;
-    $("heading").textContent = `${fixed((yaw * 180) / Math.PI, 0)}°`;
     $("velocity").textContent = `${fixed(quick, 2)} m/s`;
+  }
+  page.on("tape", (message) => (replays = Boolean(message.playing)));
+  page.on("poses", (time) => replays && page.status && replay(time));
+  page.on("you", (message) => (me = message.client));
+  page.on("status", (message) => {
+    page.status = message;
+    const bolted = message.fixed && !(page.driven in message.robots && page.followed !== undefined);
+    for (const row of document.querySelectorAll("#readout [data-base]")) row.hidden = bolted;
+    if (!replays) now(message, bolted);
     $("pause").querySelector("span").textContent = message.paused ? "Go on" : "Pause";
     $("pause").setAttribute("aria-label", message.paused ? "Go on" : "Pause");
     $("pause").setAttribute("aria-pressed", message.paused);
