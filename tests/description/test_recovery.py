@@ -232,3 +232,42 @@ def test_the_first_tutorials_robot() -> None:
         ("undefined-property", "chassisWidth", 23),
         ("undefined-property", "wheelRadius", 24),
     }
+
+
+CALLS = """HEAD
+<xacro:macro name="wheel" params="name radius:=0.1 *origin"><link name="${name}"><xacro:insert_block name="origin"/></link></xacro:macro>
+<xacro:macro name="castor" params="name"><link name="${name}"/></xacro:macro>
+%s
+<end/></robot>"""
+
+
+@pytest.mark.parametrize(
+    ("call", "links"),
+    [
+        ('<xacro:weel name="a"><origin/></xacro:weel>', ["a"]),
+        ('<xacro:Wheel name="a" radius="0.2"><origin/></xacro:Wheel>', ["a"]),
+        ('<xacro:caster name="a"/>', ["a"]),
+        ('<xacro:weel name="a"/>', []),  # lacks its block
+        ('<xacro:weel nam="a"><origin/></xacro:weel>', []),
+        ('<xacro:caster/>', []),
+        ('<xacro:chassis name="a"/>', []),
+    ],
+)  # fmt: skip
+def test_calls_that_fit_a_macro_of_nearly_the_name_are_read_as_its(write: Write, call: str, links: list[str]) -> None:
+    expanded = expand_leniently(write("m.xacro", CALLS % call))
+    assert expanded.root is not None
+    assert [(fault.kind, fault.position.line) for fault in expanded.faults] == [("undefined-macro", 4)]
+    assert [link.get("name") for link in expanded.root.find_all("link")] == links
+    assert ("meant" in expanded.faults[0].details) is bool(links)
+    if links:
+        assert [str(call.position) for call in expanded.root.find_all("link")[0].origin.expansions] == ["m.xacro:4:1"]
+
+
+def test_files_that_include_each_other_are_read_once(write: Write) -> None:
+    write("arm.xacro", 'HEAD<link name="arm"/>\n<xacro:include filename="m.xacro"/></robot>')
+    expanded = expand_leniently(
+        write("m.xacro", 'HEAD<xacro:include filename="arm.xacro"/><link name="base"/></robot>')
+    )
+    assert expanded.root is not None
+    assert [(fault.kind, str(fault.position)) for fault in expanded.faults] == [("recursion", "arm.xacro:2:1")]
+    assert [link.get("name") for link in expanded.root.find_all("link")] == ["arm", "base"]

@@ -179,7 +179,9 @@ def test_a_change_for_the_worse_is_rolled_back(write, monkeypatch):
     path = write("r.xacro", BAD.replace("</robot>", '<link name="a"/><link name="b"/></robot>'))
     fixed = mend(path)
     (note,) = fixed.notes
-    assert note.startswith("T203 was not fixed: that would have caused E001 at r.xacro:8, `<` where it must not be: ")
+    assert note.startswith(
+        "T203 at r.xacro:8 was not fixed: that would have caused E001 at r.xacro:8, `<` where it must not be: "
+    )
     assert [change.after.decode() for change in fixed.changes] == [
         GOOD.replace("</robot>", '<link name="a"/><link name="b"/></robot>')
     ]
@@ -229,6 +231,25 @@ def test_what_a_fix_uncovers_does_not_withhold_it(write, wrong, right, code, unc
     assert code not in left
     assert uncovered in left
     assert right in fixed.changes[0].text
+
+
+def test_what_is_for_the_worse_leaves_other_findings_of_its_rule_their_fixes(write):
+    path = write(
+        "r.urdf",
+        """<robot name="r">
+  <link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+  <joint name="ab" type="Fixed"><parent link="a"/><child link="b"/></joint>
+  <joint name="bc" type="hinge"><parent link="b"/><child link="c"/></joint>
+  <joint name="cd" type="rigid"><parent link="c"/><child link="d"/></joint>
+</robot>
+""",
+    )
+    fixed = mend(path, unsafe=True)
+    (note,) = fixed.notes
+    assert note.startswith("J402 at r.urdf:4 was not fixed: that would have caused J403 at r.urdf:4, ")
+    (change,) = fixed.changes
+    assert change.after.decode() == path.read_text().replace('"Fixed"', '"fixed"').replace('"rigid"', '"fixed"')
+    assert fixed.fixed == {"J402": 2}
 
 
 def test_what_names_the_names_that_a_fix_took_away_is_caused_by_it(write, monkeypatch):

@@ -48,7 +48,8 @@ class Fault:
         expression: the text between ``${`` and ``}``, where there is one.
         defined_at: where `name` is defined although too late (after its use); None where it is not.
         details: further facts by kind: ``macro-arguments`` has ``macro`` (str), ``missing`` and ``unknown`` (tuples of
-            parameter names); ``include-not-found`` has ``path`` (str); ``recursion`` has ``cycle`` (tuple of names).
+            parameter names); ``include-not-found`` has ``path`` (str); ``recursion`` has ``cycle`` (tuple of names);
+            ``undefined-macro`` has ``meant`` (str) where the call was read as one of another macro.
     """
 
     kind: FaultKind

@@ -10,7 +10,9 @@ from __future__ import annotations
 import sys
 from collections.abc import Mapping
 
-from urdfkit.description.diagnosis import defined_in, fault_of, macro_arguments, undefined_macro, undefined_property
+from urdfkit.description.calls import LEFT_OUT, fitted, is_call_of, near_macro
+from urdfkit.description.diagnosis import defined_in, fault_of, undefined_macro, undefined_property
+from urdfkit.description.endless import Endless
 from urdfkit.description.expanded import Expanded
 from urdfkit.description.faults import Fault, Unprefixed
 from urdfkit.description.frames import Place, place_of_call
@@ -19,7 +21,7 @@ from urdfkit.description.prefixes import looks_like_a_call, mend_directives, ren
 from urdfkit.description.reading import shown_path, stamped_document
 from urdfkit.description.run import Run
 from urdfkit.description.source import Position, Source
-from urdfkit.description.spelling import misspelt, misspelt_attributes
+from urdfkit.description.spelling import mend_spelling
 from urdfkit.description.too_large import TooMany
 from urdfkit.description.unknown import FallbackSymbols, Unknown, peek
 from urdfkit.description.vocabulary import TAGS
@@ -32,9 +34,6 @@ if TYPE_CHECKING:
     from xml.dom import minidom
 
     from urdfkit.description.packages import Packages
-
-_LEFT_OUT = "\0left out: "
-"""Marks the value of a parameter that a call left out; cannot occur in XML."""
 
 _MAX_DROPPED = 1_000
 """Give up on an element after so many of its children had to be dropped."""
@@ -136,27 +135,12 @@ class RecoveringRun(Run):
             self._note(fault_of(error, self))
             document = stamped_document(source, self, namespaces=False)
         if self._mend_prefixes:
-            self._mend_spelling(document)
+            for fault in mend_spelling(document, self.position_of):
+                self._note(fault)
             for element, tag in mend_directives(document):
                 position, expansions = self.position_of(element)
                 self._unprefixed.setdefault(Unprefixed("directive", tag, position, expansions))
         return document
-
-    def _mend_spelling(self, document: minidom.Document) -> None:
-        """Read misspelt directives, and attributes of them, as if they were spelt right."""
-        for element, tag, meant in misspelt(document):
-            what = f"macro `{tag[6:]}` is not defined" if tag.startswith("xacro:") else f"<{tag}> is nothing to xacro"
-            message = f"{what}; did you mean `{'' if tag.startswith('xacro:') else 'xacro:'}{meant}`?"
-            self._note(Fault("misspelt-directive", message, *self.position_of(element), name=meant))
-            rename(element, meant)
-        for element, name, right in misspelt_attributes(document):
-            hint = f"; did you mean `{right}`?" if right is not None else ""
-            message = f"<{element.tagName}> has no attribute `{name}`{hint}"
-            position, expansions = self.position_of(element)
-            self._note(Fault("directive-attribute", message, position, expansions, name, right))
-            if right is not None:
-                element.setAttribute(right, element.getAttribute(name))
-            element.removeAttribute(name)
 
     def eval_all(self, node: minidom.Element, macros: Any, symbols: Any) -> None:
         """Evaluate an element; drop the children that cannot be."""
@@ -175,7 +159,7 @@ class RecoveringRun(Run):
                 self.stock["eval_all"](node, macros, symbols)
                 return
             except Exception as error:
-                if isinstance(error, TooMany) and self._level > 1:
+                if self._goes_up(error, depth[0], is_inside=self._level > 1):
                     raise
                 child = child_at_fault(error, node)
                 self._note(self._fault(error, child))
@@ -186,7 +170,7 @@ class RecoveringRun(Run):
     def eval_text(self, text: str, symbols: Any) -> Any:
         """Evaluate text, to `Unknown` when that fails."""
         if "$" not in text:
-            return Unknown(f"${{{text[len(_LEFT_OUT) :]}}}") if text.startswith(_LEFT_OUT) else text
+            return Unknown(f"${{{text[len(LEFT_OUT) :]}}}") if text.startswith(LEFT_OUT) else text
         outer, self._found_unknown = self._found_unknown, False
         try:
             value = super().eval_text(text, symbols)
@@ -265,7 +249,7 @@ class RecoveringRun(Run):
         try:
             self.stock["process_include"](elt, macros, symbols, func)
         except Exception as error:
-            if isinstance(error, TooMany) and depth[0] > 1:
+            if self._goes_up(error, depth[0], is_inside=depth[0] > 1):
                 raise
             fault = self._fault(error, elt)
             # A path that could not be evaluated has its fault already.
@@ -296,10 +280,11 @@ class RecoveringRun(Run):
             if tag != "xacro:call":
                 macro = self._macro(tag[6:], macros, symbols)
                 if macro is not None:
-                    self._fit(node, macro)
+                    for fault in fitted(node, macro, self.position_of):
+                        self._note(fault)
             return super().handle_macro_call(node, macros, symbols)
         except Exception as error:
-            if isinstance(error, TooMany) and depth[1]:
+            if self._goes_up(error, depth[0], is_inside=depth[1] > 0):
                 raise  # what is dropped is the call that a person wrote
             self._note(self._fault(error, node))
             self._unwind(depth)
@@ -312,7 +297,7 @@ class RecoveringRun(Run):
             return super().resolve_macro(fullname, macros, symbols)
         except KeyError:
             if fullname not in self._late_macros or self._tables is None:
-                raise
+                return self._resolve_near(fullname, macros, symbols, place_of_call(sys._getframe(1)))
             at = self.position_of(self._late_macros[fullname].body)[0]
             place = place_of_call(sys._getframe(1))
             facts = {**undefined_macro(fullname, place), "defined_at": at, "message": _too_late("macro", fullname, at)}
@@ -320,29 +305,26 @@ class RecoveringRun(Run):
             self._begin_call(fullname, self._late_macros[fullname])
             return (*self._tables, self._late_macros[fullname])
 
+    def _resolve_near(self, fullname: str, macros: Any, symbols: Any, place: Place) -> Any:
+        """Resolve the macro that a misspelt call must mean, as its parameters are given.
+
+        Raises:
+            KeyError: there is none.
+        """
+        for near in near_macro(fullname, place.macro_names()):
+            found = self.stock["resolve_macro"](near, macros, symbols)
+            if is_call_of(found[2], self._calling):
+                facts = undefined_macro(fullname, place)
+                self._note_at(place, {**facts, "details": {"meant": near}})
+                self._begin_call(near, found[2])
+                return found
+        raise KeyError(fullname)
+
     def _macro(self, name: str, macros: Any, symbols: Any) -> Any:
         try:
             return self.stock["resolve_macro"](name, macros, symbols)[2]
         except (KeyError, TypeError):
             return self._late_macros.get(name)
-
-    def _fit(self, node: minidom.Element, macro: Any) -> None:
-        """Take away what the macro has no parameter for, and mark what the call leaves out."""
-        given = list(node.attributes.keys())
-        unknown = tuple(name for name in given if name not in macro.params)
-        for name in unknown:
-            node.removeAttribute(name)
-        missing = tuple(
-            name for name in macro.params if not name.startswith("*") and name not in (*macro.defaultmap, *given)
-        )
-        for name in missing:
-            node.setAttribute(name, _LEFT_OUT + name)
-        wrong = [((), (name,)) for name in unknown] + ([(missing, ())] if missing else [])
-        position, expansions = self.position_of(node)
-        for left_out, odd in wrong:
-            facts = macro_arguments(macro.body.getAttribute("name"), left_out, odd, list(macro.params))
-            attribute = odd[0] if odd else None
-            self._note(Fault(position=position, expansions=expansions, attribute=attribute, **facts))
 
     def _learn(self) -> None:
         """Remember the values of what was undefined when used and is defined by now."""
@@ -364,10 +346,26 @@ class RecoveringRun(Run):
                 macros[name] = dict.__getitem__(table_of_macros, name)
 
     def _fault(self, error: Exception, node: Any) -> Fault:
-        """Diagnose what was raised; which of too many elements was the last is of no interest."""
+        """Diagnose what was raised; which of too many elements, or rounds, was the last is of no interest."""
         if isinstance(error, TooMany) and node is not None:
             return Fault("too-many", str(error), *self.position_of(node))
-        return fault_of(error, self, sys._getframe(1))
+        fault = fault_of(error, self, sys._getframe(1))
+        if isinstance(error, Endless) and error.what == "file":
+            return Fault(**{**vars(fault), "position": self.position_of(node)[0]})
+        return fault
+
+    def _goes_up(self, error: Exception, files: int, *, is_inside: bool) -> bool:
+        """Return whether an error is dealt with further out: what is dropped is what a person wrote, with all it made.
+
+        Args:
+            error: what was raised.
+            files: how many files include each other here; where one of them does so twice, a round has begun again.
+            is_inside: whether this is inside what a person wrote.
+        """
+        if isinstance(error, Endless) and error.what == "file":
+            open_files = [shown_path(file) for file in self.xacro.filestack[:files]]
+            return len(set(open_files)) < len(open_files)
+        return isinstance(error, TooMany) and is_inside
 
     def _note(self, fault: Fault) -> None:
         if fault.kind == "too-many":

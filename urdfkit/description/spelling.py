@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
-from urdfkit.description.prefixes import FOREIGN, elements, is_directive, names_above
+from urdfkit.description.faults import Fault
+from urdfkit.description.prefixes import FOREIGN, elements, is_directive, names_above, rename
 from urdfkit.description.vocabulary import TAGS
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
     from xml.dom import minidom
+
+    from urdfkit.description.calls import PositionOf
 
 ATTRIBUTES: dict[str, tuple[str, ...]] = {
     "macro": ("name", "params"),
@@ -26,6 +29,27 @@ ATTRIBUTES: dict[str, tuple[str, ...]] = {
 
 _OTHERS = frozenset(("attribute", "call", "element"))
 _LIKENESS = 0.8
+
+
+def mend_spelling(document: minidom.Document, position_of: PositionOf) -> Iterator[Fault]:
+    """Make directives that are misspelt, and attributes of them, what they must mean; yield what was wrong.
+
+    Args:
+        document: is changed.
+        position_of: returns where an element was written, and its chain of calls.
+    """
+    for element, tag, meant in misspelt(document):
+        what = f"macro `{tag[6:]}` is not defined" if tag.startswith("xacro:") else f"<{tag}> is nothing to xacro"
+        message = f"{what}; did you mean `{'' if tag.startswith('xacro:') else 'xacro:'}{meant}`?"
+        yield Fault("misspelt-directive", message, *position_of(element), name=meant)
+        rename(element, meant)
+    for element, name, right in misspelt_attributes(document):
+        hint = f"; did you mean `{right}`?" if right is not None else ""
+        message = f"<{element.tagName}> has no attribute `{name}`{hint}"
+        yield Fault("directive-attribute", message, *position_of(element), attribute=name, name=right)
+        if right is not None:
+            element.setAttribute(right, element.getAttribute(name))
+        element.removeAttribute(name)
 
 
 def misspelt(document: minidom.Document) -> Iterator[tuple[minidom.Element, str, str]]:

@@ -197,16 +197,16 @@ class _Fixer:
         self.shown: dict[Path, str] = {}
         self.texts: dict[Path, str] = {}
         self.names: dict[Path, Path] = {}
-        self.refused: set[str] = set()
+        self.refused: set[tuple[str, str, str]] = set()
         self.notes: dict[str, None] = {}
 
     def fix(self) -> Fixed:
         outcome = first = self._lint(self.texts)
         for _ in range(_ROUNDS):
-            texts, mended = self._attempt(outcome)
-            if mended is None:
+            attempt = self._attempt([finding for finding in outcome.findings if self._is_wanted(finding)], outcome)
+            if attempt is None:
                 break
-            self.texts, outcome = texts, mended
+            self.texts, outcome = attempt
         changes = tuple(
             Change(path, self.shown[path], self.contents[path], self.originals[path].encoded(text))
             for path, text in sorted(self.texts.items())
@@ -222,33 +222,31 @@ class _Fixer:
         overlay = {str(path): _SURROGATE.sub("\ufffd", text) for path, text in texts.items()}
         return run(self.entries, Options(**{**self.options.__dict__, "texts": overlay}))
 
-    def _attempt(self, outcome: Outcome) -> tuple[dict[Path, str], Outcome | None]:
-        """Apply all fixes at once; if that makes something worse, rule by rule."""
-        findings = [finding for finding in outcome.findings if self._is_wanted(finding)]
-        codes = list(dict.fromkeys(finding.code for finding in findings))
-        for group in (codes, *([code] for code in codes if len(codes) > 1)):
-            chosen = [finding for finding in findings if finding.code in group]
-            texts, written = self._edited(chosen, outcome)
-            if texts == self.texts:
-                continue
-            mended = self._lint(texts)
-            new = new_findings(outcome, mended)
-            worse = [finding for finding in new if written.has_caused(finding, mended.sources[finding.file])]
-            if not worse and any(True for _ in left_over(chosen, mended.findings)):
-                return texts, mended
-            if len(group) == 1:
-                self.refused.add(group[0])
-                cause = f"that would have caused {_listed(worse)}" if worse else "it would still be there"
-                self.notes[f"{group[0]} was not fixed: {cause}"] = None
-        return self.texts, None
+    def _attempt(self, findings: Sequence[Finding], outcome: Outcome) -> tuple[dict[Path, str], Outcome] | None:
+        """Apply fixes at once; where that makes something worse, those of a part, and refuse the ones to blame."""
+        texts, written = self._edited(findings, outcome)
+        if texts == self.texts:
+            return None
+        mended = self._lint(texts)
+        new = new_findings(outcome, mended)
+        worse = [finding for finding in new if written.has_caused(finding, mended.sources[finding.file])]
+        if not worse and any(True for _ in left_over(findings, mended.findings)):
+            return texts, mended
+        if len(findings) == 1:
+            cause = f"that would have caused {_listed(worse)}" if worse else "it would still be there"
+            self.refused.add(_key(findings[0]))
+            self.notes[f"{findings[0].code} at {findings[0].file}:{findings[0].line} was not fixed: {cause}"] = None
+            return None
+        parts = [self._attempt(part, outcome) for part in _parts(findings)]
+        return next((part for part in parts if part is not None), None)
 
     def _is_wanted(self, finding: Finding) -> bool:
         fix = finding.fix
-        if fix is None or finding.code in self.refused or not (fix.safety == "safe" or self.unsafe):
+        if fix is None or _key(finding) in self.refused or not (fix.safety == "safe" or self.unsafe):
             return False
         return self.only is None or self.only(finding)
 
-    def _edited(self, findings: list[Finding], outcome: Outcome) -> tuple[dict[Path, str], Written]:
+    def _edited(self, findings: Sequence[Finding], outcome: Outcome) -> tuple[dict[Path, str], Written]:
         """Return the texts with the fixes applied that do not overlap; the rest has its turn in the next round."""
         written = Written(guessed=any(finding.fix is not None and finding.fix.safety != "safe" for finding in findings))
         taken: dict[str, dict[Edit, None]] = {}
@@ -300,6 +298,20 @@ def _overlaps(edit: Edit, other: Edit) -> bool:
         return False
     (a, b), (c, d) = (((e.span.line, e.span.column), (e.span.end_line, e.span.end_column)) for e in (edit, other))
     return a == c or (a < d and c < b)
+
+
+def _key(finding: Finding) -> tuple[str, str, str]:
+    """Return what a finding is known by, wherever other fixes move it."""
+    return finding.code, finding.file, finding.message
+
+
+def _parts(findings: Sequence[Finding]) -> list[Sequence[Finding]]:
+    """Return the findings of each rule; halves where they are of one."""
+    codes = dict.fromkeys(finding.code for finding in findings)
+    if len(codes) > 1:
+        return [[finding for finding in findings if finding.code == code] for code in codes]
+    middle = len(findings) // 2
+    return [findings[:middle], findings[middle:]]
 
 
 def _counts(outcome: Outcome) -> dict[str, int]:

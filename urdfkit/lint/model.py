@@ -77,7 +77,7 @@ class Model:
 
         if any(misspelt_in_robot(child) is not None for child in self.robot.element.children):
             return True
-        faults = self.expanded.faults
+        faults = (fault for fault in self.expanded.faults if "meant" not in fault.details)
         return any(fault.kind in _DROPPING and not fault.message.startswith("unbound prefix") for fault in faults)
 
     @cached_property

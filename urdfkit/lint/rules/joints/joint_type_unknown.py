@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.edits import nearest, new_value
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -10,6 +11,24 @@ if TYPE_CHECKING:
 
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
+
+_ELSEWHERE = {
+    "hinge": "revolute",
+    "rotational": "revolute",
+    "rotary": "revolute",
+    "revolving": "revolute",
+    "slider": "prismatic",
+    "slide": "prismatic",
+    "linear": "prismatic",
+    "translational": "prismatic",
+    "rigid": "fixed",
+    "weld": "fixed",
+    "static": "fixed",
+    "free": "floating",
+    "ball": "floating",
+    "spherical": "floating",
+}
+"""Types of joints in other formats (SDF, MJCF, USD, Drake) and in speech → the nearest of URDF."""
 
 
 class JointTypeUnknown(RobotRule):
@@ -39,27 +58,31 @@ class JointTypeUnknown(RobotRule):
       <joint name="shoulder" type="fixed"><parent link="base"/><child link="upper"/></joint>
     </robot>
     ```
+
+    ## Fix safety
+    Unsafe: the type with the nearest name is taken, or what other formats' types come nearest to. A hinge is taken for
+    revolute, and then lacks its limits.
     """
 
     code = "J402"
     name = "joint-type-unknown"
+    fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint of unknown type."""
         from urdfkit.description.robot import JOINT_TYPES
 
         for joint in model.robot.joints:
-            if joint.type is not None and joint.type not in JOINT_TYPES:
-                from urdfkit.errors import did_you_mean
-
-                meant = {"hinge": "revolute", "slider": "prismatic", "free": "floating", "ball": "floating"}
-                likely = meant.get(joint.type.lower())
-                hint = f"; `{likely}` is nearest" if likely else did_you_mean(joint.type, JOINT_TYPES)
-                yield self.at(
-                    model,
-                    joint.element,
-                    f"joint `{joint.name}` has the type `{joint.type}`, which is none{hint}",
-                    attribute="type",
-                    joint=joint.name,
-                    help=f"the types are {', '.join(JOINT_TYPES)}",
-                )
+            if joint.type is None or joint.type in JOINT_TYPES:
+                continue
+            right = _ELSEWHERE.get(joint.type.lower()) or nearest(joint.type.strip(), JOINT_TYPES)
+            yield self.at(
+                model,
+                joint.element,
+                f"joint `{joint.name}` has the type `{joint.type}`, which is none"
+                + (f"; did you mean `{right}`?" if right else ""),
+                attribute="type",
+                joint=joint.name,
+                help=f"the types are {', '.join(JOINT_TYPES)}",
+                fix=new_value(model, joint.element, "type", right, "unsafe", f"Write `{right}`") if right else None,
+            )

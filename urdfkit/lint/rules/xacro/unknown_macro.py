@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.finding import Edit, Fix
+from urdfkit.lint.edits import nearest
+from urdfkit.lint.finding import Edit, Finding, Fix
 from urdfkit.lint.rule import FaultRule
 
 TYPE_CHECKING = False
@@ -10,7 +11,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.description.faults import Fault
-    from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
 
@@ -45,7 +45,7 @@ class UnknownMacro(FaultRule):
     ```
 
     ## Fix safety
-    Unsafe: a directive is spelt right. The name of a macro is left to you.
+    Unsafe: the directive, or the macro with the nearest name, is taken.
     """
 
     code = "X103"
@@ -55,18 +55,20 @@ class UnknownMacro(FaultRule):
     may_be_elsewhere = True
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
-        """Yield the finding; a directive that is misspelt can be mended."""
+        """Yield the finding; what is misspelt can be mended."""
+        right = fault.name
         if fault.kind == "undefined-macro":
-            yield from super().check(fault, model)
-            return
-        tag, fix = model.tag(fault.position), None
-        if tag is not None:
-            source = model.document(fault.position.file).source
-            ends = [tag.start + 1] if tag.close is None else [tag.start + 1, tag.close + 2]
-            name = f"xacro:{fault.name}"
-            fix = Fix(
-                "unsafe",
-                f"Call it <{name}>",
-                tuple(Edit(source.span(end, end + len(tag.name)), name) for end in ends),
-            )
-        yield self.at(model, fault, fault.message, fix=fix)
+            right = fault.details.get("meant") or nearest(fault.name or "", fault.candidates, likeness=0.7)
+        fix = self._renamed(model, fault, right) if right and fault.defined_at is None else None
+        for finding in super().check(fault, model):
+            yield Finding(**{**finding.__dict__, "fix": fix}) if fix is not None else finding
+
+    def _renamed(self, model: Model, fault: Fault, right: str) -> Fix | None:
+        tag = model.tag(fault.position)
+        if tag is None:
+            return None
+        source = model.document(fault.position.file).source
+        ends = [tag.start + 1] if tag.close is None else [tag.start + 1, tag.close + 2]
+        name = f"xacro:{right}"
+        edits = tuple(Edit(source.span(end, end + len(tag.name)), name) for end in ends)
+        return Fix("unsafe", f"Call it <{name}>", edits)
