@@ -13,8 +13,9 @@ from urdfkit.lint import lint
 from urdfkit.resources import find_model, robots_dir
 from urdfkit.scaffold import alteration as alterations
 from urdfkit.scaffold.alteration import Alteration, write_all
+from urdfkit.scaffold.boxes import Boxes
+from urdfkit.scaffold.free_place import Part, spot
 from urdfkit.scaffold.insertion import insert_before_end
-from urdfkit.scaffold.mounting import spot
 from urdfkit.scaffold.sensor_macro import GENERATIONS, KINDS, sensor_macro
 from urdfkit.sim import Simulator
 
@@ -195,10 +196,13 @@ def test_a_urdf_without_xacro_gets_plain_elements(place):
 def test_the_default_place_is_on_what_is_seen(place):
     path = place / "cart.urdf"
     path.write_text(URDF)
-    (base,) = load(path).links
-    assert spot(base, "top", (0, 0.05)) == (0, 0, 0.15)  # the cylinder lies
-    assert spot(base, "front", (0.02, 0)) == (0.12, 0, 0.1)
-    assert spot(base, "middle", (0, 0)) == (0, 0, 0)
+    cart = load(path)
+    (base,) = cart.links
+    own = Boxes(cart).of(base)
+    box = ((-0.02, -0.01, -0.05), (0.01, 0.01, 0.015))
+    assert spot(own, Part((box,), box, "top")) == (0, 0, 0.15)  # the cylinder lies
+    assert spot(own, Part((box,), box, "front")) == (0.12, 0, 0.085)
+    assert spot(own, Part((box,), box, "middle")) == (0, 0, 0)
 
 
 def test_diff_changes_nothing(place, capsys):
@@ -265,9 +269,9 @@ def test_where_there_is_no_robot_it_says_which_option(place, capsys):
 
 def test_the_same_name_twice_is_refused(place, capsys):
     folder = robot(place, "jazzy")
-    assert new("lidar", folder) == 0
+    assert new("lidar", folder, "--name", "eye") == 0
     before = everything(place)
-    assert new("lidar", folder) == 2
+    assert new("lidar", folder, "--name", "eye") == 2
     assert "already; nothing was changed" in capsys.readouterr().err
     assert everything(place) == before
 

@@ -22,9 +22,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add_description(parser)
     parser.add_argument("--dof", choices=("3", "4", "5", "6", "7"), default="6", metavar="N", help="joints, 3 to 7")
-    parser.add_argument("--name", default="arm", help="links and joints begin with it, unless it is `arm`")
+    parser.add_argument(
+        "--name",
+        help="links and joints begin with it, unless it is `arm` (default: that, with a number from the second on)",
+    )
     parser.add_argument("--parent", metavar="LINK", help="it stands on (default: base_link, or the heaviest)")
-    parser.add_argument("--xyz", nargs=3, metavar="M", help="where, in LINK [m] (default: on top)")
+    parser.add_argument(
+        "--xyz", nargs=3, metavar="M", help="where, in LINK [m] (default: on top, where nothing else is)"
+    )
     parser.add_argument("--rpy", nargs=3, metavar="RAD", default=["0", "0", "0"], help="roll, pitch, yaw [rad]")
     parser.add_argument("--reach", metavar="M", help="from the shoulder to the tool [m] (default: as the link allows)")
     parser.add_argument("--mass", metavar="KG", help="of the arm [kg]")

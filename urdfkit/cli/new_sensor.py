@@ -22,10 +22,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("sensor", choices=_KINDS, metavar="SENSOR", help=", ".join(_KINDS))
     add_description(parser)
-    parser.add_argument("--name", help="of the sensor; its links begin with it (default: the kind)")
+    parser.add_argument(
+        "--name", help="of the sensor; its links begin with it (default: the kind, with a number from the second on)"
+    )
     parser.add_argument("--parent", metavar="LINK", help="it is mounted on (default: base_link, or the heaviest)")
     parser.add_argument(
-        "--xyz", nargs=3, metavar="M", help="where, in LINK [m] (default: on top, cameras at the front)"
+        "--xyz",
+        nargs=3,
+        metavar="M",
+        help="where, in LINK [m] (default: on top, cameras at the front, where nothing else is)",
     )
     parser.add_argument("--rpy", nargs=3, metavar="RAD", default=["0", "0", "0"], help="roll, pitch, yaw [rad]")
     parser.add_argument("--topic", help="where it publishes; of cameras, what its topics begin with")
@@ -50,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
             )
     request = Request(
         arguments.sensor,
-        arguments.name or arguments.sensor,
+        arguments.name,
         arguments.parent,
         None if arguments.xyz is None else vector(arguments.xyz, "--xyz"),
         vector(arguments.rpy, "--rpy"),

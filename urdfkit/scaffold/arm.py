@@ -11,13 +11,16 @@ from pathlib import Path
 
 from urdfkit.description import load
 from urdfkit.description.expand import expand
-from urdfkit.description.robot import Robot, Vector
+from urdfkit.description.robot import Pose, Robot, Vector
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.resources import templates_dir
 from urdfkit.scaffold.alteration import Alteration
+from urdfkit.scaffold.boxes import Boxes, whole
+from urdfkit.scaffold.free_place import Part
 from urdfkit.scaffold.insertion import insert_before_end, xacro_prefix
 from urdfkit.scaffold.manifest import package_of, with_installed
-from urdfkit.scaffold.mounting import extent, parent_link, spot
+from urdfkit.scaffold.mounting import extent, mount, parent_link, written
+from urdfkit.scaffold.names import free
 from urdfkit.scaffold.reading import load_template
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -32,14 +35,14 @@ class ArmRequest:
     """An arm as asked for.
 
     Attributes:
-        name: of it; what its links and joints begin with, unless it is ``arm``.
+        name: of it; what its links and joints begin with, unless it is ``arm``; None: that, with a number if taken.
         answers: to the questions of the template of robots: arm, arm_reach, arm_mass, payload, gripper, finger_travel.
         parent: the link it stands on; None: chosen.
-        xyz: where, in the parent's frame [m]; None: on top.
+        xyz: where, in the parent's frame [m]; None: on top, where nothing else is.
         rpy: how it is turned, roll, pitch and yaw [rad].
     """
 
-    name: str
+    name: str | None
     answers: Mapping[str, str]
     parent: str | None = None
     xyz: Vector | None = None
@@ -58,21 +61,47 @@ def add_arm(robot: Robot, path: Path, request: ArmRequest) -> tuple[list[Alterat
         UsageError: the name is none, or the sizes do not go together.
         ResourceError: something of that name is there, or no such parent, or the file cannot be changed.
     """
-    if not _NAME.fullmatch(request.name):
+    if request.name is not None and not _NAME.fullmatch(request.name):
         raise UsageError(f"--name `{request.name}`: letters, digits and underscores, a letter first")
     parent = parent_link(robot, request.parent)
     answers = dict(request.answers)
-    answers.setdefault("arm_reach", f"{_reach(extent(parent)):.4g}")
-    xyz = request.xyz or spot(parent, "top", (0.0, 0.0))
-    notes = [f"on `{parent.name}` at {_numbers(xyz or (0, 0, 0))}, reaching {answers['arm_reach']} m"]
-    if xyz is None:
-        notes.append(f"the shapes of `{parent.name}` are meshes: look whether it is inside, and give --xyz")
-    lines, names = _elements(answers, "" if request.name == "arm" else f"{request.name}_")
+    answers.setdefault("arm_reach", f"{_reach(extent(robot, parent)):.4g}")
+    arm, xml = _alone(answers)
+    links, joints = _branch(arm)
     here = {link.name for link in robot.links} | {joint.name for joint in robot.joints}
-    if taken := [name for name in names if name in here]:
-        raise ResourceError(f"robot `{robot.name}` has a `{taken[0]}` already; nothing was changed: another --name")
-    origin = f'<origin xyz="{_numbers(xyz or (0, 0, 0))}" rpy="{_numbers(request.rpy)}"/>'
-    return _changes(path, request.name, lines, parent.name, origin), notes
+
+    def taken(name: str) -> list[str]:
+        return [each for each in (*links, *joints) if f"{_prefix(name)}{each}" in here]
+
+    def is_taken(name: str) -> bool:
+        return bool(taken(name)) or _home(path, name).exists()
+
+    name = request.name or free("arm", is_taken)
+    if there := taken(name):
+        has = f"{_prefix(name)}{there[0]}"
+        raise ResourceError(f"robot `{robot.name}` has a `{has}` already; nothing was changed: another --name")
+    xyz, notes = mount(robot, parent, _part(arm, request.rpy), request.xyz)
+    told = f"`{name}` on `{parent.name}` at {written(xyz)}, reaching {answers['arm_reach']} m"
+    lines = _elements(xml, {*links, *joints}, _prefix(name))
+    origin = f'<origin xyz="{written(xyz)}" rpy="{written(request.rpy)}"/>'
+    return _changes(path, name, lines, parent.name, origin), [told, *notes]
+
+
+def _prefix(name: str) -> str:
+    return "" if name == "arm" else f"{name}_"
+
+
+def _home(path: Path, name: str) -> Path:
+    """Return where the macro of an arm goes."""
+    return path.parent / f"{name}_macro.xacro"
+
+
+def _part(arm: Robot, rpy: Vector) -> Part:
+    """Return what an arm takes up: straight up, as it is at zero."""
+    boxes = Boxes(arm)
+    foot, at = arm.link_by_name["arm_foot"], Pose(rpy=rpy)
+    whole_arm = [box for name, box in boxes.seen_from(foot, at) if name in _branch(arm)[0]]
+    return Part(tuple(whole_arm), whole(boxes.of(foot, at) or whole_arm))
 
 
 def _changes(path: Path, name: str, lines: list[str], parent: str, origin: str) -> list[Alteration]:
@@ -81,7 +110,7 @@ def _changes(path: Path, name: str, lines: list[str], parent: str, origin: str) 
     if prefix is None:
         text = "\n".join(lines).replace("${parent}", parent).replace('<xacro:insert_block name="origin"/>', origin)
         return [Alteration(path, before, insert_before_end(before, text, path=path))]
-    home = path.parent / f"{name}_macro.xacro"
+    home = _home(path, name)
     if home.exists():
         raise ResourceError(f"{home} is already there; nothing was changed")
     body = "\n".join(f"    {line}" if line else "" for line in lines)
@@ -108,8 +137,8 @@ def _reach(size: Vector | None) -> float:
     return 0.6 if size is None else max(0.05, min(size[0], 1.3 * size[1], 5.0))
 
 
-def _elements(answers: Mapping[str, str], prefix: str) -> tuple[list[str], list[str]]:
-    """Return the links and joints of an arm as lines of XML, and their names."""
+def _alone(answers: Mapping[str, str]) -> tuple[Robot, str]:
+    """Return a robot with the arm on a base that carries any, and its URDF."""
     template = load_template(templates_dir() / "robot")
     side = f"{_ROOMY * float(answers['arm_reach']):.6g}"
     weight = f"{5000 * float(side) ** 2 * 0.1 * 0.1:.6g}"
@@ -118,20 +147,21 @@ def _elements(answers: Mapping[str, str], prefix: str) -> tuple[list[str], list[
     with tempfile.TemporaryDirectory() as folder:
         template.render({**full, "year": "", "into": ""}, Path(folder))
         model = Path(folder, "arm_robot_description/urdf/arm_robot.urdf.xacro")
-        robot, xml = load(model), expand(model).xml
+        return load(model), expand(model).xml
+
+
+def _elements(xml: str, names: set[str], prefix: str) -> list[str]:
+    """Return the links and joints of an arm as lines of XML."""
     root = ElementTree.fromstring(xml)
     colours = {material.get("name"): material for material in root.findall("material")}
-    links, joints = _branch(robot)
-    found = [each for each in root if each.tag in ("link", "joint") and each.get("name") in {*links, *joints}]
-    for element in found:
-        _renamed(element, prefix, {*links, *joints}, colours)
-        _tidied(element)
     lines: list[str] = []
-    for element in found:
+    for element in (each for each in root if each.tag in ("link", "joint") and each.get("name") in names):
+        _renamed(element, prefix, names, colours)
+        _tidied(element)
         ElementTree.indent(element)
         text = ElementTree.tostring(element, encoding="unicode").strip().replace(" />", "/>")
         lines += [*([""] if lines else []), *text.replace("<insert_block/>", _BLOCK).splitlines()]
-    return lines, [str(element.get("name")) for element in found]
+    return lines
 
 
 _BLOCK = '<xacro:insert_block name="origin"/>'
@@ -174,7 +204,3 @@ def _tidied(element: ElementTree.Element) -> None:
         for attribute in sorted(each.attrib, key=lambda name: _ORDER.index(name) if name in _ORDER else -1):
             value = each.attrib.pop(attribute)
             each.set(attribute, _NUMBER.sub(lambda match: f"{float(match[0]):.9g}", value))
-
-
-def _numbers(values: Vector) -> str:
-    return " ".join(f"{value:.10g}" for value in values)

@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from urdfkit.description.robot import Cylinder, Joint, Link, Robot, Sphere, Vector
-from urdfkit.scaffold.mounting import rotation
+from urdfkit.description.robot import Cylinder, Joint, Link, Pose, Robot, Sphere
+from urdfkit.description.world.poses import compose, rotate, rotation_of
 
 _FINGER = re.compile(r"finger|jaw|claw", re.IGNORECASE)
 _GRIPPER = re.compile(r"grip", re.IGNORECASE)
@@ -16,8 +16,6 @@ _MOVED = ("revolute", "continuous", "prismatic")
 _TELLS_ONLY = re.compile(r"joint_?state|JointStatePublisher", re.IGNORECASE)
 _ALIKE = 1e-3
 """How far wheels of one axle may be from being mirror images [m]."""
-
-Matrix = tuple[Vector, Vector, Vector]
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,8 +126,7 @@ def _rolls(joint: Joint, robot: Robot, parents: dict[str | None, Joint]) -> bool
         return False
     if any(joint in _above(other, parents) for other in robot.joints if other.type in _MOVED):
         return False
-    rows, _ = _placement(joint, parents)
-    across = sum(row * axis for row, axis in zip(rows[1], joint.axis, strict=True))
+    across = rotate(rotation_of(_placement(joint, parents)), joint.axis)[1]
     length = sum(axis * axis for axis in joint.axis) ** 0.5
     return bool(length > 0 and abs(across) / length > 0.99)
 
@@ -138,7 +135,7 @@ def _wheels(joints: list[Joint], robot: Robot, parents: dict[str | None, Joint])
     """Return the differential drive that wheels make: as many left as right, mirrored, all of one radius."""
     if len(joints) < 2 or len(joints) % 2:
         return None
-    places = {joint.name: _placement(joint, parents)[1] for joint in joints}
+    places = {joint.name: _placement(joint, parents).xyz for joint in joints}
     radii = [_radius(robot.link_by_name.get(joint.child or "")) for joint in joints]
     middle = sum(place[1] for place in places.values()) / len(places)
     left = sorted((name for name in places if places[name][1] > middle), key=lambda name: places[name][0])
@@ -162,22 +159,12 @@ def _radius(link: Link | None) -> float | None:
     return next((shape.radius for shape in shapes if isinstance(shape, Cylinder | Sphere)), None)
 
 
-def _placement(joint: Joint, parents: dict[str | None, Joint]) -> tuple[Matrix, Vector]:
-    """Return the frame of a joint in that of the root: the rows of its rotation, and where it is [m]."""
+def _placement(joint: Joint, parents: dict[str | None, Joint]) -> Pose:
+    """Return the frame of a joint in that of the root."""
     chain = [joint]
     while (above := parents.get(chain[-1].parent)) is not None:
         chain.append(above)
-    rows: Matrix = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
-    at: Vector = (0, 0, 0)
+    pose = Pose()
     for each in reversed(chain):
-        x, y, z = (sum(a * b for a, b in zip(row, each.origin.xyz, strict=True)) for row in rows)
-        at = (at[0] + x, at[1] + y, at[2] + z)
-        turn = rotation(each.origin.rpy)
-        first, second, third = (_times(row, turn) for row in rows)
-        rows = (first, second, third)
-    return rows, at
-
-
-def _times(row: Vector, matrix: Matrix) -> Vector:
-    x, y, z = (sum(row[k] * matrix[k][i] for k in range(3)) for i in range(3))
-    return x, y, z
+        pose = compose(pose, each.origin)
+    return pose

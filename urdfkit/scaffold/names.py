@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from itertools import count
 
 from urdfkit.errors import UsageError
 
@@ -51,6 +52,18 @@ def sanitised(name: str) -> str:
     if not words or not words[0].isalpha():
         words = f"robot_{words}".rstrip("_")
     return words[:_LONGEST].rstrip("_") if len(words) > 1 else f"{words}_robot"
+
+
+def free(name: str, is_taken: Callable[[str], bool]) -> str:
+    """Return `name`, or with the first number behind it that makes it one that is not taken: ``lidar_2``.
+
+    Args:
+        name: what it would be.
+        is_taken: whether there is one of that name.
+    """
+    if not is_taken(name):
+        return name
+    return next(each for number in count(2) if not is_taken(each := f"{name}_{number}"))
 
 
 def _stripped(name: str, suffix: str) -> str:

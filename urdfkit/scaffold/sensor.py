@@ -8,16 +8,21 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from urdfkit.description import load
 from urdfkit.description.expand import expand
 from urdfkit.description.robot import Robot, Vector
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.scaffold.alteration import Alteration
+from urdfkit.scaffold.boxes import Boxes, whole
+from urdfkit.scaffold.free_place import Part
 from urdfkit.scaffold.insertion import insert_before_end, xacro_prefix
 from urdfkit.scaffold.manifest import bridges, package_of, with_dependency, with_installed
-from urdfkit.scaffold.mounting import parent_link, spot
+from urdfkit.scaffold.mounting import mount, parent_link, written
+from urdfkit.scaffold.names import free
 from urdfkit.scaffold.sensor_macro import KINDS, bridge_entries, sensor_macro, topic_of
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_BARE = "urdfkit_parent"
 _TOPIC = re.compile(r"/?[A-Za-z][A-Za-z0-9_]*(/[A-Za-z][A-Za-z0-9_]*)*")
 
 
@@ -27,16 +32,16 @@ class Request:
 
     Attributes:
         kind: of `KINDS`.
-        name: of the sensor; its links and joints begin with it.
+        name: of the sensor; its links and joints begin with it; None: its kind, with a number if that is taken.
         parent: the link it is mounted on; None: chosen.
-        xyz: where, in the parent's frame [m]; None: on top or at the front.
+        xyz: where, in the parent's frame [m]; None: on top or at the front, where nothing else is.
         rpy: how it is turned, roll, pitch and yaw [rad].
-        topic: where it publishes; None: after its name.
+        topic: where it publishes; None: after its name, and nothing else does.
         update_rate: measurements per second; None: what is usual.
     """
 
     kind: str
-    name: str
+    name: str | None = None
     parent: str | None = None
     xyz: Vector | None = None
     rpy: Vector = (0.0, 0.0, 0.0)
@@ -57,23 +62,21 @@ def add_sensor(robot: Robot, path: Path, request: Request, *, generation: str) -
         UsageError: the name or topic is none.
         ResourceError: something of that name is there, or there is no such parent, or the file cannot be changed.
     """
-    _check(robot, request)
+    name = _name(robot, request)
     kind = KINDS[request.kind]
     parent = parent_link(robot, request.parent)
-    xyz = request.xyz or spot(parent, kind.spot, kind.offset)
-    notes = [f"on `{parent.name}` at {_numbers(xyz or (0, 0, 0.1))}"] if request.xyz is None else []
-    if xyz is None:
-        notes.append(f"the shapes of `{parent.name}` are meshes: look whether it is inside, and give --xyz")
-    topic = request.topic or _namespace(robot) + topic_of(request.kind, request.name)
-    _check_topic(robot, topic)
+    macro = sensor_macro(request.kind, generation)
+    xyz, notes = mount(robot, parent, _part(macro, request, name), request.xyz)
+    topic = _topic(robot, request, name)
+    told = f"`{name}` on `{parent.name}`{'' if request.xyz else f' at {written(xyz)}'}, topic `{topic}`"
+    notes = [told, *notes]
     rate = request.update_rate or kind.rate
-    said = f'name="{request.name}" parent="{parent.name}" topic="{topic}" update_rate="{rate:g}"'
+    said = f'name="{name}" parent="{parent.name}" topic="{topic}" update_rate="{rate:g}"'
     call = [
         f"<xacro:{request.kind}_sensor {said}>",
-        f'  <origin xyz="{_numbers(xyz or (0, 0, 0.1))}" rpy="{_numbers(request.rpy)}"/>',
+        f'  <origin xyz="{written(xyz)}" rpy="{written(request.rpy)}"/>',
         f"</xacro:{request.kind}_sensor>",
     ]
-    macro = sensor_macro(request.kind, generation)
     before = _read(path)
     prefix = xacro_prefix(before) if path.suffix == ".xacro" else None
     alterations: list[Alteration] = []
@@ -110,20 +113,76 @@ def _bridged(package: Path, kind: str, topic: str) -> Iterator[Alteration]:
     yield Alteration(files[0], content, content + end + entries.encode("utf-8").replace(b"\n", newline))
 
 
-def _check(robot: Robot, request: Request) -> None:
+def _part(macro: str, request: Request, name: str) -> Part:
+    """Return what the sensor takes up: that of a robot with nothing but it."""
+    call = [
+        f'<link name="{_BARE}"/>',
+        f'<xacro:{request.kind}_sensor name="{name}" parent="{_BARE}" topic="t" update_rate="1">',
+        f'  <origin xyz="0 0 0" rpy="{written(request.rpy)}"/>',
+        f"</xacro:{request.kind}_sensor>",
+    ]
+    with tempfile.TemporaryDirectory() as folder:
+        robot = load(_called(macro, call, folder))
+    boxes = [box for _, box in Boxes(robot).seen_from(robot.link_by_name[_BARE])]
+    kind = KINDS[request.kind]
+    return Part(tuple(boxes), whole(boxes), kind.spot, apart=kind.looks_about)
+
+
+def _name(robot: Robot, request: Request) -> str:
+    """Return what the sensor is called.
+
+    Raises:
+        UsageError: that is no name.
+        ResourceError: something is called so already.
+    """
+    names = {thing.name for things in (robot.links, robot.joints) for thing in things}
+    sensors = {sensor.name for block in robot.gazebo for sensor in block.sensors}
+
+    def taken(name: str) -> list[str]:
+        own = {f"{name}_{end}" for end in ("link", "joint", "optical_frame", "optical_joint")}
+        return sorted(own & names) or ([name] if name in sensors else [])
+
+    if request.name is None:
+        return free(request.kind, lambda name: bool(taken(name)))
     if not _NAME.fullmatch(request.name):
         raise UsageError(f"--name `{request.name}`: letters, digits and underscores, a letter first")
-    if request.topic is not None and not _TOPIC.fullmatch(request.topic):
+    if there := taken(request.name):
+        raise ResourceError(
+            f"robot `{robot.name}` has a `{there[0]}` already; nothing was changed: another --name, or edit it"
+        )
+    return request.name
+
+
+def _topic(robot: Robot, request: Request, name: str) -> str:
+    """Return where the sensor publishes.
+
+    Raises:
+        UsageError: that is no topic.
+        ResourceError: something publishes there already.
+    """
+    used = dict(_topics(robot))
+    if request.topic is None:
+        first = _namespace(robot) + topic_of(request.kind, name)
+        if first not in used:
+            return first
+        return free(f"{_namespace(robot)}{name}/{KINDS[request.kind].topic}", used.__contains__)
+    if not _TOPIC.fullmatch(request.topic):
         raise UsageError(
             f"--topic `{request.topic}` is no name of a topic: words of letters, digits and _ with / between"
         )
-    new = {f"{request.name}_{end}" for end in ("link", "joint", "optical_frame", "optical_joint")}
-    links, joints = ({thing.name for thing in things} for things in (robot.links, robot.joints))
-    sensors = {sensor.name for block in robot.gazebo for sensor in block.sensors}
-    if taken := sorted(new & (links | joints)) or ([request.name] if request.name in sensors else []):
-        raise ResourceError(
-            f"robot `{robot.name}` has a `{taken[0]}` already; nothing was changed: another --name, or edit it"
-        )
+    if place := used.get(request.topic.strip("/")):
+        raise ResourceError(f"robot `{robot.name}` publishes on `{request.topic}` already ({place}); another --topic")
+    return request.topic
+
+
+def _topics(robot: Robot) -> Iterator[tuple[str, str]]:
+    """Yield what the sensors and plugins of a robot publish on, and where that is said."""
+    for element in (element for block in robot.gazebo for element in block.element.walk()):
+        tag = element.tag.lower()
+        if tag in ("topic", "cameraname", "camera_name") or tag.endswith("topicname"):
+            yield element.text.strip("/"), str(element.origin.position)
+        elif tag == "remapping" and ":=" in element.text:
+            yield element.text.rpartition(":=")[2].strip("/ "), str(element.origin.position)
 
 
 def _namespace(robot: Robot) -> str:
@@ -132,14 +191,6 @@ def _namespace(robot: Robot) -> str:
     found = {element.text.strip("/") for element in elements if element.tag in ("robotNamespace", "namespace")}
     found.discard("")  # of sensors that were added, which have it in their topic
     return f"{found.pop()}/" if len(found) == 1 else ""
-
-
-def _check_topic(robot: Robot, topic: str) -> None:
-    for element in (element for block in robot.gazebo for element in block.element.walk()):
-        is_topic = element.tag == "topic" or element.tag.lower().endswith("topicname")
-        if is_topic and element.text.strip("/") == topic.strip("/"):
-            place = element.origin.position
-            raise ResourceError(f"robot `{robot.name}` publishes on `{topic}` already ({place}); another --topic")
 
 
 def _macro_file(home: Path, macro: str, kind: str) -> Iterator[Alteration]:
@@ -152,14 +203,19 @@ def _macro_file(home: Path, macro: str, kind: str) -> Iterator[Alteration]:
 
 def _expanded(macro: str, call: list[str]) -> str:
     """Return what a call of the macro comes to."""
-    text = macro.replace("</robot>", "\n".join([*call, "</robot>"]))
     with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder, "sensor.xacro")
-        file.write_text(text, encoding="utf-8")
-        xml = expand(file).xml
+        xml = expand(_called(macro, call, folder)).xml
     inside = xml[xml.index(">", xml.index("<robot")) + 1 : xml.rindex("</robot>")]
     lines = [line for line in inside.splitlines() if line.strip() and not line.strip().startswith("<!--")]
     return "\n".join(line.removeprefix("  ") for line in lines)
+
+
+def _called(macro: str, call: list[str], folder: str) -> Path:
+    """Return a file with the macro and its call."""
+    file = Path(folder, "sensor.xacro")
+    text = macro.replace("</robot>", "\n".join([*call, "</robot>"])).replace("<robot ", '<robot name="sensor" ', 1)
+    file.write_text(text, encoding="utf-8")
+    return file
 
 
 def _read(path: Path) -> bytes:
@@ -171,7 +227,3 @@ def _read(path: Path) -> bytes:
 
 def _some(alteration: Alteration | None) -> list[Alteration]:
     return [alteration] if alteration is not None else []
-
-
-def _numbers(values: Vector) -> str:
-    return " ".join(f"{value:.6g}" for value in values)

@@ -29,27 +29,27 @@ class Kind:
         topic: what the template publishes under; of cameras and of `lidar3d` the beginning of several.
         rate: measurements per second.
         spot: where on its link it goes by default: ``top``, ``front`` or ``middle``.
-        offset: from there, along x and z [m].
         needs: what its plugin of Gazebo Classic for ROS 1 is in.
         needs_ros2: the same for ROS 2.
+        looks_about: whether it sees along what it stands on, so that others beside it are in its way.
     """
 
     about: str
     topic: str
     rate: float
     spot: str
-    offset: tuple[float, float] = (0.0, 0.0)
     needs: str = "gazebo_plugins"
     needs_ros2: str = "gazebo_plugins"
+    looks_about: bool = False
 
 
 KINDS = {
-    "lidar": Kind("a lidar of one plane, 270°", "scan", 10, "top", (0.0, 0.055)),
-    "lidar3d": Kind("a lidar of 16 planes on a mast", "lidar3d", 10, "top", (0.0, 0.25), "velodyne_gazebo_plugins"),
-    "camera": Kind("a camera", "camera", 30, "front", (0.02, -0.015)),
-    "depth": Kind("a camera that sees depth", "depth", 15, "front", (0.02, -0.015)),
+    "lidar": Kind("a lidar of one plane, 270°", "scan", 10, "top", looks_about=True),
+    "lidar3d": Kind("a lidar of 16 planes on a mast", "lidar3d", 10, "top", "velodyne_gazebo_plugins"),
+    "camera": Kind("a camera", "camera", 30, "front"),
+    "depth": Kind("a camera that sees depth", "depth", 15, "front"),
     "imu": Kind("an inertial measurement unit", "imu", 100, "middle"),
-    "gps": Kind("a receiver for GPS", "fix", 5, "top", (0.0, 0.02), "hector_gazebo_plugins"),
+    "gps": Kind("a receiver for GPS", "fix", 5, "top", "hector_gazebo_plugins"),
 }
 
 
