@@ -212,3 +212,27 @@ def test_a_broken_file_in_a_folder_is_not_passed_over(package, capsys):
     assert found == {"empty.urdf": "E001", "cut.xacro": "E001", "pointer.urdf": "E001", "root.urdf": "E008"}
     assert main(["lint", "urdf/root.urdf", "--fix", "--unsafe-fixes"]) == 0
     assert Path("urdf", "root.urdf").read_text().strip() == '<robot name="r"><link name="a"/></robot>'
+
+
+def test_of_several_paths_those_that_are_not_there_do_not_hide_the_others(package, capsys):
+    Path("empty").mkdir()
+    assert main(["lint", "none.urdf", "empty", "urdf/bad.urdf.xacro"]) == 2
+    out, err = capsys.readouterr()
+    assert out.endswith("Found 3 errors (2 fixable with --fix).\n")
+    assert [line[:40] for line in err.splitlines()] == [
+        "urdfkit: no such file or folder: none.ur",
+        "urdfkit: no robot description (.urdf or ",
+    ]
+    assert main(["lint", "--diff", "none.urdf", "urdf/bad.urdf.xacro"]) == 2
+    out, err = capsys.readouterr()
+    assert "+<xacro:part" in out
+    assert "no such file or folder: none.urdf" in err
+    assert main(["lint", "--fix", "none.urdf", "urdf/bad.urdf.xacro"]) == 2
+    assert "<xacro:part" in Path("urdf/bad.urdf.xacro").read_text()
+
+
+def test_where_nothing_is_there_nothing_passes(package, capsys):
+    assert main(["lint", "none.urdf", "nothing"]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert len(err.splitlines()) == 2

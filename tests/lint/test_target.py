@@ -87,11 +87,37 @@ def test_targets_may_name_a_release(name):
         ("ros2-noetic", "did you mean `ros1-noetic`"),
         ("xyz", "one of ros1, ros2, gz, "),
         ("isaac-5", "did you mean `isaac`"),
+        ("Gazebo", "`gz`, the new Gazebo, or `classic`"),
+        ("ros", "`ros1` or `ros2`"),
+        ("Humbel", "did you mean `humble`"),
+        ("gz8", "gz has citadel, "),
+        ("11", "one of ros1, "),
     ],
 )
 def test_a_target_that_is_misspelt_is_refused_with_the_nearest(name, message):
     with pytest.raises(UsageError, match=message):
         known_target(name)
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("ROS2", "ros2"),
+        ("ros 2", "ros2"),
+        ("Jazzy", "ros2-jazzy"),
+        ("NOETIC", "ros1-noetic"),
+        ("ros2_jazzy", "ros2-jazzy"),
+        ("ros-jazzy", "ros2-jazzy"),
+        ("ignition", "gz"),
+        ("Ignition-Fortress", "gz-fortress"),
+        ("gazebo_harmonic", "gz-harmonic"),
+        ("gazebo11", "classic-11"),
+        ("Gazebo-Classic", "classic"),
+        ("MuJoCo", "mujoco"),
+    ],
+)
+def test_case_and_other_names_do_not_matter(name, meant):
+    assert known_target(name) == meant
 
 
 def test_a_release_alone_will_do():

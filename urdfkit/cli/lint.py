@@ -122,6 +122,7 @@ class _Run:
         self.arguments = arguments
         self.paths, xacro_arguments = _split(arguments.paths)
         self.settings = self._settings()
+        self.refused: tuple[str, ...] = ()
         self.options = self._options(xacro_arguments)
 
     def run(self) -> tuple[int, Outcome]:
@@ -164,13 +165,13 @@ class _Run:
             target = target or settings.target
             folders = (*folders, *settings.package_path)
             xacro_arguments = {**settings.arguments, **xacro_arguments}
-        named = None if target == "any" else target
+        named = None if target is not None and target.lower() == "any" else target
         return Options(select, ignore, named, xacro_arguments, folders, guess_target=target is None)
 
     def _entries(self) -> list[Entry]:
-        from urdfkit.lint.entries import find_entries
+        from urdfkit.lint.entries import find_each
 
-        entries = find_entries(self.paths)
+        entries, self.refused = find_each(self.paths)
         settings = self.settings
         if settings is None or not settings.exclude:
             return entries
@@ -221,10 +222,18 @@ class _Run:
     def _show(self, fixed: Fixed) -> int:
         for change in fixed.changes:
             sys.stdout.write(change.diff())
+        refused = self._refuse(fixed.outcome)
         left = sum(finding.severity != "info" for finding in self._left(fixed.outcome).findings)
         if left:
             print(f"{left} finding{'s' if left > 1 else ''} would be left; nothing was written.", file=sys.stderr)
-        return 1 if fixed.changes or left else 0
+        return 2 if refused else 1 if fixed.changes or left else 0
+
+    def _refuse(self, outcome: Outcome) -> bool:
+        """Say what could not be linted, one line each; return whether there was anything."""
+        reasons = (*self.refused, *outcome.refused)
+        for reason in reasons:
+            print(f"urdfkit: {reason}", file=sys.stderr)
+        return bool(reasons)
 
     def _left(self, outcome: Outcome) -> Outcome:
         """Return what is to be reported: neither against the settings nor known by the baseline."""
@@ -249,17 +258,18 @@ class _Run:
         outcome = self._left(whole)
         for note in () if arguments.quiet else outcome.notes:
             print(f"urdfkit: {note}", file=sys.stderr)
-        for reason in outcome.refused:
-            print(f"urdfkit: {reason}", file=sys.stderr)
+        refused = self._refuse(outcome)
         if arguments.write_baseline is not None:
             from urdfkit.lint.baseline import write
 
             count = write(arguments.write_baseline, outcome.findings)
             if not arguments.quiet:
                 print(f"urdfkit: {count} findings are known by {arguments.write_baseline} now", file=sys.stderr)
-            return 0
+            return 2 if refused else 0
+        if refused and not whole.files and arguments.format == "text":
+            return 2  # nothing was linted
         show(outcome, form=arguments.format, statistics=arguments.statistics, color=arguments.color)
-        if outcome.refused:
+        if refused:
             return 2
         return 1 if any(finding.severity != "info" for finding in outcome.findings) else 0
 

@@ -66,6 +66,25 @@ def find_entries(paths: Iterable[str | Path]) -> list[Entry]:
     return list(found)
 
 
+def find_each(paths: Iterable[str | Path]) -> tuple[list[Entry], tuple[str, ...]]:
+    """Return what to lint for the paths a user named, and why there is nothing at some of them, one line each.
+
+    Raises:
+        ResourceError: there is nothing at the only path.
+    """
+    paths = list(paths)
+    found: dict[Entry, None] = {}
+    refused: dict[str, None] = {}
+    for path in paths:
+        try:
+            found.update(dict.fromkeys(find_entries([path])))
+        except ResourceError as error:
+            if len(paths) == 1:
+                raise
+            refused[str(error)] = None
+    return list(found), tuple(refused)
+
+
 def _of_name(name: str) -> list[Entry]:
     from urdfkit.resources import find_model, robot_names, robots_dir
 

@@ -220,7 +220,7 @@ class _Fixer:
     def _lint(self, texts: dict[Path, str]) -> Outcome:
         # Lone surrogates stand for bytes that are no UTF-8; the linter saw U+FFFD there.
         overlay = {str(path): _SURROGATE.sub("\ufffd", text) for path, text in texts.items()}
-        return run(self.entries, Options(**{**self.options.__dict__, "texts": overlay}))
+        return run(self.entries, Options(**{**self.options.__dict__, "texts": overlay}), keep_going=True)
 
     def _attempt(self, findings: Sequence[Finding], outcome: Outcome) -> tuple[dict[Path, str], Outcome] | None:
         """Apply fixes at once; where that makes something worse, those of a part, and refuse the ones to blame."""

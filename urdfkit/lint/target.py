@@ -94,28 +94,67 @@ def guess(path: Path) -> Guess:
 def known_target(name: str | None) -> str | None:
     """Return the name of a target, which may name a release: ``ros2`` or ``ros2-jazzy``; a release alone will do.
 
+    Case does not count, nor what stands between the two, and other names of the same are known: ``Ignition``,
+    ``gazebo11``, ``ros_noetic``.
+
     Raises:
-        UsageError: there is none of that name.
+        UsageError: there is none of that name, or several.
     """
     if name is None or name in TARGETS:
         return name
+    written = re.sub(r"[\s_-]+", "-", name.strip().lower())
+    family, distro = _split(written)
+    found = f"{family}-{distro}" if distro else family
+    if found in TARGETS or distro in DISTROS.get(family, ()):
+        return found
     from urdfkit.errors import UsageError, did_you_mean
 
-    family, separator, distro = name.partition("-")
-    if distro and distro in DISTROS.get(family, ()):
-        return name
-    for known, distros in DISTROS.items():
-        if name in distros and not name.isdecimal():
-            return f"{known}-{name}"
+    if written in _SEVERAL:
+        raise UsageError(f"--target {name} is not known: {_SEVERAL[written]}?")
     releases = {one: known for known, distros in DISTROS.items() for one in distros}
-    if separator and family in DISTROS:
-        hint = did_you_mean(distro, DISTROS[family]) or did_you_mean(distro, releases)
+    if distro and family in DISTROS:
+        others = {} if distro.isdecimal() else releases
+        hint = did_you_mean(distro, DISTROS[family]) or did_you_mean(distro, others)
         near = hint.partition("`")[2].partition("`")[0]
         said = f"; did you mean `{releases[near]}-{near}`?" if near else f"; {family} has {', '.join(DISTROS[family])}"
         raise UsageError(f"--target {name} is not known{said}")
-    hint = did_you_mean(name, (*TARGETS, *releases, *(f"{known}-{one}" for one, known in releases.items())))
+    names = (one for one in releases if not one.isdecimal())
+    hint = did_you_mean(written, (*TARGETS, *names, *(f"{known}-{one}" for one, known in releases.items())))
     families = f"; one of {', '.join(TARGETS)}"
     raise UsageError(f"--target {name} is not known{hint or families}")
+
+
+def _split(written: str) -> tuple[str, str]:
+    """Return family and release of a name in lower case; the family may be what is written, and the release empty."""
+    if written in TARGETS or written in _SAME:
+        return _SAME.get(written, written), ""
+    releases = {one: known for known, distros in DISTROS.items() for one in distros}
+    known = "|".join(sorted((*TARGETS, *_SAME, *_SEVERAL), key=len, reverse=True))
+    parts = re.fullmatch(rf"({known})-?([a-z]+|\d+)", written)
+    family, distro = (_SAME.get(parts[1], parts[1]), parts[2]) if parts else (written, "")
+    if family in _SEVERAL and distro in releases:  # `gazebo` and `ros` are told apart by their releases
+        return releases[distro], distro
+    if not distro and written in releases and not written.isdecimal():
+        return releases[written], written
+    return family, distro
+
+
+_SAME = {
+    "ros-1": "ros1",
+    "ros-2": "ros2",
+    "ign": "gz",
+    "ignition": "gz",
+    "gz-sim": "gz",
+    "gazebo-sim": "gz",
+    "gazebo-classic": "classic",
+    "isaac-sim": "isaac",
+    "isaacsim": "isaac",
+    "moveit2": "moveit",
+}
+"""Other names of targets."""
+
+_SEVERAL = {"gazebo": "`gz`, the new Gazebo, or `classic`", "ros": "`ros1` or `ros2`"}
+"""Names of several targets, told apart by a release."""
 
 
 def family_of(target: str | None) -> str | None:
