@@ -14,7 +14,9 @@ from tests.scene.test_paint import QUARTERS, mesh_of, opaque, wrapped
 from urdfkit.description.robot import Box, Capsule, Cylinder, Pose, Sphere
 from urdfkit.description.world import Cone, Ellipsoid, Light, Plane, load_world
 from urdfkit.scene import Scene, Shape, TriMesh
+from urdfkit.scene.gl.drawing import Shot
 from urdfkit.scene.gl.probe import probe
+from urdfkit.scene.gl.shaders import ALL, COLOR, DEEP
 from urdfkit.scene.image import Painter, Picture
 from urdfkit.scene.lens import Distortion, Lens
 from urdfkit.scene.lights import Lighting, lighting_of
@@ -157,6 +159,21 @@ def test_only_colours_where_nobody_wants_more() -> None:
     whole, colors = gl.take(LENS, EYE), gl.take(LENS, EYE, deep=False)
     assert np.array_equal(whole.rgb, colors.rgb)
     assert colors.depth.size == 0
+
+
+def test_colours_and_depths_are_drawn_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    gl, _ = both(table_of(*zoo()), lit(SUN))
+    drawn: list[tuple[str, ...]] = []
+    draw = gl._drawing.draw
+
+    def remember(shot: Shot, wanted: tuple[str, ...] = COLOR, *, clear: bool = False) -> None:
+        drawn.append(wanted)
+        draw(shot, wanted, clear=clear)
+
+    monkeypatch.setattr(gl._drawing, "draw", remember)
+    gl.take(LENS, EYE)
+    assert drawn.count(ALL) == 1
+    assert set(drawn) <= ({ALL, COLOR} if not gl._drawing.has_clear else {ALL, COLOR, DEEP})
 
 
 def test_an_empty_scene_is_background() -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.scene.gl.models import Model, models_of
-from urdfkit.scene.gl.shaders import Kind, Lamps, fragment_shader, vertex_shader
+from urdfkit.scene.gl.shaders import COLOR, Kind, Lamps, fragment_shader, vertex_shader
 from urdfkit.scene.rays.table import RayTable
 
 Array = NDArray[np.float64]
@@ -120,21 +120,20 @@ class Drawing:
         """Whether anything is transparent."""
         return bool(self.clear.any()) or any(batch.holed for batch in self.batches)
 
-    def rows(self, frames: Array, turn: Array, origin: Array, first: float) -> Rows:
+    def rows(self, frames: Array, turn: Array, origin: Array) -> Rows:
         """Return what instances are drawn by.
 
         Args:
             frames: of the shapes in the world; shape (shapes, 12).
             turn: of the camera; shape (3, 3).
             origin: of the camera [m].
-            first: number of the first shape.
         """
         rows: Rows = self._still.copy()
         placed = rows[:, :12].reshape(-1, 3, 4)
         placed[:, :, :3] = turn.T @ frames[:, :9].reshape(-1, 3, 3)
         placed[:, :, 3] = (frames[:, 9:] - origin) @ turn
         rows[:, :12] = placed.reshape(-1, 12)
-        rows[:, 19] = np.arange(len(frames)) + first
+        rows[:, 19] = np.arange(len(frames))
         return rows
 
     def fill(self, drawn: Sequence[tuple[Batch, Numbers]], rows: Rows) -> Iterator[tuple[Batch, int]]:
@@ -144,12 +143,18 @@ class Drawing:
                 batch.instances.write(rows[shapes].tobytes())
                 yield batch, len(shapes)
 
-    def draw(self, shot: Shot, *, deep: bool, clear: bool = False) -> None:
-        """Draw what is opaque, or else what is transparent; the nearest first."""
+    def draw(self, shot: Shot, wanted: tuple[str, ...] = COLOR, *, clear: bool = False) -> None:
+        """Draw what is opaque, or else what is transparent; the nearest first.
+
+        Args:
+            shot: what is drawn.
+            wanted: what the buffers are for.
+            clear: whether it is what is transparent.
+        """
         todo: list[tuple[float, bool, Batch, Numbers]] = []
         for batch in self.batches:
-            wanted = self.clear | batch.holed
-            shapes = batch.members(wanted if clear else ~wanted)
+            through = self.clear | batch.holed
+            shapes = batch.members(through if clear else ~through)
             hidden = shot.outside[shapes] & batch.model.closed  # what looks away is behind what is seen
             for some, cull in ((shapes[~hidden], False), (shapes[hidden], True)):
                 if len(some):
@@ -158,7 +163,7 @@ class Drawing:
         for _, cull, batch, shapes in sorted(todo, key=lambda each: each[0]):
             self._ctx.enable_only(self._ctx.DEPTH_TEST | (self._ctx.CULL_FACE if cull else 0))
             batch.instances.write(shot.rows[shapes].tobytes())
-            self._array(batch, shot, deep=deep).render(instances=len(shapes))
+            self._array(batch, shot, wanted, clear=clear).render(instances=len(shapes))
 
     def blend(self, shot: Shot) -> None:
         """Draw what is transparent over the rest, the farthest first; of each shape first what looks away."""
@@ -174,7 +179,7 @@ class Drawing:
             ]
             for _, batch, shape in sorted(todo, key=lambda each: -each[0]):
                 batch.instances.write(shot.rows[shape : shape + 1].tobytes())
-                array = self._array(batch, shot, deep=False)
+                array = self._array(batch, shot)
                 for side in ("front", "back"):
                     ctx.cull_face = side
                     array.render(instances=1)
@@ -182,11 +187,11 @@ class Drawing:
             ctx.fbo.depth_mask = True
             ctx.cull_face = "back"
 
-    def _array(self, batch: Batch, shot: Shot, *, deep: bool) -> Any:
+    def _array(self, batch: Batch, shot: Shot, wanted: tuple[str, ...] = COLOR, *, clear: bool = False) -> Any:
         """Return what draws a batch, its program's uniforms set."""
         model = batch.model
-        glossy = model.gloss[3] > 0.0 and not deep
-        kind = Kind(self._lamps, model.flat, model.plain, model.texture >= 0, deep, shot.exact, self.maps, glossy)
+        glossy, textured = model.gloss[3] > 0.0 and "color" in wanted, model.texture >= 0
+        kind = Kind(self._lamps, model.flat, model.plain, textured, wanted, clear, shot.exact, self.maps, glossy)
         program = self._programs.get(kind)
         if program is None:
             program = self._programs[kind] = self._ctx.program(vertex_shader(kind), fragment_shader(kind))
@@ -202,6 +207,6 @@ class Drawing:
             program.extra = shot.uniforms
         if glossy and "u_gloss" in program:
             program["u_gloss"] = model.gloss
-        if model.texture >= 0:
+        if textured:
             self._textures[model.texture].use(location=0)
         return array

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from urdfkit.scene.gl.drawing import Drawing, Shot
 from urdfkit.scene.gl.probe import create, on_processor
 from urdfkit.scene.gl.shade import LARGE, Rectangle, shaded, union
-from urdfkit.scene.gl.shaders import BOTH, STILL
+from urdfkit.scene.gl.shaders import ALL, BOTH, COLOR, DEEP, STILL
 from urdfkit.scene.gl.shadows import EDGES, FINER, Rest, Shadows
 from urdfkit.scene.image import Painter, Picture
 from urdfkit.scene.lens import Lens
@@ -22,9 +22,6 @@ from urdfkit.scene.rays.shine import DIRECTIONAL, SPOT
 from urdfkit.scene.rays.table import RayTable
 
 Array = NDArray[np.float64]
-
-FIRST = 2.0
-"""Number of the first shape in a picture: a background is 0..1."""
 
 
 class GlPainter:
@@ -102,7 +99,7 @@ class GlPainter:
     def _take(self, lens: Lens, frame: Array, near: float, far: float, samples: int, deep: bool) -> Picture:
         turn, origin = frame[:3, :3], frame[:3, 3]
         drawing = self._drawing
-        rows = drawing.rows(self.table.frames, turn, origin, FIRST)
+        rows = drawing.rows(self.table.frames, turn, origin)
         nearest, farthest = self._reach(origin)
         corner = float(lens.towards(np.zeros(1), np.zeros(1))[0, 0])
         low = near * corner if near > 0.0 else max(1e-3 * float(nearest.min(initial=1.0)), 1e-4)
@@ -113,14 +110,19 @@ class GlPainter:
         again = self._cast_shadows(shot, turn, origin, lens, low)
         self._ctx.front_face = "cw"  # the picture's top row comes first
         rgb = np.empty((lens.height, lens.width, 3), dtype=np.uint8)
-        target["color"].use()
         target["color"].clear(*self._air[1].tolist(), 1.0)
-        drawing.draw(shot, deep=False)
+        at_once = deep and "all" in target
+        if at_once:
+            target["depth"].clear(np.inf)
+            target["shape"].clear(-1.0)
+        target["all" if at_once else "color"].use()
+        drawing.draw(shot, ALL if at_once else COLOR)
+        target["color"].use()
         if again is not None:  # what shadows of moving things can fall on is drawn over
             drawing.maps = BOTH
             target["color"].scissor = again
             self._ctx.depth_func = "<="
-            drawing.draw(shot, deep=False)
+            drawing.draw(shot)
             self._ctx.depth_func = "<"
             target["color"].scissor = None
         if drawing.has_clear:
@@ -133,14 +135,16 @@ class GlPainter:
         if not deep:
             return Picture(rgb, np.empty((0, 0), np.float32), np.empty((0, 0), np.int64))
         target["deep"].use()
-        target["deep"].clear(0.0, 0.0, 0.0, 0.0)
-        drawing.draw(shot, deep=True)
+        if not at_once:
+            target["deep"].clear(np.inf)
+            target["shape"].clear(-1.0)
+            drawing.draw(shot, DEEP)
         if drawing.has_clear:
-            drawing.draw(shot, deep=True, clear=True)
-        found = np.empty((lens.height, lens.width, 2), dtype=np.float32)
-        target["deep"].read_into(found, components=2, dtype="f4")
-        shapes = np.maximum(found[..., 1].astype(np.int64) - int(FIRST), -1)
-        return Picture(rgb, np.where(shapes >= 0, found[..., 0], np.float32(np.inf)), shapes)
+            drawing.draw(shot, DEEP, clear=True)
+        depth = np.empty((lens.height, lens.width), dtype=np.float32)
+        target["depth"].read_into(depth, components=1, dtype="f4")
+        target["shape"].read_into(target["numbers"], components=1, dtype="f4")
+        return Picture(rgb, depth, target["numbers"].astype(np.int64))
 
     def _reach(self, origin: Array) -> tuple[Array, Array]:
         """Return how far the box of each shape is from the camera, at least and at most [m]; shape (shapes,) each."""
@@ -217,16 +221,21 @@ class GlPainter:
         return again
 
     def _target(self, lens: Lens, samples: int) -> dict[str, Any]:
-        """Return the framebuffers of a size."""
+        """Return the framebuffers of a size, and room for numbers read from them."""
         size = lens.width, lens.height
         key = (*size, samples)
         if key not in self._targets:
             ctx = self._ctx
-            plain = ctx.framebuffer([ctx.renderbuffer(size, 4)], ctx.depth_renderbuffer(size))
-            deep = ctx.framebuffer([ctx.renderbuffer(size, 2, dtype="f4")], ctx.depth_renderbuffer(size))
-            color = plain
+            rgba, depth, shape = ctx.renderbuffer(size, 4), *(ctx.renderbuffer(size, 1, dtype="f4") for _ in range(2))
+            z = ctx.depth_renderbuffer(size)
+            found: dict[str, Any] = {"numbers": np.empty((lens.height, lens.width), dtype=np.float32)}
+            found |= {"depth": ctx.framebuffer([depth]), "shape": ctx.framebuffer([shape])}
+            found["plain"] = found["color"] = ctx.framebuffer([rgba], z)
+            found["deep"] = ctx.framebuffer([depth, shape], z)
+            found["all"] = ctx.framebuffer([rgba, depth, shape], z)
             if samples > 1:
                 fine = ctx.renderbuffer(size, 4, samples=samples)
-                color = ctx.framebuffer([fine], ctx.depth_renderbuffer(size, samples=samples))
-            self._targets[key] = {"plain": plain, "color": color, "deep": deep}
+                found["color"] = ctx.framebuffer([fine], ctx.depth_renderbuffer(size, samples=samples))
+                del found["all"]
+            self._targets[key] = found
         return self._targets[key]

@@ -14,6 +14,11 @@ STILL = ("s",)
 BOTH = ("s", "m")
 """Names of shadow maps: of what stands still, of what moves."""
 
+COLOR = ("color",)
+DEEP = ("depth", "shape")
+ALL = (*COLOR, *DEEP)
+"""What may be drawn at once, a buffer for each: colours, distances along the camera's axis, numbers of shapes."""
+
 Lamps = tuple[tuple[int, bool], ...]
 """Kind of each light, and whether it casts shadows."""
 
@@ -27,7 +32,8 @@ class Kind:
         flat: the surface has one normal per triangle.
         plain: it has one colour per triangle.
         textured: a texture gives the colour.
-        deep: depth and number of the shape are wanted; else colours are.
+        wanted: what is drawn.
+        clear: some of it may be wholly transparent, and has no depth there.
         exact: what is nearer or farther than the camera sees is left out by its distance, as rays are cut.
         maps: of shadows, per light that casts any: of what stands still, and of what moves.
         glossy: the surface shines back at lights.
@@ -37,10 +43,21 @@ class Kind:
     flat: bool
     plain: bool
     textured: bool
-    deep: bool
+    wanted: tuple[str, ...]
+    clear: bool
     exact: bool
     maps: tuple[str, ...] = STILL
     glossy: bool = False
+
+    @property
+    def colors(self) -> bool:
+        """Whether colours are wanted."""
+        return "color" in self.wanted
+
+    @property
+    def deep(self) -> bool:
+        """Whether depths and shapes are."""
+        return "depth" in self.wanted
 
     @property
     def early(self) -> bool:
@@ -50,8 +67,10 @@ class Kind:
     @property
     def ready(self) -> bool:
         """Whether the colour, too, so that nothing but shadows is left to a pixel."""
-        return self.early and self.plain and not self.textured and not self.deep
+        return self.colors and self.early and self.plain and not self.textured
 
+
+_OUT = {"color": "vec4", "depth": "float", "shape": "float"}
 
 _DYE = f"""in vec2 v_uv; uniform sampler2D u_texture;
 vec4 dyed() {{
@@ -116,10 +135,9 @@ def _lights(lamps: Lamps, maps: tuple[str, ...]) -> str:
 
 def vertex_shader(kind: Kind) -> str:
     """Return the vertex shader."""
-    colors = not kind.deep
-    shaded = [k for k, (_, shadows) in enumerate(kind.lamps) if shadows] if colors else []
+    shaded = [k for k, (_, shadows) in enumerate(kind.lamps) if shadows]
     out, body = [], []
-    if colors and kind.early:
+    if kind.colors and kind.early:
         body.append("if (dot(n, q) > 0.0) n = -n;")
         for k in range(len(kind.lamps)):
             out.append("" if kind.ready else f"flat out float v_gain{k};")
@@ -128,10 +146,10 @@ def vertex_shader(kind: Kind) -> str:
             for m in kind.maps:
                 out.append(f"out vec3 v_shade{k}{m};")
                 body.append(f"v_shade{k}{m} = (u_shade{k}{m} * vec4(q + u_lift{k}{m} * n, 1.0)).xyz;")
-    elif colors:
+    elif kind.colors:
         out.append("out vec3 v_normal;")
         body.append("v_normal = n;")
-    if kind.exact or kind.deep or kind.textured or (colors and not kind.early):
+    if kind.exact or kind.deep or kind.textured or (kind.colors and not kind.early):
         out.append("out vec3 v_point;")
         body.append("v_point = q;")
     if kind.deep:
@@ -156,7 +174,7 @@ in vec3 in_position; in vec3 in_normal; in vec2 in_uv; in vec4 in_color;
 in vec4 in_x; in vec4 in_y; in vec4 in_z; in vec3 in_scale; in vec4 in_rgba; in float in_shape;
 uniform vec4 u_lens;
 invariant gl_Position;
-{_lights(kind.lamps, kind.maps) if colors and kind.early else ""}
+{_lights(kind.lamps, kind.maps) if kind.colors and kind.early else ""}
 {lines[0]}
 void main() {{
     vec4 p = vec4(in_position * in_scale, 1.0);
@@ -180,11 +198,14 @@ def fragment_shader(kind: Kind) -> str:
         body.append("float far = length(v_point); if (far < u_reach.x || far > u_reach.y) discard;")
     if kind.exact or kind.deep or kind.textured or not kind.early:
         head.insert(0, "in vec3 v_point;")
+    head += [f"layout(location = {k}) out {_OUT[each]} o_{each};" for k, each in enumerate(kind.wanted)]
     if kind.deep:
-        head.append("flat in float v_shape; out vec2 o_deep;")
-        body.append("if (color.a <= 0.0) discard;\n    o_deep = vec2(v_point.x, v_shape);")
+        head.append("flat in float v_shape;")
+        if kind.clear:  # only there: who may discard is tested late for what is before it
+            body.append("if (color.a <= 0.0) discard;")
+        body.append("o_depth = v_point.x; o_shape = v_shape;")
+    if not kind.colors:
         return _fragment(head, body)
-    head.append("out vec4 o_color;")
     if kind.ready:
         for k, (_, shadows) in enumerate(kind.lamps):
             if shadows:
