@@ -71,6 +71,12 @@ def opened(folder: Path, message: Any) -> np.ndarray:
         return np.asarray(picture)
 
 
+def test_points_are_saved_otherwise(capsys: Capture) -> None:
+    assert main(["sim", "run", "gem_e2", "--for", "0", "--save-image", "/velodyne_points=x.png"]) == 2
+    said = "--save-image: points come on /velodyne_points, not pictures; save them by --save-scan"
+    assert said in capsys.readouterr().err.splitlines()[-1]
+
+
 @pytest.mark.parametrize(
     ("option", "said"),
     [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.element import Element
 from urdfkit.description.gazebo_materials import GAZEBO, Rgba, script_of
-from urdfkit.description.robot import Robot, Visual
+from urdfkit.description.robot import Material, Robot, Visual
 from urdfkit.scene.gloss import MATT, Gloss, gloss_of
 
 __all__ = ["DEFAULT", "GAZEBO", "Palette", "Rgba"]
@@ -27,10 +27,10 @@ class Palette:
         for material in (*robot.materials, *inside):
             if material is not None and material.name and material.rgba is not None:
                 self._named.setdefault(material.name, material.rgba)
-        self._textures: dict[str, str] = {}
+        self._textures: dict[str, Material] = {}
         for material in robot.materials:
             if material.name and material.texture:
-                self._textures.setdefault(material.name, material.texture)
+                self._textures.setdefault(material.name, material)
         self._gazebo: dict[str, Rgba] = {}
         self._clear: dict[str, float] = {}
         self._gloss: dict[str, Gloss] = {}
@@ -51,11 +51,12 @@ class Palette:
         """Return what the ``<gazebo>`` block of a link says of its gloss."""
         return self._gloss.get(link, MATT)
 
-    def texture(self, visual: Visual) -> str | None:
-        """Return the ``<texture>`` of a visual's material, as written; None where it has none."""
+    def textured(self, visual: Visual) -> Material | None:
+        """Return the material whose ``<texture>`` a visual has; None where it has none."""
         if visual.material is None:
             return None
-        return self._textures.get(visual.material.name or "") or visual.material.texture
+        found = self._textures.get(visual.material.name or "", visual.material)
+        return found if found.texture else None
 
     def of(self, link: str, visual: Visual) -> Rgba | None:
         """Return the colour of a visual, components in 0..1; None where nothing says one."""

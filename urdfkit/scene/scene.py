@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.element import Element
-from urdfkit.description.robot import Collision, Geometry, Link, Mesh, Robot, Visual
+from urdfkit.description.robot import Collision, Geometry, Link, Material, Mesh, Robot, Visual
+from urdfkit.description.source import Position
 from urdfkit.description.world import Cone, Ellipsoid, Plane
 from urdfkit.errors import ResourceError
 from urdfkit.scene.colors import DEFAULT, Palette, Rgba
@@ -41,6 +42,7 @@ class Shape:
         laser_retro: what a lidar reads as intensity.
         label: what a segmentation camera reads; 0 for none.
         gloss: colour, 0..1, and exponent of what shines back at lights; matt where the exponent is zero.
+        position: where its texture is named, else its mesh; None where neither is written anywhere.
     """
 
     name: str
@@ -54,6 +56,7 @@ class Shape:
     laser_retro: float = 0.0
     label: int = 0
     gloss: Gloss = MATT
+    position: Position | None = None
 
 
 @dataclass(frozen=True)
@@ -124,8 +127,10 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
                 name += "_"
             names.add(name)
             mesh = None
-            picture = palette.texture(item) if isinstance(item, Visual) else None
+            material = palette.textured(item) if isinstance(item, Visual) else None
+            picture, position = (material.texture, _texture_position(material)) if material else (None, None)
             if isinstance(item.geometry, Mesh):
+                position = position or _mesh_position(item)
                 try:
                     mesh = _load(robot, item, item.geometry, meshes, places=bool(picture))
                 except ResourceError as error:
@@ -143,7 +148,8 @@ def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = N
             retro, label = retros.get(link.name, 0.0), labels.get(link.name, labels.get("", 0))
             gloss = palette.gloss(link.name) if role == "visual" else MATT
             shown = bool(color and not covered)
-            shapes.append(Shape(name, link.name, role, item.geometry, placed, rgba, shown, mesh, retro, label, gloss))
+            looks = rgba, shown, mesh, retro, label, gloss, position
+            shapes.append(Shape(name, link.name, role, item.geometry, placed, *looks))
     return Scene(tuple(link.name for link in links), tuple(shapes), tuple(problems))
 
 
@@ -174,12 +180,20 @@ def _load(
     Raises:
         ResourceError: with the position of the ``<mesh>`` element.
     """
-    element = next((e for e in item.element.walk() if e.tag == "mesh"), item.element)
-    position = element.origin.position
     try:
         return meshes.load(_resolve(robot, geometry.uri), geometry.scale, places=places)
     except ResourceError as error:
-        raise ResourceError(error.message, position=position) from error
+        raise ResourceError(error.message, position=_mesh_position(item)) from error
+
+
+def _mesh_position(item: Visual | Collision) -> Position:
+    """Return where the mesh of a shape is named."""
+    return next((e for e in item.element.walk() if e.tag == "mesh"), item.element).origin.position
+
+
+def _texture_position(material: Material) -> Position:
+    """Return where the picture of a material is named."""
+    return (material.element.find("texture") or material.element).origin.position
 
 
 def _resolve(robot: Robot, uri: str) -> Path:

@@ -66,7 +66,7 @@ def shapes_of_link(
         called = label_of(plugins_of(shape.kept)) or label
         yield Shape(
             name, body, role, shape.geometry, placed, shown, rgba is not None, mesh, shape.laser_retro, called,
-            gloss_on(shape) if role == "visual" else MATT,
+            gloss_on(shape) if role == "visual" else MATT, shape.position,
         )  # fmt: skip
 
 

@@ -171,7 +171,10 @@ class View:
         if self._painter is None:
             for shape in self.scene.with_role("visual"):
                 for name in shape.mesh.missing if shape.mesh is not None and not shape.has_color else ():
-                    self._note(f"`{shape.name}` is seen without its texture: `{name}` is not there, or no picture")
+                    place = f"{shape.position}: " if shape.position else ""
+                    self._note(
+                        f"{place}`{shape.name}` is seen without its texture: `{name}` is not there, or no picture"
+                    )
             self._painter = painter_of(table, self._lighting, self._renderer, self._note)
         return self._painter
 

@@ -14,6 +14,14 @@ if TYPE_CHECKING:
     from urdfkit.sim.simulator import Simulator
 
 
+SAVED_BY = {
+    "sensor_msgs/msg/Image": ("--save-image", "pictures"),
+    "sensor_msgs/msg/LaserScan": ("--save-scan", "scans"),
+    "sensor_msgs/msg/PointCloud2": ("--save-scan", "points"),
+}
+"""Type of messages → the option that saves them, and what they are called."""
+
+
 def find_topics(
     simulator: Simulator, wanted: Sequence[TopicFile], *, option: str, types: Sequence[str], what: str, suffix: str
 ) -> list[tuple[str, Path]]:
@@ -30,13 +38,19 @@ def find_topics(
     Raises:
         UsageError: there is no such topic, it carries something else, or none is named and there are several.
     """
-    there = [topic.name for topic in simulator.bus.topics if topic.type in types]
+    carries = {topic.name: topic.type for topic in simulator.bus.topics}
+    there = [name for name, kind in carries.items() if kind in types]
 
     def topic(name: str) -> str:
         if name:
             if absolute(name) not in there:
+                kind = carries.get(absolute(name), "")
+                if kind in SAVED_BY:
+                    right, come = SAVED_BY[kind]
+                    raise UsageError(f"{option}: {come} come on {absolute(name)}, not {what}; save them by {right}")
                 hint = did_you_mean(absolute(name), there) or (f"; there are {', '.join(there)}" if there else "")
-                raise UsageError(f"{option}: no {what} come on {absolute(name)}{hint}")
+                hint = hint or did_you_mean(absolute(name), [each for each, of in carries.items() if of in SAVED_BY])
+                raise UsageError(f"{option}: no {what} come on {absolute(name)}{f', but {kind}' if kind else ''}{hint}")
             return absolute(name)
         if len(there) != 1:
             found = f"there are {', '.join(there)}" if there else "nothing here publishes any"
