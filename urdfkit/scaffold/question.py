@@ -69,12 +69,14 @@ class Question:
         Raises:
             ResourceError: the template is wrong.
         """
+        default = self.default
         for question, defaults in self.default_for.items():
             if (answer := answers.get(question, "")) in defaults:
-                return defaults[answer]
-        if self.default is None or not self.default.startswith("="):
-            return self.default
-        return f"{value_of(self.default[1:], numbers(answers)):.4g}"
+                default = defaults[answer]
+                break
+        if default is None or not default.startswith("="):
+            return default
+        return f"{value_of(default[1:], numbers(answers)):.4g}"
 
     def accept(self, answer: str) -> str:
         """Return the answer as it goes into the files.

@@ -1,0 +1,40 @@
+"""Whatever sizes and masses are accepted, the robot does as it is told (`tests/bench/bench_drives.py` tries more)."""
+
+import itertools
+
+import pytest
+
+from tests.scaffold.drive_search import LATERAL, commands, drawn, errors, made
+from urdfkit.errors import UsageError
+from urdfkit.lint import lint
+
+
+@pytest.mark.parametrize("drive", ["diff", "skid", "ackermann", "omni"])
+def test_odd_sizes_go_where_they_are_told(robot_template, tmp_path, drive):
+    for i, answers in enumerate(itertools.islice(drawn(robot_template, drive, 7), 3)):
+        folder = tmp_path / str(i)
+        robot = made(robot_template, answers, folder)
+        assert [str(finding) for finding in lint([folder])] == []
+        for v, w in commands(answers):
+            assert max(errors(robot, v, w)) < 0.01, answers
+
+
+def test_what_skids_turns_as_much_too_far_in_a_curve_as_the_docs_say(robot_template, tmp_path):
+    given = {"name": "scout", "drive": "skid", "wheel_separation": "0.5", "wheel_base": "0.26"}
+    robot = made(robot_template, robot_template.answers(given), tmp_path)
+    grip = 1.0 * 9.81
+    excess = (LATERAL / grip) ** 2 * (1 + (0.5 / 0.26) ** 2)
+    assert errors(robot, 0.5, LATERAL / 0.5)[1] == pytest.approx(excess, rel=0.1)
+    assert errors(robot, 0.0, 0.5)[1] < 1e-4
+
+
+def test_axles_too_near_to_each_other_are_refused(robot_template):
+    given = {"name": "scout", "drive": "skid", "wheel_separation": "2"}
+    assert robot_template.answers(given)["wheel_base"] == "1.1"
+    with pytest.raises(UsageError, match="--wheel-base of a robot that skids has to be at least half"):
+        robot_template.answers(given | {"wheel_base": "0.25"})
+
+
+def test_a_ball_weighs_what_its_size_allows(robot_template):
+    answers = robot_template.answers({"name": "scout", "drive": "omni", "wheel_radius": "0.008"})
+    assert float(answers["wheel_mass"]) <= 8000 * 4.19 * 0.008**3
