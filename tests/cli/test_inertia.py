@@ -150,3 +150,10 @@ def test_errors_are_one_line(write, capsys, words, message):
     assert message in err
     assert err.count("\n") == 1
     assert main(["inertia", "r.urdf.xacro", "--mass", "1"]) == 2
+
+
+def test_links_without_shapes_say_what_to_do(write, capsys):
+    path = write('<link name="empty"/>')
+    assert main(["inertia", str(path), "empty"]) == 2
+    err = capsys.readouterr().err
+    assert "link `empty` has no shapes to compute an inertia from: give it a <collision> or <visual> first" in err

@@ -195,3 +195,19 @@ def test_links_in_settings_are_compared_with_those_of_every_description_around(w
     ]
     (workspace / "arm_description" / "urdf" / "other.urdf").write_text('<robot name="o"><link name="bas"/></robot>')
     assert {f.line for f in lint(workspace) if f.code == "K961" and "`arm`" in f.message} == {2}
+
+
+def test_a_manifest_that_is_being_edited_counts_as_it_is_in_the_editor(tmp_path, monkeypatch):
+    folder = package(tmp_path / "arm_description")
+    monkeypatch.chdir(folder)
+    file = folder / "arm.urdf.xacro"
+    file.write_text('<robot name="a"><link name="b"/><!-- $(find x) --><material name="$(find arm_msgs)"/></robot>')
+    needs = "<package><name>arm_description</name><depend>arm_msgs</depend></package>"
+
+    def codes(texts):
+        outcome = run(find_entries([file]), Options(select=("K956",), texts=texts))
+        return [finding.code for finding in outcome.findings]
+
+    assert codes({}) == ["K956"]
+    assert codes({str(folder / "package.xml"): needs}) == []
+    assert codes({str(folder / "package.xml"): f"<!-- {needs} -->"}) == ["K956"]

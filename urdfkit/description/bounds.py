@@ -142,7 +142,7 @@ class Bounds:
             self.spend(1 + (len(value) * count >> 3))
         elif count > 0 and isinstance(value, _CONTAINERS):
             if (steps := steps_of(value) * count) > MAX_ELEMENTS:
-                raise excess("a list", MAX_ELEMENTS, "elements")
+                raise excess("lists", MAX_ELEMENTS, "elements in all")
             self.spend(steps)
 
     def power(self, a: Any, b: Any) -> Any:
@@ -282,10 +282,10 @@ def steps_of(value: Any) -> int:
             elif isinstance(one, _CONTAINERS):
                 items: list[Any] = items_of(one)
                 if total + len(below) + len(items) > MAX_ELEMENTS:
-                    raise excess("a list", MAX_ELEMENTS, "elements")
+                    raise excess("lists", MAX_ELEMENTS, "elements in all")
                 below += items
             if total > MAX_ELEMENTS:
-                raise excess("a list", MAX_ELEMENTS, "elements")
+                raise excess("lists", MAX_ELEMENTS, "elements in all")
         if not below:
             return total
         level = below

@@ -35,6 +35,11 @@ def manifest(package: Path) -> str:
         text = (package / "package.xml").read_text("utf-8", "replace")
     except OSError:
         return ""
+    return uncommented(text)
+
+
+def uncommented(text: str) -> str:
+    """Return the text of an XML file without comments."""
     return re.sub(r"(?s)<!--.*?(?:-->|\Z)", "", text)
 
 

@@ -201,7 +201,7 @@ def model_of(path: Path, options: Options, *, packages: Packages | None = None) 
 
         raise ModelError(f"<{root.tag}> is no robot description", position=root.origin.position)
     robot = parse(root if root is not None else _nothing(path))
-    return Model(expanded, robot, family_of(options.target), as_written, release_of(options.target))
+    return Model(expanded, robot, family_of(options.target), as_written, release_of(options.target), options.texts)
 
 
 class Checker:

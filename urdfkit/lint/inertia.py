@@ -68,9 +68,14 @@ def right(
     kind = kind or ("collision" if link.collisions or not link.visuals else "visual")
     items = link.collisions if kind == "collision" else link.visuals
     if not items:
+        if not (link.collisions or link.visuals):
+            raise ResourceError(
+                f"link `{link.name}` has no shapes to compute an inertia from: give it a <collision> or <visual> first"
+            )
         others = "collision" if kind == "visual" else "visual"
-        hint = f"; it has {others} shapes" if (link.collisions or link.visuals) else ""
-        raise ResourceError(f"link `{link.name}` has no {kind} shapes to compute from{hint}")
+        raise ResourceError(
+            f"link `{link.name}` has no {kind} shapes to compute from; it has {others} shapes: --from {others}"
+        )
     notes: dict[str, None] = {}
     shapes: list[tuple[Geometry, Pose, Moments]] = []
     for item in items:

@@ -12,7 +12,7 @@ from urdfkit.record import field, record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from pathlib import Path
 
     from urdfkit.description.element import Element
@@ -49,6 +49,7 @@ class Model:
         target: the consumer it is meant for; None for all of them.
         expand_as_written: makes the robot without mending prefixes; see `as_written`.
         release: of the target (``jazzy``); empty where it does not matter.
+        texts: contents to read instead of those on disk, by absolute path.
     """
 
     expanded: Expanded
@@ -56,6 +57,7 @@ class Model:
     target: str | None = None
     expand_as_written: Callable[[], Robot] | None = field(default=None, repr=False)
     release: str = ""
+    texts: Mapping[str, str] = field(default_factory=dict, repr=False)
 
     @cached_property
     def as_written(self) -> Robot:
@@ -95,15 +97,22 @@ class Model:
 
         return package_of(self.expanded.path)
 
+    def manifest(self, package: Path) -> str:
+        """Return the package.xml of a package, comments left out; empty where it cannot be read."""
+        from urdfkit.description.surroundings import manifest, uncommented
+
+        text = self.texts.get(str(package / "package.xml"))
+        return manifest(package) if text is None else uncommented(text)
+
     @cached_property
     def around(self) -> dict[str, Source]:
         """The launch files and YAML of the package and of those beside it that depend on it, as the user is shown."""
-        from urdfkit.description.reading import shown_path
+        from urdfkit.description.reading import read_source, shown_path
 
         found: dict[str, Source] = {}
         for file in self.expanded.packages.around(self.package) if self.package is not None else ():
             try:
-                found[shown_path(file)] = Source.read(file, shown_as=shown_path(file))
+                found[shown_path(file)] = read_source(file, shown_as=shown_path(file), texts=self.texts)
             except ResourceError:
                 continue
         return found

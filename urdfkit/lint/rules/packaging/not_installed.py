@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from urdfkit.description.surroundings import name_in
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import RobotRule
 
@@ -54,13 +55,11 @@ class NotInstalled(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each folder that is named and not installed, where it is named first."""
-        package = next((f for f in model.expanded.path.absolute().parents if (f / "package.xml").is_file()), None)
-        if package is None:
+        package = model.package
+        own = name_in(model.manifest(package)) if package is not None else ""
+        if package is None or not own:
             return
-        own = re.search(r"<name>\s*([\w.-]+)\s*</name>", (package / "package.xml").read_text("utf-8", "replace"))
-        if own is None:
-            return
-        name = re.escape(own[1])
+        name = re.escape(own)
         uses = re.compile(rf"(?:package://{name}|\$\(find(?:-pkg-share)?\s+{name}\))/([\w-]+)/")
         rules: str | None = None
         known: set[str] = set()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from urdfkit.description.surroundings import LAUNCH, dependencies_in, name_in, package_of
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import RobotRule
 
@@ -56,11 +57,11 @@ class PackageXmlDependency(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each package that is used and not named, at its first use."""
-        package = next((f for f in model.expanded.path.absolute().parents if (f / "package.xml").is_file()), None)
+        package = model.package
         if package is None:
             return
-        manifest = re.sub(r"(?s)<!--.*?(?:-->|\Z)", "", (package / "package.xml").read_text("utf-8", "replace"))
-        named = set(re.findall(r"<(?:\w*depend|name)\b[^>]*>\s*([\w.-]+)\s*<", manifest))
+        manifest = model.manifest(package)
+        named = {name_in(manifest), *dependencies_in(manifest)}
         for file, source in model.expanded.sources.items():
             uses = "$(find" in source.text or "package://" in source.text
             path = Path(file).absolute()
@@ -77,7 +78,6 @@ class PackageXmlDependency(RobotRule):
 
     def _check_launch_files(self, model: Model, named: dict[Path, set[str]]) -> Iterator[Finding]:
         """Yield a finding for each package that a launch file needs and that its own package does not name."""
-        from urdfkit.description.surroundings import LAUNCH, dependencies_in, manifest, name_in, package_of
         from urdfkit.lint.launch import packages_used
 
         for file, source in model.around.items():
@@ -85,7 +85,7 @@ class PackageXmlDependency(RobotRule):
             if package is None or not _TESTS.isdisjoint(Path(file).absolute().relative_to(package).parts):
                 continue
             if package not in named:
-                written = manifest(package)
+                written = model.manifest(package)
                 named[package] = {name_in(written, package.name), *dependencies_in(written)}
             for name, start, end in packages_used(source):
                 if name not in named[package]:
