@@ -214,3 +214,62 @@ def test_off_to_the_browser(place, monkeypatch, capsys):
     assert main(["new", "robot", "scout", "--into", "ws", "--yes", "--teleop"]) == 0
     assert called == [["sim", "teleop", "ws/scout_description"]]
     assert "next:" not in capsys.readouterr().out
+
+
+def lines_of(capsys):
+    return capsys.readouterr().out.splitlines()
+
+
+def test_what_an_edited_file_includes_is_kept(place, capsys):
+    assert main(["new", "robot", "scout", "--sensor", "lidar,camera", "--no-picture", "--yes", "-q"]) == 0
+    model = place / "scout_description/urdf/scout.urdf.xacro"
+    edited = model.read_text().replace(
+        '  <xacro:include filename="sensors/camera.xacro"/>\n', "<!-- no camera.xacro -->\n"
+    )
+    model.write_text(edited)
+    capsys.readouterr()
+    assert main(["new", "--update", "--diff", "-q"]) == 0  # what is edited is left alone
+    assert main(["new", "robot", "--update", "--sensor", "", "--yes", "-q"]) == 0
+    said = lines_of(capsys)
+    lidar = "scout_description/urdf/sensors/lidar"
+    assert f"{lidar}.xacro: kept: scout_description/urdf/scout.urdf.xacro names it" in said
+    assert f"{lidar}_gazebo.xacro: kept: {lidar}.xacro names it" in said
+    assert "scout_description/urdf/sensors/camera.xacro: removed" in said
+    assert model.read_text() == edited
+    assert main(["lint", "scout_description", "-q"]) == 0
+    # Once nothing names them they go, and the folder with them.
+    model.write_text(model.with_name("scout.urdf.xacro.new").read_text())
+    assert main(["new", "robot", "--update", "--sensor", "", "--yes", "-q"]) == 0
+    assert not (place / "scout_description/urdf/sensors").exists()
+    assert main(["lint", "scout_description", "-q"]) == 0
+
+
+def test_an_outcome_that_would_be_broken_is_refused(place, capsys):
+    assert main(["new", "robot", "scout", "--no-picture", "--yes", "-q"]) == 0
+    model = place / "scout_description/urdf/scout.urdf.xacro"
+    mine = '<link name="flag"><visual><geometry><sphere radius="${wheel_radius}"/></geometry></visual></link>'
+    joint = '<joint name="flag_joint" type="fixed"><parent link="base_link"/><child link="flag"/></joint>'
+    model.write_text(model.read_text().replace("</robot>", f"  {mine}{joint}\n</robot>"))
+    before = {path: path.read_bytes() for path in place.rglob("*") if path.is_file()}
+    capsys.readouterr()
+    for options in (["--yes"], ["--diff"]):
+        assert main(["new", "robot", "--update", "--drive", "none", "-q", *options]) == 2
+        said = capsys.readouterr()
+        assert "scout_description/urdf/drive.xacro: changed" in said.out
+        assert said.err.startswith("urdfkit: nothing was changed: with what you have it would not be clean: ")
+        assert "wheel_radius" in said.err
+        assert "make it go with your scout_description/urdf/scout.urdf.xacro first" in said.err
+        assert said.err.count("\n") == 1
+    assert {path: path.read_bytes() for path in place.rglob("*") if path.is_file()} == before
+
+
+def test_a_package_that_an_edited_file_names_is_kept_whole(place, capsys):
+    assert main(["new", "robot", "picker", "--ros", "noetic", "--arm", "4", "--no-picture", "--yes", "-q"]) == 0
+    for edited in ("launch/picker.launch", "package.xml"):
+        path = place / "picker_gazebo" / edited
+        path.write_text(f"{path.read_text()}<!-- mine -->\n")
+    capsys.readouterr()
+    assert main(["new", "robot", "--update", "--arm", "none", "--yes", "-q"]) == 0
+    assert "picker_control/package.xml: kept: picker_gazebo/launch/picker.launch names it" in lines_of(capsys)
+    assert (place / "picker_control/config/controllers.yaml").is_file()
+    assert main(["lint", "picker_description", "-q"]) == 0

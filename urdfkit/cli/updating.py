@@ -8,6 +8,7 @@ import os
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from urdfkit.errors import ResourceError, UsageError
@@ -30,6 +31,7 @@ _WORDS = {
     "remove": "removed",
     "beside": "edited by you: what it would be is put beside it as {name}.new",
     "keep": "left as you have it",
+    "needed": "kept: {because} names it",
 }
 _COLOURS = {"+": "32", "-": "31", "@": "36"}
 
@@ -64,12 +66,14 @@ def run(
     answers |= computed(template.name, answers)
     answers |= {"into": into.as_posix()} | ({"year": made.year} if made.year else {})
     finish = drawn if answers.get("picture") == "yes" else None
-    with updating(template, answers, into, made, check=findings, finish=finish) as update:
-        real = [change for change in update.changes if change.kind != "keep"]
+    with updating(template, answers, into, made, check=partial(findings, beside=into), finish=finish) as update:
+        real = [change for change in update.changes if not change.is_none]
         if not real:
             print(f"{into}: nothing to update", file=sys.stderr)
             return 0
         _show(update.changes, recipe.relative_to(into), colour=_coloured(arguments.color), quiet=arguments.quiet)
+        if update.refused:
+            raise ResourceError(f"nothing was changed: {update.refused}")
         if _said(arguments, "diff"):
             return 1
         if not _said(arguments, "yes") and not _agreed(len(real)):
@@ -78,11 +82,12 @@ def run(
     return 0
 
 
-def findings(folder: Path) -> list[str]:
+def findings(folder: Path, *, beside: Path | None = None) -> list[str]:
     """Return what is wrong with a result, a line each.
 
     Args:
         folder: where it was rendered to.
+        beside: where it goes: there may be other packages that it needs.
 
     Raises:
         UrdfkitError: a file of it cannot be read.
@@ -95,7 +100,7 @@ def findings(folder: Path) -> list[str]:
         load_world(world)
     if not models_in(folder):
         return []
-    found = lint([folder], package_path=[folder])
+    found = lint([folder], package_path=[folder, *([beside] if beside is not None else [])])
     return [f"{f.code} {f.message} ({Path(f.file).name}:{f.line})" for f in found if f.severity != "info"]
 
 
@@ -148,8 +153,8 @@ def placed(template: Template, into: Path) -> Template:
 
 def _show(changes: tuple[Change, ...], recipe: Path, *, colour: bool, quiet: bool) -> None:
     for change in changes:
-        print(f"{change.path.as_posix()}: {_WORDS[change.kind].format(name=change.path.name)}")
-        if quiet or change.kind == "keep" or change.path == recipe:
+        print(f"{change.path.as_posix()}: {_WORDS[change.kind].format(name=change.path.name, because=change.because)}")
+        if quiet or change.is_none or change.path == recipe:
             continue
         for line in _difference(change):
             code = _COLOURS.get(line[:1])

@@ -123,11 +123,35 @@ def finished(
     files = sorted(path.relative_to(stage) for path in stage.rglob("*") if path.is_file())
     if not template.recipe:
         return files
+    return [*files, write_recipe(template, answers, stage, files)]
+
+
+def write_recipe(
+    template: Template,
+    answers: Mapping[str, str],
+    stage: Path,
+    files: Sequence[Path],
+    *,
+    also: Mapping[Path, bytes] | None = None,
+) -> Path:
+    """Write down the answers and what was made from them; return where, relative to `stage`.
+
+    Args:
+        template: what was rendered.
+        answers: answers by question, with the built-in ones.
+        stage: where it was rendered to.
+        files: that were, relative to it; the recipe may be among them.
+        also: what was made before and is there yet.
+
+    Raises:
+        ResourceError: the template is wrong.
+    """
     target = Path(fill(template.recipe, answers, where=f"{template.folder}/template.toml"))
-    digests = {path.as_posix(): digest((stage / path).read_bytes()) for path in files}
+    contents = {path: (stage / path).read_bytes() for path in files if path != target} | dict(also or {})
+    digests = {path.as_posix(): digest(content) for path, content in sorted(contents.items())}
     (stage / target).parent.mkdir(parents=True, exist_ok=True)
     (stage / target).write_text(recipe_text(template, answers, digests), encoding="utf-8")
-    return [*files, target]
+    return target
 
 
 @contextmanager

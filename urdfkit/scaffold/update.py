@@ -1,28 +1,31 @@
 """Make again in place what a template has made: after a change of the template, or of the answers.
 
 What nobody has edited since is replaced. What somebody has is left alone, and what it would be now is put beside it
-with ``.new`` behind its name, as package managers do with settings. What was deleted stays away.
+with ``.new`` behind its name, as package managers do with settings. What was deleted stays away, and what is made no
+more goes, unless a file that stays names it. The outcome has to be as clean as what was there.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
 from urdfkit.atomic import staging, undisturbed
 from urdfkit.errors import ResourceError, UsageError
-from urdfkit.scaffold.new import Checker, Finisher, finished, render
+from urdfkit.scaffold.new import Checker, Finisher, finished, render, write_recipe
+from urdfkit.scaffold.outcome import worsened
 from urdfkit.scaffold.recipe import Made, digest
+from urdfkit.scaffold.references import needed
 from urdfkit.scaffold.template import Template
 
 BESIDE = ".new"
 """Behind the name of what a file that was edited would be now."""
 
-Kind = Literal["add", "replace", "remove", "beside", "keep"]
+Kind = Literal["add", "replace", "remove", "beside", "keep", "needed"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,16 +34,23 @@ class Change:
 
     Attributes:
         kind: it is new; it takes the place of one that was not edited; it is no more; it is put beside one that was
-            edited; or it was edited or deleted and is left so.
+            edited; it was edited or deleted and is left so; or it would be no more, and a file that stays names it.
         path: from the folder that is written to; of `beside` without the ending.
         before: what is there; empty where nothing is.
         after: what it would be; empty where nothing would.
+        because: of `needed`, the file that names it.
     """
 
     kind: Kind
     path: Path
     before: bytes = b""
     after: bytes = b""
+    because: Path | None = None
+
+    @property
+    def is_none(self) -> bool:
+        """Whether the file stays as it is."""
+        return self.kind in ("keep", "needed")
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,9 +59,12 @@ class Update:
 
     Attributes:
         changes: by path.
+        refused: why they are not to be made: with what was edited the outcome would be worse than what is there; empty
+            where it would not.
     """
 
     changes: tuple[Change, ...]
+    refused: str
     _stage: Path
     _folder: Path
 
@@ -59,8 +72,10 @@ class Update:
         """Make the changes; if one fails all are undone.
 
         Raises:
-            ResourceError: it cannot be written.
+            ResourceError: they are refused, or cannot be written.
         """
+        if self.refused:
+            raise ResourceError(f"nothing was changed: {self.refused}")
         undo: list[tuple[Path, Path]] = []
         old = self._stage / ".old"
         try:
@@ -69,7 +84,7 @@ class Update:
                     target = self._folder / change.path
                     if change.kind == "beside":
                         target = target.with_name(target.name + BESIDE)
-                    if change.kind == "keep":
+                    if change.is_none:
                         continue
                     if os.path.lexists(target):
                         old.mkdir(exist_ok=True)
@@ -83,6 +98,9 @@ class Update:
             for here, there in reversed(undo):
                 here.rename(there)
             raise ResourceError(f"nothing was changed: cannot write {target}: {error.strerror}") from error
+        for change in self.changes:
+            if change.kind == "remove":
+                _remove_empty(self._folder / change.path.parent, self._folder)
 
 
 def find_recipe(template: Template | None, folder: Path) -> tuple[Path, Path]:
@@ -147,10 +165,55 @@ def updating(
         render(template, answers, stage, without=_foreign(template, answers, folder, packages))
         files = finished(template, answers, stage, check=check, finish=finish)
         recipe = files[-1]
-        found = [_change(path, folder, stage, made, recipe) for path in files]
         gone = sorted(set(map(Path, made.digests)) - set(files))
-        found += [_left_over(path, folder, made) for path in gone]
-        yield Update(tuple(change for change in found if change is not None), stage, folder)
+        going = [change for path in gone if (change := _left_over(path, folder, made)) is not None]
+        coming = [(path, _change(path, folder, stage, made, recipe)) for path in files if path != recipe]
+        going = _without_needed(
+            going, folder, [path for path, change in coming if _is_ours(path, change, folder, stage)]
+        )
+        needed_yet = {change.path: change.before for change in going if change.kind == "needed"}
+        write_recipe(template, answers, stage, files, also=needed_yet)
+        coming.append((recipe, _change(recipe, folder, stage, made, recipe)))
+        changes = (*(change for _, change in coming if change is not None), *going)
+        refused = "" if check is None else _refused(changes, check, folder, stage)
+        yield Update(changes, refused, stage, folder)
+
+
+def _refused(changes: Sequence[Change], check: Checker, folder: Path, stage: Path) -> str:
+    """Return what would be worse than it is, with what was edited in it; empty for nothing."""
+    put = [change.path for change in changes if change.kind in ("add", "replace")]
+    removed = [change.path for change in changes if change.kind == "remove"]
+    tops = {change.path.parts[0] for change in changes if len(change.path.parts) > 1}
+    found = worsened(check, folder, stage, tops, put=put, removed=removed) if put or removed else []
+    if not found:
+        return ""
+    more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+    edited = [change.path.as_posix() for change in changes if change.kind == "beside"]
+    told = f"; make it go with your {', '.join(edited)} first" if edited else ""
+    return f"with what you have it would not be clean: {found[0]}{more}{told}"
+
+
+def _without_needed(going: Sequence[Change], folder: Path, ours: Collection[Path]) -> list[Change]:
+    """Return what becomes of files that the template makes no more, now that others may name them."""
+    removed = [change.path for change in going if change.kind == "remove"]
+    by = needed(removed, folder, {*removed, *ours})
+    return [
+        replace(change, kind="needed", because=by[change.path]) if change.path in by else change for change in going
+    ]
+
+
+def _is_ours(path: Path, change: Change | None, folder: Path, stage: Path) -> bool:
+    """Whether a file is going to be as the template has it."""
+    if change is not None:
+        return change.kind in ("add", "replace")
+    return (folder / path).read_bytes() == (stage / path).read_bytes()
+
+
+def _remove_empty(folder: Path, above: Path) -> None:
+    """Remove a folder that nothing is left in, and those above it that then are empty, but not `above` itself."""
+    while folder != above and folder.is_dir() and not any(folder.iterdir()):
+        folder.rmdir()
+        folder = folder.parent
 
 
 def _foreign(template: Template, answers: Mapping[str, str], folder: Path, ours: set[str]) -> set[str]:
