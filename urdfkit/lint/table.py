@@ -137,6 +137,7 @@ ROBOT: tuple[Row, ...] = (
     ("cfmDamping", "gazebo.deprecated_gazebo_tag", "DeprecatedGazeboTag"),
     ("plugin sensor", "gazebo.fixed_joint_lumping", "FixedJointLumping"),
     ("plugin sensor", "gazebo.duplicate_sensor_or_plugin", "DuplicateSensorOrPlugin"),
+    ("plugin sensor", "gazebo.sensors_share_topic", "SensorsShareTopic"),
     ("gazebo", "gazebo.conflicting_blocks", "ConflictingBlocks"),
     ("sensor plugin", "gazebo.sensor_range_invalid", "SensorRangeInvalid"),
     ("material", "gazebo.gazebo_material_unknown", "GazeboMaterialUnknown"),
