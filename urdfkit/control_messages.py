@@ -87,5 +87,11 @@ CONTROL_MESSAGES = {
         builtin_interfaces/Duration timeout
     """,
     **_action("GripperCommand", goal="control_msgs/GripperCommand command", feedback=_GRIPPED, result=_GRIPPED),
+    **_action(  # of Jazzy; Humble has not got it
+        "ParallelGripperCommand",
+        goal="sensor_msgs/JointState command",
+        feedback="sensor_msgs/JointState state",
+        result="sensor_msgs/JointState state\nbool stalled\nbool reached_goal",
+    ),
 }
 """Type → definition."""

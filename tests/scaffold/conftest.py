@@ -112,7 +112,15 @@ def tell():
                 topic = "gripper" if "finger" in joint else f"arm/{joint.removesuffix('_joint')}"
                 simulator.bus.publish(f"/{topic}", FLOAT, from_fields(FLOAT, {"data": position}))
             return
-        controller = "gripper_controller" if any("finger" in joint for joint in targets) else "arm_controller"
+        gripping = any("finger" in joint for joint in targets)
+        if gripping and ros != "noetic":
+            (position,) = targets.values()
+            name, told = ("GripperCommand", position) if ros == "humble" else ("ParallelGripperCommand", [position])
+            kind = f"control_msgs/action/{name}_SendGoal_Request"
+            goal = from_fields(kind, {"goal": {"command": {"position": told}}})
+            simulator.bus.publish("/gripper_controller/gripper_cmd/_action/send_goal", kind, goal)
+            return
+        controller = "gripper_controller" if gripping else "arm_controller"
         topic = f"/scout/{controller}/command" if ros == "noetic" else f"/{controller}/joint_trajectory"
         point = {"positions": list(targets.values()), "time_from_start": {"sec": seconds, "nanosec": 0}}
         simulator.bus.publish(

@@ -81,7 +81,7 @@ class Action:
         if self._topics.repeats:
             law.report(self._topics.states, STATUS_RATE, self._list)
 
-    def end(self, state: int, text: str = "", **result: Any) -> None:
+    def end(self, state: int, text: str = "", /, **result: Any) -> None:
         """Tell that the goal was reached or will not be; does nothing without one."""
         if self.goal is not None:
             goal, self.goal = self.goal, None

@@ -30,6 +30,8 @@ class Gripper(Law):
         "position_controllers/GripperActionController": "position",
         "effort_controllers/GripperActionController": "effort",
     }
+    kind: ClassVar[str] = "control_msgs/msg/GripperCommand"
+    """Of its goals, as `Action` wants it."""
 
     def configure(self) -> None:
         """Read the parameters, advertise and subscribe.
@@ -57,8 +59,9 @@ class Gripper(Law):
         self._near = abs(read.number("goal_tolerance", 0.01))
         self._still = read.number("stall_velocity_threshold", 0.001)
         self._patience = read.number("stall_timeout", 1.0)
+        self._content = self.hardware.ros == 2 and read.flag("allow_stalling", False)
         self._action = Action(
-            self, "gripper_cmd", "control_msgs/msg/GripperCommand", pursue=self._pursue, stop=self._hold,
+            self, "gripper_cmd", self.kind, pursue=self._pursue, stop=self._hold,
             feedback=self._feedback, rate=read.number("action_monitor_rate", MONITOR_RATE),
             clock=lambda: self._present.t,
         )  # fmt: skip
@@ -88,9 +91,9 @@ class Gripper(Law):
         """Take a goal.
 
         Raises:
-            RefusalError: it is not finite.
+            RefusalError: it is not finite, or not for one joint.
         """
-        position, most = float(goal.command.position), float(goal.command.max_effort)
+        position, most = self._read(goal.command)
         if not (abs(position) < float("inf") and abs(most) < float("inf")):
             raise RefusalError(f"a gripper cannot go to {position} with {most}")
         self._wanted, self._most = position, abs(most)
@@ -116,7 +119,26 @@ class Gripper(Law):
         elif abs(velocity) > self._still:
             self._moved = state.t
         elif state.t - self._moved > self._patience:
-            self._action.end(ABORTED, "stalled", **self._result(state, stalled=True))
+            end = SUCCEEDED if self._content else ABORTED
+            self._action.end(end, "stalled", **self._result(state, stalled=True))
+
+    # What differs between kinds of goals
+
+    def command(self, position: float) -> dict[str, Any]:
+        """Return the fields of a goal.
+
+        Args:
+            position: to go to [rad or m].
+        """
+        return {"command": {"position": position, "max_effort": self._usual}}
+
+    def _read(self, command: Any) -> tuple[float, float]:
+        """Return the position and the greatest effort of a goal.
+
+        Raises:
+            RefusalError: it is not for one joint.
+        """
+        return float(command.position), float(command.max_effort)
 
     def _result(self, state: State, **more: bool) -> dict[str, Any]:
         return {"position": state.position(self._name), "effort": state.effort(self._name), **more}

@@ -11,6 +11,7 @@ from urdfkit.sim.controllers.four_wheel_steering import FourWheelSteeringControl
 from urdfkit.sim.controllers.gripper import Gripper
 from urdfkit.sim.controllers.joint_state import JointStatePublisher
 from urdfkit.sim.controllers.mecanum import MecanumController
+from urdfkit.sim.controllers.parallel_gripper import ParallelGripper
 from urdfkit.sim.controllers.position import PidGroup, PidPosition, PidVelocity
 from urdfkit.sim.controllers.steering import SteeringController
 from urdfkit.sim.controllers.trajectory import TrajectoryFollower
@@ -29,6 +30,7 @@ LAWS: tuple[type[Law], ...] = (
     TrajectoryFollower,
     DiffDriveController,
     Gripper,
+    ParallelGripper,
     SteeringController,
     FourWheelSteeringController,
     MecanumController,
@@ -43,7 +45,6 @@ ELSEWHERE = (
     "gripper_controllers/GripperActionController",
     "imu_sensor_broadcaster/IMUSensorBroadcaster",
     "imu_sensor_controller/ImuSensorController",
-    "parallel_gripper_action_controller/GripperActionController",
     "pid_controller/PidController",
     "pos_vel_controllers/JointTrajectoryController",
     "pos_vel_acc_controllers/JointTrajectoryController",

@@ -34,11 +34,8 @@ SPEED = 0.5
 BRISK = 1.0
 """How fast a joint without ``<limit velocity>`` goes there [rad/s or m/s]."""
 
-GRIPPER_GOALS = {
-    1: ("goal", "control_msgs/msg/GripperCommandActionGoal"),
-    2: ("_action/send_goal", "control_msgs/action/GripperCommand_SendGoal_Request"),
-}
-"""Where a gripper's goal goes, and as what, in ROS 1 and 2."""
+GOALS = {1: ("goal", "ActionGoal"), 2: ("_action/send_goal", "_SendGoal_Request")}
+"""Where a goal goes below an action, and what its type ends in, in ROS 1 and 2."""
 
 
 class Arm:
@@ -109,9 +106,10 @@ class Arm:
         elif isinstance(law, TrajectoryFollower):
             bus.publish(law.topic("command" if law.hardware.ros == 1 else "joint_trajectory"), TRAJECTORY, self._way())
         elif isinstance(law, Gripper):
-            ending, kind = GRIPPER_GOALS[law.hardware.ros]
-            goal = {"goal": {"command": {"position": value, "max_effort": law._usual}}}
-            bus.publish(law.topic(f"gripper_cmd/{ending}"), kind, from_fields(kind, goal))
+            place, ending = GOALS[law.hardware.ros]
+            kind = (law.kind if law.hardware.ros == 1 else law.kind.replace("/msg/", "/action/")) + ending
+            goal = {"goal": law.command(value)}
+            bus.publish(law.topic(f"gripper_cmd/{place}"), kind, from_fields(kind, goal))
         else:
             bus.publish(law.topic("command"), FLOAT, from_fields(FLOAT, {"data": value}))
 

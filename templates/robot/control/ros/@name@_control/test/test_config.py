@@ -10,8 +10,8 @@ CONFIG = Path(__file__).resolve().parents[1] / "config"
 def lists_of_joints(settings):
     """Yield what is listed as joints, wherever it is."""
     for key, value in settings.items():
-        if key == "joints":
-            yield value
+        if key in ("joint", "joints"):
+            yield [value] if key == "joint" else value
         elif isinstance(value, dict):
             yield from lists_of_joints(value)
 
