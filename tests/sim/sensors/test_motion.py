@@ -116,6 +116,15 @@ def test_noise_is_what_is_written_and_told_in_the_covariances(brick) -> None:
     assert messages[0].angular_velocity_covariance[0] == pytest.approx(1e-4)
 
 
+def test_in_ros_1_the_plugin_adds_its_noise_to_the_sensors(brick) -> None:
+    simulator = brick(imu(ROS_1.format("<gaussianNoise>0.1</gaussianNoise>"), NOISE), gravity=(0, 0, 0))
+    messages = heard(simulator, "/brick/imu_data", 20.0)
+    x, z = (np.array([getattr(m.linear_acceleration, axis) for m in messages]) for axis in "xz")
+    assert z.mean() == pytest.approx(0.5, abs=5 * 0.23 / np.sqrt(2000))
+    assert (x.std(), z.std()) == (pytest.approx(0.1, rel=0.08), pytest.approx(np.hypot(0.1, 0.2), rel=0.08))
+    assert messages[0].linear_acceleration_covariance[8] == pytest.approx(0.01)
+
+
 @pytest.mark.parametrize(
     ("plugin", "topic"),
     [

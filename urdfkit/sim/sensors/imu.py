@@ -114,11 +114,12 @@ class Imu(Carried):
 
 
 class PlainImu(Imu):
-    """An IMU whose noise is SDF's, or one standard deviation for everything."""
+    """An IMU whose noise is SDF's, or one standard deviation for everything, or both."""
 
     _gyro: tuple[Noise, ...]
     _accelerometer: tuple[Noise, ...]
     _compass: float = 0.0
+    _plugin = Noise()
 
     def _tell(self) -> None:
         gyro, accelerometer = (
@@ -127,14 +128,18 @@ class PlainImu(Imu):
         self._variances = np.full(3, self._compass**2), gyro, accelerometer
 
     def _err(self, felt: Felt, ride: Ride) -> Felt:
-        pulled = _noisy(felt.pulled, self._accelerometer, ride.random)
-        turning = _noisy(felt.turning, self._gyro, ride.random)
+        pulled = self._plugin.on(_noisy(felt.pulled, self._accelerometer, ride.random), ride.random)
+        turning = self._plugin.on(_noisy(felt.turning, self._gyro, ride.random), ride.random)
         shaken = self._compass * ride.random.standard_normal(4) if self._compass else felt.shaken
         return Felt(felt.t, felt.rotation, shaken, turning, pulled)
 
 
 class ImuSensor(PlainImu):
-    """gazebo_ros_imu_sensor of ROS 1 and ROS 2."""
+    """gazebo_ros_imu_sensor of ROS 1 and ROS 2.
+
+    The one of ROS 1 adds noise of its own to what Gazebo's sensor reads, SDF's noise included, and tells only its own in
+    the covariances (gazebo_ros_imu_sensor.cpp, UpdateChild).
+    """
 
     kind = "imu_sensor"
 
@@ -147,12 +152,12 @@ class ImuSensor(PlainImu):
                 "an IMU stands in a <sensor> of a link, and in none here", position=self.plugin.element.origin.position
             )
         self._relative = read.flag("initial_orientation")
+        self._gyro, self._accelerometer = _written(element, setup.random)
+        self._tell()
         if self.spec.generation == "ros1":
             self._compass = read.number("gaussian_noise", unsigned=True)
-            self._gyro = self._accelerometer = (Noise(deviation=self._compass),) * 3
-        else:
-            self._gyro, self._accelerometer = _written(element, setup.random)
-        self._tell()
+            self._plugin = Noise(deviation=self._compass)
+            self._variances = (np.full(3, self._compass**2),) * 3
 
 
 class GzImu(PlainImu):
