@@ -11,6 +11,7 @@ from urdfkit.lint import lint
 from urdfkit.messages import TRAJECTORY, from_fields
 from urdfkit.resources import robots_dir
 from urdfkit.scaffold.control import controllers
+from urdfkit.scaffold.gains import gains
 from urdfkit.scaffold.joint_roles import Roles, roles
 from urdfkit.sim import Simulator
 
@@ -238,3 +239,171 @@ def test_the_package_builds(place, debian):
     assert "found 0 problems" in debian("catkin_lint -W2 --strict --offline src/rover_control")
     debian("catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3 install")
     assert (place / "install/share/rover_control/config/controllers.yaml").is_file()
+
+
+def transmissions(kind, joints, plugin=""):
+    """Return the hardware of ROS 1 without a controller, as many a description has it."""
+    each = "".join(
+        f'<transmission name="{joint}_t"><type>transmission_interface/SimpleTransmission</type><joint name="{joint}">'
+        f"<hardwareInterface>hardware_interface/{kind}JointInterface</hardwareInterface></joint>"
+        f'<actuator name="{joint}_m"/></transmission>\n'
+        for joint in joints
+    )
+    loop = '<gazebo><plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so">{}</plugin></gazebo>'
+    return each + (loop.format(plugin) if plugin is not None else "")
+
+
+def ros2_control(kind, joints, more=""):
+    """Return the hardware of ROS 2 without a controller."""
+    each = "".join(
+        f'<joint name="{joint}"><command_interface name="{kind}"/><state_interface name="position"/>'
+        '<state_interface name="velocity"/></joint>'
+        for joint in joints
+    )
+    hardware = "<hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>"
+    return f'<ros2_control name="hand_made" type="system">{hardware}{each}</ros2_control>{more}'
+
+
+CHAIN = part("shoulder", "base", z=0.05, axis="0 0 1") + part("elbow", "shoulder")
+
+
+def follows(model, place, **options):
+    """Whether the arm goes where it is told, within 1e-2 rad."""
+    simulator = Simulator(load(model, package_path=[place]), note=lambda _: None, fixed_base=True)
+    topic = next(topic.name for topic in simulator.bus.topics if topic.name.endswith(tuple(options["topics"])))
+    point = {"positions": [0.7, -0.5], "time_from_start": {"sec": 1, "nanosec": 0}}
+    joints = ["shoulder_joint", "elbow_joint"]
+    simulator.bus.publish(topic, TRAJECTORY, from_fields(TRAJECTORY, {"joint_names": joints, "points": [point]}))
+    simulator.run(3.0)
+    return [simulator.state.position(joint) for joint in joints] == pytest.approx([0.7, -0.5], abs=1e-2)
+
+
+@pytest.mark.parametrize("kind", ["Position", "Velocity", "Effort"])
+def test_transmissions_without_controllers_get_some(place, kind):
+    body = CHAIN + transmissions(
+        kind, ["shoulder_joint", "elbow_joint"], "<robotNamespace>/cell/rover</robotNamespace>"
+    )
+    folder = robot(place, body, "catkin")
+    before = (folder / "urdf/rover.urdf.xacro").read_bytes()
+    assert new() == 0
+    assert (folder / "urdf/rover.urdf.xacro").read_bytes() == before  # it has what it needs
+    (settings,) = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text()).values()
+    assert settings["arm_controller"]["type"] == f"{kind.lower()}_controllers/JointTrajectoryController"
+    assert ("gains" in settings["arm_controller"]) == (kind != "Position")
+    assert f"<exec_depend>{kind.lower()}_controllers</exec_depend>" in (place / "rover_control/package.xml").read_text()
+    assert 'ns="cell/rover"' in (place / "rover_control/launch/rover_control.launch").read_text()
+    assert clean(folder) == []
+    assert follows(folder / "urdf/rover.urdf.xacro", place, topics=["/cell/rover/arm_controller/command"])
+    assert new("--name", "more_control") == 2  # they have a controller now
+
+
+def test_transmissions_without_the_plugin_get_it(place):
+    folder = robot(place, CHAIN + transmissions("Effort", ["shoulder_joint", "elbow_joint"], None), "catkin")
+    assert new() == 0
+    added = (folder / "urdf/control.xacro").read_text()
+    assert "libgazebo_ros_control.so" in added
+    assert "<transmission" not in added
+    assert follows(folder / "urdf/rover.urdf.xacro", place, topics=["/rover/arm_controller/command"])
+
+
+def test_a_plugin_without_a_namespace_has_the_controllers_at_the_root(place):
+    plugin = "<robotNamespace>/</robotNamespace>"
+    folder = robot(place, CHAIN + transmissions("Position", ["shoulder_joint", "elbow_joint"], plugin), "catkin")
+    assert new() == 0
+    settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())
+    assert set(settings) == {"joint_state_controller", "arm_controller"}
+    assert "ns=" not in (place / "rover_control/launch/rover_control.launch").read_text()
+    assert follows(folder / "urdf/rover.urdf.xacro", place, topics=["/arm_controller/command"])
+
+
+@pytest.mark.parametrize("kind", ["position", "velocity", "effort"])
+def test_ros2_control_without_a_plugin_gets_controllers_and_the_plugin(place, kind):
+    folder = robot(place, CHAIN + ros2_control(kind, ["shoulder_joint", "elbow_joint"]))
+    assert new() == 0
+    added = (folder / "urdf/control.xacro").read_text()
+    assert "gz_ros2_control-system" in added
+    assert "<ros2_control" not in added
+    settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())
+    assert settings["arm_controller"]["ros__parameters"]["command_interfaces"] == [kind]
+    assert clean(folder) == []
+    assert follows(folder / "urdf/rover.urdf.xacro", place, topics=["/arm_controller/joint_trajectory"])
+
+
+def test_what_the_plugin_reads_gets_the_controllers(place, capsys):
+    plugin = (
+        '<gazebo><plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin">'
+        "<parameters>$(find rover_description)/config/mine.yaml</parameters></plugin></gazebo>"
+    )
+    folder = robot(place, ROVER + CHAIN + ros2_control("velocity", ["left_joint", "right_joint"], plugin))
+    (folder / "config").mkdir()
+    mine = "# mine\ncontroller_manager:\n    ros__parameters:\n        update_rate: 100\n"
+    (folder / "config/mine.yaml").write_text(mine)
+    before = (folder / "urdf/rover.urdf.xacro").read_text()
+    assert new() == 0
+    said = capsys.readouterr()
+    assert "ros2 run controller_manager spawner base_controller arm_controller" in said.out
+    assert "base_controller: left_joint, right_joint (velocity, as the model has it)" in said.err
+    after = (folder / "config/mine.yaml").read_text()
+    assert all(line in after for line in mine.splitlines())
+    settings = yaml.safe_load(after)
+    assert set(settings) == {"controller_manager", "base_controller", "arm_controller"}
+    managed = settings["controller_manager"]["ros__parameters"]
+    assert managed["base_controller"] == {"type": "diff_drive_controller/DiffDriveController"}
+    assert managed["update_rate"] == 100
+    assert not (place / "rover_control").exists()
+    added = (folder / "urdf/control.xacro").read_text()  # the arm had no hardware
+    assert "shoulder_joint" in added
+    assert "left_joint" not in added
+    assert "<plugin filename=" not in added
+    assert (folder / "urdf/rover.urdf.xacro").read_text() != before
+    assert clean(folder) == []
+    assert follows(folder / "urdf/rover.urdf.xacro", place, topics=["/arm_controller/joint_trajectory"])
+
+
+def test_a_plugin_whose_file_is_not_there_is_told_of(place, capsys):
+    plugin = (
+        '<gazebo><plugin filename="gz_ros2_control-system" name="loop">'
+        "<parameters>$(find rover_description)/config/none.yaml</parameters></plugin></gazebo>"
+    )
+    robot(place, CHAIN + ros2_control("position", ["shoulder_joint", "elbow_joint"], plugin))
+    assert new() == 2
+    said = capsys.readouterr().err
+    assert "plugin `loop` names " in said
+    assert "config/none.yaml, which is not there" in said
+
+
+def test_wheels_that_are_told_efforts_are_no_drive(place, capsys):
+    robot(place, ROVER + CHAIN + transmissions("Effort", ["left_joint", "right_joint"], "<a/>"), "catkin")
+    assert new() == 0
+    assert "`left_joint` can be told its effort, not its velocity as wheels are" in capsys.readouterr().err
+    settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())["rover"]
+    assert set(settings) == {"joint_state_controller", "arm_controller"}
+
+
+def test_followers_and_what_a_mixed_chain_can_be_told(place):
+    mixed = transmissions("Position", ["shoulder_joint"]) + transmissions(
+        "Effort", ["elbow_joint", "other_joint"], None
+    )
+    folder = robot(place, ARM + mixed, "catkin")
+    assert new() == 0
+    settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())["rover"]
+    told = {name: (each["type"], each["joints"]) for name, each in settings.items() if "joints" in each}
+    assert told == {
+        "shoulder_controller": ("position_controllers/JointTrajectoryController", ["shoulder_joint"]),
+        "elbow_controller": ("effort_controllers/JointTrajectoryController", ["elbow_joint"]),
+        "gripper_controller": ("velocity_controllers/JointTrajectoryController", ["finger_joint"]),
+    }
+    assert (folder / "urdf/control.xacro").read_text().count("<transmission ") == 1
+
+
+def test_gains_of_a_joint_carry_its_weight(place):
+    body = part("shoulder", "base", z=0.05) + part("elbow", "shoulder") + part("finger", "elbow", type="prismatic")
+    loaded = load(robot(place, body) / "urdf/rover.urdf.xacro")
+    upper, lower, slide = (
+        gains(loaded, loaded.joint_by_name[f"{name}_joint"]) for name in ("shoulder", "elbow", "finger")
+    )
+    weight, inertia = 0.3 * 9.81 * (0.2 + 0.4), 3 * 0.002 + 0.3 * (0.2**2 + 0.4**2)
+    assert (upper.clamp, upper.p) == (pytest.approx(weight), pytest.approx(weight / 0.01))
+    assert upper.d == pytest.approx(1.8 * (upper.p * inertia) ** 0.5)
+    assert lower.p == pytest.approx(0.3 * 9.81 * 0.2 / 0.01)
+    assert (slide.clamp, slide.p) == (pytest.approx(0.3 * 9.81), pytest.approx(0.3 * 9.81 / 0.001))

@@ -8,15 +8,17 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 from urdfkit.cli.alter import add_description, apply, description
-from urdfkit.errors import ResourceError
+from urdfkit.errors import ResourceError, UsageError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from urdfkit.description.robot import Robot
+    from urdfkit.resources import ModelArgument
     from urdfkit.scaffold.alteration import Alteration
     from urdfkit.scaffold.control import Controller
+    from urdfkit.scaffold.hardware import Hardware
 
 SUMMARY = "controllers for the joints of a description that is there"
 
@@ -45,13 +47,15 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.atomic import staging
     from urdfkit.scaffold import check_package_name, sanitised
     from urdfkit.scaffold.control import controllers
+    from urdfkit.scaffold.hardware import hardware
     from urdfkit.scaffold.joint_roles import roles
     from urdfkit.scaffold.manifest import package_of
 
     model, robot, generation = description(arguments)
     if generation == "gz" and _is_fortress(robot):
         generation = "fortress"
-    found = roles(robot)
+    there = hardware(robot, model.path)
+    found = roles(robot, there)
     for note in () if arguments.quiet else found.notes:
         print(f"urdfkit: {note}", file=sys.stderr)
     made = controllers(found)
@@ -60,21 +64,67 @@ def run(arguments: argparse.Namespace) -> int:
     own = package_of(model.path)
     named = own.name if own is not None and own.name.endswith("_description") else robot.name or model.path.stem
     name = sanitised(named.removesuffix("_description"))
+    if there.loop is not None and generation != "classic":
+        return _added(model, robot, made, arguments, there, name, generation)
     package = check_package_name(arguments.name or f"{name}_control")
     folder = (own or model.path.parent).parent
     if (folder / package).exists():
-        raise ResourceError(f"{folder / package} is already there; nothing is overwritten")
+        raise ResourceError(f"{folder / package} is already there; nothing is overwritten: another --name")
+    namespace = (there.loop_says("robotNamespace") or robot.name or name) if there.loop is not None else name
     with staging(folder) as stage:
-        _render(stage, package, name, made, robot, generation)
-        alterations = _altered(model.path, robot, made, name, generation, package)
+        _render(stage, package, name, made, robot, generation, namespace=namespace.strip("/"))
+        alterations = _altered(model.path, robot, made, name, generation, package, looped=there.loop is not None)
         code = apply(alterations, model, arguments, stage=stage, folder=folder)
     if not arguments.quiet and not arguments.diff:
         launch = (
             "roslaunch {0} {1}_control.launch" if generation == "classic" else "ros2 launch {0} {1}_control.launch.py"
         )
         print(f"  {launch.format(package, name)}  # once the robot is in Gazebo")
+    _tell(made, arguments)
+    return code
+
+
+def _tell(made: list[Controller], arguments: argparse.Namespace) -> None:
     for each in () if arguments.quiet else made:
-        print(f"urdfkit: {each.name}: {', '.join(each.joints)}", file=sys.stderr)
+        by = f" ({each.interface}, as the model has it)" if each.interface else ""
+        print(f"urdfkit: {each.name}: {', '.join(each.joints)}{by}", file=sys.stderr)
+
+
+def _added(
+    model: ModelArgument,
+    robot: Robot,
+    made: list[Controller],
+    arguments: argparse.Namespace,
+    there: Hardware,
+    name: str,
+    generation: str,
+) -> int:
+    """Write controllers into the file of parameters that the model names: its controller manager reads no other.
+
+    Raises:
+        ResourceError: it names none that can be changed.
+    """
+    from urdfkit.scaffold.alteration import Alteration
+    from urdfkit.scaffold.control_parameters import parameters, with_controllers
+
+    said = there.loop_says("parameters")
+    plugin = there.loop.name if there.loop is not None else None
+    if said is None or not Path(said).is_file():
+        wrong = f"names {said}, which is not there" if said else "names no <parameters>"
+        raise ResourceError(f"plugin `{plugin}` {wrong}: controllers go into the file that it reads")
+    if arguments.name is not None:
+        raise UsageError(f"--name is for a new package; plugin `{plugin}` reads {said}, so controllers go into it")
+    path = Path(said)
+    before = path.read_bytes()
+    more = parameters(robot, made, generation=generation, base=robot.roots()[0].name)
+    after = with_controllers(before.decode("utf-8", "surrogateescape"), more, [each.name for each in made], path=path)
+    changes = _altered(model.path, robot, made, name, generation, path.parents[1].name, looped=True)
+    changed = Alteration(path, before, after.encode("utf-8", "surrogateescape"))
+    code = apply([changed, *changes], model, arguments)
+    if not arguments.quiet and not arguments.diff:
+        spawned = " ".join(each.name for each in made)
+        print(f"  ros2 run controller_manager spawner {spawned}  # once the robot is in Gazebo")
+    _tell(made, arguments)
     return code
 
 
@@ -82,24 +132,30 @@ def _is_fortress(robot: Robot) -> bool:
     return any("ignition-gazebo-" in file.read_text("utf-8", "replace") for file in robot.files if file.is_file())
 
 
-def _render(stage: Path, package: str, name: str, made: list[Controller], robot: Robot, generation: str) -> None:
+def _render(
+    stage: Path, package: str, name: str, made: list[Controller], robot: Robot, generation: str, *, namespace: str
+) -> None:
     from urdfkit.cli.identity import identity
     from urdfkit.resources import templates_dir
     from urdfkit.scaffold import computed, load_template
-    from urdfkit.scaffold.control import needs, parameters
+    from urdfkit.scaffold.control import needs
+    from urdfkit.scaffold.control_parameters import at_root, parameters
 
     template = load_template(templates_dir() / "package")
     ros = {"classic": "noetic", "fortress": "humble", "classic-ros2": "humble"}.get(generation, "jazzy")
     given = {"name": package, "kind": "control", "ros": ros, "depends": " ".join(needs(made, generation))}
     given["about"] = f"The controllers of the robot {name}."
     answers: Mapping[str, str] = template.answers({**identity(template), **given})
-    more = parameters(made, generation=generation, base=robot.roots()[0].name)
+    more = parameters(robot, made, generation=generation, base=robot.roots()[0].name)
+    more["namespace"] = namespace or name
     year = {"year": str(datetime.now(timezone.utc).year), "into": "."}
     template.render({**answers, **computed("package", answers), **more, **year, "robot": name}, stage)
+    if generation == "classic" and not namespace:
+        at_root(stage / package, name)
 
 
 def _altered(
-    path: Path, robot: Robot, made: list[Controller], name: str, generation: str, package: str
+    path: Path, robot: Robot, made: list[Controller], name: str, generation: str, package: str, *, looped: bool
 ) -> list[Alteration]:
     from urdfkit.scaffold.alteration import Alteration
     from urdfkit.scaffold.control import markup
@@ -107,7 +163,9 @@ def _altered(
     from urdfkit.scaffold.manifest import package_of, with_installed
 
     before = path.read_bytes()
-    text = markup(robot, made, name=name, generation=generation, package=package)
+    text = markup(robot, made, name=name, generation=generation, package=package, looped=looped)
+    if not text:
+        return []
     prefix = xacro_prefix(before) if path.suffix == ".xacro" else None
     if prefix is None:
         if generation != "classic" and path.suffix != ".xacro":

@@ -38,6 +38,7 @@ def _package(answers: Mapping[str, str]) -> dict[str, str]:
     lines = "".join(f"\n  {package}" for package in depends)
     return {
         "robot": robot,
+        "namespace": robot,
         "description": f"{robot}_description",
         "gazebo": f"{robot}_gazebo",
         "about": answers["about"] or about[answers["kind"]],

@@ -1,14 +1,14 @@
-"""Controllers for the joints of a robot: the elements of the model, and the parameters."""
+"""Controllers for the joints of a robot: which, and the elements of the model that they need."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import count, takewhile
+from itertools import takewhile
 
 from urdfkit.description.robot import Joint, Robot
 from urdfkit.scaffold.joint_roles import Roles, Wheels
-from urdfkit.scaffold.names import sanitised
+from urdfkit.scaffold.names import free, sanitised
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,12 +60,15 @@ class Controller:
         kind: ``trajectory`` or ``diff_drive``.
         joints: that it moves; of a drive, the left ones and then the right ones.
         wheels: of a drive.
+        interface: what its joints can be told, by transmissions or in ``<ros2_control>`` that are there; empty for
+            joints that get theirs with it.
     """
 
     name: str
     kind: str
     joints: tuple[str, ...]
     wheels: Wheels | None = None
+    interface: str = ""
 
 
 def controllers(found: Roles) -> list[Controller]:
@@ -76,16 +79,29 @@ def controllers(found: Roles) -> list[Controller]:
     """
     made = []
     if found.wheels is not None:
-        made.append(Controller("base_controller", "diff_drive", found.wheels.left + found.wheels.right, found.wheels))
+        joints = found.wheels.left + found.wheels.right
+        by = found.interfaces.get(joints[0], "")
+        made.append(Controller("base_controller", "diff_drive", joints, found.wheels, by))
     taken = {"gripper_controller", "base_controller"}
-    for joints in found.arms:
-        name = _name(joints)
-        number = next(n for n in count(1) if (name if n == 1 else f"{name}_{n}") + "_controller" not in taken)
-        taken.add(full := (name if number == 1 else f"{name}_{number}") + "_controller")
-        made.append(Controller(full, "trajectory", joints))
-    if found.fingers:
-        made.append(Controller("gripper_controller", "trajectory", found.fingers))
+    for chain in found.arms:
+        for interface, joints in _by_interface(chain, found):
+            name = free(_name(joints), lambda each: f"{each}_controller" in taken)
+            taken.add(f"{name}_controller")
+            made.append(Controller(f"{name}_controller", "trajectory", joints, None, interface))
+    for interface, joints in _by_interface(found.fingers, found):
+        name = (
+            f"gripper_{interface}_controller"
+            if made and made[-1].name == "gripper_controller"
+            else "gripper_controller"
+        )
+        made.append(Controller(name, "trajectory", joints, None, interface))
     return made
+
+
+def _by_interface(joints: Sequence[str], found: Roles) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the joints by what they can be told: a controller tells all of its joints the same."""
+    for interface in dict.fromkeys(found.interfaces.get(joint, "") for joint in joints):
+        yield interface, tuple(joint for joint in joints if found.interfaces.get(joint, "") == interface)
 
 
 def _name(joints: tuple[str, ...]) -> str:
@@ -96,7 +112,7 @@ def _name(joints: tuple[str, ...]) -> str:
     return "arm" if name in ("joint", "link", "robot") else name
 
 
-def markup(robot: Robot, made: list[Controller], *, name: str, generation: str, package: str) -> str:
+def markup(robot: Robot, made: list[Controller], *, name: str, generation: str, package: str, looped: bool) -> str:
     """Return the elements of the model: which joints are moved, and how; indented by two blanks a level.
 
     Args:
@@ -105,36 +121,18 @@ def markup(robot: Robot, made: list[Controller], *, name: str, generation: str, 
         name: of the robot, where its controllers are.
         generation: of `FLAVOURS`, or ``classic``.
         package: with the controllers' parameters.
+        looped: whether the model has the plugin of Gazebo that runs controllers.
+
+    Returns:
+        Nothing where the model has it all.
     """
-    lines = _ros1(made, name) if generation == "classic" else _ros2(robot, made, name, FLAVOURS[generation], package)
-    return "\n".join(lines)
-
-
-def parameters(made: list[Controller], *, generation: str, base: str) -> dict[str, str]:
-    """Return what the template of a package of controllers wants: ``controllers``, ``managed`` and ``spawned``.
-
-    Args:
-        made: the controllers.
-        generation: of `FLAVOURS`, or ``classic``.
-        base: the frame that odometry is of.
-    """
+    new = [each for each in made if not each.interface]
     if generation == "classic":
-        text = "".join(
-            f"\n\n  {each.name}:\n" + "\n".join(f"    {line}" for line in _yaml1(each, base)) for each in made
-        )
-        spawned = "".join(f" {each.name}" for each in made)
-        return {"controllers": text, "managed": "", "spawned": spawned}
-    types = {
-        "trajectory": "joint_trajectory_controller/JointTrajectoryController",
-        "diff_drive": "diff_drive_controller/DiffDriveController",
-    }
-    text = "".join(
-        f"\n{each.name}:\n  ros__parameters:\n" + "".join(f"    {line}\n" for line in _yaml2(each, base))
-        for each in made
-    )
-    managed = "".join(f"\n    {each.name}: {{type: {types[each.kind]}}}" for each in made)
-    spawned = "".join(f' "{each.name}",' for each in made).removesuffix(",")
-    return {"controllers": text.rstrip("\n"), "managed": managed, "spawned": spawned}
+        lines = [*_transmissions(new), *(() if looped else _loop1(name))]
+    else:
+        flavour = FLAVOURS[generation]
+        lines = [*(_ros2(robot, new, name, flavour) if new else ()), *(() if looped else _loop2(flavour, package))]
+    return "\n".join(lines)
 
 
 def needs(made: list[Controller], generation: str) -> tuple[str, ...]:
@@ -144,13 +142,16 @@ def needs(made: list[Controller], generation: str) -> tuple[str, ...]:
         made: the controllers.
         generation: of `FLAVOURS`, or ``classic``.
     """
-    velocity = ["velocity_controllers"] if generation == "classic" else []
-    by_kind = {"trajectory": ["joint_trajectory_controller", *velocity], "diff_drive": ["diff_drive_controller"]}
-    hardware = "gazebo_ros_control" if generation == "classic" else FLAVOURS[generation].package
-    return tuple(dict.fromkeys([*(name for each in made for name in by_kind[each.kind]), hardware]))
+    packages = []
+    for each in made:
+        packages.append("diff_drive_controller" if each.kind == "diff_drive" else "joint_trajectory_controller")
+        if generation == "classic" and each.kind == "trajectory":
+            packages.append(f"{each.interface or 'velocity'}_controllers")
+    packages.append("gazebo_ros_control" if generation == "classic" else FLAVOURS[generation].package)
+    return tuple(dict.fromkeys(packages))
 
 
-def _ros1(made: list[Controller], name: str) -> Iterator[str]:
+def _transmissions(made: list[Controller]) -> Iterator[str]:
     for joint in (joint for each in made for joint in each.joints):
         yield f'<transmission name="{joint}_transmission">'
         yield "  <type>transmission_interface/SimpleTransmission</type>"
@@ -161,6 +162,9 @@ def _ros1(made: list[Controller], name: str) -> Iterator[str]:
         yield "    <mechanicalReduction>1</mechanicalReduction>"
         yield "  </actuator>"
         yield "</transmission>"
+
+
+def _loop1(name: str) -> Iterator[str]:
     yield "<gazebo>"
     yield '  <plugin name="gazebo_ros_control" filename="libgazebo_ros_control.so">'
     yield f"    <robotNamespace>/{name}</robotNamespace>"
@@ -168,7 +172,8 @@ def _ros1(made: list[Controller], name: str) -> Iterator[str]:
     yield "</gazebo>"
 
 
-def _ros2(robot: Robot, made: list[Controller], name: str, flavour: Flavour, package: str) -> Iterator[str]:
+def _ros2(robot: Robot, made: list[Controller], name: str, flavour: Flavour) -> Iterator[str]:
+    name = free(name, lambda each: any(control.name == each for control in robot.ros2_control))
     yield f'<ros2_control name="{name}" type="system">'
     yield "  <hardware>"
     yield f"    <plugin>{flavour.hardware}</plugin>"
@@ -188,6 +193,9 @@ def _ros2(robot: Robot, made: list[Controller], name: str, flavour: Flavour, pac
             yield '    <state_interface name="velocity"/>'
             yield "  </joint>"
     yield "</ros2_control>"
+
+
+def _loop2(flavour: Flavour, package: str) -> Iterator[str]:
     yield "<gazebo>"
     yield f'  <plugin filename="{flavour.library}" name="{flavour.name}">'
     yield f"    <parameters>$(find {package})/config/controllers.yaml</parameters>"
@@ -201,45 +209,3 @@ def _start(joint: Joint) -> float:
     if joint.type == "continuous" or low is None or high is None or low <= 0 <= high:
         return 0.0
     return (low + high) / 2
-
-
-def _yaml1(each: Controller, base: str) -> Iterator[str]:
-    if each.wheels is not None:
-        yield "type: diff_drive_controller/DiffDriveController"
-        yield f"left_wheel: [{', '.join(each.wheels.left)}]"
-        yield f"right_wheel: [{', '.join(each.wheels.right)}]"
-        yield f"wheel_separation: {each.wheels.separation:.6g}"
-        yield f"wheel_radius: {each.wheels.radius:.6g}"
-        yield f"base_frame_id: {base}"
-        yield "publish_rate: 50"
-        yield "pose_covariance_diagonal: [0.001, 0.001, 1000000.0, 1000000.0, 1000000.0, 0.03]"
-        yield "twist_covariance_diagonal: [0.001, 0.001, 1000000.0, 1000000.0, 1000000.0, 0.03]"
-        return
-    yield "type: velocity_controllers/JointTrajectoryController"
-    yield f"joints: [{', '.join(each.joints)}]"
-    yield "gains:"
-    yield from (f"  {joint}: {{p: 20.0, i: 0.0, d: 0.0}}" for joint in each.joints)
-    yield "velocity_ff:"
-    yield from (f"  {joint}: 1.0" for joint in each.joints)
-    yield "allow_partial_joints_goal: true"
-    yield "constraints:"
-    yield "  stopped_velocity_tolerance: 0.05"
-    yield "  goal_time: 1.0"
-
-
-def _yaml2(each: Controller, base: str) -> Iterator[str]:
-    if each.wheels is not None:
-        yield f"left_wheel_names: [{', '.join(each.wheels.left)}]"
-        yield f"right_wheel_names: [{', '.join(each.wheels.right)}]"
-        yield f"wheel_separation: {each.wheels.separation:.6g}"
-        yield f"wheel_radius: {each.wheels.radius:.6g}"
-        yield f"base_frame_id: {base}"
-        yield "publish_rate: 50.0"
-        return
-    yield f"joints: [{', '.join(each.joints)}]"
-    yield "command_interfaces: [position]"
-    yield "state_interfaces: [position, velocity]"
-    yield "allow_partial_joints_goal: true"
-    yield "constraints:"
-    yield "  stopped_velocity_tolerance: 0.05"
-    yield "  goal_time: 1.0"

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from urdfkit.description.robot import Cylinder, Joint, Link, Pose, Robot, Sphere
 from urdfkit.description.world.poses import compose, rotate, rotation_of
+from urdfkit.scaffold.hardware import KINDS, Hardware, hardware
 
 _FINGER = re.compile(r"finger|jaw|claw", re.IGNORECASE)
 _GRIPPER = re.compile(r"grip", re.IGNORECASE)
 _CASTER = re.compile(r"cast[eo]r", re.IGNORECASE)
 _MOVED = ("revolute", "continuous", "prismatic")
-_TELLS_ONLY = re.compile(r"joint_?state|JointStatePublisher", re.IGNORECASE)
 _ALIKE = 1e-3
 """How far wheels of one axle may be from being mirror images [m]."""
 
@@ -44,64 +44,60 @@ class Roles:
         arms: joints of each chain, from its base on.
         fingers: of grippers.
         notes: joints that no controller is for, and why, a line each.
+        interfaces: what those of them can be told that have a transmission or are in ``<ros2_control>``.
     """
 
     wheels: Wheels | None
     arms: tuple[tuple[str, ...], ...]
     fingers: tuple[str, ...]
     notes: tuple[str, ...]
+    interfaces: Mapping[str, str] = field(default_factory=dict)
 
 
-def roles(robot: Robot) -> Roles:
+def roles(robot: Robot, there: Hardware | None = None) -> Roles:
     """Tell what the joints are for, by their type, axis, place and name, in the zero position.
 
     Args:
         robot: a tree.
+        there: what joints can be told, and what tells them; None: as the robot's elements have it.
     """
     notes: list[str] = []
-    driven = dict(_driven(robot))
+    there = there or hardware(robot)
     parents = {joint.child: joint for joint in robot.joints}
     left_over: list[Joint] = []
     for joint in robot.joints:
         if joint.type not in _MOVED:
             continue
         chain = [joint, *_above(joint, parents)]
-        if joint.name in driven:
-            notes.append(f"`{joint.name}` is driven already, by {driven[joint.name]}")
+        if joint.name in there.drivers:
+            notes.append(f"`{joint.name}` is driven already, by {there.drivers[joint.name]}")
         elif joint.mimic is not None:
             notes.append(f"`{joint.name}` follows `{joint.mimic.joint}`")
         elif any(_CASTER.search(f"{each.name} {each.child}") for each in chain):
             notes.append(f"`{joint.name}` turns freely, as a caster")
+        elif there.interfaces.get(joint.name) == "":
+            notes.append(f"`{joint.name}` can be told none of {', '.join(KINDS)}")
         else:
             left_over.append(joint)
     fingers = [joint for joint in left_over if _is_finger(joint)]
     rolling = [joint for joint in left_over if joint not in fingers and _rolls(joint, robot, parents)]
     wheels = _wheels(rolling, robot, parents)
-    if wheels is None:
+    other = {
+        joint.name: kind for joint in rolling if (kind := there.interfaces.get(joint.name, "velocity")) != "velocity"
+    }
+    if wheels is not None and other:
+        notes += [f"`{name}` can be told its {kind}, not its velocity as wheels are" for name, kind in other.items()]
+        wheels = None
+    elif wheels is None:
         notes += [f"`{joint.name}` looks like a wheel, but not like one of a pair" for joint in rolling]
     arms: dict[str, list[str]] = {}
     for joint in left_over:
         if joint not in fingers and joint not in rolling:
             base = [each for each in (joint, *_above(joint, parents)) if each in left_over and each not in fingers][-1]
             arms.setdefault(base.name, []).append(joint.name)
-    return Roles(wheels, tuple(map(tuple, arms.values())), tuple(joint.name for joint in fingers), tuple(notes))
-
-
-def _driven(robot: Robot) -> Iterator[tuple[str, str]]:
-    """Yield joints that something drives already, and what."""
-    for transmission in robot.transmissions:
-        yield from ((joint.name, f"transmission `{transmission.name}`") for joint in transmission.joints if joint.name)
-    for control in robot.ros2_control:
-        for joint in control.element.find_all("joint"):
-            if joint.find("command_interface") is not None:
-                yield joint.get("name") or "", f"<ros2_control> `{control.name}`"
-    names = {joint.name for joint in robot.joints}
-    for block in robot.gazebo:
-        for plugin in block.plugins:
-            if _TELLS_ONLY.search(f"{plugin.filename} {plugin.name}"):
-                continue
-            for element in plugin.element.walk():
-                yield from ((word, f"plugin `{plugin.name}`") for word in element.text.split() if word in names)
+    used = {joint.name: there.interfaces[joint.name] for joint in left_over if joint.name in there.interfaces}
+    chains = tuple(map(tuple, arms.values()))
+    return Roles(wheels, chains, tuple(joint.name for joint in fingers), tuple(notes), used)
 
 
 def _is_finger(joint: Joint) -> bool:
