@@ -136,6 +136,48 @@ def test_nothing_is_drawn_while_nothing_moves(page, until) -> None:
     page.keyboard.up("w")
 
 
+def test_everything_has_a_name_and_the_keyboard_reaches_it_and_shows_where_it_is(page) -> None:
+    for name in ("drive", "sensors", "topics", "plots", "tape", "world", "screws", "push", "show", "measure", "camera"):
+        page.evaluate("(name) => urdfkit.page.panels.open(name)", name)
+        page.evaluate("for (const each of document.querySelectorAll('details')) each.open = true")
+        nameless = page.evaluate(
+            """() => [...document.querySelectorAll("button, input, select, summary, textarea, img, [tabindex='0']")]
+                .filter((e) => e.checkVisibility())
+                .filter((e) => !(e.getAttribute("aria-label") || e.alt || e.labels?.length
+                                 || (e.matches("button, summary") && e.textContent.trim())))
+                .map((e) => e.outerHTML)"""
+        )
+        assert nameless == [], name
+    page.locator(".brand").click()
+    reached, unseen = [], []
+    for _ in range(50):
+        page.keyboard.press("Tab")
+        name, seen = page.evaluate(
+            """() => { const e = document.activeElement;
+                const ring = (o) => o && getComputedStyle(o).outlineStyle !== "none"
+                  && parseFloat(getComputedStyle(o).outlineWidth) > 0;
+                return [e.id || e.getAttribute("aria-label") || e.tagName,
+                        e === document.body || Boolean(ring(e) || ring(e.nextElementSibling))]; }"""
+        )
+        reached.append(name)
+        if not seen:
+            unseen.append(name)
+    assert unseen == []
+    expected = (
+        "factor",
+        "pause",
+        "reset",
+        "pane",
+        "tool-fit",
+        "tool-push",
+        "camera-orbit",
+        "open-drive",
+        "open-camera",
+    )
+    order = [reached.index(name) for name in expected]
+    assert order == sorted(order)
+
+
 def test_sliders_that_stay_and_stop(page, keep, until) -> None:
     page.locator("#open-drive").click()
     page.get_by_text("Sliders that stay").click()
@@ -188,11 +230,26 @@ def test_topics_are_listed_looked_at_plotted_and_published_to(page, keep, until)
     keep(page, "publish")
 
 
+PINCH = """([[left, right], [wider, widest]]) => {
+  const plot = urdfkit.plots.canvas, { x, y, width } = plot.getBoundingClientRect();
+  plot.setPointerCapture = () => undefined; // these fingers are none that the browser knows
+  const touch = (kind, pointerId, part) => {
+    const at = { clientX: x + part * width, clientY: y + 60 };
+    plot.dispatchEvent(new PointerEvent(kind, { pointerId, pointerType: "touch", bubbles: true, ...at }));
+  };
+  touch("pointerdown", 71, left); touch("pointerdown", 72, right);
+  touch("pointermove", 71, wider); touch("pointermove", 72, widest);
+  touch("pointerup", 71, wider); touch("pointerup", 72, widest);
+  delete plot.setPointerCapture;
+}"""
+
+
 def test_plots_zoom_stand_still_and_follow_again(page, keep, until) -> None:
     page.locator("#open-plots").click()
     for path in ("twist.twist.linear.x", "twist.twist.angular.z", "pose.pose.position.x"):
         page.locator("#plot-path").fill(f"/simpleton/odom:{path}")
-        page.locator("#plot-form button").click()
+        page.locator("#plot-path").press("Enter")
+        until(lambda path=path: page.get_by_label(f"Remove /simpleton/odom:{path}").is_visible())
     page.locator("#plot-path").fill("/simpleton/odom:twist.twist.linear.q")
     page.locator("#plot-form button").click()
     until(lambda: page.locator(".legend").get_by_text("no field `q`").is_visible())
@@ -216,6 +273,18 @@ def test_plots_zoom_stand_still_and_follow_again(page, keep, until) -> None:
     assert page.evaluate("urdfkit.plots.plot.end") < end - 0.3
     page.locator("#plot").dblclick()
     assert not page.evaluate("urdfkit.plots.plot.paused")
+    page.locator("#plot").focus()
+    span = page.evaluate("urdfkit.plots.plot.span")
+    page.keyboard.press("+")
+    assert page.evaluate("urdfkit.plots.plot.span") == pytest.approx(span / 1.25)
+    page.keyboard.press("ArrowLeft")  # on the plot it drives nobody
+    assert page.evaluate("urdfkit.plots.plot.paused && !urdfkit.drive.axes().some(Boolean)")
+    page.keyboard.press("Home")
+    assert not page.evaluate("urdfkit.plots.plot.paused")
+    span = page.evaluate("urdfkit.plots.plot.span")
+    page.evaluate(PINCH, [[0.4, 0.6], [0.2, 0.8]])
+    assert page.evaluate("urdfkit.plots.plot.span") == pytest.approx(span / 3, rel=0.05)
+    page.locator("#plot").dblclick()
     page.get_by_label("Remove /simpleton/odom:pose.pose.position.x").click()
     until(lambda: page.evaluate("urdfkit.connection.wanted.has('field:/simpleton/odom:pose.pose.position.x')") is False)
 

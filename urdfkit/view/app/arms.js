@@ -68,7 +68,8 @@ export function arms(page) {
         if (!found) continue;
         const { lower, upper, unit } = found.joint;
         found.real.textContent = `is at ${short(value, 3)} ${unit}`;
-        found.mark.style.left = `${100 * Math.min(1, Math.max(0, (value - lower) / (upper - lower)))}%`;
+        const part = Math.min(1, Math.max(0, (value - lower) / (upper - lower)));
+        found.mark.style.left = `calc(${part} * (100% - 16px) + 8px)`; // as the middle of the slider's knob goes
       }
     }
   });

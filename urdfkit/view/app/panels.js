@@ -23,6 +23,7 @@ class Panel {
     this.pin.setAttribute("aria-label", `Keep ${title} open`);
     this.pin.addEventListener("click", () => {
       this.pinned = !this.pinned;
+      panels.chosen = true;
       this.pin.setAttribute("aria-pressed", this.pinned);
     });
     const close = h("button.bare", { type: "button", "aria-label": `Close ${title}`, title: "Close" }, icon(CLOSE));
@@ -54,6 +55,7 @@ export class Panels {
     this.rail = rail;
     this.all = new Map();
     this.mode = null;
+    this.chosen = false; // whether a person has said which panels they want
     this.narrow = matchMedia("(max-width: 760px)");
   }
 
@@ -80,18 +82,26 @@ export class Panels {
     if (this.mode === mode) return;
     this.mode = mode;
     for (const panel of this.all.values()) this.#offer(panel);
-    if (this.narrow.matches) return this.#changed();
-    const offered = [...this.all.values()].filter((panel) => this.#offered(panel)).sort((a, b) => a.order - b.order);
-    offered.forEach((panel, i) => this.#show(panel, i === 0 || panel.pinned));
+    this.#settle();
+  }
+
+  // As long as nobody has chosen: the first that has anything to show, and those pinned.
+  #settle() {
+    if (this.mode !== null && !this.narrow.matches && !this.chosen) {
+      const offered = [...this.all.values()].filter((panel) => this.#offered(panel)).sort((a, b) => a.order - b.order);
+      offered.forEach((panel, i) => this.#show(panel, i === 0 || panel.pinned));
+    }
     this.#changed();
   }
 
   /** Say whether a panel has anything to show; one that has not is not on the rail. */
   available(id, is) {
     const panel = this.all.get(id);
+    const came = is && !panel.available;
     panel.available = is;
     this.#offer(panel);
-    this.#changed();
+    if (came && panel.pinned && this.#offered(panel) && !this.narrow.matches) this.#show(panel, true);
+    this.#settle();
   }
 
   toggle(id) {
@@ -103,6 +113,7 @@ export class Panels {
   open(id) {
     const opened = this.all.get(id);
     if (!this.#offered(opened)) return;
+    this.chosen = true;
     for (const panel of this.all.values()) this.#show(panel, panel === opened || (panel.open && panel.pinned && !this.narrow.matches));
     this.#changed();
     this.#bring(opened.section);
@@ -123,6 +134,7 @@ export class Panels {
 
   close(id, back = false) {
     const panel = this.all.get(id);
+    this.chosen = true;
     this.#show(panel, false);
     this.#changed();
     if (back) panel.button.focus();

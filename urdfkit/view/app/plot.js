@@ -1,15 +1,17 @@
-// One plot on a canvas: curves over time, a window that follows or stands still, zoom by wheel and pinch, values under the mouse.
+// One plot on a canvas: curves over time, a window that follows or stands still, values under the mouse.
 
-const COLOURS = ["#3b7df5", "#e0399b", "#0aa37f", "#e08a00", "#7a5cff", "#00a3c4", "#d1453b", "#6b8e23"];
+import { Grip } from "./plotgrip.js";
+
+export const COLOURS = ["#3b7df5", "#e0399b", "#0aa37f", "#e08a00", "#7a5cff", "#00a3c4", "#d1453b", "#6b8e23"];
 const KEPT = 30000; // samples of a curve
 const LEFT = 46;
 const BELOW = 20;
 
 /** Samples of one number: t rises; the oldest are dropped when there are too many. */
 export class Curve {
-  constructor(name, index) {
+  constructor(name, colour) {
     this.name = name;
-    this.colour = COLOURS[index % COLOURS.length];
+    this.colour = colour;
     this.t = [];
     this.values = [];
     this.error = null;
@@ -40,17 +42,14 @@ export class Curve {
 export class Plot {
   constructor(canvas) {
     this.canvas = canvas;
+    [this.left, this.below] = [LEFT, BELOW];
+    this.range = [-1, 1]; // of the values, as drawn last
     this.curves = [];
     this.span = 10; // seconds shown
     this.end = null; // right edge when it stands still; null while it follows
     this.vertical = null; // [low, high] when zoomed by hand
     this.pointer = null;
-    canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
-    canvas.addEventListener("pointerdown", (event) => this.#down(event));
-    canvas.addEventListener("pointermove", (event) => this.#move(event));
-    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => (this.grip = null));
-    canvas.addEventListener("pointerleave", () => ((this.pointer = null), this.dirty()));
-    canvas.addEventListener("dblclick", () => this.follow());
+    new Grip(this);
     new ResizeObserver(() => this.dirty()).observe(canvas);
   }
 
@@ -80,44 +79,41 @@ export class Plot {
     });
   }
 
-  #wheel(event) {
-    event.preventDefault();
-    const factor = Math.exp(event.deltaY * 0.0015);
-    const box = this.canvas.getBoundingClientRect();
-    if (event.shiftKey || event.clientX - box.left < LEFT) {
-      const [low, high] = this.range;
-      const middle = high - ((event.clientY - box.top) / (box.height - BELOW)) * (high - low);
-      this.vertical = [middle + (low - middle) * factor, middle + (high - middle) * factor];
-    } else {
-      const right = this.end ?? this.latest;
-      const at = right - this.span * (1 - (event.clientX - box.left - LEFT) / (box.width - LEFT));
-      const span = Math.min(600, Math.max(0.05, this.span * factor));
-      if (this.paused) this.end = at + (right - at) * (span / this.span);
-      this.span = span;
-    }
+  /** Show more or less of the time; `at` is the part of the window from the left that stays where it is. */
+  zoom(factor, at) {
+    const right = this.end ?? this.latest;
+    const time = right - this.span * (1 - at);
+    const span = Math.min(600, Math.max(0.05, this.span * factor));
+    if (this.paused) this.end = time + (right - time) * (span / this.span);
+    this.span = span;
     this.dirty();
   }
 
-  #down(event) {
-    this.canvas.setPointerCapture(event.pointerId);
-    this.grip = { x: event.clientX, y: event.clientY, end: this.end ?? this.latest, range: this.range };
+  /** Show more or less of the values; `at` is the part of the window from the top that stays where it is. */
+  scale(factor, at) {
+    const [low, high] = this.range;
+    const middle = high - at * (high - low);
+    this.vertical = [middle + (low - middle) * factor, middle + (high - middle) * factor];
+    this.dirty();
   }
 
-  #move(event) {
-    const box = this.canvas.getBoundingClientRect();
-    this.pointer = { x: event.clientX - box.left, y: event.clientY - box.top };
-    if (this.grip && event.buttons) {
-      const dx = event.clientX - this.grip.x;
-      if (Math.abs(dx) > 3) {
-        this.end = this.grip.end - (dx / (box.width - LEFT)) * this.span;
-        this.changed?.();
-      }
-      if (event.shiftKey) {
-        const [low, high] = this.grip.range;
-        const shift = ((event.clientY - this.grip.y) / (box.height - BELOW)) * (high - low);
-        this.vertical = [low + shift, high + shift];
-      }
-    }
+  /** Move the window by a part of itself, later in time; it stands still then. */
+  shift(part) {
+    this.end = (this.end ?? this.latest) + part * this.span;
+    this.changed?.();
+    this.dirty();
+  }
+
+  /** Move the window by a part of itself, up. */
+  raise(part) {
+    const [low, high] = this.range;
+    this.vertical = [low, high].map((value) => value + part * (high - low));
+    this.dirty();
+  }
+
+  /** Show the values under a place on the canvas, or none. */
+  look(place) {
+    this.pointer = place;
     this.dirty();
   }
 

@@ -1,7 +1,7 @@
 // The panel of plots: any numbers of any topics, over the same time.
 
 import { h, icon } from "./dom.js";
-import { Curve, Plot } from "./plot.js";
+import { COLOURS, Curve, Plot } from "./plot.js";
 
 const CURVE = "M3 20h18M4 16c3 0 4-9 7-9s3 6 5 6 3-5 5-5";
 const PAUSE = "M8 5v14M16 5v14";
@@ -13,9 +13,9 @@ export class Plots {
     this.page = page;
     this.curves = new Map(); // key → {curve, item}
     this.panel = page.panels.add({ id: "plots", title: "Plots", icon: CURVE, modes: ["sim"], order: 26 });
-    this.canvas = h("canvas.plot", { id: "plot", tabindex: 0, role: "img", "aria-label": "Plot" });
+    this.canvas = h("canvas.plot", { id: "plot", tabindex: 0, role: "application", "aria-label": "Plot; plus and minus zoom in time, up and down in value, left and right move it, Home follows again" });
     this.legend = h("ul.bare-list.legend");
-    this.hint = h("p.quiet", {}, "Choose a topic, open “Plot a number” and click one. Wheel: zoom in time (on the scale at the left, in value). Drag: back in time. Double click: follow again.");
+    this.hint = h("p.quiet", {}, "Choose a topic, open “Plot a number” and click one. Wheel or pinch: zoom in time (on the scale at the left, in value). Drag: back in time. Double click: follow again.");
     this.plot = new Plot(this.canvas);
     this.plot.changed = () => this.#buttons();
     this.hold = h("button.bare", { type: "button", id: "plot-pause", onclick: () => this.plot.pause(!this.plot.paused) });
@@ -40,7 +40,9 @@ export class Plots {
   add(topic, path) {
     const key = `field:${topic}:${path}`;
     if (!this.curves.has(key)) {
-      const curve = new Curve(`${topic} ${path}`, this.curves.size);
+      const taken = this.plot.curves.map(({ colour }) => colour);
+      const colour = COLOURS.find((each) => !taken.includes(each)) ?? COLOURS[taken.length % COLOURS.length];
+      const curve = new Curve(`${topic} ${path}`, colour);
       const words = h("span.name", { title: curve.name }, `${topic}:${path}`);
       const value = h("span.value");
       const away = h("button.bare", { type: "button", "aria-label": `Remove ${topic}:${path}`, title: "Remove" }, "×");

@@ -43,7 +43,7 @@ export class Push {
     };
     this.now = h("p.now", { role: "status", id: "push-now" }, "Grab a link and pull.");
     const hold = h("button.wide", { type: "button", id: "push-hold", onclick: () => this.page.tools.hold(this.page.tools.held === "push" ? null : "push") }, "Take the tool in hand");
-    this.panel.body.append(hold, h("div.checks", {}, kind("force", "Force, at the point"), kind("torque", "Torque")), h("label.field", {}, "Strength ", this.words, this.strength), this.now);
+    this.panel.body.append(hold, h("div.checks", {}, kind("force", "Force, at the point"), kind("torque", "Torque")), h("label.field", { for: "push-strength" }, "Strength ", this.words, this.strength), this.now);
     say();
   }
 

@@ -40,11 +40,15 @@ export function screws(page) {
       }, { min: -1e4, max: 1e4, unit: "m/s²" });
       return input;
     });
-    const pick = h("select", { "aria-label": "Gravity of", id: "planet" }, h("option", { value: "" }, "…"));
-    for (const name of Object.keys(PLANETS)) pick.append(h("option", { value: PLANETS[name] }, name));
+    const pick = h("select", { "aria-label": "Gravity of", id: "planet" }, h("option", { value: "" }, "other"));
+    const [x, y, z] = state.gravity;
+    for (const [name, g] of Object.entries(PLANETS)) {
+      const is = x === 0 && y === 0 && Math.abs(z - g) < 0.01;
+      pick.append(h("option", { value: g, selected: is }, name));
+    }
     pick.addEventListener("change", () => {
       pick.blur(); // so that the numbers beside it may change
-      order("gravity", { gravity: [0, 0, Number(pick.value)] });
+      if (pick.value) order("gravity", { gravity: [0, 0, Number(pick.value)] });
     });
     gravity.replaceChildren(...inputs, pick);
   }

@@ -48,6 +48,7 @@ function drive(page) {
   steering(page, wheel, more);
   gamepad(page, wheel, more);
   page.on("teleop", (message) => {
+    page.drives = message.drives;
     if (message.drives) wheel.use(message);
     page.panels.available("drive", message.drives);
     $("pad").hidden = !message.drives || page.mode !== "sim";
@@ -60,12 +61,9 @@ function sensing(page) {
   page.panels.add({ id: "sensors", title: "Sensors", icon: EYE, modes: ["sim"], order: 20, element: $("sensor-section"), pinned: true });
   page.panels.available("sensors", false);
   const sensors = new Sensors(page, $("sensors"));
-  let before = 0;
   page.on("sensors", (message) => {
     sensors.use(message.sensors);
     page.panels.available("sensors", message.sensors.length > 0);
-    if (message.sensors.length && !before && !page.panels.narrow.matches) page.panels.open("sensors");
-    before = message.sensors.length;
   });
   page.on("sensed", (frame) => sensors.frame(frame));
   page.expose("sensors", sensors);

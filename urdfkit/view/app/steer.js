@@ -10,7 +10,7 @@ export function steering(page, drive, host) {
     const output = h("output", { for: id }, "0 %");
     const input = h("input", { id, type: "range", min: -100, max: 100, step: 1, value: 0 });
     const ends = h("div.ends.quiet", { "aria-hidden": "true" }, h("span", {}, low), h("span", {}, high));
-    host.append(h("label.field", {}, `${words} `, output, input), ends);
+    host.append(h("label.field", { for: id }, `${words} `, output, input), ends);
     return { input, output };
   };
   const forward = make("steer-forward", "Go", "back", "forward");

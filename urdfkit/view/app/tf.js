@@ -43,7 +43,7 @@ export function tf(page) {
 
   function row({ link, joint, depth }) {
     const name = h("button.entry", { type: "button", title: link, onclick: () => page.select({ link }) }, link);
-    name.style.paddingLeft = `${0.4 + 0.8 * Math.min(depth, 8)}rem`;
+    name.style.paddingLeft = `${0.4 + 0.4 * Math.min(depth, 12)}rem`;
     const kind = h("small", {}, joint ? joint.type : "root");
     const numbers = h("span.tf-numbers");
     const copy = h("button.bare.copy", { type: "button", title: "Copy x y z qx qy qz qw", "aria-label": `Copy the transform of ${link}` }, icon(COPY));

@@ -37,7 +37,7 @@ export class Topics {
 
   #row(name, type) {
     const rate = h("span.rate.quiet", {}, "");
-    const button = h("button.topic", { type: "button" }, h("span.name", {}, name), rate);
+    const button = h("button.topic", { type: "button" }, h("span.name", {}, ...name.split(/(?<=\/)/).flatMap((part) => [h("wbr"), part])), rate);
     button.addEventListener("click", () => this.choose(this.chosen?.name === name ? null : { name, type }));
     const row = { item: h("li", { "data-topic": name }, button), rate, type };
     this.rows.set(name, row);
