@@ -39,6 +39,19 @@ def test_both_renderers_save_the_same_picture(tmp_path: Path) -> None:
     assert (np.abs(found[0] - found[1]).max(axis=2) <= 3).mean() > 0.99
 
 
+@pytest.mark.parametrize("called", ["gl", "GL", "opengl", "egl"])
+def test_a_renderer_has_several_names(capsys: Capture, monkeypatch, called: str) -> None:
+    broken = Found(False, "", "the driver crashed (signal 11)")
+    monkeypatch.setattr("urdfkit.scene.renderer.check.__defaults__", (lambda: broken,))
+    assert main(["sim", "run", "simpleton", "--for", "0", "--renderer", called]) == 2
+    assert "renderer `gl` does not work here" in capsys.readouterr().err
+
+
+def test_a_renderer_that_there_is_not_is_refused(capsys: Capture) -> None:
+    assert main(["sim", "run", "simpleton", "--for", "0", "--renderer", "vulkan"]) == 2
+    assert "invalid choice: 'vulkan' (choose from 'auto', 'ray', 'gl')" in capsys.readouterr().err
+
+
 def test_a_renderer_that_does_not_work_is_refused_in_one_line(tmp_path: Path, capsys: Capture, monkeypatch) -> None:
     broken = Found(False, "", "the driver crashed (signal 11)")
     monkeypatch.setattr("urdfkit.scene.renderer.check.__defaults__", (lambda: broken,))

@@ -27,7 +27,9 @@ def senseless_scan(lidar: Element) -> Senseless:
         if fan is not None:
             yield from _senseless_fan(fan)
     near, far = _number(reach, "min", 0.0), _number(reach, "max", 0.0)
-    if not isnan(near + far) and not 0.0 <= near < far:
+    if near < 0.0:
+        yield (reach and reach.find("min")) or lidar, f"<min> is {near:g} m; it must be zero or greater"
+    elif not isnan(near + far) and not near < far:
         yield reach or lidar, f"a lidar that sees from {near:g} m to {far:g} m sees nothing"
 
 
