@@ -206,3 +206,41 @@ def test_the_page_shows_what_the_camera_sees(serve_for_all, visits, keep, until)
     until(lambda: page.evaluate("urdfkit.sensors.shown[0]?.image?.naturalWidth ?? 0") == 320)
     keep(page, "camera")
     assert visits.problems == []
+
+
+LABELLED = """<?xml version="1.0"?><sdf version="1.9"><world name="labelled">
+  <light type="directional" name="sun"><direction>-0.5 0.1 -0.9</direction></light>
+  {posts}
+</world></sdf>"""
+POST = """<model name="post{label}"><static>true</static><pose>2 {y} 0.5 0 0 0</pose>
+  <plugin filename="gz-sim-label-system" name="gz::sim::systems::Label"><label>{label}</label></plugin>
+  <link name="l"><visual name="v"><geometry><box><size>0.2 0.4 1</size></box></geometry></visual></link></model>"""
+SEGMENTING = """<robot name="seer"><link name="world"/><link name="eye"/>
+  <joint name="mount" type="fixed"><parent link="world"/><child link="eye"/><origin xyz="0 0 0.5"/></joint>
+  <gazebo reference="eye"><sensor name="labels" type="segmentation"><topic>labels</topic>
+    <update_rate>10</update_rate><camera><horizontal_fov>1.2</horizontal_fov>
+    <segmentation_type>semantic</segmentation_type><image><width>160</width><height>120</height></image>
+    <clip><near>0.1</near><far>20</far></clip></camera></sensor></gazebo></robot>"""
+COLORS = """() => {
+  const image = urdfkit.sensors.shown[0]?.image;
+  if (!image?.naturalWidth) return [];
+  const canvas = new OffscreenCanvas(image.naturalWidth, image.naturalHeight), pen = canvas.getContext("2d");
+  pen.drawImage(image, 0, 0);
+  const data = new Uint32Array(pen.getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+  return [...new Set(data)];
+}"""
+
+
+@pytest.mark.browser
+def test_the_page_shows_labels_in_colours_that_are_not_mixed(serve, visits, keep, until, tmp_path: Path) -> None:
+    robot, world = tmp_path / "seer.urdf", tmp_path / "labelled.sdf"
+    robot.write_text(SEGMENTING)
+    world.write_text(
+        LABELLED.format(posts="".join(POST.format(label=label, y=y) for label, y in ((7, 0.5), (9, -0.5))))
+    )
+    page = visits.open(
+        serve("sim", "teleop", str(robot), "--world", str(world)).url, viewport={"width": 1000, "height": 640}
+    )
+    until(lambda: len(page.evaluate(COLORS)) == 3, 60)  # two labels, and what has none
+    keep(page, "labels")
+    assert visits.problems == []
