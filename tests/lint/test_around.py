@@ -103,6 +103,37 @@ def test_joints_under_conditions_are_let_pass(workspace):
     assert not [row for row in found(workspace) if row[0] == "K959"]
 
 
+CALLS = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="sim" default="true"/>
+  <link name="base"/>
+  <xacro:macro name="segment" params="name">
+    <link name="${{name}}"/>
+    <joint name="${{name}}" type="fixed"><parent link="base"/><child link="${{name}}"/></joint>
+  </xacro:macro>
+  <xacro:segment name="elbow"/>
+  <xacro:if value="${{not $(arg sim)}}"><xacro:segment name="{other}"/></xacro:if>
+  <xacro:macro name="control" params="joint">
+    <joint name="${{joint}}"><command_interface name="position"/></joint>
+  </xacro:macro>
+  <ros2_control name="c" type="system"><xacro:control joint="elbow"/></ros2_control>
+</robot>
+"""
+
+
+@pytest.mark.parametrize(("other", "is_found"), [("elbo", False), ("wrist", True), ("${tool}", False)])
+def test_of_names_that_macros_make_those_count_that_their_calls_give(workspace, other, is_found):
+    (workspace / "arm_description" / "urdf" / "arm.urdf").unlink()
+    (workspace / "arm_description" / "urdf" / "arm.urdf.xacro").write_text(CALLS.format(other=other))
+    assert any(row[0] == "K959" for row in found(workspace)) is is_found
+
+
+def test_the_name_of_the_package_in_its_build_files_makes_no_file(workspace):
+    launch = workspace / "arm_description" / "launch.launch"
+    launch.write_text('<launch><param textfile="$(find arm_description)/urdf/arm_description.urdf"/></launch>')
+    (workspace / "arm_description" / "CMakeLists.txt").write_text("project(arm_description)\n")
+    assert ("K958", "launch.launch", 1, 26) in found(workspace)
+
+
 def test_what_was_found_before_is_found_anew_once_a_file_comes_or_changes(workspace, tmp_path, monkeypatch):
     monkeypatch.setenv("URDFKIT_CACHE_DIR", str(tmp_path / "cache"))
 

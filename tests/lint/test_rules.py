@@ -134,3 +134,21 @@ def test_rules_left_out_by_the_table_would_find_nothing(path, monkeypatch):
     monkeypatch.setattr(engine, "source_rules", lambda _: rules.source_rules())
     monkeypatch.setattr(engine, "robot_rules", lambda *_: rules.robot_rules())
     assert lint(path, target=target(BY_NAME[path.parent.name])) == few
+
+
+def test_the_axis_that_a_wheel_is_told_rolls_it_ahead():
+    (found,) = lint(HERE / "axis-not-along-wheel" / "bad.urdf", select=("J414",))
+    assert "that is 0 1 0 in the joint's frame" in found.message
+
+
+def test_what_could_not_be_computed_is_not_missing(tmp_path):
+    text = (HERE / "moving-link-without-inertial" / "good.urdf").read_text()
+    (tmp_path / "r.urdf.xacro").write_text(text.replace('<mass value="', '<mass value="${mas}', 1))
+    assert {finding.code for finding in lint(tmp_path)} == {"X104"}
+
+
+def test_of_a_link_that_is_there_twice_no_shapes_are_compared(tmp_path):
+    heavy = "<inertial><mass value='9'/><inertia ixx='.1' ixy='0' ixz='0' iyy='.1' iyz='0' izz='.1'/></inertial>"
+    small = "<link name='a'><collision><geometry><box size='.01 .01 .01'/></geometry></collision>"
+    (tmp_path / "r.urdf").write_text(f"<robot name='r'><link name='a'>{heavy}</link>{small}</link></robot>")
+    assert {finding.code for finding in lint(tmp_path) if finding.severity != "info"} == {"T206"}

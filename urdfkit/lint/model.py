@@ -155,7 +155,11 @@ class Model:
         """Link name → what its shapes fill; links without shapes, or with one that cannot be known, are left out."""
         from urdfkit.lint.placement import extent
 
-        found = ((link.name, extent(link, self.box_of)) for link in self.robot.links)
+        names = [link.name for link in self.robot.links]
+        # Of what is there twice nobody knows which shapes count.
+        once = (link for link in self.robot.links if self.robot.link_by_name[link.name] is link)
+        twice = {name for name in names if names.count(name) > 1} if len(set(names)) < len(names) else frozenset()
+        found = ((link.name, extent(link, self.box_of)) for link in once if link.name not in twice)
         return {name: filled for name, filled in found if filled is not None}
 
     def box_of(self, mesh: Mesh) -> tuple[Vector, Vector] | None:

@@ -120,6 +120,7 @@ ROBOT: tuple[Row, ...] = (
     ("plugin", "semantics.wheel_separation", "WheelSeparation"),
     ("plugin", "semantics.wheel_diameter", "WheelDiameter"),
     ("plugin", "semantics.left_right_swapped", "LeftRightSwapped"),
+    ("plugin", "semantics.drive_wheels_misaligned", "DriveWheelsMisaligned"),
     ("optical!", "semantics.optical_frame", "OpticalFrame"),
     ("type=fixed", "semantics.double_offset", "DoubleOffset"),
     ("gazebo", "gazebo.gazebo_reference_undefined", "GazeboReferenceUndefined"),

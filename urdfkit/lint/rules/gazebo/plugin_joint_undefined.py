@@ -13,13 +13,17 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
+_MAY_BE_FIXED = ("joint", "joints")
+"""Meanings of parameters whose joints are only looked at, by force-torque sensors and state publishers."""
+
 
 class PluginJointUndefined(RobotRule):
-    """A Gazebo plugin names a joint that the robot does not have.
+    """A Gazebo plugin names a joint that the robot does not have, or drives one that is fixed.
 
     ## What it does
     Looks up the joints in the parameters of the plugins we have a table of (diff drive, skid steer, joint state
-    publisher, joint controllers), also the names they take when the parameter is left out.
+    publisher, joint controllers), also the names they take when the parameter is left out. What drives turn must not be
+    fixed, where it has an axis to turn about.
 
     ## Why is this bad?
     The plugin does nothing, or takes the simulator down with it.
@@ -89,6 +93,15 @@ class PluginJointUndefined(RobotRule):
         joints = model.as_written.joint_by_name
         written = [(text, element) for text, element in values(plugin, parameter) if text]
         for text, element in written:
+            if (
+                text in joints
+                and joints[text].type == "fixed"
+                and joints[text].element.find("axis") is not None
+                and parameter.meaning not in _MAY_BE_FIXED
+            ):
+                message = f"<{parameter.tag}> names `{text}`, which is fixed: Gazebo dissolves it"
+                help = "give it the type of the joint that is meant: a wheel is continuous"
+                yield self.at(model, element, message, joint=text, help=help)
             if text in joints or "::" in text or "$" in text or model.is_unresolved(element):
                 continue
             message = f"<{parameter.tag}> names `{text}`, which is no joint"

@@ -104,6 +104,10 @@ class MovingLinkWithoutInertial(RobotRule):
             inertial = link.inertial
             if inertial is not None and inertial.mass is not None and inertial.inertia is not None:
                 continue  # Both are there, but zero: that is said elsewhere.
+            if inertial is not None and any(
+                model.is_unresolved(child, a) for child in inertial.element.children for a in child.attributes
+            ):
+                continue  # They are there, but could not be computed.
             yield self.at(
                 model,
                 link.element,

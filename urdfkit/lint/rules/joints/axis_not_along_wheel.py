@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from urdfkit.description.robot import Cylinder
-from urdfkit.lint.placement import rotation, shapes_of, unit
+from urdfkit.lint.placement import rotation, shapes_of, turned, unit
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from urdfkit.description.robot import Joint, Vector
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
@@ -84,12 +85,23 @@ class AxisNotAlongWheel(RobotRule):
                 continue  # Something else than a disc: the wheel may be any part of it.
             cosines = [abs(sum(a * b for a, b in zip(axis, disc, strict=True))) for disc in discs]
             if max(cosines) < PARALLEL:
+                own = _rolling_ahead(model, joint, discs[0])
                 yield self.at(
                     model,
                     joint.element.find("axis") or joint.element,
                     f"joint `{joint.name}` does not turn the wheel `{wheel.name}` about its own axis: that is "
-                    f"{' '.join(f'{round(part, 3) + 0.0:g}' for part in discs[0])} in the joint's frame",
+                    f"{' '.join(f'{round(part, 3) + 0.0:g}' for part in own)} in the joint's frame",
                     attribute="xyz",
                     joint=joint.name,
                     help="a cylinder lies along its z",
                 )
+
+
+def _rolling_ahead(model: Model, joint: Joint, axis: tuple[float, ...]) -> Vector:
+    """Return an axis, turned round where a wheel that turns about it would roll backwards: y is left (REP 103)."""
+    x, y, z = axis
+    parent = model.frames.get(joint.parent or "")
+    frame = parent.moved(joint.origin) if parent is not None else None
+    ahead = turned(frame.rotation, (x, y, z)) if frame is not None else (x, y, z)
+    largest = max(ahead, key=abs)
+    return (x, y, z) if largest > 0.0 else (-x, -y, -z)

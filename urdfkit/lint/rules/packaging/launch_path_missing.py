@@ -81,4 +81,9 @@ def _is_there(package: Path, path: str, model: Model) -> bool:
         return True
     build = [file for name in ("CMakeLists.txt", "setup.py") if (file := package / name).is_file()]
     stem = rf"(?<![\w-]){re.escape(Path(path).name.partition('.')[0])}(?![\w-])"
-    return any(re.search(stem, file.read_text("utf-8", "replace")) for file in build)
+    texts = [re.sub(_OWN_NAME, "", file.read_text("utf-8", "replace")) for file in build]
+    return any(re.search(stem, text) for text in texts)
+
+
+_OWN_NAME = r"(?m)^\s*(?:project\s*\([^)]*\)|(?:package_)?name\s*=.*)"
+"""Where the build files say what the package is called: its robot is often called so, too."""
