@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from collections.abc import Callable, Mapping
 from datetime import datetime, timezone
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 
 from urdfkit.cli import updating
 from urdfkit.cli.identity import identity
+from urdfkit.cli.parser import Parser
 from urdfkit.cli.things import Kind, add_update, chosen
 from urdfkit.cli.updating import drawn, findings
-from urdfkit.errors import UrdfkitError, UsageError
+from urdfkit.errors import UrdfkitError, UsageError, did_you_mean
 from urdfkit.scaffold import (
     Question,
     Template,
@@ -50,6 +53,19 @@ def configure(parser: argparse.ArgumentParser) -> None:
     for name in ADDED:
         module = import_module(f"urdfkit.cli.new_{name}")
         module.configure(kinds.add_parser(name, help=module.SUMMARY))
+    if isinstance(parser, Parser):
+        parser.elsewhere = partial(_elsewhere, parser)
+
+
+def _elsewhere(parser: Parser, option: str) -> str:
+    """Return what to say of an option that stands where a kind should: whose it is, or whose is like it."""
+    theirs = {question.option: name for name in template_names() for question in named_template(name).questions}
+    theirs |= {question.option: "robot" for question in named_template("robot").questions}
+    if option in theirs:
+        return f"; did you mean `urdfkit new {theirs[option]} NAME {option}`?"
+    own = did_you_mean(option, parser._option_string_actions)
+    near = re.search("`(.*)`", did_you_mean(option, theirs)) if not own else None
+    return f"; did you mean `urdfkit new {theirs[near[1]]} NAME {near[1]}`?" if near else own
 
 
 def run(arguments: argparse.Namespace) -> int:

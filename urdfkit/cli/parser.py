@@ -6,11 +6,13 @@ import argparse
 import os
 import re
 import sys
+from itertools import takewhile
 
 from urdfkit.errors import UsageError, did_you_mean
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from typing import Any, NoReturn
 
 
@@ -41,6 +43,8 @@ class Parser(argparse.ArgumentParser):
         super().__init__(*args, **kwargs)
         self._is_parsing = False
         self._words: list[str] = []
+        self.elsewhere: Callable[[str], str] = lambda _: ""
+        """What to say of an option that this command does not have, but maybe one of its subcommands."""
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Take options between positional arguments too: ``urdfkit tf simpleton --json base camera``.
@@ -49,9 +53,14 @@ class Parser(argparse.ArgumentParser):
             UsageError: an argument that this command does not have.
         """
         words = list(sys.argv[1:] if args is None else args)
-        if self._is_parsing or self._subparsers is not None or {"-h", "--help"} & set(words):
+        if self._is_parsing or {"-h", "--help"} & set(words):
             return super().parse_known_args(words, namespace)
         self._words = words
+        if self._subparsers is not None:
+            found, unknown = super().parse_known_args(words, namespace)
+            if unknown:
+                self.error(f"unrecognized arguments: {' '.join(unknown)}")
+            return found, unknown
         self._is_parsing = True  # argparse's own way to do it calls this method again
         usage, self.usage = (
             self.usage,
@@ -76,15 +85,17 @@ class Parser(argparse.ArgumentParser):
         if "unrecognized arguments" not in message and (misspelt := self._unknown_option()) is not None:
             message = f"unrecognized arguments: {misspelt}"
         if unknown := re.search(r"unrecognized arguments: (\S+)", message):
-            hint = did_you_mean(unknown[1], self._option_string_actions)
+            hint = self.elsewhere(unknown[1]) or did_you_mean(unknown[1], self._option_string_actions)
         elif choice := re.search(r"invalid choice: '([^']*)' \(choose from (.*)\)", message):
             hint = did_you_mean(choice[1], re.findall(r"[\w-]+", choice[2]))
         raise UsageError(f"{self.prog.removeprefix('urdfkit').strip()}: {message}{hint}".removeprefix(": "))
 
     def _unknown_option(self) -> str | None:
         """Return the first long option that this command does not have."""
-        options = self._words[: self._words.index("--")] if "--" in self._words else self._words
-        named = (word.partition("=")[0] for word in options if word.startswith("--"))
+        words = self._words[: self._words.index("--")] if "--" in self._words else self._words
+        if self._subparsers is not None:  # what is behind a subcommand is the subcommand's
+            words = list(takewhile(lambda word: word.startswith("-"), words))
+        named = (word.partition("=")[0] for word in words if word.startswith("--"))
         return next((name for name in named if name not in self._option_string_actions), None)
 
 

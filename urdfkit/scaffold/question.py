@@ -28,6 +28,7 @@ class Question:
         default_for: the default after certain answers to earlier questions instead: question → answer → default.
         unit: SI unit of a number.
         choices: the answers there are.
+        called: what some call them: word → the answer nearest to it.
         range: least and greatest number.
         pattern: what a text has to match as a whole.
         suffixes: what the packages' names end in.
@@ -43,6 +44,7 @@ class Question:
     default_for: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     unit: str = ""
     choices: tuple[str, ...] = ()
+    called: Mapping[str, str] = field(default_factory=dict)
     range: tuple[float, float] = (-math.inf, math.inf)
     pattern: str = ".*"
     suffixes: tuple[str, ...] = ()
@@ -59,6 +61,12 @@ class Question:
     def several(self) -> bool:
         """Whether it takes several answers."""
         return self.kind in ("choices", "packages")
+
+    @property
+    def is_computed(self) -> bool:
+        """Whether its default follows from answers before it."""
+        defaults = [self.default or "", *(text for texts in self.default_for.values() for text in texts.values())]
+        return any(text.startswith("=") for text in defaults)
 
     def default_given(self, answers: Mapping[str, str]) -> str | None:
         """Return the default, computed where it depends on earlier answers (to four digits).
@@ -107,6 +115,8 @@ class Question:
     def _choice(self, answer: str) -> str:
         if answer not in self.choices:
             near = did_you_mean(answer, self.choices)
+            if (meant := self.called.get(answer.lower())) is not None:
+                near = f"; the nearest is `{meant}`"
             raise UsageError(f"{self.option} `{answer}` is not available{near}; there is: {', '.join(self.choices)}")
         return answer
 
@@ -141,6 +151,15 @@ class Question:
         if not least <= value <= greatest:
             raise UsageError(f"{self.option} {answer}{unit} is out of range: {least:g} to {greatest:g}{unit}")
         return f"{value:.10g}"
+
+    def out_of_range(self, answer: str) -> str:
+        """Return what is wrong with a number that follows from other answers.
+
+        Args:
+            answer: the number.
+        """
+        unit = f" {self.unit}" if self.unit else ""
+        return f"{self.option} comes to {answer}{unit}, and has to be {self.range[0]:g} to {self.range[1]:g}{unit}"
 
 
 def applies(when: When, answers: Mapping[str, str]) -> bool:

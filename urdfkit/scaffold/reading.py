@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any, NoReturn, get_args, get_type_hints
 
 from urdfkit.errors import ResourceError, did_you_mean
+from urdfkit.scaffold.parts import Check, Fact, Layer, Next, Word
 from urdfkit.scaffold.question import Question, When
-from urdfkit.scaffold.template import FRESH, Check, Fact, Layer, Next, Template, Word
+from urdfkit.scaffold.template import FRESH, Template
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -32,7 +33,7 @@ _KEYS: dict[str, dict[str, str]] = {
     "question": {
         **dict.fromkeys(("name", "prompt", "kind", "default", "unit", "pattern", "help"), _TEXT),
         **dict.fromkeys(("choices", "suffixes"), _TEXTS),
-        **dict.fromkeys(("when", "default_for"), _TABLE),
+        **dict.fromkeys(("when", "default_for", "called"), _TABLE),
         "range": _NUMBERS,
         "ask": _FLAG,
     },
@@ -138,6 +139,10 @@ class _Reader:
             self._error("question", index, "name", f"`{question.name}` cannot be a placeholder: a-z, 0-9 and _")
         if question.name in self._known:
             self._error("question", index, "name", f"`{question.name}` is there twice")
+        for meant in question.called.values():
+            if meant not in question.choices:
+                near = did_you_mean(str(meant), question.choices)
+                self._error("question", index, "called", f"`{meant}` is no answer to `{question.name}`{near}")
         self._known[question.name] = ("yes", "no") if question.kind == "flag" else question.choices
         return question
 

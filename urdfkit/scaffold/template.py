@@ -15,72 +15,15 @@ from pathlib import Path
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
 from urdfkit.scaffold.expression import holds, value_of
 from urdfkit.scaffold.filling import fill, repeat_lines
+from urdfkit.scaffold.parts import Check, Fact, Layer, Next, Word
 from urdfkit.scaffold.question import Question, When, applies, numbers
+from urdfkit.scaffold.remedy import Goes, remedy
 
 BUILT_IN = ("year", "into")
 """Placeholders that nobody is asked for: the year of a copyright, the folder that is written to."""
 
 FRESH = "fresh"
 """What a default may depend on beside answers: ``yes`` where the folder written to is new, empty or a fresh clone."""
-
-
-@dataclass(frozen=True, slots=True)
-class Layer:
-    """A folder of files that goes `into` some folders of the result, if the answers are among `when`.
-
-    With ``@question@`` in the folder's name it is the folder of that answer, of several answers each one's.
-    With `append`, what a file holds goes behind what the layers before have written into the file of that name.
-    What is `spare` is left out where something of that name is there already, instead of refusing all.
-    """
-
-    folder: str
-    into: tuple[str, ...]
-    when: When
-    append: bool = False
-    spare: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Word:
-    """A placeholder that nobody is asked for: what it says follows `by` the answer to a question, or a fact.
-
-    By a question that takes several answers it is several words, one for each answer that has one. Where it says a
-    list, a line with it comes once for each text of the list: not at all for an empty one. What begins with ``=`` is
-    computed from the answers, to four digits.
-    """
-
-    name: str
-    by: str
-    says: Mapping[str, str | Sequence[str]]
-
-
-@dataclass(frozen=True, slots=True)
-class Fact:
-    """What follows from answers: ``yes`` if they are among `any` of some, ``no`` otherwise. For layers and words."""
-
-    name: str
-    any: tuple[When, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Check:
-    """A comparison that has to hold between the answers if they are among `when`, and what is wrong otherwise.
-
-    Without a comparison these answers do not go together at all.
-    """
-
-    holds: str
-    otherwise: str
-    when: When
-
-
-@dataclass(frozen=True, slots=True)
-class Next:
-    """Commands to go on with, if the answers are among `when`."""
-
-    title: str
-    commands: tuple[str, ...]
-    when: When
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,20 +88,60 @@ class Template:
         """
         for name in given:
             self.question(name)
+        found, late = self._filled(given, fresh)
+        if wrong := self._wrong(found) or late:
+            # One number that makes all of it go, or at least what is wrong.
+            others = [check for check in self.checks if check.otherwise != wrong]
+            for spared in ([], others):
+                if told := remedy(self.questions, given, found, wrong, self._goes(spared, fresh)):
+                    raise UsageError(f"{wrong} ({told})")
+            raise UsageError(wrong)
+        return found
+
+    def _filled(self, given: Mapping[str, str], fresh: bool) -> tuple[dict[str, str], str]:
+        """Return an answer to every question, and what is wrong with one that follows from others; empty for nothing.
+
+        Raises:
+            UsageError: an answer that was given is wrong, or one is missing.
+        """
         found: dict[str, str] = {}
+        late = ""
         for question in self.questions:
             if question.name in given and not applies(question.when, found):
                 raise UsageError(f"{question.option} is for {_options(question.when)}")
             answer = given.get(question.name, question.default_given(found | {FRESH: "yes" if fresh else "no"}))
             if answer is None:
                 raise UsageError(f"{question.prompt[0].lower()}{question.prompt[1:]} is missing")
-            found[question.name] = question.accept(answer)
+            try:
+                found[question.name] = question.accept(answer)
+            except UsageError:
+                if question.name in given or not question.is_computed:
+                    raise
+                found[question.name] = answer
+                if applies(question.when, found):
+                    late = late or f"with these sizes {question.out_of_range(answer)}"
         for fact in self.facts:
             found[fact.name] = "yes" if any(applies(when, found) for when in fact.any) else "no"
+        return found, late
+
+    def _wrong(self, found: Mapping[str, str], spared: Sequence[Check] = ()) -> str:
+        """Return the first thing that is wrong between answers; empty for nothing."""
         for check in self.checks:
-            if applies(check.when, found) and not (check.holds and holds(check.holds, numbers(found))):
-                raise UsageError(check.otherwise)
-        return found
+            if check in spared or not applies(check.when, found):
+                continue
+            if not (check.holds and holds(check.holds, numbers(found))):
+                return check.otherwise
+        return ""
+
+    def _goes(self, spared: Sequence[Check], fresh: bool) -> Goes:
+        def goes(given: Mapping[str, str]) -> bool:
+            try:
+                found, late = self._filled(given, fresh)
+            except UsageError:
+                return False
+            return not (self._wrong(found, spared) or late)
+
+        return goes
 
     def files(self, answers: Mapping[str, str]) -> Iterator[tuple[Path, Path]]:
         """Yield every file that is written: where it comes from, and its path in the result.
