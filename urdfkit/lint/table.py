@@ -161,6 +161,7 @@ AROUND: tuple[Row, ...] = (
     ("", "packaging.controller_joint_undefined", "ControllerJointUndefined"),
     ("", "packaging.frame_undefined", "FrameUndefined"),
     ("", "packaging.spawned_controller_undefined", "SpawnedControllerUndefined"),
+    ("", "packaging.controller_settings_misspelt", "ControllerSettingsMisspelt"),
 )
 """Rules on the robot that are asked where there are launch files or YAML around it."""
 
