@@ -105,3 +105,21 @@ def test_moves_are_undone_when_one_fails(tmp_path, monkeypatch):
         with pytest.raises(ResourceError, match="Read-only"):
             move_into_place(stage, tmp_path)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_errors_do_not_name_the_temporary_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+    def full(path):
+        raise OSError(28, "No space left on device", str(path))
+
+    for folder, shown in ((Path(), "pkg/a.txt"), (Path("src"), "src/pkg/a.txt"), (tmp_path, f"{tmp_path}/pkg/a.txt")):
+        folder.mkdir(exist_ok=True)
+        with pytest.raises(ResourceError) as caught, staging(folder) as stage:
+            full(stage / "pkg/a.txt")
+        assert str(caught.value) == f"cannot write {shown}: No space left on device"
+        with pytest.raises(ResourceError) as caught, staging(folder) as stage:
+            raise ResourceError(f"{stage}/pkg/a.txt: of no use")
+        assert str(caught.value) == f"{shown}: of no use"
+    with pytest.raises(OSError, match="elsewhere"), staging(tmp_path):
+        full("elsewhere")

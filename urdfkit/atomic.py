@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from urdfkit.errors import ResourceError
+from urdfkit.errors import ResourceError, UrdfkitError
 
 _STAGE = ".urdfkit-"
 
@@ -66,6 +66,8 @@ def staging(folder: Path) -> Iterator[Path]:
     It lies on the same file system, so that `move_into_place` is a rename. What programs that were killed have left of
     their own is removed.
 
+    Errors name what would have been written by its place in `folder`: nobody has heard of the temporary one.
+
     Args:
         folder: has to exist.
 
@@ -79,6 +81,19 @@ def staging(folder: Path) -> Iterator[Path]:
         raise ResourceError(f"cannot write into {folder}: {error.strerror}") from error
     try:
         yield place
+    except OSError as error:
+        written = Path(error.filename) if isinstance(error.filename, str) else place
+        if not written.is_relative_to(place):
+            raise
+        raise ResourceError(f"cannot write {folder / written.relative_to(place)}: {error.strerror}") from error
+    except UrdfkitError as error:
+        if place.name not in str(error):
+            raise
+        there = {f"{place}/": "" if folder == Path() else f"{folder}/", f"{place.resolve()}/": f"{folder.resolve()}/"}
+        said = str(error)
+        for hidden, shown in there.items():
+            said = said.replace(hidden, shown)
+        raise ResourceError(said.replace(f"{place.name}/", "")) from error
     finally:
         shutil.rmtree(place, ignore_errors=True)
 
