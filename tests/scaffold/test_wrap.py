@@ -1,6 +1,12 @@
 """`urdfkit import`: a bare URDF becomes packages with its meshes; the file itself is only read."""
 
+import os
+import re
 import struct
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import pytest
 
@@ -80,8 +86,11 @@ def test_it_becomes_packages(export, capsys, ros):
     assert main(["import", "export/urdf/arm.urdf", "--ros", ros, "--into", "src"]) == 0
     assert everything(export) == before
     src = export.parent / "src"
-    assert sorted(path.name for path in src.iterdir()) == ["my_arm_bringup", "my_arm_description", "my_arm_gazebo"]
+    packages = ["my_arm_bringup", "my_arm_description", "my_arm_gazebo"]
+    beside = [".devcontainer", ".github", ".gitignore", ".pre-commit-config.yaml", "LICENSE", "README.md"]
+    assert sorted(path.name for path in src.iterdir()) == [*beside, *packages]
     said = capsys.readouterr().out
+    assert f"beside them: {', '.join(beside)}" in said
     assert "2 meshes copied" in said
     package = src / "my_arm_description"
     assert (package / "meshes/base_link.STL").read_bytes() == stl()
@@ -209,3 +218,68 @@ def test_the_packages_build(export, debian):
     assert "found 0 problems" in debian("catkin_lint -W2 --strict --offline src")
     debian("catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3 install")
     assert (export.parent / "install/share/my_arm_description/meshes/fine/link1.stl").is_file()
+
+
+@pytest.mark.parametrize("ros", ["jazzy", "noetic"])
+def test_it_has_what_new_robots_have(export, ros):
+    """The same tests, CI and settings, from the same files."""
+    assert main(["import", "export/urdf/arm.urdf", "--ros", ros, "--into", "src"]) == 0
+    assert main(["new", "robot", "my_arm", "--drive", "none", "--ros", ros, "--into", "new", "--yes", "-q"]) == 0
+    ours, new = export.parent / "src", export.parent / "new"
+    same = [
+        path.relative_to(new)
+        for pattern in (
+            ".github/**/*",
+            ".devcontainer/*",
+            ".gitignore",
+            ".pre-commit-config.yaml",
+            "*/test/*",
+            "*/.gitignore",
+        )
+        for path in new.glob(pattern)
+        if path.is_file()
+    ]
+    assert len(same) >= 9
+    for path in same:
+        text = (new / path).read_text().replace('== "my_arm"', '== "My Arm.SLDASM"')
+        assert (ours / path).read_text() == text, path
+    assert "The robot my_arm: imported from `arm.urdf`." in (ours / "README.md").read_text()
+    for path in ours.rglob("*"):
+        if path.is_file() and b"\0" not in path.read_bytes():
+            assert not re.search(r"@[a-z_]+@", path.read_text()), path
+    for kind in ("description", "gazebo", "bringup"):
+        package = ours / f"my_arm_{kind}"
+        needed = {element.text for element in ET.parse(package / "package.xml").getroot().iter("test_depend")}
+        assert needed & {"roslaunch", "ament_cmake_pytest"}
+        assert "TESTING)" in (package / "CMakeLists.txt").read_text()
+
+
+def test_what_lies_beside_stays(export, capsys):
+    src = export.parent / "src"
+    src.mkdir()
+    (src / "README.md").write_text("mine")
+    assert main(["import", "export/urdf/arm.urdf", "--into", "src"]) == 0
+    assert "beside them" not in capsys.readouterr().out
+    assert not (src / ".github").exists()
+    assert main(["import", "export/urdf/arm.urdf", "--into", "src", "--name", "other", "--repository"]) == 0
+    assert (src / "README.md").read_text() == "mine"
+    assert (src / ".github/workflows/ci.yml").is_file()
+
+
+def test_a_robot_of_plain_shapes_is_drawn(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "box.urdf").write_text(
+        '<robot name="box"><link name="a"><inertial><mass value="1"/>'
+        '<inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>'
+        '<visual><geometry><box size="0.3 0.3 0.3"/></geometry></visual>'
+        '<collision><geometry><box size="0.3 0.3 0.3"/></geometry></collision></link></robot>'
+    )
+    assert main(["import", "box.urdf", "--into", "src"]) == 0
+    assert "![box](box_description/docs/box.png)" in (tmp_path / "src/README.md").read_text()
+    assert (tmp_path / "src/box_description/docs/box.png").read_bytes().startswith(b"\x89PNG")
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "."],
+        cwd=tmp_path / "src", capture_output=True, text=True, check=False,
+        env={**os.environ, "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"},
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from datetime import datetime, timezone
 from pathlib import Path
 
@@ -9,7 +10,6 @@ from urdfkit.errors import ResourceError, UsageError, did_you_mean
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    import argparse
     from collections.abc import Sequence
 
     from urdfkit.scaffold.template import Template
@@ -28,6 +28,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--into", metavar="DIR", default=".", help="folder to write to (default: where you stand)")
     parser.add_argument(
         "--meshes", action="append", default=[], metavar="DIR", help="look for meshes here first (repeatable)"
+    )
+    parser.add_argument(
+        "--repository",
+        action=argparse.BooleanOptionalAction,
+        help="README, CI, pre-commit, dev container beside the packages (default: where that folder is new or empty)",
     )
     for name in ("maintainer", "email", "license"):
         parser.add_argument(
@@ -55,9 +60,13 @@ def run(arguments: argparse.Namespace) -> int:
     name = _name(template, arguments.name, file)
     folders = [_folder(word) for word in arguments.meshes]
     given |= {"year": str(datetime.now(timezone.utc).year), "into": Path(arguments.into).as_posix()}
-    wrapped = wrap(file, name, Path(arguments.into), given, mesh_folders=folders, mend=_mended)
+    wrapped = wrap(
+        file, name, Path(arguments.into), given, mesh_folders=folders, mend=_mended, repository=arguments.repository
+    )
     for folder, count in zip(wrapped.folders, wrapped.files, strict=True):
         print(f"{folder.as_posix()}  {count} files")
+    if wrapped.beside:
+        print(f"beside them: {', '.join(wrapped.beside)}")
     if not arguments.quiet:
         if wrapped.meshes:
             print(f"\n{wrapped.meshes} mesh{'es' if wrapped.meshes > 1 else ''} copied; {file} is as it was")

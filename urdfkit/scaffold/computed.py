@@ -48,6 +48,9 @@ def _package(answers: Mapping[str, str]) -> dict[str, str]:
         "controllers": "",
         "managed": "",
         "spawned": "",
+        "ament_tests": "",
+        "catkin_tests": "",
+        "test_depends": "",
         "components": f" COMPONENTS{lines}\n" if depends else "",
         "catkin_depends": f"\n  CATKIN_DEPENDS{lines}\n" if depends else "",
     }

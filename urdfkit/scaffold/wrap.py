@@ -1,7 +1,8 @@
-"""Wrap a bare URDF into packages: description with the meshes it uses, Gazebo, bringup."""
+"""Wrap a bare URDF into packages: description with the meshes it uses, Gazebo, bringup, and what goes with them."""
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,9 +13,11 @@ from urdfkit.description import load
 from urdfkit.description.robot import Robot
 from urdfkit.errors import DescriptionError, ResourceError
 from urdfkit.resources import templates_dir
+from urdfkit.scaffold.company import accompany, told_to_test
 from urdfkit.scaffold.computed import computed
+from urdfkit.scaffold.drawing import drawing_of
 from urdfkit.scaffold.meshes import URI, Meshes
-from urdfkit.scaffold.new import made
+from urdfkit.scaffold.new import is_fresh, made
 from urdfkit.scaffold.reading import load_template
 
 KINDS = ("description", "gazebo", "bringup")
@@ -29,12 +32,14 @@ class Wrapped:
         files: how many files each has.
         meshes: how many meshes and pictures were copied.
         said: what the mender said.
+        beside: what was written beside the packages.
     """
 
     folders: tuple[Path, ...]
     files: tuple[int, ...]
     meshes: int
     said: Sequence[str]
+    beside: tuple[str, ...] = ()
 
 
 def wrap(
@@ -45,6 +50,7 @@ def wrap(
     *,
     mesh_folders: Sequence[Path] = (),
     mend: Callable[[Path], Sequence[str]] = lambda _: (),
+    repository: bool | None = None,
 ) -> Wrapped:
     """Write the packages of a robot whose URDF is there; the file itself is only read.
 
@@ -55,6 +61,8 @@ def wrap(
         answers: to the questions of the template of packages: ros, maintainer, email, license; and year, into.
         mesh_folders: where to look for meshes first.
         mend: is given the folder with the packages before they are moved, may change them, and says what it did.
+        repository: whether to write CI and the like beside the packages; None: where the folder is new, empty or a
+            fresh clone. What is there stays.
 
     Raises:
         ResourceError: a mesh is not found, a package is there already, or something cannot be read or written.
@@ -69,6 +77,8 @@ def wrap(
     if meshes.missing:
         more = f" and {len(meshes.missing) - 1} more" if len(meshes.missing) > 1 else ""
         raise ResourceError(f"{file}: no file for `{meshes.missing[0]}`{more}; nothing was written: --meshes DIR?")
+    repository = is_fresh(folder) if repository is None else repository
+    there = {path.name for path in folder.iterdir()} if folder.is_dir() else set()
     with made(folder), staging(folder) as stage:
         model = stage / f"{name}_description/urdf/{name}.urdf.xacro"
         given = {"model": model.name, "folders": " meshes" if meshes.copies else ""}
@@ -78,10 +88,14 @@ def wrap(
         meshes.copy(stage / f"{name}_description")
         said = list(mend(stage))
         robot = _loaded(model, stage, file)
-        _root(stage / f"{name}_description", robot.roots()[0].name)
+        picture = _drawn(robot, stage / f"{name}_description", name)
+        origin = f"imported from `{file.name}`"
+        accompany(stage, name, origin, {**answers, "picture": picture}, repository=repository, without=there)
+        _named(stage / f"{name}_description", name, robot)
         counts = tuple(sum(path.is_file() for path in (stage / each).rglob("*")) for each in folder_names)
+        beside = tuple(sorted({path.name for path in stage.iterdir()} - set(folder_names)))
         move_into_place(stage, folder)
-    return Wrapped(tuple(folder / each for each in folder_names), counts, len(meshes.copies), said)
+    return Wrapped(tuple(folder / each for each in folder_names), counts, len(meshes.copies), said, beside)
 
 
 def rewritten(content: bytes, meshes: Meshes, package: str) -> bytes:
@@ -102,7 +116,7 @@ def _render(stage: Path, kind: str, name: str, answers: Mapping[str, str]) -> No
     asked = {question.name for question in template.questions}
     given = {key: value for key, value in answers.items() if key in asked}
     full = template.answers({**given, "name": f"{name}_{kind}", "kind": kind})
-    full |= computed("package", full)
+    full |= computed("package", full) | told_to_test(kind, full["ros"])
     template.render({**full, **answers, "name": f"{name}_{kind}", "kind": kind}, stage)
 
 
@@ -114,11 +128,25 @@ def _loaded(model: Path, stage: Path, file: Path) -> Robot:
         raise
 
 
-def _root(package: Path, root: str) -> None:
-    """Let RViz stand on the root of the robot."""
+def _named(package: Path, name: str, robot: Robot) -> None:
+    """Let RViz stand on the root of the robot, and the tests know its name."""
+    root = robot.roots()[0].name
     for path in package.glob("rviz/*.rviz"):
         text = path.read_text(encoding="utf-8")
         path.write_text(re.sub(r"((?:Fixed|Target) Frame: )base_link", rf"\g<1>{root}", text), encoding="utf-8")
+    test = package / "test/test_description.py"
+    text = test.read_text(encoding="utf-8")
+    test.write_text(text.replace(f'== "{name}"', f"== {json.dumps(robot.name)}"), encoding="utf-8")
+
+
+def _drawn(robot: Robot, package: Path, name: str) -> str:
+    """Draw the robot for its README; return ``no`` where there is nothing but meshes."""
+    picture = drawing_of(robot)
+    if picture is None:
+        return "no"
+    (package / "docs").mkdir()
+    (package / f"docs/{name}.png").write_bytes(picture)
+    return "yes"
 
 
 def _read(path: Path) -> bytes:
