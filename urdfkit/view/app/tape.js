@@ -21,7 +21,7 @@ export function tape(page) {
   const speed = h("select", { id: "replay-speed", "aria-label": "Speed of the replay" }, ...[0.1, 0.25, 0.5, 1, 2, 5].map((x) => h("option", { value: x, selected: x === 1 }, `×${x}`)));
   const end = h("button", { type: "button", id: "replay-end" }, "Back to now");
   const replay = h("div.replay", { hidden: true }, h("h3", {}, "Replay"), slider, h("div.row", {}, play, speed, h("span.space"), end));
-  const banner = h("p", { id: "replaying", role: "status", hidden: true }, "Replay");
+  const banner = h("p", { id: "replaying", role: "status", hidden: true }, "Replay: the simulation waits");
   document.getElementById("stage").append(banner);
   panel.body.append(record, topics.label, pictures.label, words, replay);
   let state = { recording: false, frames: 0 };
@@ -56,7 +56,6 @@ export function tape(page) {
     play.replaceChildren(icon(message.running ? PAUSE : PLAY), message.running ? "Pause" : "Play");
     end.disabled = !message.playing;
     banner.hidden = !message.playing;
-    banner.textContent = `Replay ${message.at?.toFixed(1)} s; the simulation waits`;
     document.body.toggleAttribute("data-replay", Boolean(message.playing));
   });
 }
