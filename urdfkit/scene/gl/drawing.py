@@ -85,7 +85,7 @@ class Drawing:
     def __init__(self, context: Any, table: RayTable, paint: tuple[Any, ...], lamps: Lamps) -> None:
         self._ctx = context
         self._lamps = lamps
-        self._programs: dict[Kind, Any] = {}
+        self._programs: dict[Kind, tuple[Any, frozenset[str]]] = {}
         colors, _, _, _, textures, texels = paint
         self.clear: Mask = colors[:, 3] < 1.0
         self.maps: tuple[str, ...] = ()
@@ -192,9 +192,10 @@ class Drawing:
         model = batch.model
         glossy, textured = model.gloss[3] > 0.0 and "color" in wanted, model.texture >= 0
         kind = Kind(self._lamps, model.flat, model.plain, textured, wanted, clear, shot.exact, self.maps, glossy)
-        program = self._programs.get(kind)
-        if program is None:
-            program = self._programs[kind] = self._ctx.program(vertex_shader(kind), fragment_shader(kind))
+        if kind not in self._programs:
+            made = self._ctx.program(vertex_shader(kind), fragment_shader(kind))
+            self._programs[kind] = made, frozenset(made)
+        program, names = self._programs[kind]
         array = batch.arrays.get(kind)
         if array is None:
             array = batch.arrays[kind] = self._ctx.vertex_array(
@@ -202,10 +203,10 @@ class Drawing:
             )
         if program.extra is not shot.uniforms:
             for name, value in shot.uniforms.items():
-                if name in program:
+                if name in names:
                     program[name] = value
             program.extra = shot.uniforms
-        if glossy and "u_gloss" in program:
+        if glossy and "u_gloss" in names:
             program["u_gloss"] = model.gloss
         if textured:
             self._textures[model.texture].use(location=0)

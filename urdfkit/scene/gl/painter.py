@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from math import hypot
 from threading import Lock
 from typing import Any
 
@@ -101,7 +102,7 @@ class GlPainter:
         drawing = self._drawing
         rows = drawing.rows(self.table.frames, turn, origin)
         nearest, farthest = self._reach(origin)
-        corner = float(lens.towards(np.zeros(1), np.zeros(1))[0, 0])
+        corner = lens.focal_length / hypot(lens.focal_length, (lens.width - 1) / 2, (lens.height - 1) / 2)
         low = near * corner if near > 0.0 else max(1e-3 * float(nearest.min(initial=1.0)), 1e-4)
         high = max(min(max(float(farthest.max(initial=1.0)) * 1.001, 2.0 * low), far), 1.01 * low)
         exact = bool((nearest < near).any() or (farthest > far).any())
