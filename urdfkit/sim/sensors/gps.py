@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from math import cos, degrees, pi, radians
 from typing import TYPE_CHECKING, Any
 
@@ -137,9 +138,9 @@ class HectorGps(Gps):
         return super()._nowhere(setup, element)
 
     def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
-        several = {"rate": self.rate, "dt": setup.dt, "random": setup.random}
-        self._position = drifting(read, "", 3, **several)  # type: ignore[arg-type]
-        self._speed = drifting(read, "velocity_", 3, **several)  # type: ignore[arg-type]
+        errors = partial(drifting, read, rate=self.rate, dt=setup.dt, random=setup.random)
+        self._position = errors("", 3)
+        self._speed = errors("velocity_", 3)
         self._variances = self._position.variance
 
     def _feel(self, ride: Ride) -> Fix:

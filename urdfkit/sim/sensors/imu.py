@@ -9,6 +9,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -137,8 +138,8 @@ class PlainImu(Imu):
 class ImuSensor(PlainImu):
     """gazebo_ros_imu_sensor of ROS 1 and ROS 2.
 
-    The one of ROS 1 adds noise of its own to what Gazebo's sensor reads, SDF's noise included, and tells only its own in
-    the covariances (gazebo_ros_imu_sensor.cpp, UpdateChild).
+    The one of ROS 1 adds noise of its own to what Gazebo's sensor reads, SDF's noise included, and tells only its own
+    in the covariances (gazebo_ros_imu_sensor.cpp, UpdateChild).
     """
 
     kind = "imu_sensor"
@@ -198,11 +199,11 @@ class HectorImu(Imu):
     kind = "hector_imu"
 
     def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
-        several = {"rate": self.rate, "dt": setup.dt, "random": setup.random}
-        self._accelerometer = drifting(read, "accel_", 3, **several)  # type: ignore[arg-type]
-        self._gyro = drifting(read, "rate_", 3, **several)  # type: ignore[arg-type]
+        errors = partial(drifting, read, rate=self.rate, dt=setup.dt, random=setup.random)
+        self._accelerometer = errors("accel_", 3)
+        self._gyro = errors("rate_", 3)
         yaw = "yaw_" if any(read.has(f"yaw_{each}") for each in ("offset", "drift", "gaussian_noise")) else "heading_"
-        self._heading = drifting(read, yaw, 1, **several)  # type: ignore[arg-type]
+        self._heading = errors(yaw, 1)
         roll, pitch, yaw_offset = read.vector("rpy_offset", 3)
         self._offset = np.eye(3)  # not a rotation here, but what an IMU that is tilted so much would feel
         for error, offset in (
