@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
@@ -93,7 +94,7 @@ class ControllerSettingsMisspelt(RobotRule):
         declared = set(controllers(source))
         sections = [
             (name, name.rpartition("/")[2], start)
-            for (name, start, indent), (below, _, _) in zip(keys, keys[1:], strict=False)
+            for (name, start, indent), (below, _, _) in pairwise(keys)
             if indent == 0 and below == _PARAMETERS
         ]
         lost = declared - {called for _, called, _ in sections}

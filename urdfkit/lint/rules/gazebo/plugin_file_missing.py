@@ -1,0 +1,76 @@
+"""Z828 plugin-file-missing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from urdfkit.lint.gazebo import plugins
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class PluginFileMissing(RobotRule):
+    """The settings that a plugin is to read are not there.
+
+    ## What it does
+    Looks up the file in ``<parameters>`` of gz_ros2_control and gazebo_ros2_control, where ``$(find …)`` led into a
+    package that is there. Files that the build makes, and those of packages that are not there, pass.
+
+    ## Why is this bad?
+    The controller manager comes up without controllers, or takes the simulator down with it.
+
+    ## Example
+    ```xml
+    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+      <link name="base"/>
+      <gazebo>
+        <plugin name="gz_ros2_control::GazeboSimROS2ControlPlugin" filename="gz_ros2_control-system">
+          <parameters>$(find rrbot_control)/config/rrbot.yaml</parameters>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+      <link name="base"/>
+      <gazebo>
+        <plugin name="gz_ros2_control::GazeboSimROS2ControlPlugin" filename="gz_ros2_control-system">
+          <parameters>$(find rrbot_control)/config/rrbot_control.yaml</parameters>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+    """
+
+    code = "Z828"
+    name = "plugin-file-missing"
+    severity = "warning"
+    not_for = NOT_GAZEBO
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each file of settings that is not there."""
+        from urdfkit.description.packages import near_path
+        from urdfkit.description.surroundings import package_of
+
+        for plugin, _, _ in plugins(model.robot):
+            for element in plugin.element.find_all("parameters"):
+                text = element.text.strip()
+                if not text.startswith("/") or "$" in text or model.is_unresolved(element):
+                    continue
+                path = Path(text)
+                package = package_of(path)
+                if package is None or model.expanded.packages.whereabouts(path):
+                    continue
+                build = [file for name in ("CMakeLists.txt", "setup.py") if (file := package / name).is_file()]
+                if any(path.name in file.read_text("utf-8", "replace") for file in build):
+                    continue
+                shown = path.relative_to(package)
+                yield self.at(model, element, f"`{shown}` is not in the package {package.name}{near_path(path)}")
