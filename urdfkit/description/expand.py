@@ -31,6 +31,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
+    from urdfkit.description.memory import Memory
+    from urdfkit.description.recovery import RecoveringRun
     from urdfkit.description.run import Run
 
 _LOCK = RLock()
@@ -83,6 +85,7 @@ def expand_leniently(
     run_xacro: bool | None = None,
     mend_prefixes: bool = True,
     texts: Mapping[str, str] | None = None,
+    memory: Memory | None = None,
 ) -> Expanded:
     """Expand a file and go on after errors, which are in `Expanded.faults`.
 
@@ -96,6 +99,7 @@ def expand_leniently(
         run_xacro: see `expand`.
         mend_prefixes: read directives and macro calls without ``xacro:`` as if they had it.
         texts: contents to read instead of those on disk, by absolute path.
+        memory: what is known of the files from when they were expanded before.
 
     Raises:
         ResourceError: no such file (the entry; a missing include is a fault).
@@ -103,17 +107,30 @@ def expand_leniently(
     _check_exists(path)
     packages = packages if packages is not None else Packages(near=path)
     if not (is_xacro(path) if run_xacro is None else run_xacro):
-        return _read_plain_leniently(path, packages, texts or {})
+        return _read_plain_leniently(path, packages, texts or {}, memory)
+    from urdfkit.description.quick import QuickRun
     from urdfkit.description.recovery import RecoveringRun
 
-    run = RecoveringRun(str(path), arguments or {}, packages, mend_prefixes=mend_prefixes, texts=texts)
+    first = QuickRun(str(path), arguments or {}, packages, mend_prefixes=mend_prefixes, texts=texts)
+    first.memory = memory
+    quick = recovered(first)
+    if memory is not None:
+        memory.settle(quick.root)
+    if isinstance(quick, QuickRun) and quick.is_mixed:
+        run = RecoveringRun(str(path), arguments or {}, packages, mend_prefixes=mend_prefixes, texts=texts)
+        return recovered(run).outcome()
+    return quick.outcome()
+
+
+def recovered(run: RecoveringRun) -> RecoveringRun:
+    """Expand by a run, and by others that know what the one before found defined too late; return the last."""
     for _ in range(3):
         with _xacro_for(run):
             run.expand()
         if (again := run.with_hindsight()) is None:
             break
         run = again
-    return run.outcome()
+    return run
 
 
 def is_xacro(path: str | Path) -> bool:
@@ -160,11 +177,13 @@ def _xacro_for(run: Run) -> Iterator[None]:
             vars(xacro).update(saved)
 
 
-def _read_plain(path: str | Path, packages: Packages, texts: Mapping[str, str] | None = None) -> Expanded:
+def _read_plain(
+    path: str | Path, packages: Packages, texts: Mapping[str, str] | None = None, memory: Memory | None = None
+) -> Expanded:
     source = read_source(Path(path), shown_as=shown_path(path), texts=texts)
     return Expanded(
         path=Path(path),
-        root=document_of(source),
+        root=document_of(source) if memory is None else memory.element(source),
         files=(absolute(path),),
         sources={source.file: source},
         packages=packages,
@@ -172,11 +191,13 @@ def _read_plain(path: str | Path, packages: Packages, texts: Mapping[str, str] |
     )
 
 
-def _read_plain_leniently(path: str | Path, packages: Packages, texts: Mapping[str, str]) -> Expanded:
+def _read_plain_leniently(
+    path: str | Path, packages: Packages, texts: Mapping[str, str], memory: Memory | None
+) -> Expanded:
     from urdfkit.description.faults import Fault
 
     try:
-        return _read_plain(path, packages, texts)
+        return _read_plain(path, packages, texts, memory)
     except XmlError as error:
         if error.position is None:
             raise

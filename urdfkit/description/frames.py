@@ -128,9 +128,9 @@ def _look_at_resolve(place: Place, local: dict[str, Any]) -> None:
 
 def _look_at_text(place: Place, local: dict[str, Any]) -> None:
     place.symbols = local.get("symbols", place.symbols)
-    if place.property is None and place.attribute is None and place.node is not None and place.node._attrs:
+    if place.property is None and place.attribute is None and place.node is not None:
         text = local.get("text")
-        place.attribute = next((n for n, a in place.node._attrs.items() if a.value == text and text), None)
+        place.attribute = next((name for name, value in place.node.attributes.items() if value == text and text), None)
 
 
 def _look_at_expression(place: Place, local: dict[str, Any]) -> None:

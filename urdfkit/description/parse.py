@@ -37,7 +37,11 @@ from urdfkit.errors import did_you_mean
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any
+
     from urdfkit.description.packages import Packages
+    from urdfkit.description.robot import Problem
 
 SHAPES = ("box", "cylinder", "sphere", "capsule", "mesh")
 """What a ``<geometry>`` may hold."""
@@ -45,23 +49,44 @@ SHAPES = ("box", "cylinder", "sphere", "capsule", "mesh")
 _TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
-def parse(root: Element, *, files: tuple[Path, ...] = (), packages: Packages | None = None) -> Robot:
+def parse(
+    root: Element,
+    *,
+    files: tuple[Path, ...] = (),
+    packages: Packages | None = None,
+    known: dict[int, tuple[Element, Any, list[Problem]]] | None = None,
+) -> Robot:
     """Read a robot.
 
     Args:
         root: the ``<robot>`` element after expansion. Any other element gives a robot without links.
         files: what was read, for `Robot.files`.
         packages: for `Robot.packages`.
+        known: the links and joints that were read before from the same elements, by `id` of these, with the problems in
+            them; brought up to date.
     """
     reader = Reader()
+    now: dict[int, tuple[Element, Any, list[Problem]]] = {}
+
+    def part(read: Callable[[Reader, Element], Any], element: Element) -> Any:
+        before = len(reader.problems)
+        found = known.get(id(element)) if known is not None else None
+        if found is None:
+            one = read(reader, element)
+            found = element, one, reader.problems[before:]
+        else:
+            reader.problems += found[2]
+        now[id(element)] = found
+        return found[1]
+
     name = reader.text(root, "name") if root.tag == "robot" else root.get("name")
     links, joints, materials, transmissions, gazebo, controls = [], [], [], [], [], []
     for child in root.children:
         reader.subject = ""
         if child.tag == "link":
-            links.append(_link(reader, child))
+            links.append(part(_link, child))
         elif child.tag == "joint":
-            joints.append(_joint(reader, child))
+            joints.append(part(_joint, child))
         elif child.tag == "material":
             materials.append(_material(reader, child))
         elif child.tag == "transmission":
@@ -70,6 +95,9 @@ def parse(root: Element, *, files: tuple[Path, ...] = (), packages: Packages | N
             gazebo.append(gazebo_block(child))
         elif child.tag == "ros2_control":
             controls.append(ros2_control(child))
+    if known is not None:
+        known.clear()
+        known.update(now)
     return Robot(
         name,
         tuple(links),

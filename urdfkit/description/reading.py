@@ -100,13 +100,13 @@ def document_of(source: Source) -> Element:
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         if is_large:
-            _refuse_excess(source, parser, tag, attributes.values())
+            refuse_excess(source, parser, tag, attributes.values())
         line, column = parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
         starts.append((tag, attributes, Origin(Position(file, line, column))))
         families.append([])
         texts.append([])
         if len(starts) > MAX_DEPTH:
-            _too_deep(source, parser)
+            too_deep(source, parser)
 
     def end(_: str) -> None:
         tag, attributes, origin = starts.pop()
@@ -118,7 +118,7 @@ def document_of(source: Source) -> Element:
     parser.CharacterDataHandler = lambda data: texts[-1].append(data)
     parser.EntityDeclHandler = lambda name, *_: _refuse_entity(source, parser, name)
     parser.StartDoctypeDeclHandler = lambda _, system, public, __: _check_doctype(source, parser, system, public)
-    _parse(parser, source, lambda: [(tag, origin.position.line) for tag, _, origin in starts])
+    parse_with(parser, source, lambda: [(tag, origin.position.line) for tag, _, origin in starts])
     return families[0][0]
 
 
@@ -138,8 +138,8 @@ def stamped_document(source: Source, on_clone: Any, *, namespaces: bool = True) 
     from urdfkit.description.stamping import PrefixBlindBuilder, StampingBuilder
 
     kind = StampingBuilder if namespaces else PrefixBlindBuilder
-    check = partial(_refuse_excess, source) if len(source.text) > MAX_VALUE else None
-    builder = kind(source.file, on_clone, partial(_too_deep, source), check)
+    check = partial(refuse_excess, source) if len(source.text) > MAX_VALUE else None
+    builder = kind(source.file, on_clone, partial(too_deep, source), check)
     parser = builder.getParser()
     parser.EntityDeclHandler = lambda name, *_: _refuse_entity(source, parser, name)
     inherited: Any = parser.StartDoctypeDeclHandler
@@ -149,7 +149,7 @@ def stamped_document(source: Source, on_clone: Any, *, namespaces: bool = True) 
         inherited(name, system, public, has_subset)
 
     parser.StartDoctypeDeclHandler = doctype
-    _parse(parser, source, builder.open_tags)
+    parse_with(parser, source, builder.open_tags)
     return builder.document
 
 
@@ -159,6 +159,9 @@ def element_of(node: Any) -> Element:
     Args:
         node: an element that `stamped_document` made, or a clone of one.
     """
+    if hasattr(node, "finished"):
+        (element,) = node.elements()
+        return element  # type: ignore[no-any-return]
     file, line, column, expansions = stamp_of(node)
     children: list[Element] = []
     text = ""
@@ -179,7 +182,12 @@ def stamp_of(node: Any) -> Stamp:
     return stamp
 
 
-def _parse(parser: Any, source: Source, open_tags: Callable[[], list[tuple[str, int]]]) -> None:
+def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[str, int]]]) -> None:
+    """Parse a text; `open_tags` tells the tag and line of the elements that are open, outermost first.
+
+    Raises:
+        XmlError: it is not well-formed, or has too many tags.
+    """
     if not source.text.strip():
         raise XmlError("the file is empty", position=Position(source.file, 1, 1))
     if (tags := source.text.count("<")) > MAX_TAGS:
@@ -235,11 +243,21 @@ def _here(source: Source, parser: Any) -> Position:
     return Position(source.file, parser.CurrentLineNumber, parser.CurrentColumnNumber + 1)
 
 
-def _too_deep(source: Source, parser: Any) -> NoReturn:
+def too_deep(source: Source, parser: Any) -> NoReturn:
+    """Refuse elements that nest too deep.
+
+    Raises:
+        XmlError: always.
+    """
     raise XmlError(f"elements are nested deeper than {MAX_DEPTH}", position=_here(source, parser))
 
 
-def _refuse_excess(source: Source, parser: Any, tag: str, values: Collection[str]) -> None:
+def refuse_excess(source: Source, parser: Any, tag: str, values: Collection[str]) -> None:
+    """Refuse an element with too many attributes, or too long ones.
+
+    Raises:
+        XmlError: it has.
+    """
     if len(values) > MAX_ATTRIBUTES:
         message = f"<{tag}> has {len(values)} attributes; at most {MAX_ATTRIBUTES} are read"
         raise XmlError(message, position=_here(source, parser))

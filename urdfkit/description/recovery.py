@@ -65,7 +65,7 @@ class RecoveringRun(Run):
     ) -> None:
         super().__init__(path, arguments, packages, texts=texts)
         self._mend_prefixes = mend_prefixes
-        self._late_properties, self._late_macros = hindsight
+        self.hindsight = self._late_properties, self._late_macros = hindsight
         self._unprefixed: dict[Unprefixed, None] = {}
         self._unresolved: set[tuple[Position, str | None]] = set()
         self._strangers: set[str] = set()
@@ -391,7 +391,7 @@ class RecoveringRun(Run):
         """Forget the files and macros that an error left open."""
         del self.xacro.filestack[depth[0] :]
         del self.xacro.macrostack[depth[1] :]
-        self._chain = self._body = None
+        self.end_call()
 
 
 def _too_late(what: str, name: str, at: Position | None) -> str:

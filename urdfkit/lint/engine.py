@@ -24,6 +24,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
 
+    from urdfkit.description.memory import Memory
     from urdfkit.description.robot import Robot
     from urdfkit.description.source import Source, Span
     from urdfkit.lint.cache import Cache
@@ -174,13 +175,14 @@ class Sources(dict[str, "Source"]):
         return found
 
 
-def model_of(path: Path, options: Options, *, packages: Packages | None = None) -> Model:
+def model_of(path: Path, options: Options, *, packages: Packages | None = None, memory: Memory | None = None) -> Model:
     """Expand a file, going on after errors, and read the robot in it.
 
     Args:
         path: the file.
         options: how to expand it.
         packages: resolves what it names; by default what lies near it and in the environment.
+        memory: what is known of its files from when they were looked at before.
 
     Raises:
         ResourceError: it cannot be read.
@@ -194,13 +196,16 @@ def model_of(path: Path, options: Options, *, packages: Packages | None = None) 
         )
         return parse(expanded.root) if expanded.root is not None else robot
 
-    expanded = expand_leniently(path, arguments=options.arguments, packages=packages, texts=options.texts)
+    expanded = expand_leniently(
+        path, arguments=options.arguments, packages=packages, texts=options.texts, memory=memory
+    )
     root = expanded.root
     if root is not None and root.tag != "robot" and not is_nearly_robot(root.tag):
         from urdfkit.errors import ModelError
 
         raise ModelError(f"<{root.tag}> is no robot description", position=root.origin.position)
-    robot = parse(root if root is not None else _nothing(path))
+    known = memory.parts if memory is not None else None
+    robot = parse(root if root is not None else _nothing(path), known=known)
     return Model(expanded, robot, family_of(options.target), as_written, release_of(options.target), options.texts)
 
 
@@ -214,6 +219,7 @@ class Checker:
 
     def __init__(self, options: Options, *, cached: bool = False) -> None:
         self.options = options
+        self.memory: Memory | None = None
         self.sources: dict[str, Source] = {}
         self.packages = Packages(options.package_path)
         self.foreign = _third_party()
@@ -260,7 +266,7 @@ class Checker:
             if guessed.target is not None and guessed.manifest is not None:
                 options = Options(**{**options.__dict__, "target": guessed.target})
                 note = f"linted for {guessed.target}: {guessed.manifest.parent.name} {guessed.why}"
-        model = model_of(entry.path, options, packages=self.packages.beside(entry.path))
+        model = model_of(entry.path, options, packages=self.packages.beside(entry.path), memory=self.memory)
         self.sources.update(model.expanded.sources)
         findings = list(self._ask_source_rules(model))
         findings += self._ask_fault_rules(model, entry)

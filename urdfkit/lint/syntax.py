@@ -98,6 +98,17 @@ class Document:
         return self._read[0]
 
     @property
+    def root(self) -> Tag | None:
+        """The first tag; without its children where nobody has asked for the others."""
+        if "_read" in self.__dict__:
+            return self.roots[0] if self.roots else None
+        text = self.source.text
+        for token in islice(re.finditer(_TOKEN, text, re.DOTALL), MAX_TAGS):
+            if token["name"] is not None and not token["close"]:
+                return Tag(text, token["name"], token.start(), token.end(), bool(token["empty"]), None)
+        return None
+
+    @property
     def comments(self) -> list[tuple[int, int, str]]:
         """Start, end and text of each comment."""
         return self._read[1]

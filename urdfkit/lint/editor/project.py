@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from urdfkit.description.memory import Memory
 from urdfkit.description.packages import Packages
 from urdfkit.errors import UrdfkitError
 from urdfkit.lint.engine import Checker, Options, merged, model_of
@@ -52,6 +53,7 @@ class Project:
         self._last: dict[Entry, Model] = {}
         self._checker: Checker | None = None
         self._packages = Packages(options.package_path)
+        self._memories: dict[Entry, Memory] = {}
 
     def set_text(self, path: Path, text: str | None) -> None:
         """Take a text from the editor; None where the file on disk counts again."""
@@ -67,6 +69,7 @@ class Project:
         """Look anew at what lies on disk: which models there are, which packages, what files hold."""
         self._entries.clear()
         self._analyses.clear()
+        self._memories.clear()
         self._packages = Packages(self.options.package_path)
 
     def entries(self, path: Path) -> Sequence[Entry]:
@@ -128,6 +131,7 @@ class Project:
                     self._checker = Checker(options)
                 checker = self._checker
                 checker.options, checker.packages = options, self._packages
+                checker.memory = self._memories.setdefault(entry, Memory())
                 checker.sources.clear()
                 found, model = checker.examine(entry)
                 files = {name: Path(path) for name, path in found.files.items()}

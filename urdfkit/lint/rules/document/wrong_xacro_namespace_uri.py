@@ -55,9 +55,9 @@ class WrongXacroNamespaceUri(SourceRule):
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
         """Yield a finding where the root element binds the prefix to another address."""
-        if "xmlns:xacro" not in document.source.text or not document.roots:
+        root = document.root if "xmlns:xacro" in document.source.text else None
+        if root is None:
             return
-        root = document.roots[0]
         written = root.attributes.get("xmlns:xacro")
         if written is None or _is_right(written.value):
             return
