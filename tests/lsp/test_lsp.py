@@ -310,3 +310,41 @@ def test_without_pygls_it_says_what_to_install(monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "pygls.lsp.server", None)
     assert main(["lsp"]) == 2
     assert capsys.readouterr().err == "urdfkit: lsp needs pygls: pip install 'urdfkit[lsp]'\n"
+
+
+REQUESTS: dict[str, dict[str, Any]] = {
+    "hover": {},
+    "definition": {},
+    "references": {"context": {"includeDeclaration": True}},
+    "prepareRename": {},
+    "completion": {},
+}
+
+
+@pytest.mark.parametrize(
+    "uri", ["untitled:1", "http://a/b.urdf", "file:", "file:///", "file://[", "", "no", "file:///a%00b", "sub", "gone"]
+)
+def test_what_is_no_file_is_answered_by_nothing(cart, uri):
+    (cart.folder / "sub").mkdir(exist_ok=True)
+    uri = cart.uri(f"{uri}.urdf" if uri == "gone" else uri) if uri in ("sub", "gone") else uri
+    at = {"textDocument": {"uri": uri}, "position": {"line": 1, "character": 1}}
+    for name, more in REQUESTS.items():
+        assert not cart.ask(f"textDocument/{name}", {**at, **more})
+    where = {"start": at["position"], "end": at["position"]}
+    within = {"textDocument": {"uri": uri}, "range": where, "context": {"diagnostics": []}}
+    assert cart.ask("textDocument/codeAction", within) == []
+
+
+def test_a_file_that_is_not_open_is_answered_for_as_it_is_on_disk(cart):
+    at = cart.at("wheel.xacro", WHEEL, "${rad|ius}")
+    assert "0.2" in cart.ask("textDocument/hover", at)["contents"]["value"]
+    (cart.folder / "wheel.xacro").write_text(WHEEL.replace("0.1 * 2", "0.15 * 2"))
+    cart.tell("workspace/didChangeWatchedFiles", {"changes": []})
+    assert "0.3" in cart.ask("textDocument/hover", at)["contents"]["value"]
+
+
+@pytest.mark.parametrize(("line", "column"), [(10**6, 0), (2, 10**6), (2**31 - 1, 2**31 - 1), (0, 0), (1, 6)])
+def test_places_that_are_not_there_are_answered(cart, line, column):
+    at = {"textDocument": {"uri": cart.uri("cart.urdf.xacro")}, "position": {"line": line, "character": column}}
+    for name, more in REQUESTS.items():
+        cart.ask(f"textDocument/{name}", {**at, **more})

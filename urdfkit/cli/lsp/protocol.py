@@ -16,9 +16,13 @@ if TYPE_CHECKING:
 
 
 def path_of(uri: str) -> Path | None:
-    """Return the file of a URI; None for what is none: a text that was never saved."""
-    parsed = urlparse(uri)
-    return absolute(unquote(parsed.path)) if parsed.scheme == "file" else None
+    """Return the file of a URI; None for what is none: a text that was never saved, a page, no URI at all."""
+    try:
+        parsed = urlparse(uri)
+    except ValueError:
+        return None
+    path = unquote(parsed.path)
+    return absolute(path) if parsed.scheme == "file" and path.startswith("/") and "\0" not in path else None
 
 
 def offset_of(source: Source, position: types.Position) -> int:

@@ -58,10 +58,8 @@ class Session:
 
     def changed(self, uri: str) -> None:
         """Take the text of a document; publish what is found once it rests."""
-        path = path_of(uri)
-        if path is None:
+        if self._taken(uri) is None:
             return
-        self.project.set_text(path, self.server.workspace.get_text_document(uri).source)
         if uri in self._waiting:
             self._waiting[uri].cancel()
         self._waiting[uri] = asyncio.get_running_loop().call_later(PAUSE, self._publish, uri)
@@ -113,13 +111,26 @@ class Session:
     def _source(self, file: Path) -> Source:
         return read_source(file, shown_as=shown_path(file), texts=self.project.texts)
 
-    def _at(self, uri: str, position: types.Position) -> tuple[list[Analysis], Cursor, Path] | None:
-        from urdfkit.lint.editor.cursor import Cursor
+    def _taken(self, uri: str) -> Path | None:
+        """Return the file of a URI, with its text as the editor has it; as on disk where it is not open.
 
+        Returns:
+            None for what is no file, or a file that is neither open nor there.
+        """
         path = path_of(uri)
         if path is None:
             return None
-        self.project.set_text(path, self.server.workspace.get_text_document(uri).source)
+        opened = self.server.workspace.text_documents.get(uri)
+        if opened is not None:
+            self.project.set_text(path, opened.source)
+        return path if opened is not None or path.is_file() else None
+
+    def _at(self, uri: str, position: types.Position) -> tuple[list[Analysis], Cursor, Path] | None:
+        from urdfkit.lint.editor.cursor import Cursor
+
+        path = self._taken(uri)
+        if path is None:
+            return None
         analyses = [analysis for analysis in self.project.analyses(path) if analysis.model is not None]
         for analysis in analyses:
             assert analysis.model is not None
@@ -217,10 +228,9 @@ class Session:
 
     def actions(self, uri: str, within: types.Range) -> list[types.CodeAction]:
         """Return the fixes of what is found in a range."""
-        path = path_of(uri)
+        path = self._taken(uri)
         if path is None:
             return []
-        self.project.set_text(path, self.server.workspace.get_text_document(uri).source)
         source = self._source(path)
         found = []
         for finding in self.project.findings(path)[path]:
