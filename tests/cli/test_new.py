@@ -109,6 +109,31 @@ def test_questions_on_a_terminal(place, monkeypatch):
     assert '"wheel_radius" value="0.1"' in (place / "scout_description/urdf/drive.xacro").read_text()
 
 
+def test_answers_that_do_not_go_together_are_asked_again_at_once(place, monkeypatch):
+    given = ["--no-picture", "--ros", "none", "--drive", "diff", "--base-length", "0.4", "--base-width", "0.3"]
+    typed = ["scout", "", "9000", "9", "0.5", "0.1", "", "0.1", "0.5"]
+    shown = type_in(monkeypatch, *typed, *[""] * 10)
+    assert main(["new", "robot", *given]) == 0
+    text = shown.getvalue()
+    for told in (
+        "(--mass 9000 kg, at most 240 kg)\nMass of the base [kg] = 5: ",
+        "(--wheel-radius 0.5 m, at most 0.32 m)\nRadius of a wheel",
+        "(--wheel-separation 0.1 m, at least 0.34 m)\nDistance between",
+    ):
+        assert told in text
+    recipe = (place / "scout_description/urdfkit-new.toml").read_text()
+    assert "mass = 9\nwheel_radius = 0.1\n" in recipe
+    assert "wheel_separation = 0.5\n" in recipe
+
+
+def test_where_no_answer_would_do_it_ends_at_once(place, monkeypatch):
+    given = ["--wheel-radius", "0.5", "--drive", "diff", "--base-length", "0.4", "--base-width", "0.3"]
+    shown = type_in(monkeypatch, *["scout", *[""] * 10])
+    assert main(["new", "robot", *given]) == 2
+    assert "--wheel-radius has to be at most 0.8 of --base-length; nothing was written" in shown.getvalue()
+    assert list(place.iterdir()) == []
+
+
 def test_what_was_given_is_not_asked(place, monkeypatch):
     shown = type_in(monkeypatch, *[""] * 20)
     assert main(["new", "robot", "scout", "--ros", "noetic", "--mass", "3"]) == 0

@@ -145,10 +145,18 @@ def _ask(
         while question.name not in found:
             try:
                 answer = _answered(question, default)
-                found[question.name] = question.accept(answer or default or "")
-                follow(found)
+                accepted = {**found, question.name: question.accept(answer or default or "")}
             except UsageError as error:
                 print(f"  {error}", file=sys.stderr)
+                continue
+            wrong, instead = template.contradiction(accepted, question.name)
+            if wrong and not instead:  # it is an earlier answer that would have to change
+                raise UsageError(f"{wrong}; nothing was written")
+            if wrong:
+                print(f"  {wrong} ({instead})", file=sys.stderr)
+                continue
+            found = accepted
+            follow(found)
     return {q.name: found[q.name] for q in template.questions if q.ask and applies(q.when, found)}
 
 
@@ -156,7 +164,7 @@ def _answered(question: Question, default: str | None) -> str:
     unit = f" [{question.unit}]" if question.unit else ""
     among = ("yes", "no") if question.kind == "flag" else question.choices
     choices = f" ({', '.join(among)})" if len(among) > 1 else ""
-    offered = f" = {default}" if default is not None else ""
+    offered = f" = {default}" if default else ", several with commas, Enter for none" if question.several else ""
     print(f"{question.prompt}{choices}{unit}{offered}: ", end="", file=sys.stderr, flush=True)
     line = sys.stdin.readline()
     if not line:

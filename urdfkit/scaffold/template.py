@@ -8,6 +8,7 @@ for each of them.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -97,6 +98,31 @@ class Template:
                     raise UsageError(f"{wrong} ({told})")
             raise UsageError(wrong)
         return found
+
+    def contradiction(self, so_far: Mapping[str, str], last: str) -> tuple[str, str]:
+        """Return what is wrong between answers when not all are there, and what would do; empty for nothing.
+
+        Only what no later answer can change counts.
+
+        Args:
+            so_far: answers by question, with the defaults of those that are not asked.
+            last: the question that was answered last.
+        """
+        known = {q.name: so_far[q.name] for q in self.questions if q.name in so_far and applies(q.when, so_far)}
+        try:
+            found, _ = self._filled(known, False)
+        except UsageError:
+            return "", ""
+        open_yet = {q.name for q in self.questions if q.ask and q.name not in known and applies(q.when, found)}
+        for check in self.checks:
+            about = {*re.findall(r"[a-z_]+", check.holds), *check.when}
+            if about & open_yet or not applies(check.when, found):
+                continue
+            if not (check.holds and holds(check.holds, numbers(found))):
+                spared = [other for other in self.checks if other is not check]
+                question = [self.question(last)]
+                return check.otherwise, remedy(question, known, found, check.otherwise, self._goes(spared, False))
+        return "", ""
 
     def _filled(self, given: Mapping[str, str], fresh: bool) -> tuple[dict[str, str], str]:
         """Return an answer to every question, and what is wrong with one that follows from others; empty for nothing.
