@@ -158,3 +158,43 @@ def test_sensors_of_the_new_gazebo_are_none_of_the_classic_one():
     good = HERE / "sensor-type-unknown" / "good.urdf"
     found = [(f.code, f.line) for f in lint(good, target="classic")]
     assert found == [("Z827", 5)]
+
+
+DRIVEN = """<robot name="cart">
+  <link name="base">
+    <visual><geometry><box size="1 1 1"/></geometry></visual>
+    <collision><geometry><box size="1 1 1"/></geometry></collision>
+    <inertial><mass value="0"/><inertia ixx="1.5" ixy="0" ixz="0" iyy="1.5" iyz="0" izz="1.5"/></inertial>
+  </link>
+  {wheels}
+  <gazebo>
+    <plugin name="gz::sim::systems::DiffDrive" filename="libgazebo_ros_diff_drive.so">
+      <leftJoint>left</leftJoint>
+      <rightJoint>right</rightJoint>
+      <wheelSeparation>9</wheelSeparation>
+      <nonsense>1</nonsense>
+    </plugin>
+  </gazebo>
+</robot>
+"""
+WHEEL = """<link name="{side}_wheel">
+    <visual><geometry><sphere radius="0.1"/></geometry></visual>
+    <inertial><mass value="1"/><inertia ixx="0.004" ixy="0" ixz="0" iyy="0.004" iyz="0" izz="0.004"/></inertial>
+  </link>
+  <joint name="{side}" type="continuous">
+    <parent link="base"/>
+    <child link="{side}_wheel"/>
+    <origin xyz="0 {y} 0"/>
+    <axis xyz="0 1 0"/>
+  </joint>"""
+
+
+def test_wheels_that_sink_a_mass_that_lacks_and_what_a_foreign_plugin_hides(tmp_path):
+    wheels = "\n".join((WHEEL.format(side="left", y="0.6"), WHEEL.format(side="right", y="-0.6")))
+    (tmp_path / "r.urdf").write_text(DRIVEN.format(wheels=wheels))
+
+    def serious(target):
+        return sorted(f.code for f in lint(tmp_path, target=target) if f.severity != "info")
+
+    assert serious("ros1") == ["G610", "G610", "I501", "S901", "S902", "Z805"]
+    assert serious("gz") == ["I501", "Z807"]

@@ -117,3 +117,20 @@ def _listed(text: str, start: int, indent: int) -> Iterator[Named]:
         if item is not None:
             yield Named(item[2], start + item.start(2))
         start = end
+
+
+def joints_of(source: Source, kind: Named) -> list[str]:
+    """Return the joints that stand in the same block as the type of a controller, as `typed` returns it."""
+    text = uncommented(source)
+    line = text.rfind("\n", 0, kind.start) + 1
+    indent = len(text[line:]) - len(text[line:].lstrip(" "))
+
+    def is_inside(row: str) -> bool:
+        return not row.strip() or len(row) - len(row.lstrip(" ")) >= indent
+
+    before, after = text[:line].splitlines(keepends=True), text[line:].splitlines(keepends=True)
+    above = next((number for number, row in enumerate(reversed(before)) if not is_inside(row)), len(before))
+    below = next((number for number, row in enumerate(after) if not is_inside(row)), len(after))
+    start = line - sum(len(row) for row in before[len(before) - above :])
+    end = line + sum(len(row) for row in after[:below])
+    return [named.name for named in joints(source) if start <= named.start < end]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.target import WITHOUT_CLASSIC
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -30,6 +32,35 @@ def specs(plugin: Plugin) -> list[PluginSpec]:
     from urdfkit.description.plugins.unread import tables
 
     return tables(plugin)
+
+
+def generations(plugin: Plugin) -> set[str]:
+    """Return the generations that have a plugin's library, by our tables or by its name; none where neither tells."""
+    from urdfkit.description.plugins.lookup import stem
+
+    found: set[str] = {spec.generation for spec in specs(plugin)}
+    name = stem("".join((plugin.filename or "").split()))
+    if name.startswith("gazebo_ros") and not found:
+        return {"ros1", "ros2"}
+    if name.startswith(("gz-sim", "ignition-gazebo", "gz_ros2_control", "ign_ros2_control")):
+        return {"gz"}
+    return found
+
+
+def allowed(model: Model) -> set[str]:
+    """Return the generations that a model's target has; all where it does not tell."""
+    if model.release in WITHOUT_CLASSIC:
+        return {"gz"}
+    every = {"ros1", "ros2", "gz"}
+    return {"gz": {"gz"}, "classic": {"ros1", "ros2"}, "ros1": {"ros1"}, "ros2": {"ros2", "gz"}}.get(
+        model.target or "", every
+    )
+
+
+def is_foreign(plugin: Plugin, model: Model) -> bool:
+    """Whether the target has no such plugin: then nothing of it is read, and nothing else has to be said."""
+    found = generations(plugin)
+    return bool(found) and found.isdisjoint(allowed(model))
 
 
 def spec_of(plugin: Plugin, target: str | None) -> PluginSpec | None:

@@ -165,6 +165,7 @@ AROUND: tuple[Row, ...] = (
     ("", "packaging.frame_undefined", "FrameUndefined"),
     ("", "packaging.spawned_controller_undefined", "SpawnedControllerUndefined"),
     ("", "packaging.controller_settings_misspelt", "ControllerSettingsMisspelt"),
+    ("", "packaging.controller_interface_missing", "ControllerInterfaceMissing"),
 )
 """Rules on the robot that are asked where there are launch files or YAML around it."""
 

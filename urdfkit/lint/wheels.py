@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.robot import Cylinder, Sphere
 from urdfkit.lint.edits import nearest, new_text
-from urdfkit.lint.gazebo import plugins, spec_of
+from urdfkit.lint.gazebo import is_foreign, plugins, spec_of
 from urdfkit.lint.placement import Frame, rotation, shapes_of, turned
 from urdfkit.record import record
 
@@ -62,7 +62,7 @@ def drives(model: Model) -> Iterator[TwoSided]:
     """Yield every drive of the robot that turns wheels on two sides, all of which are there."""
     for plugin, _, _ in plugins(model.robot):
         spec = spec_of(plugin, model.target)
-        if spec is None or spec.kind not in _SIDES:
+        if spec is None or spec.kind not in _SIDES or is_foreign(plugin, model):
             continue
         left, right = (
             [wheel for meaning in side for wheel in _wheels(model, plugin, spec, meaning)] for side in _SIDES[spec.kind]

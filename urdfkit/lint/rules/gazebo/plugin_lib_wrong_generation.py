@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.gazebo import plugins, specs
+from urdfkit.lint.gazebo import allowed, is_foreign, plugins, specs
 from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.target import WITHOUT_CLASSIC
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -62,24 +61,15 @@ class PluginLibWrongGeneration(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each library of another generation."""
         from urdfkit.description.plugins import ALL_SPECS
-        from urdfkit.description.plugins.lookup import stem
 
         for plugin, _, _ in plugins(model.robot):
-            name = stem("".join((plugin.filename or "").split()))
-            generations = {spec.generation for spec in specs(plugin)}
-            if name.startswith("gazebo_ros") and not generations:
-                generations = {"ros1", "ros2"}
-            elif name.startswith(("gz-sim", "ignition-gazebo", "gz_ros2_control", "ign_ros2_control")):
-                generations = {"gz"}
-            wanted = {"gz": {"gz"}, "classic": {"ros1", "ros2"}, "ros1": {"ros1"}, "ros2": {"ros2", "gz"}}
-            allowed = {"gz"} if model.release in WITHOUT_CLASSIC else wanted[model.target or "gz"]
-            if not generations or not generations.isdisjoint(allowed):
+            if not is_foreign(plugin, model):
                 continue
             kinds = {spec.kind for spec in specs(plugin)}
             instead = {
                 file
                 for spec in ALL_SPECS
-                if spec.kind in kinds and spec.generation in allowed
+                if spec.kind in kinds and spec.generation in allowed(model)
                 for file in spec.filenames
             }
             yield self.at(

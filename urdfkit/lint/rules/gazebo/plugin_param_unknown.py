@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import new_tag
-from urdfkit.lint.gazebo import plugins, spec_of
+from urdfkit.lint.gazebo import is_foreign, plugins, spec_of
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -64,7 +64,7 @@ class PluginParamUnknown(RobotRule):
         from urdfkit.description.plugins.unread import unread
 
         for plugin, _, _ in plugins(model.robot):
-            spec = spec_of(plugin, model.target)
+            spec = spec_of(plugin, model.target) if not is_foreign(plugin, model) else None
             for each in unread(plugin, spec) if spec is not None else ():
                 if each.promised:
                     yield self.at(model, each.element, each.message, severity="info")

@@ -19,7 +19,8 @@ class MassNonpositive(RobotRule):
 
     ## What it does
     Looks for ``<mass>`` below zero, and for a mass of zero where a link is moved by a joint and no link fixed to it
-    has one. The latter is a warning for robots that are not simulated.
+    has one, or where a link with shapes that is fixed to no other has an inertia beside it. Zero is a warning
+    for robots that are not simulated.
 
     ## Why is this bad?
     Simulators divide by the mass. check_urdf accepts it, Gazebo drops the link, MuJoCo refuses the model.
@@ -55,6 +56,7 @@ class MassNonpositive(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each mass that cannot be."""
         moved: dict[str, str] | None = None
+        fixed = {joint.child for joint in model.robot.joints if joint.type == "fixed"}
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None
             if link.inertial is None or mass is None or mass > 0.0:
@@ -62,6 +64,18 @@ class MassNonpositive(RobotRule):
             element = link.inertial.element.find("mass") or link.inertial.element
             if mass < 0.0:
                 yield self.at(model, element, f"mass of link `{link.name}` is negative: {mass:g} kg", link=link.name)
+                continue
+            tensor = link.inertial.inertia
+            is_turned = tensor is not None and min(tensor.ixx, tensor.iyy, tensor.izz) > 0.0
+            if is_turned and (link.visuals or link.collisions) and link.name not in fixed:
+                yield self.at(
+                    model,
+                    element,
+                    f"link `{link.name}` has an inertia and no mass",
+                    attribute="value",
+                    link=link.name,
+                    severity=None if is_simulated(model) else "warning",
+                )
                 continue
             if moved is None:
                 bodies = massless(model.robot, floating=False)
