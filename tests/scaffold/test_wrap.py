@@ -283,3 +283,39 @@ def test_a_robot_of_plain_shapes_is_drawn(tmp_path, monkeypatch):
         env={**os.environ, "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"},
     )  # fmt: skip
     assert done.returncode == 0, done.stdout
+
+
+def test_without_ros_it_is_the_description_alone(export, monkeypatch):
+    assert main(["import", "export/urdf/arm.urdf", "--ros", "none", "--into", "src"]) == 0
+    src = export.parent / "src"
+    assert [path.name for path in src.iterdir() if path.is_dir() and path.name[0] != "."] == ["my_arm_description"]
+    package = src / "my_arm_description"
+    assert {path.name for path in package.iterdir()} == {
+        "meshes", "urdf", "test", "README.md", "LICENSE", ".gitignore"
+    }  # fmt: skip
+    monkeypatch.chdir("/")
+    robot = load(package / "urdf/my_arm.urdf.xacro")
+    assert [finding for finding in lint([src]) if finding.severity == "error"] == []
+    Simulator(robot, note=lambda _: None).run(0.05)
+    assert main(["view", str(package), "--html", str(export / "page.html"), "-q"]) == 0
+
+
+@pytest.mark.parametrize("ros", ["jazzy", "noetic", "none"])
+def test_names_that_a_uri_would_have_to_escape(export, ros):
+    """Exporters take the names of parts as they are; who reads URIs does not agree on blanks, ``#`` and ``%``."""
+    (export / "meshes/Arm, v2 & #1 100%.STL").write_bytes(stl())
+    uri = "package://my_arm/meshes/Arm, v2 &amp; #1 100%.STL"
+    file = export / "urdf/arm.urdf"
+    file.write_text(file.read_text().replace("../meshes/fine/link1.stl", uri))
+    assert main(["import", "export/urdf/arm.urdf", "--ros", ros, "--into", "src"]) == 0
+    package = export.parent / "src/my_arm_description"
+    assert sorted(path.name for path in (package / "meshes").iterdir()) == ["Arm_v2_1_100_.STL", "base_link.STL"]
+    robot = load(package / "urdf/my_arm.urdf.xacro", package_path=[package.parent])
+    Simulator(robot, note=lambda _: None).run(0.01)
+
+
+def test_what_its_own_test_will_say_is_told(export, capsys):
+    assert main(["import", "export/urdf/arm.urdf", "--into", "src"]) == 0
+    said = capsys.readouterr().out
+    assert "left: 1 × I507" in said
+    assert "the package's own test of the linter fails until these are mended" in said

@@ -24,7 +24,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("file", metavar="FILE", help="the URDF; it is only read")
     parser.add_argument("--name", help="what the packages' names begin with (default: the robot's)")
-    parser.add_argument("--ros", default="jazzy", help="ROS distribution: humble, jazzy, kilted, lyrical or noetic")
+    parser.add_argument(
+        "--ros", default="jazzy", help="ROS distribution: humble, jazzy, kilted, lyrical, noetic, or none"
+    )
     parser.add_argument("--into", metavar="DIR", default=".", help="folder to write to (default: where you stand)")
     parser.add_argument(
         "--meshes", action="append", default=[], metavar="DIR", help="look for meshes here first (repeatable)"
@@ -56,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
     given = identity(template)
     for name in ("ros", "maintainer", "email", "license"):
         if (value := getattr(arguments, name)) is not None:
-            given[name] = template.question(name).accept(value)
+            given[name] = value if (name, value) == ("ros", "none") else template.question(name).accept(value)
     name = _name(template, arguments.name, file)
     folders = [_folder(word) for word in arguments.meshes]
     given |= {"year": str(datetime.now(timezone.utc).year), "into": Path(arguments.into).as_posix()}
@@ -136,4 +138,6 @@ def _mended(stage: Path) -> Sequence[str]:
     said += [
         f"left: {count} × {code}, e.g. line {first[code].line}: {first[code].message}" for code, count in codes.items()
     ]
+    if left:
+        said.append("the package's own test of the linter fails until these are mended, or ignored with a comment")
     return said

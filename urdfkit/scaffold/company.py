@@ -18,12 +18,13 @@ FOLDER = "company/"
 """Of the layers that go with any robot."""
 
 
-def company(origin: str, *, repository: bool) -> Template:
+def company(origin: str, *, repository: bool, licensed: bool) -> Template:
     """Return the part of the template of new robots that goes with any robot.
 
     Args:
         origin: what the README says the robot is.
         repository: whether what lies beside the packages belongs to it.
+        licensed: whether its packages have their licenses.
     """
     whole = load_template(templates_dir() / "robot")
     beside = f"{FOLDER}repository/"
@@ -31,8 +32,10 @@ def company(origin: str, *, repository: bool) -> Template:
         layer
         for layer in whole.layers
         if layer.folder.startswith(FOLDER) and (repository or not layer.folder.startswith(beside))
-        # The license goes with the repository; each package has its own already.
-    ] + [layer for layer in whole.layers if repository and layer.folder.startswith("licenses/") and layer.spare]
+    ]
+    for layer in whole.layers:
+        if layer.folder.startswith("licenses/") and (repository if layer.spare else not licensed):
+            layers.append(layer)
     words = tuple(
         replace(word, says={**word.says, "none": origin}) if word.name == "drive_in_words" else word
         for word in whole.words
@@ -62,7 +65,7 @@ def accompany(
     Raises:
         ResourceError: it cannot be written.
     """
-    template = company(origin, repository=repository)
+    template = company(origin, repository=repository, licensed=given["ros"] != "none")
     asked = {question.name for question in template.questions}
     mine = {key: value for key, value in given.items() if key in asked}
     answers = template.answers({**mine, "name": name, "drive": "none", "repository": "yes" if repository else "no"})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from html import unescape
 from pathlib import Path, PurePosixPath
 
 from urdfkit.description.packages import Packages
@@ -45,16 +46,16 @@ class Meshes:
         """Return the URI of a file in the new package; as it was where the file is not found.
 
         Args:
-            written: the URI as written.
-            package: the name of the new package.
+            written: the URI as written in XML.
+            package: the name of the new package; empty: relative to a folder beside ``meshes``.
         """
-        source = self._find(written)
+        source = self._find(unescape(written))
         if source is None:
             self.missing += [written] if written not in self.missing else []
             return written
         if source not in self.copies:
-            self._add(source, _place(written))
-        return f"package://{package}/{self.copies[source]}"
+            self._add(source, _place(unescape(written)))
+        return f"package://{package}/{self.copies[source]}" if package else f"../{self.copies[source]}"
 
     def copy(self, package: Path) -> None:
         """Copy the files into the new package.
@@ -125,8 +126,11 @@ def _tail(uri: str) -> PurePosixPath:
 
 
 def _place(uri: str) -> str:
-    """Return where a file goes: below ``meshes``, with the folders that it had below one of that name."""
-    parts = [part for part in _tail(uri).parts if part not in (".", "..")]
+    """Return where a file goes: below ``meshes``, with the folders that it had below one of that name.
+
+    Blanks, commas, ``#``, ``%`` and what else a URI has to escape become ``_``: not everybody escapes alike.
+    """
+    parts = [re.sub(r"[^\w.+-]+", "_", part, flags=re.ASCII) for part in _tail(uri).parts if part not in (".", "..")]
     named = [index for index, part in enumerate(parts[:-1]) if part.lower() in _FOLDER_NAMES]
     return str(PurePosixPath("meshes", *(parts[named[-1] + 1 :] if named else parts[-1:])))
 

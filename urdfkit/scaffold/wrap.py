@@ -16,6 +16,7 @@ from urdfkit.resources import templates_dir
 from urdfkit.scaffold.company import accompany, told_to_test
 from urdfkit.scaffold.computed import computed
 from urdfkit.scaffold.drawing import drawing_of
+from urdfkit.scaffold.filling import fill
 from urdfkit.scaffold.meshes import URI, Meshes
 from urdfkit.scaffold.new import is_fresh, made
 from urdfkit.scaffold.reading import load_template
@@ -58,7 +59,8 @@ def wrap(
         file: the URDF.
         name: what the packages' names begin with.
         folder: to write to; made if it is not there.
-        answers: to the questions of the template of packages: ros, maintainer, email, license; and year, into.
+        answers: to the questions of the template of packages: ros (or none: the description alone), maintainer, email,
+            license; and year, into.
         mesh_folders: where to look for meshes first.
         mend: is given the folder with the packages before they are moved, may change them, and says what it did.
         repository: whether to write CI and the like beside the packages; None: where the folder is new, empty or a
@@ -68,12 +70,13 @@ def wrap(
         ResourceError: a mesh is not found, a package is there already, or something cannot be read or written.
         DescriptionError: the file is no robot.
     """
-    folder_names = [f"{name}_{kind}" for kind in KINDS]
+    kinds = KINDS if answers["ros"] != "none" else KINDS[:1]
+    folder_names = [f"{name}_{kind}" for kind in kinds]
     for target in (folder / each for each in folder_names):
         if target.exists() or target.is_symlink():
             raise ResourceError(f"{target} is already there; nothing is overwritten")
     meshes = Meshes(file, mesh_folders)
-    content = rewritten(_read(file), meshes, f"{name}_description")
+    content = rewritten(_read(file), meshes, f"{name}_description" if len(kinds) > 1 else "")
     if meshes.missing:
         more = f" and {len(meshes.missing) - 1} more" if len(meshes.missing) > 1 else ""
         raise ResourceError(f"{file}: no file for `{meshes.missing[0]}`{more}; nothing was written: --meshes DIR?")
@@ -82,8 +85,9 @@ def wrap(
     with made(folder), staging(folder) as stage:
         model = stage / f"{name}_description/urdf/{name}.urdf.xacro"
         given = {"model": model.name, "folders": " meshes" if meshes.copies else ""}
-        for kind in KINDS:
+        for kind in kinds:
             _render(stage, kind, name, {**answers, **given, "root": "base_link"})
+        model.parent.mkdir(parents=True, exist_ok=True)
         model.write_bytes(content)
         meshes.copy(stage / f"{name}_description")
         said = list(mend(stage))
@@ -104,7 +108,7 @@ def rewritten(content: bytes, meshes: Meshes, package: str) -> bytes:
     Args:
         content: of the file.
         meshes: finds them.
-        package: the name of the new package.
+        package: the name of the new package; empty: they are relative to the file.
     """
     text = content.decode("utf-8", "surrogateescape")
     text = URI.sub(lambda match: f"{match[1]}{match[2]}{meshes.uri(match[3], package)}{match[2]}", text)
@@ -113,6 +117,12 @@ def rewritten(content: bytes, meshes: Meshes, package: str) -> bytes:
 
 def _render(stage: Path, kind: str, name: str, answers: Mapping[str, str]) -> None:
     template = load_template(templates_dir() / "package")
+    if answers["ros"] == "none":
+        readme = template.folder / "readme/no-ros/README.md"
+        (stage / f"{name}_{kind}").mkdir()
+        text = fill(readme.read_text(encoding="utf-8"), {"name": f"{name}_{kind}", "robot": name}, where=str(readme))
+        (stage / f"{name}_{kind}/README.md").write_text(text, encoding="utf-8")
+        return
     asked = {question.name for question in template.questions}
     given = {key: value for key, value in answers.items() if key in asked}
     full = template.answers({**given, "name": f"{name}_{kind}", "kind": kind})
