@@ -38,6 +38,9 @@ _HARMLESS = (  # noqa: SIM905
 ).split()
 
 
+_SMALL = 1 << 62
+"""Integers between its negative and this need no guard."""
+
 _PLAIN = re.compile(r"[-\w.\s/>='\"]{0,200}").fullmatch
 """Expressions in which nothing can grow: names, numbers, texts, division, differences, comparisons."""
 
@@ -154,6 +157,7 @@ class Evaluator:
         kind = type(value)
         # Most of what comes out is a number or a name.
         is_small = kind is float or kind is bool or (kind is str and len(value) < 64)
+        is_small = is_small or (kind is int and -_SMALL < value < _SMALL)
         return value if is_small else self.bounds.checked(value)
 
     def count(self, text: str) -> None:

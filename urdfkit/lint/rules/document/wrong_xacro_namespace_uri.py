@@ -55,14 +55,16 @@ class WrongXacroNamespaceUri(SourceRule):
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
         """Yield a finding where the root element binds the prefix to another address."""
-        root = document.root if "xmlns:xacro" in document.source.text else None
+        text = document.source.text
+        if text.count("xmlns:xacro") == text.count(f'xmlns:xacro="{NAMESPACE}"'):
+            return
+        root = document.root
         if root is None:
             return
         written = root.attributes.get("xmlns:xacro")
         if written is None or _is_right(written.value):
             return
         span = document.source.span(written.value_start, written.value_end)
-        text = document.source.text
         yield self.at(
             model,
             document.source.position(root.start),
