@@ -25,7 +25,7 @@ def new(name, *options):
 @pytest.mark.ros
 def test_catkin(workspace, debian):
     for kind in KINDS:
-        assert new(f"scout_{kind}", "--kind", kind, "--ros", "noetic", "--depends", "roscpp,std_msgs") == 0
+        assert new(f"scout_{kind}", "--kind", kind, "--ros", "noetic", "--depends", "std_msgs,roscpp,nav_msgs") == 0
     assert "found 0 problems" in debian("catkin_lint -W2 --strict --offline src")
     debian("catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3 install")
     found = debian(". install/setup.bash; for p in plain bringup; do rospack find scout_$p; done")

@@ -35,7 +35,7 @@ def _package(answers: Mapping[str, str]) -> dict[str, str]:
         "control": f"The controllers of the robot {robot}.",
         "bringup": f"One launch file that starts all of the robot {robot}.",
     }
-    lines = "".join(f"\n  {package}" for package in depends)
+    lines = "".join(f"\n  {package}" for package in sorted(depends))  # as catkin_lint wants it
     return {
         "robot": robot,
         "namespace": robot,
