@@ -10,7 +10,7 @@ from urdfkit.errors import ResourceError
 from urdfkit.lint import lint
 from urdfkit.scaffold.boxes import Boxes, gap
 from urdfkit.scaffold.free_place import Part, free_place, inside, spot
-from urdfkit.scaffold.mounting import mount
+from urdfkit.scaffold.mounting import mount, written
 
 BASE = ((-0.2, -0.15, 0.0), (0.2, 0.15, 0.1))
 CUBE = ((-0.05, -0.05, -0.05), (0.05, 0.05, 0.05))
@@ -115,6 +115,10 @@ def test_on_a_link_of_several_shapes_it_stands_on_what_is_below_it():
     assert spot([BASE, tower], PART) == (0, 0, 0.15)
     x, _, z = free_place([BASE, tower], [((-0.1, -0.15, 0.1), (0.2, 0.15, 0.2))], PART)
     assert (x, z) == (-0.15, 0.55)
+
+
+def test_numbers_are_written_without_a_negative_zero():
+    assert written((-0.0, 0.15, -0.2)) == "0 0.15 -0.2"
 
 
 def test_on_a_frame_it_goes_up_until_nothing_is_there():

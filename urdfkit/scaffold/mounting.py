@@ -79,7 +79,7 @@ def mount(robot: Robot, link: Link, part: Part, xyz: Vector | None) -> tuple[Vec
 
 def written(values: Vector) -> str:
     """Return three numbers as they are written in an attribute."""
-    return " ".join(f"{value:.6g}" for value in values)
+    return " ".join(f"{value + 0.0:.6g}" for value in values)  # no -0
 
 
 def _listed(robot: Robot) -> str:
