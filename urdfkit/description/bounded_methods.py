@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable
 from types import GeneratorType
 
-from urdfkit.description.bounds import check_characters, check_widths, steps_of
+from urdfkit.description.sizes import check_characters, check_widths, steps_of
 from urdfkit.description.too_large import MAX_BITS, MAX_CHARACTERS, TooLarge, excess
 
 TYPE_CHECKING = False
@@ -48,13 +48,14 @@ def check_method(bounds: Bounds, owner: Any, name: str, args: tuple[Any, ...], n
     numbers = [x for x in (*args, *named.values()) if isinstance(x, int)]
     if name in _PADDING:
         check_characters(max(numbers, default=0))
-    elif name == "expandtabs":
-        check_characters(len(owner) + owner.count("\t") * max([8, *numbers]))  # type: ignore[union-attr,arg-type]
+    elif name == "expandtabs" and not isinstance(owner, int):
+        tabs = owner.count("\t") if isinstance(owner, str) else owner.count(b"\t")
+        check_characters(len(owner) + tabs * max([8, *numbers]))
     elif name == "replace" and len(args) > 1 and isinstance(owner, str):
         check_characters(len(owner) + owner.count(args[0]) * len(args[1]))
-    elif name == "join" and args:
+    elif name == "join" and args and not isinstance(owner, int):
         items = list(bounds.each(args[0]))
-        check_characters(sum(len(x) for x in items if isinstance(x, (str, bytes))) + len(owner) * len(items))  # type: ignore[arg-type]
+        check_characters(sum(len(x) for x in items if isinstance(x, (str, bytes))) + len(owner) * len(items))
         return (items,)
     elif name == "translate" and args and isinstance(owner, str):
         values = args[0].values() if isinstance(args[0], dict) else ()
@@ -92,7 +93,7 @@ def check_format(bounds: Bounds, text: str, sign: str, values: Iterable[Any], is
         check_characters(text.count(sign) * longest // 2)
 
 
-def replaced(bounds: Bounds, function: Any, args: tuple[Any, ...]) -> Callable[..., Any]:
+def replaced(bounds: Bounds, function: Callable[..., Any], args: tuple[Any, ...]) -> Callable[..., Any]:
     """Return a function of Python, or what does the same by guarded steps.
 
     Args:
@@ -115,7 +116,7 @@ def replaced(bounds: Bounds, function: Any, args: tuple[Any, ...]) -> Callable[.
         raise TooLarge(f"it asks for {name}() of more than {_MAX_FACTORIAL:,}")
     if name == "round" and len(args) > 1 and isinstance(args[0], int) and whole and whole[-1] > _MAX_DIGITS:
         raise TooLarge(f"it rounds to more than {_MAX_DIGITS:,} digits")
-    return function  # type: ignore[no-any-return]
+    return function
 
 
 def _folded(operation: Callable[[Any, Any], Any], items: Iterable[Any], start: Any) -> Any:

@@ -11,12 +11,11 @@ import operator
 from collections.abc import Callable, Iterable, Iterator
 from types import BuiltinFunctionType, FunctionType, GeneratorType, GenericAlias, MethodDescriptorType, ModuleType
 
+from urdfkit.description.sizes import CONTAINERS, TEXTS, check_characters, check_widths, steps_of
 from urdfkit.description.too_large import (
     MAX_BITS,
     MAX_CALLS_DEEP,
-    MAX_CHARACTERS,
     MAX_ELEMENTS,
-    MAX_NESTING,
     MAX_STEPS,
     TooLarge,
     endless,
@@ -27,9 +26,6 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-_TEXTS = (str, bytes, bytearray)
-_VIEWS: tuple[type, ...] = (type({}.keys()), type({}.values()), type({}.items()))
-_CONTAINERS = (list, tuple, set, frozenset, dict, *_VIEWS)
 _CALLING = (map, filter, min, max, sorted)
 _EAGER = (map, filter, zip, enumerate, reversed)
 _CONVERSIONS: dict[int, Callable[[Any], str]] = {115: str, 114: repr, 97: ascii}
@@ -84,7 +80,7 @@ class Bounds:
         if kind is int:
             if value.bit_length() > MAX_BITS:
                 raise excess("an integer", MAX_BITS, "bits")
-        elif isinstance(value, (*_TEXTS, *_CONTAINERS, range)):
+        elif isinstance(value, (*TEXTS, *CONTAINERS, range)):
             self.spend(steps_of(value))
         elif kind is GenericAlias:
             raise TooLarge("types of types are not for descriptions")
@@ -137,10 +133,10 @@ class Bounds:
         return a * b
 
     def _repeat(self, value: Any, count: int) -> None:
-        if count > 0 and isinstance(value, _TEXTS):
+        if count > 0 and isinstance(value, TEXTS):
             check_characters(len(value) * count)
             self.spend(1 + (len(value) * count >> 3))
-        elif count > 0 and isinstance(value, _CONTAINERS):
+        elif count > 0 and isinstance(value, CONTAINERS):
             if (steps := steps_of(value) * count) > MAX_ELEMENTS:
                 raise excess("lists", MAX_ELEMENTS, "elements in all")
             self.spend(steps)
@@ -188,7 +184,7 @@ class Bounds:
         if kind is not BuiltinFunctionType:
             return self.checked(function(*args, **named))
         for argument in args:
-            if isinstance(argument, (*_TEXTS, list, tuple, dict)):
+            if isinstance(argument, (*TEXTS, list, tuple, dict)):
                 self.spend(len(argument) >> 3)
         owner, name = function.__self__, function.__name__
         if not isinstance(owner, ModuleType):
@@ -196,7 +192,7 @@ class Bounds:
 
             args = check_method(self, owner, name, args, named)
             value = function(*self._watched(args, name), **self._watched_by_name(named, name))
-            if value is None and isinstance(owner, _CONTAINERS) and any(isinstance(x, _CONTAINERS) for x in args):
+            if value is None and isinstance(owner, CONTAINERS) and any(isinstance(x, CONTAINERS) for x in args):
                 self.checked(owner)
             return self.checked(value)
         if function in (min, max, sorted):
@@ -226,7 +222,7 @@ class Bounds:
         if kind in _CALLING:
             args = self._watched(args, "sorted")
         for argument in args:
-            if isinstance(argument, (*_TEXTS, *_CONTAINERS)):
+            if isinstance(argument, (*TEXTS, *CONTAINERS)):
                 self.spend(steps_of(argument))
         value = kind(*args, **named)
         if kind in _EAGER:
@@ -258,63 +254,3 @@ class Bounds:
             return self.checked(operation(self.checked(a), self.checked(b)))
 
         return count
-
-
-def steps_of(value: Any) -> int:
-    """Return how many steps a value is, with everything in it.
-
-    Raises:
-        TooLarge: it has too many characters or elements, or is nested too deep.
-    """
-    total = 0
-    level = [value]
-    for _ in range(MAX_NESTING):
-        below: list[Any] = []
-        for one in level:
-            total += 1
-            if isinstance(one, _TEXTS):
-                check_characters(len(one))
-                total += len(one) >> 3
-            elif isinstance(one, int):
-                total += one.bit_length() >> 8
-            elif isinstance(one, range):
-                total += len(one[: MAX_ELEMENTS + 1])
-            elif isinstance(one, _CONTAINERS):
-                items: list[Any] = items_of(one)
-                if total + len(below) + len(items) > MAX_ELEMENTS:
-                    raise excess("lists", MAX_ELEMENTS, "elements in all")
-                below += items
-            if total > MAX_ELEMENTS:
-                raise excess("lists", MAX_ELEMENTS, "elements in all")
-        if not below:
-            return total
-        level = below
-    raise TooLarge(f"it makes lists nested more than {MAX_NESTING} deep")
-
-
-def items_of(container: Any) -> list[Any]:
-    """Return what is in a container, not what xacro wraps it in on being asked."""
-    if isinstance(container, dict):
-        return [*dict.keys(container), *dict.values(container)]
-    return list(list.__iter__(container)) if isinstance(container, list) else list(container)
-
-
-def check_characters(count: int) -> None:
-    """Refuse a text that is too long.
-
-    Raises:
-        TooLarge: it is.
-    """
-    if count > MAX_CHARACTERS:
-        raise excess("a text", MAX_CHARACTERS, "characters")
-
-
-def check_widths(text: str) -> None:
-    """Refuse a format that asks for too many characters.
-
-    Raises:
-        TooLarge: it does.
-    """
-    import re
-
-    check_characters(sum(int(digits[:9]) for digits in re.findall(r"\d+", text)))
