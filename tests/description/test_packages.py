@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfkit.description import packages as room
+from urdfkit.description import crawling as room
 from urdfkit.description.packages import Packages
 from urdfkit.errors import ResourceError
 from urdfkit.resources import robots_dir

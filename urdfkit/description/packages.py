@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
+from urdfkit.description.crawling import package_name, packages_below, share_folders, workspace
 from urdfkit.description.reading import absolute
 from urdfkit.errors import ResourceError, did_you_mean
 
-_NAME = re.compile(r"<name>\s*([^<\s]+)\s*</name>")
-_SKIPPED = {"build", "install", "devel", "log", "node_modules", "__pycache__", "site-packages"}
-_IGNORE_MARKS = {"CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE", "NO_SUBMODULES"}
-_WORKSPACE_MARKS = {".git", ".catkin_workspace", ".catkin_tools", ".colcon", ".hg", "colcon.meta"}
-_MAX_DEPTH = 5
-_MAX_FOLDERS = 5_000
 _PREFIX_VARIABLES = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH")
 _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH", "SDF_PATH")
 
@@ -181,7 +175,7 @@ class Packages:
             if folder is None:
                 continue
             direct = folder / name
-            if _package_name(direct) == name or (direct / "model.config").is_file():
+            if package_name(direct) == name or (direct / "model.config").is_file():
                 return direct
             if (found := self._crawl(folder).get(name)) is not None:
                 return found
@@ -196,18 +190,18 @@ class Packages:
     def _places(self) -> Iterator[Path | None]:
         """Yield the folders to look in, best first; each is scanned only when the ones before did not do."""
         for folder in self.search:
-            yield from (folder, *_share(folder))
+            yield from (folder, *share_folders(folder))
         if (package := self._enclosing_package()) is not None:
-            self._seen[_package_name(package) or package.name] = package
+            self._seen[package_name(package) or package.name] = package
             yield package
             yield package.parent
-            yield self._workspace(package)
+            yield workspace(package)
             for level in (package, *package.parents[:4]):
-                yield from (*_share(level / "install"), *_share(level / "devel"))
+                yield from (*share_folders(level / "install"), *share_folders(level / "devel"))
         yield from self._listed("ROS_PACKAGE_PATH")
         for variable in _PREFIX_VARIABLES:
             for prefix in self._listed(variable):
-                yield from _share(prefix)
+                yield from share_folders(prefix)
         for variable in _MODEL_VARIABLES:
             yield from self._listed(variable)
         yield _shipped_robots()
@@ -219,7 +213,7 @@ class Packages:
         places = ["--package-path"] if self.search else []
         package = self._enclosing_package()
         if package is not None:
-            places.append(f"the workspace {self._workspace(package) or package.parent}")
+            places.append(f"the workspace {workspace(package) or package.parent}")
         elif self.near is not None:
             places.append(f"the folders around {self.near}")
         places += [v for v in ("ROS_PACKAGE_PATH", *_PREFIX_VARIABLES, *_MODEL_VARIABLES) if self._listed(v)]
@@ -230,32 +224,9 @@ class Packages:
             return None
         return next((f for f in (self.near, *self.near.parents) if (f / "package.xml").is_file()), None)
 
-    def _workspace(self, package: Path) -> Path | None:
-        """Return the folder of the workspace's sources: ``src`` above the package, or the top of the repository."""
-        for folder in package.parents[:6]:
-            if folder == Path.home() or folder == folder.parent:
-                return None
-            if folder.name == "src":
-                return folder
-            if any((folder / mark).exists() for mark in _WORKSPACE_MARKS):
-                return folder / "src" if (folder / "src").is_dir() else folder
-        return None
-
     def _crawl(self, top: Path) -> dict[str, Path]:
-        """Return the packages in and below a folder, by name; does not look inside packages, as catkin and colcon."""
         if top not in self._crawled:
-            found: dict[str, Path] = {}
-            budget = _MAX_FOLDERS
-            level = [top]
-            for _ in range(_MAX_DEPTH + 1):
-                below: list[Path] = []
-                for folder in level:
-                    budget -= 1
-                    if budget < 0:
-                        break
-                    below += _enter(folder, found)
-                level = below
-            self._crawled[top] = found
+            self._crawled[top] = found = packages_below(top)
             for name, folder in found.items():
                 self._seen.setdefault(name, folder)
         return self._crawled[top]
@@ -271,46 +242,6 @@ def near_path(path: Path) -> str:
     except OSError:
         return ""
     return did_you_mean(missing.name, names)
-
-
-def _enter(folder: Path, found: dict[str, Path]) -> list[Path]:
-    """Note the package a folder is, or return the folders in it that are worth a look."""
-    try:
-        with os.scandir(folder) as entries:
-            children = sorted(entries, key=lambda entry: entry.name)
-    except OSError:
-        return []
-    names = {child.name for child in children}
-    if names & _IGNORE_MARKS:
-        return []
-    if "package.xml" in names:
-        found.setdefault(_package_name(folder) or folder.name, folder)
-        return []
-    if "model.config" in names:
-        found.setdefault(folder.name, folder)
-        return []
-    return [
-        Path(child.path)
-        for child in children
-        if child.name not in _SKIPPED and not child.name.startswith(".") and child.is_dir(follow_symlinks=False)
-    ]
-
-
-def _package_name(folder: Path) -> str | None:
-    try:
-        manifest = (folder / "package.xml").read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return None
-    written = _NAME.search(manifest)
-    return written[1] if written else folder.name
-
-
-def _share(prefix: Path) -> list[Path]:
-    """Return the share folders of an install prefix, merged or isolated (colcon)."""
-    if not prefix.is_dir():
-        return []
-    isolated = [child / "share" for child in sorted(prefix.iterdir()) if (child / "share").is_dir()]
-    return [share for share in (prefix / "share", *isolated) if share.is_dir()]
 
 
 def _shipped_robots() -> Path | None:
