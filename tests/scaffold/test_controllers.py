@@ -372,6 +372,17 @@ def test_a_plugin_whose_file_is_not_there_is_told_of(place, capsys):
     assert "config/none.yaml, which is not there" in said
 
 
+def test_controllers_of_another_robot_are_none_of_ours(place):
+    robot(place, CHAIN, "catkin")
+    assert new() == 0
+    (place / "rover_description").rename(place / "other_description")
+    (place / "rover_control").rename(place / "other_control")
+    folder = robot(place, CHAIN + transmissions("Effort", ["shoulder_joint", "elbow_joint"]), "catkin")
+    assert new() == 0
+    assert (place / "rover_control/config/controllers.yaml").is_file()
+    assert clean(folder) == []
+
+
 def test_wheels_that_are_told_efforts_are_no_drive(place, capsys):
     robot(place, ROVER + CHAIN + transmissions("Effort", ["left_joint", "right_joint"], "<a/>"), "catkin")
     assert new() == 0

@@ -10,7 +10,7 @@ from pathlib import Path
 from urdfkit.description.control import Settings, read_settings
 from urdfkit.description.robot import Plugin, Robot
 from urdfkit.errors import UrdfkitError
-from urdfkit.scaffold.manifest import package_of
+from urdfkit.scaffold.manifest import needs, package_of
 
 KINDS = ("position", "velocity", "effort")
 """What a joint can be told; of several, the first."""
@@ -84,11 +84,21 @@ def _named(parameters: str | None) -> list[Path]:
 
 
 def _around(path: Path) -> list[Path]:
+    """Return the YAML of the package that a file is in, and of those beside it that are of the same robot.
+
+    Those are called alike, need it, or it needs them.
+    """
     package = package_of(path)
     if package is None:
         return []
-    beside = (folder for folder in sorted(package.parent.glob("*/")) if (folder / "package.xml").is_file())
-    return [file for folder in (package, *beside) for file in sorted(folder.glob("config/*.y*ml"))]
+    own, stem = needs(package), package.name.removesuffix("_description")
+    beside = (folder for folder in sorted(package.parent.glob("*/")) if folder != package)
+    bound = [
+        folder
+        for folder in beside
+        if folder.name in own or folder.name.startswith(f"{stem}_") or package.name in needs(folder)
+    ]
+    return [file for folder in (package, *bound) for file in sorted(folder.glob("config/*.y*ml"))]
 
 
 def _controlled(file: Path) -> Iterator[tuple[str, str]]:

@@ -23,6 +23,15 @@ def package_of(path: Path) -> Path | None:
     return next((folder for folder in path.resolve().parents if (folder / "package.xml").is_file()), None)
 
 
+def needs(package: Path) -> set[str]:
+    """Return the packages that a package says it needs.
+
+    Args:
+        package: its folder.
+    """
+    return set(_NEEDS.findall(_text(package / "package.xml")))
+
+
 def with_dependency(package: Path, name: str, *, alone: bool = False) -> Alteration | None:
     """Return the change to package.xml that makes it need another package; None where it does already.
 
