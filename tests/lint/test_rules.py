@@ -128,11 +128,11 @@ def test_codes_and_names_are_unique_and_well_formed():
 
 @pytest.mark.parametrize("path", files("bad"))
 def test_rules_left_out_by_the_table_would_find_nothing(path, monkeypatch):
-    from urdfkit.lint import engine, rules
+    from urdfkit.lint import checker, rules
 
     few = lint(path, target=target(BY_NAME[path.parent.name]))
-    monkeypatch.setattr(engine, "source_rules", lambda _: rules.source_rules())
-    monkeypatch.setattr(engine, "robot_rules", lambda *_: rules.robot_rules())
+    monkeypatch.setattr(checker, "source_rules", lambda _: rules.source_rules())
+    monkeypatch.setattr(checker, "robot_rules", lambda *_: rules.robot_rules())
     assert lint(path, target=target(BY_NAME[path.parent.name])) == few
 
 
@@ -198,3 +198,25 @@ def test_wheels_that_sink_a_mass_that_lacks_and_what_a_foreign_plugin_hides(tmp_
 
     assert serious("ros1") == ["G610", "G610", "I501", "S901", "S902", "Z805"]
     assert serious("gz") == ["I501", "Z807"]
+
+
+def test_launch_files_in_python_are_read_and_never_run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "package.xml").write_text("<package><name>p</name></package>")
+    (tmp_path / "r.urdf").write_text('<robot name="r"><link name="a"/></robot>')
+    (tmp_path / "a.launch.py").write_text("def generate_launch_description(:\n    pass\n")
+    (tmp_path / "b.launch.py").write_text("raise SystemExit\n")
+    assert [(f.code, f.file, f.line) for f in lint(tmp_path)] == [("K964", "a.launch.py", 1)]
+
+
+def test_what_follows_from_another_defect_is_not_said(tmp_path):
+    link = '<collision><geometry><sphere radius="-1"/></geometry></collision>'
+    mass = '<inertial><mass value="1"/><inertia ixx="0.4" ixy="0" ixz="0" iyy="0.41" iyz="0" izz="0.42"/></inertial>'
+    loop = '<origin xyz="0.1 0.1 0"/><parent link="b"/><child link="b"/>'
+    (tmp_path / "r.urdf").write_text(
+        f'<robot name="r"><link name="a">{link}{mass}</link><link name="b"/>'
+        f'<joint name="j" type="fixed">{loop}</joint></robot>'
+    )
+    codes = {f.code for f in lint(tmp_path)}
+    assert codes >= {"G611", "T204"}
+    assert codes.isdisjoint({"I514", "S906"})

@@ -140,6 +140,7 @@ ROBOT: tuple[Row, ...] = (
     ("plugin sensor", "gazebo.duplicate_sensor_or_plugin", "DuplicateSensorOrPlugin"),
     ("plugin sensor", "gazebo.sensors_share_topic", "SensorsShareTopic"),
     ("gazebo", "gazebo.conflicting_blocks", "ConflictingBlocks"),
+    ("plugin sensor", "gazebo.plugin_or_sensor_unnamed", "PluginOrSensorUnnamed"),
     ("sensor", "gazebo.sensor_type_unknown", "SensorTypeUnknown"),
     ("parameters", "gazebo.plugin_file_missing", "PluginFileMissing"),
     ("sensor plugin", "gazebo.sensor_range_invalid", "SensorRangeInvalid"),
@@ -165,6 +166,7 @@ AROUND: tuple[Row, ...] = (
     ("", "packaging.frame_undefined", "FrameUndefined"),
     ("", "packaging.spawned_controller_undefined", "SpawnedControllerUndefined"),
     ("", "packaging.controller_settings_misspelt", "ControllerSettingsMisspelt"),
+    ("", "packaging.launch_not_well_formed", "LaunchNotWellFormed"),
     ("", "packaging.controller_interface_missing", "ControllerInterfaceMissing"),
 )
 """Rules on the robot that are asked where there are launch files or YAML around it."""

@@ -67,7 +67,7 @@ class MassVsVolume(RobotRule):
             if link.inertial is None or mass is None or mass <= LEAST:
                 continue
             extent = model.extents.get(link.name)
-            if extent is None or not extent.volumes:
+            if extent is None or not extent.volumes or min(extent.volumes) <= 0.0:
                 continue
             lightest, heaviest = mass / max(extent.volumes), mass / min(extent.volumes)
             if heaviest < LIGHT or lightest > HEAVY:

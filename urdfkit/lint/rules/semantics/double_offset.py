@@ -73,7 +73,7 @@ class DoubleOffset(RobotRule):
             if joint.type != "fixed" or sum(part != 0.0 for part in xyz) < 2:
                 continue
             above = model.robot.parents_of.get(joint.parent or "", [])
-            if len(above) == 1 and above[0].type == "fixed" and above[0].origin.xyz == xyz:
+            if len(above) == 1 and above[0] is not joint and above[0].type == "fixed" and above[0].origin.xyz == xyz:
                 shown = " ".join(f"{part:g}" for part in xyz)
                 yield self.at(
                     model,

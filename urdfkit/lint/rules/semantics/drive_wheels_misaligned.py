@@ -19,7 +19,7 @@ _NEAR = 0.01
 
 
 class DriveWheelsMisaligned(RobotRule):
-    """The two wheels of a drive are in one place, at two heights, or turn in opposite directions.
+    """The two wheels of a drive are one, in one place, at two heights, or turn in opposite directions.
 
     ## What it does
     Compares the joints that a drive calls left and right, wheel by wheel: where they are, how high, and where their
@@ -98,6 +98,13 @@ class DriveWheelsMisaligned(RobotRule):
             return
         for drive in drives(model):
             for left, right in zip(drive.left, drive.right, strict=True):
+                origins = (wheel.joint.element.find("origin") for wheel in (left, right))
+                if any(one is not None and any(model.is_unresolved(one, a) for a in ("xyz", "rpy")) for one in origins):
+                    continue
+                if left.joint is right.joint:
+                    message = f"the drive names `{left.joint.name}` for the left side and for the right"
+                    yield self.at(model, right.element or drive.plugin.element, message, joint=right.joint.name)
+                    continue
                 wrong = _wrong(left, right)
                 if wrong is not None:
                     yield self.at(model, right.joint.element, wrong, attribute="name", joint=right.joint.name)
@@ -105,7 +112,7 @@ class DriveWheelsMisaligned(RobotRule):
 
 def _wrong(left: Wheel, right: Wheel) -> str | None:
     """Return what is wrong with a pair of wheels; None where nothing is."""
-    if left.joint is right.joint or not (left.joint.is_movable and right.joint.is_movable):
+    if not (left.joint.is_movable and right.joint.is_movable):
         return None
     both = f"`{left.joint.name}` and `{right.joint.name}`"
     apart = [dist(one, other) for one, other in zip(left.middles, right.middles, strict=False)]

@@ -1,0 +1,57 @@
+"""Z829 plugin-or-sensor-unnamed."""
+
+from __future__ import annotations
+
+from urdfkit.lint.gazebo import plugins
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+
+class PluginOrSensorUnnamed(RobotRule):
+    """A plugin or a sensor has no name.
+
+    ## What it does
+    Looks for ``<plugin>`` and ``<sensor>`` without ``name``, or with an empty one.
+
+    ## Why is this bad?
+    "Required attribute[name] in element[plugin] is not specified in SDF": Gazebo reads nothing of the model from there
+    on, and the robot stands there without it.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="mast"/>
+      <gazebo reference="mast">
+        <sensor type="camera"/>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="mast"/>
+      <gazebo reference="mast">
+        <sensor name="eye" type="camera"/>
+      </gazebo>
+    </robot>
+    ```
+    """
+
+    code = "Z829"
+    name = "plugin-or-sensor-unnamed"
+    not_for = NOT_GAZEBO
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each of them."""
+        named = [(plugin.name, plugin.element) for plugin, _, _ in plugins(model.robot)]
+        named += [(sensor.name, sensor.element) for block in model.robot.gazebo for sensor in block.sensors]
+        for name, element in named:
+            if not (name or "").strip():
+                yield self.at(model, element, f"a <{element.tag}> has no name", help='add name="…"')
