@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from urdfkit.description.diagnosis import macro_arguments
 from urdfkit.description.faults import Fault
 
 TYPE_CHECKING = False
@@ -56,6 +55,8 @@ def fitted(node: minidom.Element, macro: Any, position_of: PositionOf) -> Iterat
     wrong = [((), (name,)) for name in unknown] + ([(missing, ())] if missing else [])
     for left_out, odd in wrong:
         position, expansions = position_of(node)
+        from urdfkit.description.diagnosis import macro_arguments  # most calls fit
+
         facts = macro_arguments(macro.body.getAttribute("name"), left_out, odd, list(macro.params))
         attribute = odd[0] if odd else None
         yield Fault(position=position, expansions=expansions, attribute=attribute, **facts)

@@ -6,7 +6,6 @@ import os
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-from urdfkit.description.crawling import package_name, packages_below, share_folders, workspace
 from urdfkit.description.reading import absolute
 from urdfkit.errors import ResourceError, did_you_mean
 
@@ -171,6 +170,8 @@ class Packages:
         raise ResourceError(f"{uri}: files are read from this machine only; use package://, model:// or a path")
 
     def _look_up(self, name: str) -> Path | None:
+        from urdfkit.description.crawling import package_name
+
         for folder in self._places():
             if folder is None:
                 continue
@@ -189,6 +190,8 @@ class Packages:
 
     def _places(self) -> Iterator[Path | None]:
         """Yield the folders to look in, best first; each is scanned only when the ones before did not do."""
+        from urdfkit.description.crawling import package_name, share_folders, workspace
+
         for folder in self.search:
             yield from (folder, *share_folders(folder))
         if (package := self._enclosing_package()) is not None:
@@ -210,6 +213,8 @@ class Packages:
         return [Path(word) for word in self._environment.get(variable, "").split(os.pathsep) if word]
 
     def _looked_in(self) -> str:
+        from urdfkit.description.crawling import workspace
+
         places = ["--package-path"] if self.search else []
         package = self._enclosing_package()
         if package is not None:
@@ -225,6 +230,8 @@ class Packages:
         return next((f for f in (self.near, *self.near.parents) if (f / "package.xml").is_file()), None)
 
     def _crawl(self, top: Path) -> dict[str, Path]:
+        from urdfkit.description.crawling import packages_below
+
         if top not in self._crawled:
             self._crawled[top] = found = packages_below(top)
             for name, folder in found.items():
