@@ -134,6 +134,7 @@ def test_a_robot_that_lies_on_hundreds_of_points_lies(tmp_path):
     assert (counts[FOUND_CONTACTS], counts[FOUND_ROWS]) == (600, 1800)
     assert engine.q[:3] == pytest.approx((0.0, 0.0, 0.0), abs=1e-6)
     assert sum(contact.force[2] for contact in engine.contacts()) == pytest.approx(5 * 9.81, rel=1e-6)
+    assert {contact.a_shape for contact in engine.contacts()} == set(range(150))
 
 
 def test_a_world_that_takes_more_memory_than_there_is_is_refused_in_a_line():
