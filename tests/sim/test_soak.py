@@ -95,3 +95,20 @@ def test_what_does_not_hold_is_seen(watched: Any) -> None:
     simulator.bodies["ball"].place((-4.0, -1.8, 0.0, 0.0, 0.0, 0.0, 1.0), (0.5, 0.0, 0.0, 0.0, 0.0, 0.0))
     watched.look(quiet=True)
     assert set(watched.found.wrong) == {"energy from nothing"}
+
+
+def test_what_a_robot_pushes_that_rolls_on_by_itself_is_no_energy_from_nothing() -> None:
+    # A drive of Gazebo's may hold its wheels to a speed that nobody commands any more.
+    simulator = Simulator("simpleton", world="house", note=lambda _: None)
+    watch = module("watch").Watch(simulator, module("found").Found("simpleton"))
+    ball = simulator.bodies["ball"]
+    x, y, _ = simulator.state.base_pose[:3]
+    ball.place((x + 0.6, y, ball.pose[2], 0.0, 0.0, 0.0, 1.0))
+    simulator.command((0.5, 0.0, 0.0), (0.0, 0.0, 0.0))
+    fastest = 0.0
+    for _ in range(40):
+        simulator.step(50)
+        watch.look(quiet=True)
+        fastest = max(fastest, abs(ball.twist[0]))
+    assert fastest > 0.3
+    assert watch.found.wrong == {}

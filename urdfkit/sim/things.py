@@ -113,7 +113,7 @@ def bodies_of_model(model: WorldModel, meshes: MeshLoader, *, is_ground: bool) -
         _, pose, link = links[0]
         pieces = tuple(
             _piece(shape, np.eye(4), name, meshes)
-            for shape in _touchable(link)
+            for shape in touchable(link)
             if not (is_ground and isinstance(shape.geometry, Plane))
         )
         if pieces or not is_ground:
@@ -130,7 +130,7 @@ def scene_of_tree(tree: Tree, meshes: MeshLoader) -> Scene:
     shapes: list[Shape] = []
     for name, link in tree.links.items():
         _require_ordinary(link, tree.name)
-        for shape in _touchable(link):
+        for shape in touchable(link):
             if isinstance(shape.geometry, Plane):
                 raise _endless(tree.name, shape)
             shapes.append(_shape(shape, f"{name}/collision/{shape.name}", name, "collision", np.eye(4), meshes))
@@ -200,7 +200,7 @@ def _merged(name: str, around: Pose, links: Sequence[Placed], meshes: MeshLoader
         masses.append(inertial.mass)
         centres.append(axes[:3, 3])
         tensors.append(axes[:3, :3] @ tensor @ axes[:3, :3].T)
-        for shape in _touchable(link):
+        for shape in touchable(link):
             if isinstance(shape.geometry, Plane):
                 raise _endless(name, shape)
             pieces.append(_piece(shape, inside, name, meshes))
@@ -244,7 +244,7 @@ def _endless(name: str, shape: WorldShape) -> SimulationError:
     )
 
 
-def _touchable(link: WorldLink) -> Iterator[WorldShape]:
+def touchable(link: WorldLink) -> Iterator[WorldShape]:
     """Yield the collisions of a link that push back."""
     for shape in link.collisions:
         if shape.surface.collide_bitmask and not shape.surface.collide_without_contact:

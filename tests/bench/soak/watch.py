@@ -31,6 +31,11 @@ ROOM = 3.0
 """How far from the walls a robot is called back, and a body has escaped [m]."""
 TIPPED = 0.5
 """Cosine of the tilt from which on a robot lies on its side."""
+RESTS = 0.1
+"""Speed [m/s, rad/s] of its base and joints below which a robot rests.
+
+One that is told to may not: the wheels of Gazebo's drives with an acceleration limit wind up where they slip.
+"""
 STIRRED = 1e-3
 """How much energy all bodies may gain in a look while the robot rests [J]."""
 GRAVITY = 9.81
@@ -62,10 +67,11 @@ class Watch:
         """Look at what can be over within a second: ways through walls, and speeds.
 
         Args:
-            quiet: nothing has been commanded for a while, so that nothing may speed up.
+            quiet: nothing has been commanded for a while, so that nothing may speed up once the robot rests.
         """
         simulator, found = self.simulator, self.found
         t = simulator.t
+        quiet = quiet and float(np.abs(simulator.state.v).max(initial=0.0)) < RESTS
         now = self._points()
         if not np.isfinite(now).all():
             found.fault("not finite", t, "a pose is not finite")

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from urdfkit.sim.engine.arrays import GUESSES
+from urdfkit.sim.engine.rows import FASTEST_RECOVERY
 
 SPEC = spec_from_file_location("worlds", Path(__file__).with_name("worlds.py"))
 worlds = module_from_spec(SPEC)
@@ -95,3 +96,19 @@ def test_a_ball_round_a_robot_throws_nothing(engine_of):
         engine.step(5)
         fastest = max(fastest, np.abs(engine.v[:3]).max(), np.abs(engine.bodies["unit_sphere"].twist[:3]).max())
     assert fastest < 1.0
+
+
+@pytest.mark.parametrize("depth", [0.18e-3, 2e-3, 0.05])
+def test_what_is_found_in_others_is_pushed_out_at_no_more_than_a_bounded_speed(engine_of, depth):
+    wall = slab("wall", (X + 0.15, 0.0, 0.5), (0.1, 2.0, 1.0), static=True)
+    pushed = [cube("in_wall", (X + depth, 0.0, 0.1)), cube("beside", (X - 0.2 + 2.0 * depth, 0.0, 0.1))]
+    engine = rover(engine_of, bodies=[wall, *pushed], sleep=False)
+    fastest = highest = 0.0
+    for _ in range(200):
+        engine.step()
+        for body in engine.bodies.values():
+            fastest = max(fastest, float(np.abs(body.twist[:3]).max()))
+            highest = max(highest, body.pose[2])
+    # The second is pushed by the first, which is pushed itself.
+    assert fastest < 2.0 * FASTEST_RECOVERY + 1e-6
+    assert highest < 0.1 + 1e-3

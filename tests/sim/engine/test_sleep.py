@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
@@ -13,8 +14,9 @@ from urdfkit.sim.engine.arrays import FOUND_CONTACTS, FOUND_ROWS
 SPEC = spec_from_file_location("worlds", Path(__file__).with_name("worlds.py"))
 worlds = module_from_spec(SPEC)
 SPEC.loader.exec_module(worlds)
-ball, cube, rover, rovers, slab, start = (
+ball, can, cube, rover, rovers, slab, start = (
     worlds.ball,
+    worlds.can,
     worlds.cube,
     worlds.rover,
     worlds.rovers,
@@ -213,3 +215,67 @@ def test_a_world_of_sleeping_robots_takes_no_rows(engine_of):
     engine.step(1000)
     assert all(robot.asleep for robot in engine.robots)
     assert engine._arrays["counts"][FOUND_ROWS] == 0
+
+
+def lying_can(name, at):
+    """A can on its side, which rolls along x."""
+    half = 0.5**0.5
+    return replace(can(name, at), pose=(*at, half, 0.0, 0.0, half))
+
+
+def test_what_rolls_down_one_degree_is_not_put_to_sleep(engine_of):
+    angle = np.radians(1.0)
+    down = (G * np.sin(angle), 0.0, -G * np.cos(angle))
+    engine = rover(engine_of, bodies=[ball("ball", (1.0, 1.0, 0.1)), lying_can("can", (1.0, 2.0, 0.05))], gravity=down)
+    engine.step(2000)
+    for name, share in (("ball", 5 / 7), ("can", 2 / 3)):
+        assert not engine.bodies[name].asleep
+        assert engine.bodies[name].pose[0] - 1.0 == pytest.approx(0.5 * share * down[0] * 4.0, rel=1e-3)
+
+
+@pytest.mark.parametrize("speed", [0.05, 0.011])
+def test_what_rolls_freely_faster_than_a_centimetre_a_second_rolls_on(engine_of, speed):
+    engine = rover(engine_of, bodies=[ball("ball", (1.0, 1.0, 0.1)), lying_can("can", (1.0, 2.0, 0.05))])
+    for name, radius in (("ball", 0.1), ("can", 0.05)):
+        body = engine.bodies[name]
+        body.place(body.pose, (speed, 0.0, 0.0, 0.0, speed / radius, 0.0))
+    engine.step(2000)
+    for name in ("ball", "can"):
+        assert engine.bodies[name].twist[0] == pytest.approx(speed, rel=1e-6)
+
+
+def test_what_rolls_slower_comes_to_rest_after_half_a_second_and_boxes_that_glide_do_not(engine_of):
+    engine = rover(engine_of, bodies=[ball("ball", (1.0, 1.0, 0.1)), cube("box", (1.0, 2.0, 0.1), mu=0.0)])
+    for name in ("ball", "box"):
+        body = engine.bodies[name]
+        body.place(body.pose, (0.008, 0.0, 0.0, 0.0, 0.08 * (name == "ball"), 0.0))
+    engine.step(499)
+    assert not sleeping(engine)
+    engine.step(1501)
+    assert sleeping(engine) == ["ball"]
+    assert engine.bodies["ball"].pose[0] == pytest.approx(1.004, abs=1e-4)
+    assert engine.bodies["box"].pose[0] == pytest.approx(1.016, abs=1e-6)
+
+
+def test_a_heap_with_balls_and_cans_comes_to_sleep(engine_of):
+    walls = [
+        slab(f"wall{k}", (3.0 + 0.225 * x, 0.225 * y, 0.25), (0.05 if x else 0.5, 0.05 if y else 0.5, 1.0), static=True)
+        for k, (x, y) in enumerate(((1, 0), (-1, 0), (0, 1), (0, -1)))
+    ]
+    makers = (lambda *a: cube(*a, side=0.1), lambda *a: ball(*a, radius=0.05), lying_can)
+    things = [
+        makers[k % 3](
+            f"b{k}", (2.93 + 0.14 * (k % 2) + 0.01 * (k % 5), -0.07 + 0.14 * (k // 2 % 2), 0.1 + 0.13 * (k // 4))
+        )
+        for k in range(16)
+    ]
+    engine = rover(engine_of, bodies=[*walls, *things])
+    for _ in range(40):
+        engine.step(250)
+        if len(sleeping(engine)) == len(things):
+            break
+    assert len(sleeping(engine)) == len(things)
+    # What falls on it wakes it.
+    engine.bodies["b0"].push((0.0, 0.0, 20.0, 0.0, 0.0, 0.0))
+    engine.step(10)
+    assert len(sleeping(engine)) < len(things)

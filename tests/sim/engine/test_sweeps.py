@@ -9,7 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from urdfkit.sim.engine.arrays import FOUND_ROWS, GUESSES
+from urdfkit.description import load
+from urdfkit.errors import SimulationError
+from urdfkit.kinematics import Kinematics
+from urdfkit.scene import scene_of
+from urdfkit.sim.engine import Engine
+from urdfkit.sim.engine.arrays import FOUND_CONTACTS, FOUND_ROWS, GUESSES, allocate
+from urdfkit.sim.engine.model import MOST_DENSE
 from urdfkit.sim.engine.world.blocks import MOST_TREES
 from urdfkit.sim.engine.world.sweeps import SWEEPS
 
@@ -95,3 +101,42 @@ def test_what_touches_with_another_feature_goes_on_with_its_impulse(engine_of):
     assert arrays["counts"][GUESSES] == 1
     again = np.array([contact.force for contact in engine.contacts() if contact.b.startswith("box")])
     assert again == pytest.approx(loads, abs=1e-9)
+
+
+def test_an_island_of_more_rows_than_have_room_for_their_matrix_is_swept(engine_of):
+    grid = [cube(f"c{k}", (X + 0.25 * (k % 11), 0.25 * (k // 11), 0.1)) for k in range(121)]
+    plate = slab("plate", (X + 1.25, 1.25, 0.21), (2.8, 2.8, 0.02))
+    engine = rover(engine_of, bodies=[*grid, plate], sleep=False)
+    engine.step(60)
+    assert int(engine._arrays["counts"][FOUND_ROWS]) > MOST_DENSE
+    assert engine.bodies["plate"].pose[2] == pytest.approx(0.21, abs=1e-4)
+    assert max(contact.depth for contact in engine.contacts()) < 1e-4
+    on_plate = sum(contact.force[2] * (1 if contact.a == "plate" else -1) for contact in engine.contacts()
+                   if "plate" in (contact.a, contact.b))  # fmt: skip
+    assert on_plate == pytest.approx(9.81 * plate.mass, rel=0.05)
+
+
+def test_a_robot_that_lies_on_hundreds_of_points_lies(tmp_path):
+    boxes = "".join(
+        f'<collision><origin xyz="{0.1 * (k % 15)} {0.1 * (k // 15)} 0.05"/><geometry><box size="0.09 0.09 0.1"/>'
+        "</geometry></collision>"
+        for k in range(150)
+    )
+    inertial = (
+        '<inertial><origin xyz="0.7 0.45 0.05"/><mass value="5"/>'
+        '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    )
+    (tmp_path / "bed.urdf").write_text(f'<robot name="bed"><link name="bed">{inertial}{boxes}</link></robot>')
+    kinematics = Kinematics(load(tmp_path / "bed.urdf"), floating_base=True)
+    engine = Engine(kinematics, scene_of(kinematics.robot).shapes)
+    engine.step(20)
+    counts = engine._arrays["counts"]
+    assert (counts[FOUND_CONTACTS], counts[FOUND_ROWS]) == (600, 1800)
+    assert engine.q[:3] == pytest.approx((0.0, 0.0, 0.0), abs=1e-6)
+    assert sum(contact.force[2] for contact in engine.contacts()) == pytest.approx(5 * 9.81, rel=1e-6)
+    assert {contact.a_shape for contact in engine.contacts()} == set(range(150))
+
+
+def test_a_world_that_takes_more_memory_than_there_is_is_refused_in_a_line():
+    with pytest.raises(SimulationError, match=r"a world of 1 robots .* takes 1.6e\+06 GB"):
+        allocate([1, 6, 7, 0, 0, 0, 0, 1, 0, 1, 36, 6, 10**14, 0, 0, 0], width=6)

@@ -117,6 +117,31 @@ def test_one_of_several_collisions_hears_only_its_own(crate, wanted: str) -> Non
     assert all(position.x >= -1e-6 for position in state.contact_positions)
 
 
+def test_a_collision_on_the_very_place_of_another_hears_its_own_points(crate) -> None:
+    twice = BOX.format("", 0, 0.4) + BOX.format(' name="copy"', 0, 0.4)
+    for wanted in ("base_collision", "copy"):
+        simulator = crate(bumper(ROS_1.format(""), wanted), collisions=twice)
+        simulator.run(0.3)
+        (state,) = heard(simulator, "/bump", 0.1)[-1].states
+        assert len(state.contact_positions) == 4
+        assert sum(contact.depth >= 0.0 or any(contact.force) for contact in simulator.state.contacts) == 8
+
+
+def test_which_collision_of_a_body_was_touched_is_told(crate, tmp_path: Path) -> None:
+    felt = (
+        '<collision name="{}"><pose>{} 0 0.05 0 0 0</pose><geometry><box><size>1 1 0.1</size></box></geometry>'
+        "</collision>"
+    )
+    (tmp_path / "mat.sdf").write_text(
+        '<sdf version="1.9"><model name="mat"><static>true</static><link name="l">'
+        f"{felt.format('far', 1.5)}{felt.format('under', 0)}</link></model></sdf>"
+    )
+    simulator = crate(bumper(ROS_1.format("")), spawn=Spawn(z=0.21))
+    simulator.spawn(tmp_path / "mat.sdf")
+    simulator.run(0.5)
+    assert {state.collision2_name for state in heard(simulator, "/bump", 0.1)[-1].states} == {"mat::l::under"}
+
+
 def test_the_new_gazebo_tells_contacts_with_both_wrenches(crate) -> None:
     simulator = crate(bumper())
     simulator.run(0.5)

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.errors import SimulationError
 from urdfkit.sim.engine.pairs import collide_pair as memory
 
 Size = tuple[str, ...]
@@ -103,7 +104,7 @@ FLOATS: dict[str, Size] = {
     "shape_reach": ("k", "3"),
     "tree_low": ("t", "3"),
     "tree_high": ("t", "3"),
-    "still": ("t",),
+    "still": ("t", "2"),
     "strayed": ("d",),
     "asked": ("d", "8"),
     "asked_gravity": ("3",),
@@ -215,7 +216,7 @@ INTEGERS: dict[str, Size] = {
 LETTERS = "bdskpmcrateyqfni"
 HEAD = len(LETTERS) + 1
 (BODIES, DOFS, COORDINATES, SHAPES, VERTICES, MIMICS, CONTACTS, ROWS, SLOTS, TREES) = range(10)
-PAIRS, WIDTH = LETTERS.index("f"), len(LETTERS)
+PAIRS, MATRIX, WIDTH = LETTERS.index("f"), LETTERS.index("q"), len(LETTERS)
 
 DT, FLOOR, HAS_FLOOR, HAS_PAIRS = range(4)
 """Entries of ``numbers``: step [s], height of the ground plane [m], whether there is one, whether shapes can meet."""
@@ -254,7 +255,11 @@ class Arrays:
 
 
 def allocate(sizes: Sequence[int], *, width: int) -> Arrays:
-    """Return blocks of zeros for these counts, in the order of `LETTERS`; rows of J have `width` entries."""
+    """Return blocks of zeros for these counts, in the order of `LETTERS`; rows of J have `width` entries.
+
+    Raises:
+        SimulationError: there is not that much memory.
+    """
     counts = dict(zip(LETTERS, sizes, strict=True))
 
     def number(size: str) -> int:
@@ -267,8 +272,15 @@ def allocate(sizes: Sequence[int], *, width: int) -> Arrays:
 
     float_starts = np.cumsum([0, *(int(np.prod(shape(size))) for size in FLOATS.values())])
     integer_starts = FIRST_INTEGER + np.cumsum([0, *(int(np.prod(shape(size))) for size in INTEGERS.values())])
-    floats = np.zeros(int(float_starts[-1]))
-    integers = np.zeros(int(integer_starts[-1]), dtype=np.int64)
+    try:
+        floats = np.zeros(int(float_starts[-1]))
+        integers = np.zeros(int(integer_starts[-1]), dtype=np.int64)
+    except MemoryError:
+        needed = 8e-9 * float(float_starts[-1] + integer_starts[-1])
+        raise SimulationError(
+            f"a world of {counts['t']} robots and bodies with {counts['k']} collision shapes takes {needed:.3g} GB of "
+            "memory, which there is not; leave some out"
+        ) from None
     integers[: len(sizes)] = sizes
     integers[WIDTH] = width
     integers[HEAD : HEAD + len(FLOATS) + 1] = float_starts

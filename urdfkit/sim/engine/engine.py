@@ -12,14 +12,15 @@ from numpy.typing import NDArray
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.scene import Shape
-from urdfkit.sim.engine.arrays import ITERATED, OVERFULL, STEPS
+from urdfkit.sim.engine.arrays import HAS_PAIRS, ITERATED, OVERFULL, STEPS
 from urdfkit.sim.engine.body import AT_ORIGIN, Body, Member
 from urdfkit.sim.engine.loose import Loose
-from urdfkit.sim.engine.model import fill, touching
+from urdfkit.sim.engine.model import fill
 from urdfkit.sim.engine.part import Part
 from urdfkit.sim.engine.soundness import require_inertia
 from urdfkit.sim.engine.state import contacts, turning
 from urdfkit.sim.engine.surface import Contact, Ground, Surface
+from urdfkit.sim.engine.touches import touching
 from urdfkit.sim.engine.warmup import kernel, world_kernel
 
 Array = NDArray[np.float64]
@@ -105,7 +106,7 @@ class Engine(Part):
         for member in self._members:
             require_inertia(member.kinematics)
         if provider == "compiled":
-            self._advance = kernel() if alone else world_kernel()
+            self._advance = kernel() if alone and not self._arrays["numbers"][HAS_PAIRS] else world_kernel()
         else:
             from urdfkit.sim.engine.reference import Reference
 

@@ -13,6 +13,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
+from urdfkit.errors import SimulationError
 from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS, Arrays
 from urdfkit.sim.engine.body import Body, Member
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
@@ -320,6 +321,8 @@ class Reference:
         n = len(rows)
         if n == 0:
             return free
+        if n > len(a["x"]) or n * n > len(a["A"]):
+            raise SimulationError(f"{n} rows at once are more than the reference engine solves; take the compiled one")
         J = np.array([row.J[dofs] for row in rows])
         a["A"][: n * n] = (J @ np.linalg.solve(inertia, J.T)).ravel()
         a["g"][:n] = J @ free + [row.bias for row in rows]

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from urdfkit.errors import SimulationError
 from urdfkit.sim.engine.arrays import FOUND_CONTACTS, HAS_PAIRS, SLEEPING, Arrays
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
-from urdfkit.sim.engine.model import Touching
 from urdfkit.sim.engine.surface import Contact
+from urdfkit.sim.engine.touches import Touching
 
 Array = NDArray[np.float64]
 
@@ -92,14 +92,17 @@ def contacts(arrays: Arrays, touches: Sequence[Touching], ground: str, dt: float
             impulse = np.array([*(arrays["x"][at + 1 : at + 3] if rubs else (0.0, 0.0)), arrays["x"][at]])
         tree = int(arrays["body_tree"][arrays["contact_body"][k]])
         against = int(arrays["contact_against"][k])
+        mine, other = touches[int(arrays["contact_shape"][k])], None if against < 0 else touches[against]
         found.append(
             Contact(
-                touches[int(arrays["contact_shape"][k])].link,
-                ground if against < 0 else touches[against].link,
+                mine.link,
+                ground if other is None else other.link,
                 _vector(arrays["contact_origin"][tree] + arrays["contact_point"][k]),
                 _vector(frame[2]),
                 -float(arrays["contact_gap"][k]),
                 _vector(impulse @ frame / dt),
+                mine.number,
+                -1 if other is None else other.number,
             )
         )
     return tuple(found)

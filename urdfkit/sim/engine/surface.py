@@ -59,6 +59,8 @@ class Contact:
         normal: unit vector in the world from `b` to `a`.
         depth: how deep `a` is in `b` [m]; negative while there is still a gap.
         force: on `a`, in the world [N].
+        a_shape: which of the collisions of `a` it is, in their order.
+        b_shape: which of those of `b`; -1 for the ground.
     """
 
     a: str
@@ -67,3 +69,5 @@ class Contact:
     normal: Vector
     depth: float
     force: Vector
+    a_shape: int = 0
+    b_shape: int = -1

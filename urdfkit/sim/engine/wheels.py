@@ -14,7 +14,7 @@ from urdfkit.sim.engine.pairs.shapes import HULL
 from urdfkit.sim.engine.tree import joint_subspace
 
 if TYPE_CHECKING:
-    from urdfkit.sim.engine.model import Touching
+    from urdfkit.sim.engine.touches import Touching
 
 Array = NDArray[np.float64]
 

@@ -13,19 +13,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
-from urdfkit.description.robot import Box, Capsule, Cylinder, Sphere
-from urdfkit.sim.things import parts_of
+from urdfkit.description.world import Plane
+from urdfkit.sim.things import parts_of, touchable
 
 if TYPE_CHECKING:
     from urdfkit.description.robot import Robot
     from urdfkit.description.world import World
-    from urdfkit.scene import Scene, Shape
+    from urdfkit.scene import Scene
     from urdfkit.sim.surroundings import Layout
-
-Array = NDArray[np.float64]
 
 _LUMP = "_fixed_joint_lump__"
 _COUNTED = re.compile(r"_\d+$")
@@ -38,14 +33,14 @@ class Collision:
     Attributes:
         link: that it is on.
         name: as Gazebo calls it.
+        number: among those of its link.
         aliases: all names that find it.
-        shape: its geometry and its place on the link.
     """
 
     link: str
     name: str
+    number: int
     aliases: frozenset[str]
-    shape: Shape
 
 
 def collisions_of(robot: Robot, scene: Scene) -> tuple[Collision, ...]:
@@ -62,7 +57,7 @@ def collisions_of(robot: Robot, scene: Scene) -> tuple[Collision, ...]:
             aliases = {name, f"{link}_collision{count}"}
             if not label.isdigit():
                 aliases |= {label, f"{label}_collision"}
-            found.append(Collision(link, name, frozenset(aliases), shape))
+            found.append(Collision(link, name, k, frozenset(aliases)))
     return tuple(found)
 
 
@@ -78,60 +73,37 @@ def find(wanted: str, collisions: Sequence[Collision], link: str) -> tuple[Colli
     return tuple([each for each in means if each.link == link] or means)
 
 
-def nearest(collisions: Sequence[Collision], point: Array) -> Collision:
-    """Return the collision whose surface is nearest to a point of its link [m]; shape (3,)."""
-    return collisions[0] if len(collisions) == 1 else min(collisions, key=lambda one: _off(one.shape, point))
-
-
-def _off(shape: Shape, point: Array) -> float:
-    """Return how far a point is from a shape's surface [m]; from its box, for meshes."""
-    x, y, z = (np.linalg.inv(shape.placement) @ np.append(point, 1.0))[:3]
-    geometry = shape.geometry
-    if isinstance(geometry, Sphere):
-        return abs(float(np.linalg.norm((x, y, z))) - geometry.radius)
-    if isinstance(geometry, Capsule):
-        beyond = max(abs(z) - geometry.length / 2, 0.0)
-        return abs(float(np.linalg.norm((x, y, beyond))) - geometry.radius)
-    if isinstance(geometry, Cylinder):
-        out = np.array([np.hypot(x, y) - geometry.radius, abs(z) - geometry.length / 2])
-    elif isinstance(geometry, Box):
-        out = np.abs((x, y, z)) - np.array(geometry.size) / 2
-    elif shape.mesh is not None:
-        low, high = shape.mesh.vertices.min(axis=0), shape.mesh.vertices.max(axis=0)
-        out = np.abs(np.array([x, y, z]) - (low + high) / 2) - (high - low) / 2
-    else:
-        return 0.0
-    return abs(float(np.linalg.norm(np.maximum(out, 0.0))) + min(float(out.max()), 0.0))
-
-
-def scoped_name(name: str, layout: Layout, point: Array) -> str:
-    """Return what Gazebo calls the collision of something that was touched at a point of the world.
+def scoped_name(name: str, layout: Layout, number: int) -> str:
+    """Return what Gazebo calls a collision of something that was touched.
 
     Args:
         name: as contacts call it: a body of the world, a link of the first robot, ``ROBOT::LINK`` of another.
         layout: what there was.
-        point: [m]; shape (3,).
+        number: of the collision among those of the body or link.
     """
-    if (found := _of_world(name, layout.world)) is not None:
+    if (found := _of_world(name, layout.world, number)) is not None:
         return found
     for i, (robot, scene, _) in enumerate(layout.robots):
         link = name if i == 0 else name.removeprefix(f"{robot}::")
         if link not in scene.bodies or (i and link == name):
             continue
-        shapes = [shape for shape in scene.with_role("collision") if shape.body == link]
-        local = np.linalg.inv(layout.placement(robot, scene.bodies.index(link))) @ np.append(point, 1.0)
-        k = min(range(len(shapes)), key=lambda k: _off(shapes[k], local[:3]), default=0)
-        label = shapes[k].name.split("/collision/", 1)[1] if shapes else str(k)
+        labels = [shape.name for shape in scene.with_role("collision") if shape.body == link]
+        label = labels[number].split("/collision/", 1)[1]
         if any(model.name == robot.partition("::")[0] for model in layout.world.models):  # from SDF
             return f"{robot}::{link}::{label}"
-        return f"{robot}::{link}::{link if label.isdigit() else label}_collision" + (f"_{k}" if k else "")
+        return f"{robot}::{link}::{link if label.isdigit() else label}_collision" + (f"_{number}" if number else "")
     return name
 
 
-def _of_world(name: str, world: World) -> str | None:
+def _of_world(name: str, world: World, number: int) -> str | None:
+    ground = None if world.ground is None else world.ground.name
     for model in world.models:
         for part, _, links in parts_of(model):
             if part == name:
-                link, _, written = links[0]
-                return f"{model.name}::{link}::{written.collisions[0].name if written.collisions else 'collision'}"
+                shapes = [(link, shape) for link, _, written in links for shape in touchable(written)]
+                # The plane that is the ground is none of its body.
+                is_plane = [model.name == ground and isinstance(shape.geometry, Plane) for _, shape in shapes]
+                same = [each for each, plane in zip(shapes, is_plane, strict=True) if plane == (number < 0)]
+                link, shape = same[max(number, 0)]
+                return f"{model.name}::{link}::{shape.name}"
     return None

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError, did_you_mean
-from urdfkit.sim.sensors.collisions import Collision, collisions_of, find, nearest, scoped_name
+from urdfkit.sim.sensors.collisions import Collision, collisions_of, find, scoped_name
 
 if TYPE_CHECKING:
     from urdfkit.description.element import Element
@@ -75,14 +75,12 @@ class Watch:
         self._model, self._names = setup.model, setup.kinematics.link_names
         self._prefix = f"{setup.model}::" if setup.namespace else ""
         collisions = collisions_of(robot, setup.surroundings.robots[setup.model].scene)
-        self._watched = tuple(each for element, link in sensors for each in _watched(element, collisions, link))
-        self._of_link: dict[str, tuple[Collision, ...]] = {}
-        for each in collisions:
-            self._of_link[each.link] = (*self._of_link.get(each.link, ()), each)
+        watched = [each for element, link in sensors for each in _watched(element, collisions, link)]
+        self._watched = {(each.link, each.number): each for each in watched}
         self._centres = {
             link.name: np.array(link.inertial.origin.xyz if link.inertial else (0.0, 0.0, 0.0)) for link in robot.links
         }
-        self._links = {each.link for each in self._watched}
+        self._links = {each.link for each in watched}
 
     def look(self, state: State) -> Seen:
         """Return the contacts of the last step with links that have collisions that are watched."""
@@ -109,10 +107,11 @@ class Watch:
             R, origin = placement[:3, :3], placement[:3, 3]
             for contact in contacts:
                 position, sign = np.array(contact.position), 1.0 if contact.a == mine else -1.0
-                collision = nearest(self._of_link[link], R.T @ (position - origin))
-                if collision not in self._watched:
+                numbers = (contact.a_shape, contact.b_shape) if sign > 0.0 else (contact.b_shape, contact.a_shape)
+                collision = self._watched.get((link, numbers[0]))
+                if collision is None:
                     continue
-                names = f"{self._model}::{link}::{collision.name}", scoped_name(other, layout, position)
+                names = f"{self._model}::{link}::{collision.name}", scoped_name(other, layout, numbers[1])
                 arm = position - (origin + R @ self._centres[link])
                 found.setdefault(names, Touch(*names)).points.append(
                     Point(

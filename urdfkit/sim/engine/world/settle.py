@@ -10,6 +10,7 @@ from urdfkit.sim.engine.arrays import (
     DT,
     GUESSES,
     ITERATED,
+    MATRIX,
     MIMICS,
     OVERFULL,
     ROWS,
@@ -101,6 +102,8 @@ def settle(floats: Any, integers: Any, root: int) -> int:
         )
         for k in range(rows):
             before[k] = last[slot[k]]
+        # What has no room for its matrix is swept too, where it comes to that.
+        dense = rows * rows <= integers[MATRIX]
         held = False
         if rows > 0 and not swept and (single < 0 or rows > island_dofs + FEW):
             guesses = hold(floats, integers, root, rows)
@@ -108,7 +111,7 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             if held:
                 counts[GUESSES] = guesses
                 counts[ITERATED] += guesses <= 0
-            elif single < 0:
+            elif single < 0 or not dense:
                 swept = True
                 continue
         if swept:

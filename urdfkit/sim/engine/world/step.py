@@ -17,10 +17,12 @@ from urdfkit.sim.engine.arrays import (
 from urdfkit.sim.engine.compilation import field
 from urdfkit.sim.engine.servo import account
 from urdfkit.sim.engine.world.islands import join
+from urdfkit.sim.engine.world.recall import remember, remember_pairs
 from urdfkit.sim.engine.world.search import candidates, touching
 from urdfkit.sim.engine.world.settle import settle
-from urdfkit.sim.engine.world.sleep import let_sleep, remember, remember_pairs, rouse_disturbed, rouse_touched
+from urdfkit.sim.engine.world.sleep import let_sleep
 from urdfkit.sim.engine.world.trees import begin, drift, evaluate, look_ahead
+from urdfkit.sim.engine.world.wake import rouse_disturbed, rouse_touched
 
 
 def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
