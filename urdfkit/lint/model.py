@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from functools import cached_property
 
 from urdfkit.description.source import Position, Source, Span
@@ -155,11 +156,10 @@ class Model:
         """Link name → what its shapes fill; links without shapes, or with one that cannot be known, are left out."""
         from urdfkit.lint.placement import extent
 
-        names = [link.name for link in self.robot.links]
+        counts = Counter(link.name for link in self.robot.links)
         # Of what is there twice nobody knows which shapes count.
-        once = (link for link in self.robot.links if self.robot.link_by_name[link.name] is link)
-        twice = {name for name in names if names.count(name) > 1} if len(set(names)) < len(names) else frozenset()
-        found = ((link.name, extent(link, self.box_of)) for link in once if link.name not in twice)
+        once = (link for link in self.robot.links if counts[link.name] == 1)
+        found = ((link.name, extent(link, self.box_of)) for link in once)
         return {name: filled for name, filled in found if filled is not None}
 
     def box_of(self, mesh: Mesh) -> tuple[Vector, Vector] | None:
