@@ -271,3 +271,20 @@ def test_files_that_include_each_other_are_read_once(write: Write) -> None:
     assert expanded.root is not None
     assert [(fault.kind, str(fault.position)) for fault in expanded.faults] == [("recursion", "arm.xacro:2:1")]
     assert [link.get("name") for link in expanded.root.find_all("link")] == ["arm", "base"]
+
+
+def test_blocks_that_hold_each_other_many_times_are_one_fault(write: Write) -> None:
+    # Each level that went on by itself would begin anew seven times.
+    def held(name: str, times: int) -> str:
+        return f'<xacro:insert_block name="{name}"/>' * times
+
+    path = write(
+        "robot.xacro",
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
+        f'<xacro:property name="a">{held("b", 7)}</xacro:property>\n'
+        f'<xacro:property name="b">{held("a", 7)}<link name="x"/></xacro:property>\n'
+        '<xacro:insert_block name="a"/>\n<link name="base"/>\n</robot>\n',
+    )
+    expanded = expand_leniently(path)
+    assert [fault.kind for fault in expanded.faults] == ["recursion"]
+    assert tags(expanded) == ["link"]

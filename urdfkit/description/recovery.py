@@ -365,7 +365,7 @@ class RecoveringRun(Run):
         if isinstance(error, Endless) and error.what == "file":
             open_files = [shown_path(file) for file in self.xacro.filestack[:files]]
             return len(set(open_files)) < len(open_files)
-        return isinstance(error, TooMany) and is_inside
+        return isinstance(error, TooMany | RecursionError) and is_inside
 
     def _note(self, fault: Fault) -> None:
         if fault.kind == "too-many":
