@@ -90,7 +90,7 @@ class Whole:
         self.text, self.root = text, root
         self.children: list[Any] = _children(root) if children is None else children
         self._starts = starts
-        self._is_open = "<!" not in text.replace("<!--", "")
+        self._is_open = _is_open(text)
 
     def edited(self, source: Source, read: Read) -> Whole | None:
         """Return what a text is that differs from this in one place; None where it has to be read as a whole."""
@@ -98,7 +98,7 @@ class Whole:
         if text == old:
             return self
         close = _close(old)
-        if not self.children or close is None or not self._is_open or "<!" in text.replace("<!--", ""):
+        if not self.children or close is None or not self._is_open or not _is_open(text):
             return None
         if any(_is_text(child) for child in self.children) or _text(self.root) or text.count("<") > MAX_TAGS:
             return None
@@ -134,6 +134,11 @@ class Whole:
         shift = starts[index] - len(opening) - (line - 1) - (column - 1)
         later = [start + longer for start in starts[index + 1 :]]
         return Whole(text, self.root, children, [*starts[:index], *(place + shift for place in places), *later])
+
+
+def _is_open(text: str) -> bool:
+    """Whether what is markup can be told from the text alone: no CDATA, no document type, no UTF-16."""
+    return "<!" not in text.replace("<!--", "") and "\0" not in text
 
 
 def _are_alike(one: Element, other: Element, above: Element | None, beside: Element | None) -> bool:

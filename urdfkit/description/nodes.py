@@ -8,6 +8,7 @@ not gone through, and a macro's call clones it as one. Comments and blank text a
 from __future__ import annotations
 
 from urdfkit.description.element import Element
+from urdfkit.description.reading import MAX_MADE_DEPTH, check_depth
 from urdfkit.description.source import Expansion, Origin, Position
 
 TYPE_CHECKING = False
@@ -129,8 +130,13 @@ class Node:
         """Return whether there is an attribute."""
         return name in self.attributes
 
-    def setAttribute(self, name: str, value: Any) -> None:
-        """Give an attribute a value."""
+    def setAttribute(self, name: Any, value: Any) -> None:
+        """Give an attribute a value.
+
+        Raises:
+            AttributeError: the name is no text, as in the DOM.
+        """
+        name.split(":", 1)
         self.attributes[name] = value
 
     def removeAttribute(self, name: str) -> None:
@@ -198,22 +204,39 @@ class Node:
             before = one
         return clone
 
-    def elements(self) -> list[Element]:
-        """Return what it has become."""
+    def elements(self, depth: int = 0) -> list[Element]:
+        """Return what it has become.
+
+        Args:
+            depth: how many elements it is in.
+
+        Raises:
+            XmlError: macros have made elements that are nested too deep.
+        """
         file, line, column, chain = self.stamp
+        if depth + self.size >= MAX_MADE_DEPTH:
+            check_depth(depth, Position(file, line, column))
+            for element in self.finished or ():
+                _check_all(element, depth)
         if self.finished is not None:
             return [in_chain(element, chain) for element in self.finished] if chain else self.finished
         children: list[Element] = []
         text = ""
         for child in self.childNodes:
             if child.nodeType == 1:
-                children += child.elements()
+                children += child.elements(depth + 1)
             else:
                 text += child.data
         # <xacro:attribute> may leave a number where text is wanted.
         attributes = {name: str(value) for name, value in dict.items(self.attributes)}
         origin = Origin(Position(file, line, column), chain)
         return [Element(self.tagName, attributes, children, text.strip(), origin)]
+
+
+def _check_all(element: Element, depth: int) -> None:
+    check_depth(depth, element.origin.position)
+    for child in element.children:
+        _check_all(child, depth + 1)
 
 
 def in_chain(element: Element, chain: tuple[Expansion, ...]) -> Element:

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 _PLAIN = TAGS - {"macro", "property", "include", "arg", "if", "unless", "insert_block"}
 """Elements in which xacro has nothing to do, and which nobody means as its directives."""
 
-_ODD = ("<![CDATA[", "<!DOCTYPE", "xacro:eval-comments")
-"""What has to be read by minidom's own builder."""
+_ODD = ("<![CDATA[", "<!DOCTYPE", "xacro:eval-comments", "\0")
+"""What has to be read by minidom's own builder; expat takes a text with zeros for UTF-16, in which we see no markup."""
 
 
 class _Open:
@@ -68,7 +68,7 @@ class _Planter:
     def __init__(self, source: Source, run: Run) -> None:
         self._source, self._file, self._run = source, source.file, run
         self._stack: list[_Open] = []
-        self._declared: dict[str, str] = {}
+        self._declared: dict[str, Any] = {}
         self._check = partial(refuse_excess, source) if len(source.text) > MAX_VALUE else None
         self.root: Any = None
         self.parser = parser = expat.ParserCreate(namespace_separator=" ")
@@ -86,8 +86,8 @@ class _Planter:
         """Return tag and line of the elements that are open, outermost first."""
         return [(one.tag, one.line) for one in self._stack]
 
-    def _declare(self, prefix: str | None, uri: str) -> None:
-        self._declared[f"xmlns:{prefix}" if prefix else "xmlns"] = uri or ""
+    def _declare(self, prefix: str | None, uri: Any) -> None:
+        self._declared[f"xmlns:{prefix}" if prefix else "xmlns"] = uri  # None for xmlns="", as in minidom
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         parser, stack = self.parser, self._stack

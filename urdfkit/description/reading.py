@@ -14,7 +14,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from urdfkit.description.element import Element
-from urdfkit.description.source import Expansion, Origin, Position, Source
+from urdfkit.description.source import Expansion, Origin, Position, Source, content_of
 from urdfkit.errors import ResourceError, XmlError
 
 TYPE_CHECKING = False
@@ -27,6 +27,9 @@ MAX_BYTES = 64 * 2**20
 
 MAX_DEPTH = 200
 """A description is refused when its elements are nested deeper; people's nest less than 20 deep."""
+
+MAX_MADE_DEPTH = 400
+"""What macros and blocks make is refused when it is nested deeper: Python, and what looks through it, allow 1,000."""
 
 MAX_VALUE = 100_000
 """A description is refused when an attribute has more characters; people's have some hundreds."""
@@ -61,8 +64,7 @@ def read_source(path: Path, *, shown_as: str | None = None, texts: Mapping[str, 
     if texts and (text := texts.get(str(absolute(path)))) is not None:
         return Source(shown, text)
     try:
-        with path.open("rb") as file:
-            content = file.read(MAX_BYTES + 1)
+        content = content_of(path, MAX_BYTES + 1)
     except OSError as error:
         raise ResourceError(f"cannot read {shown}: {error.strerror or error}") from error
     if len(content) > MAX_BYTES:
@@ -153,22 +155,27 @@ def stamped_document(source: Source, on_clone: Any, *, namespaces: bool = True) 
     return builder.document
 
 
-def element_of(node: Any) -> Element:
+def element_of(node: Any, depth: int = 0) -> Element:
     """Turn a stamped minidom element, and all below it, into an `Element`.
 
     Args:
         node: an element that `stamped_document` made, or a clone of one.
+        depth: how many elements it is in.
+
+    Raises:
+        XmlError: macros have made elements that are nested too deep.
     """
     if hasattr(node, "finished"):
         (element,) = node.elements()
         return element  # type: ignore[no-any-return]
     file, line, column, expansions = stamp_of(node)
+    check_depth(depth, Position(file, line, column))
     children: list[Element] = []
     text = ""
     for child in node.childNodes:
         kind = child.nodeType
         if kind == 1:
-            children.append(element_of(child))
+            children.append(element_of(child, depth + 1))
         elif kind in (3, 4):
             text += child.data
     # <xacro:attribute> may leave a number where minidom wants text.
@@ -250,6 +257,17 @@ def too_deep(source: Source, parser: Any) -> NoReturn:
         XmlError: always.
     """
     raise XmlError(f"elements are nested deeper than {MAX_DEPTH}", position=_here(source, parser))
+
+
+def check_depth(depth: int, position: Position) -> None:
+    """Refuse what macros and blocks have nested too deep: what looks through it does so level by level.
+
+    Raises:
+        XmlError: it is.
+    """
+    if depth >= MAX_MADE_DEPTH:
+        message = f"with this, macros and blocks nest elements deeper than {MAX_MADE_DEPTH}"
+        raise XmlError(message, position=position)
 
 
 def refuse_excess(source: Source, parser: Any, tag: str, values: Collection[str]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from functools import cached_property
 from pathlib import Path
 
@@ -10,6 +11,24 @@ from urdfkit.record import field, record
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from urdfkit.description.tags import StartTag
+
+
+def content_of(path: Path, most: int = -1) -> bytes:
+    """Return the bytes of a file; what says it is one and has nothing to give yet, as /proc/kmsg, is not waited for.
+
+    Args:
+        path: a file, or a pipe, which is waited for.
+        most: so many bytes at most; all of them when negative.
+
+    Raises:
+        OSError: it cannot be read.
+    """
+    without_waiting = getattr(os, "O_NONBLOCK", 0) if path.is_file() else 0
+    with open(path, "rb", opener=lambda name, flags: os.open(name, flags | without_waiting)) as file:
+        content: bytes | None = file.read(most)
+    if content is None:
+        raise BlockingIOError(11, "it is no file on disk", str(path))
+    return content
 
 
 @record(order=True)
@@ -84,7 +103,7 @@ class Source:
         from urdfkit.errors import ResourceError
 
         try:
-            content = path.read_bytes()
+            content = content_of(path)
         except OSError as error:
             raise ResourceError(f"cannot read {shown_as or path}: {error.strerror or error}") from error
         return cls.decode(shown_as or str(path), content)

@@ -15,6 +15,7 @@ import sys
 from functools import cached_property
 from pathlib import Path
 
+from urdfkit.description.source import content_of
 from urdfkit.lint.finding import Edit, Finding, Fix, Found
 
 TYPE_CHECKING = False
@@ -151,7 +152,7 @@ class Cache:
     def _digest_of(self, path: str) -> str:
         if path not in self._digests:
             try:
-                self._digests[path] = _digest(Path(path).read_bytes())
+                self._digests[path] = _digest(content_of(Path(path)))
             except OSError:
                 self._digests[path] = ""
         return self._digests[path]
