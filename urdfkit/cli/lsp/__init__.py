@@ -36,6 +36,10 @@ def run(arguments: argparse.Namespace) -> int:
         import pygls.lsp.server  # noqa: F401
     except ImportError as error:
         raise MissingDependencyError("lsp needs pygls: pip install 'urdfkit[lsp]'") from error
+    from urdfkit.cli.lsp.wire import speak_in_lines
+
+    if not arguments.verbose:
+        speak_in_lines()
     gc.disable()  # see Session
     server_for(_options(arguments)).start_io()
     return 0
@@ -60,9 +64,11 @@ def server_for(options: Options) -> LanguageServer:
 
     from urdfkit import __version__
     from urdfkit.cli.lsp.session import Session
+    from urdfkit.cli.lsp.wire import Protocol
     from urdfkit.lint.editor.project import Project
 
-    server = LanguageServer("urdfkit", __version__, text_document_sync_kind=types.TextDocumentSyncKind.Incremental)
+    kind = types.TextDocumentSyncKind.Incremental
+    server = LanguageServer("urdfkit", __version__, text_document_sync_kind=kind, protocol_cls=Protocol)
     session = Session(server, Project(options))
 
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)

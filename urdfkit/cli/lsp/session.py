@@ -115,10 +115,10 @@ class Session:
         """Return the file of a URI, with its text as the editor has it; as on disk where it is not open.
 
         Returns:
-            None for what is no file, or a file that is neither open nor there.
+            None for what is no file, or a file that is neither open nor there, or a folder.
         """
         path = path_of(uri)
-        if path is None:
+        if path is None or path.is_dir():
             return None
         opened = self.server.workspace.text_documents.get(uri)
         if opened is not None:

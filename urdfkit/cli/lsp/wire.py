@@ -1,0 +1,82 @@
+"""What is said on the wire when a request is refused, and on standard error: one line, never a traceback."""
+
+from __future__ import annotations
+
+import logging
+from typing import TYPE_CHECKING, Any
+
+from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams
+from pygls.protocol import LanguageServerProtocol
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+
+class Protocol(LanguageServerProtocol):
+    """The protocol, where a request that makes no sense is answered: pygls leaves the editor waiting for ever."""
+
+    def structure_message(self, data: dict[str, Any]) -> Any:
+        """Return a message as pygls has it; None for a request that has been refused.
+
+        Raises:
+            JsonRpcException: a notification makes no sense.
+        """
+        try:
+            return super().structure_message(data)
+        except JsonRpcException as error:
+            if not _is_request(data):
+                raise
+            refusal = JsonRpcInvalidParams(_reason(error))
+            self._send_response(data["id"], error=refusal.to_response_error())
+            return None
+
+    def handle_message(self, message: Any) -> None:
+        """Deal with a message, unless it has been refused."""
+        if message is not None:
+            super().handle_message(message)
+
+
+class OneLine(logging.Formatter):
+    """What goes wrong, in one line each."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        """Return the first line of a message, with what was raised."""
+        text = record.getMessage().partition("\n")[0]
+        raised = record.exc_info[1] if record.exc_info else None
+        what = f": {type(raised).__name__}: {_reason(raised)}" if raised is not None else ""
+        return f"urdfkit: {text[:200]}{what}"
+
+
+def speak_in_lines() -> None:
+    """Have pygls say what goes wrong in one line, and nothing of requests that are refused: the editor says so."""
+    handler = logging.StreamHandler()
+    handler.setLevel(logging.WARNING)
+    handler.setFormatter(OneLine())
+    handler.addFilter(lambda record: not _is_answered(record))
+    for name in ("pygls", "asyncio"):
+        logger = logging.getLogger(name)
+        logger.addHandler(handler)
+        logger.propagate = False
+
+
+def _is_answered(record: logging.LogRecord) -> bool:
+    """Whether the editor is told, or another line says it."""
+    raised = record.exc_info[1] if record.exc_info else None
+    is_refusal = isinstance(raised, JsonRpcInvalidParams) and raised.__cause__ is None
+    return is_refusal or str(record.msg).startswith("Unable to deserialize")
+
+
+def _is_request(data: Mapping[str, Any]) -> bool:
+    return "method" in data and isinstance(data.get("id"), (int, str))
+
+
+def _reason(error: BaseException) -> str:
+    """Return what is at the bottom of an error, in one line."""
+    while True:
+        below = getattr(error, "exceptions", None)
+        if below:
+            error = below[0]
+        elif isinstance(error, JsonRpcException) and error.__cause__ is not None:
+            error = error.__cause__
+        else:
+            return " ".join(str(error).split())
