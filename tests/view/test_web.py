@@ -184,6 +184,16 @@ def test_a_frame_that_is_none_closes_the_line_with_a_word(page, until, caplog) -
     assert until(lambda: "a frame was malformed" in caplog.text)
 
 
+@pytest.mark.parametrize("status", [1000, 1001, 1005])
+def test_a_page_that_says_goodbye_is_no_refusal(page, server, until, caplog, status: int) -> None:
+    until(lambda: server.hub.watchers)
+    code = b"" if status == 1005 else status.to_bytes(2, "big")
+    page.sock.sendall(bytes((0x88, 0x80 | len(code))) + bytes(4) + code)  # a tab that is closed says 1001 or nothing
+    read_to_the_end(page)
+    until(lambda: not server.hub.watchers)
+    assert "refused" not in caplog.text
+
+
 def test_a_page_that_goes_away_is_no_refusal(page, server, until, caplog) -> None:
     until(lambda: server.hub.watchers)
     page.sock.close()

@@ -61,15 +61,22 @@ class Socket(Guarded, WebSocketHandler):
         """Return tornado's own, which cuts the line at a frame that is too long or makes no sense, and say so."""
         line = super().get_websocket_protocol()
         if isinstance(line, WebSocketProtocol13):
-            receive = line._receive_frame
+            receive, abort = line._receive_frame, line._abort
+            cut = False
+
+            def note_and_abort() -> None:
+                nonlocal cut
+                cut = True
+                abort()
 
             async def receive_and_tell() -> None:
-                await receive()
-                if line.stream.closed():
+                await receive()  # raises where the other side has gone: that is no frame
+                if cut:  # not where a page said goodbye, which closes the line too
                     why = f"a frame was malformed, or longer than {protocol.MAX_INBOUND} bytes; the line is cut"
                     self.server.refusals.tell(str(self.request.remote_ip), f"page {self.client}", why)
 
             line._receive_frame = receive_and_tell  # type: ignore[method-assign]
+            line._abort = note_and_abort  # type: ignore[method-assign]
         return line
 
     def open(self, *_: str, **__: str) -> None:
