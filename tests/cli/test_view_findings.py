@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.cli.findings import Findings
+from urdfkit.description import load
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.resources import find_model
 
@@ -67,6 +68,54 @@ def test_only_the_finding_that_was_named_is_mended(tmp_path: Path) -> None:
     findings.mend(rows[1]["number"])
     assert 'xyz="0 1 0"' in path.read_text()
     assert 'xyz="0 0 2"' in path.read_text()
+
+
+TWINS = """<robot name="two" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <link name="a"><visual><origin rpy="1.5708 0 0"/><geometry><box size="1 1 1"/></geometry></visual></link>
+  <link name="b"><visual><origin rpy="1.5708 0 0"/><geometry><box size="1 1 1"/></geometry></visual></link>
+  <joint name="j" type="fixed"><parent link="a"/><child link="b"/><origin rpy="1.5708 0 0"/></joint>
+  <xacro:macro name="wheel" params="side">
+    <link name="wheel_${side}">
+      <visual><origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.1" length="0.1"/></geometry></visual></link>
+    <joint name="${side}" type="fixed"><parent link="a"/><child link="wheel_${side}"/></joint>
+  </xacro:macro>
+  <xacro:wheel side="left"/>
+  <xacro:wheel side="right"/>
+</robot>
+"""
+
+
+@pytest.mark.parametrize("nth", range(4))
+def test_one_of_several_that_say_the_same_is_mended(tmp_path: Path, nth: int) -> None:
+    path = tmp_path / "two.urdf.xacro"
+    path.write_text(TWINS)
+    findings = Findings(find_model([str(path)]))
+    rows = [row for row in findings.look()["findings"] if row["code"] == "X112"]
+    assert len(rows) == 4
+    assert len({row["message"] for row in rows}) == 1
+    findings.mend(rows[nth]["number"])
+    before, after = TWINS.splitlines(), path.read_text().splitlines()
+    assert [line for line, (old, new) in enumerate(zip(before, after, strict=True), 1) if old != new] == [
+        rows[nth]["line"]
+    ]
+
+
+def test_a_finding_in_the_text_knows_the_links_and_joints_made_of_it(tmp_path: Path) -> None:
+    path = tmp_path / "two.urdf.xacro"
+    path.write_text(TWINS)
+    findings = Findings(find_model([str(path)]))
+    rows = [row for row in findings.look(load(path))["findings"] if row["code"] == "X112"]
+    assert [row["about"] for row in rows] == [
+        [{"link": "a"}],
+        [{"link": "b"}],
+        [{"joint": "j"}],
+        [{"link": "wheel_left"}, {"link": "wheel_right"}],
+    ]
+    assert [[(call["macro"], call["line"]) for call in chain] for chain in rows[3]["chains"]] == [
+        [("wheel", 10)],
+        [("wheel", 11)],
+    ]
+    assert rows[0]["chains"] == []
 
 
 @pytest.mark.parametrize("number", [0, -1, 99, 10**9])

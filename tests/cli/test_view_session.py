@@ -88,6 +88,23 @@ def test_a_fix_is_ordered_by_its_number(session: Session) -> None:
     assert 'xyz="0 0 1"' in session.model.path.read_text()
 
 
+def test_a_file_that_goes_is_told_and_taken_up_again(session: Session, capsys) -> None:
+    path = session.model.path
+    aside = path.with_name("aside")
+    path.rename(aside)
+    session.look()
+    session.look()
+    assert "lab.urdf is gone; the robot shown is the last one" in session.server.said["fault"]["message"]
+    assert capsys.readouterr().err.count("is gone") == 1
+    session.look()
+    assert capsys.readouterr().err == ""  # once
+    aside.rename(path)  # as it was, to the time of its last change
+    session.look()
+    session.look()
+    assert session.server.said["fault"]["message"] is None
+    assert "reloaded lab.urdf" in capsys.readouterr().err
+
+
 def test_pages_hear_something_before_they_take_the_line_for_lost(session: Session, monkeypatch) -> None:
     class EndedError(Exception):
         pass

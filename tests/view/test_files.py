@@ -46,6 +46,18 @@ def test_saving_by_renaming_counts_once(files: list[Path], tmp_path: Path) -> No
     assert [watch.changed() for _ in range(3)] == [False, True, False]
 
 
+def test_a_file_that_is_gone_is_missing_once_that_has_settled(files: list[Path], tmp_path: Path) -> None:
+    watch = Watch(files)
+    files[0].rename(tmp_path / "aside")
+    assert not watch.changed()
+    assert watch.missing == ()  # somebody may be saving by renaming
+    assert not watch.changed()
+    assert watch.missing == (files[0],)
+    (tmp_path / "aside").rename(files[0])
+    assert [watch.changed() for _ in range(3)] == [False, True, False]
+    assert watch.missing == ()
+
+
 def test_files_can_come_and_go(files: list[Path], tmp_path: Path) -> None:
     watch = Watch(files[:1])
     watch.follow(files)

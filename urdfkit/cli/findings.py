@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.errors import ResourceError, UrdfkitError, UsageError
 
 if TYPE_CHECKING:
-    from urdfkit.description.source import Source, Span
+    from urdfkit.cli.whereabouts import Whereabouts
+    from urdfkit.description.robot import Robot
+    from urdfkit.description.source import Expansion, Source, Span
     from urdfkit.lint.engine import Options, Outcome
     from urdfkit.lint.entries import Entry
     from urdfkit.lint.finding import Finding, Fix
@@ -33,16 +35,21 @@ class Findings:
         self._known: dict[int, Finding] = {}
         self._next = 1
 
-    def look(self) -> dict[str, Any]:
+    def look(self, robot: Robot | None = None) -> dict[str, Any]:
         """Lint the files as they are now.
+
+        Args:
+            robot: expanded from these files; tells which links and joints a finding in the text is about.
 
         Returns:
             ``findings``, one object each; ``rules``, code → the rule's page as Markdown; ``fault``, why nothing could
             be looked at, or None.
         """
+        from urdfkit.cli.whereabouts import Whereabouts
         from urdfkit.lint.engine import run
 
         self._known = {}
+        places = None if robot is None else Whereabouts(robot)
         try:
             settings = self._settings()
             outcome = run(self._entries(), self._options(settings))
@@ -53,7 +60,7 @@ class Findings:
             if _is_ignored(finding, settings):
                 continue
             self._known[self._next] = finding
-            rows.append(self._row(self._next, finding, outcome))
+            rows.append(self._row(self._next, finding, outcome, places))
             self._next += 1
         return {"findings": rows, "rules": _pages({row["code"] for row in rows}), "fault": None}
 
@@ -117,11 +124,17 @@ class Findings:
             guess_target=target is None,
         )
 
-    def _row(self, number: int, finding: Finding, outcome: Outcome) -> dict[str, Any]:
+    def _row(self, number: int, finding: Finding, outcome: Outcome, places: Whereabouts | None) -> dict[str, Any]:
         source = outcome.sources.get(finding.file)
         row = finding.to_json()
         row["number"] = number
         row["lines"] = _lines(source, finding.span)
+        row["about"] = []
+        if places is not None and finding.link is None and finding.joint is None:
+            parts = places.of(finding.span)
+            row["about"] = [{what: name} for what, name, _ in parts]
+            chains = dict.fromkeys(chain for _, _, chain in parts if chain)
+            row["chains"] = row["chains"] or [[_call(call) for call in chain] for chain in chains]
         if finding.fix is not None:
             row["fix"] = {
                 "safety": finding.fix.safety,
@@ -136,6 +149,10 @@ def _is_ignored(finding: Finding, settings: Settings) -> bool:
     path = Path(finding.file)
     rules = settings.per_file.items()
     return any(finding.code.startswith(codes) and settings.matches(path, pattern) for pattern, codes in rules)
+
+
+def _call(call: Expansion) -> dict[str, Any]:
+    return {"macro": call.macro, "file": call.position.file, "line": call.position.line}
 
 
 def _lines(source: Source | None, span: Span) -> list[str]:
@@ -154,7 +171,6 @@ def _difference(fix: Fix, outcome: Outcome) -> list[str]:
         source = outcome.sources[file]
         text = source.text
         for edit in sorted((e for e in fix.edits if e.span.file == file), key=lambda e: e.span, reverse=True):
-            start = source.offset(edit.span.line, edit.span.column)
             start = source.offset(edit.span.line, edit.span.column)
             end = source.offset(edit.span.end_line, edit.span.end_column)
             text = text[:start] + edit.text + text[end:]

@@ -160,8 +160,7 @@ class Session:
                     server.answer(order, **self.obey(order))
                 except UrdfkitError as error:
                     server.answer(order, str(error))
-            if self.watch.changed():
-                self._reload()
+            self.look()
 
     def move(self, joints: Mapping[str, float]) -> None:
         """Set joint positions [rad or m] of those that are there; nothing moves where they make no pose."""
@@ -188,9 +187,25 @@ class Session:
         self._publish_point(frame, position)
         return {}
 
-    def lint(self) -> None:
-        """Put what the linter finds on the page."""
-        self.server.declare("findings", **self.findings.look())
+    def lint(self, *, stale: bool = False) -> None:
+        """Put what the linter finds on the page; `stale` where the robot is not the one in the files."""
+        robot = None if stale else self.figure.kinematics.robot
+        self.server.declare("findings", **self.findings.look(robot))
+
+    def look(self) -> None:
+        """Look at the files: read what has changed, say what is gone."""
+        gone = self.watch.missing
+        if self.watch.changed():
+            self._reload()
+        elif (missing := self.watch.missing) and missing != gone:
+            self._miss(missing)
+
+    def _miss(self, missing: Sequence[Path]) -> None:
+        """Say that files are gone; the robot stays as it was until they are back."""
+        names = ", ".join(str(path) for path in missing)
+        text = f"{names} {'is' if len(missing) == 1 else 'are'} gone; the robot shown is the last one that was read"
+        note(f"urdfkit: {text}")
+        self.server.declare("fault", message=text)
 
     def _reload(self) -> None:
         """Read the files again; a robot that cannot be read leaves the last good one where it is."""
@@ -199,11 +214,12 @@ class Session:
         except UrdfkitError as error:
             note(f"urdfkit: {error}")
             self.server.declare("fault", message=str(error))
+            self.lint(stale=True)
         else:
             self.watch.follow(self.figure.files)
             self.show()
             note(f"reloaded {self.model.path.name}")
-        self.lint()
+            self.lint()
 
     def show(self) -> None:
         """Put the robot on the page, its joints where they were by name."""

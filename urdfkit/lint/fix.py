@@ -230,7 +230,9 @@ class _Fixer:
         mended = self._lint(texts)
         new = new_findings(outcome, mended)
         worse = [finding for finding in new if written.has_caused(finding, mended.sources[finding.file])]
-        if not worse and any(True for _ in left_over(findings, mended.findings)):
+        alike = {_key(finding) for finding in findings}  # others may say the same elsewhere, and stay
+        before = [finding for finding in outcome.findings if _key(finding) in alike]
+        if not worse and any(True for _ in left_over(before, mended.findings)):
             return texts, mended
         if len(findings) == 1:
             cause = f"that would have caused {_listed(worse)}" if worse else "it would still be there"

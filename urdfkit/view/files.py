@@ -11,6 +11,9 @@ Signature = tuple[int, int] | None
 class Watch:
     """Notices saves. A change is reported once the files look the same twice in a row, so half-written saves pass by.
 
+    Attributes:
+        missing: files that were not there at the last two looks.
+
     Args:
         files: what to look at; a file that is not there counts as changed when it appears.
     """
@@ -18,6 +21,7 @@ class Watch:
     def __init__(self, files: Iterable[Path]) -> None:
         self._settled: dict[Path, Signature] = {}
         self._last: dict[Path, Signature] = {}
+        self.missing: tuple[Path, ...] = ()
         self.follow(files)
 
     @property
@@ -37,10 +41,14 @@ class Watch:
         now = {path: _signature(path) for path in self._settled}
         steady = now == self._last
         self._last = now
-        if steady and now != self._settled and None not in now.values():
-            self._settled = now
-            return True
-        return False
+        if not steady:
+            return False
+        missing = tuple(path for path, signature in now.items() if signature is None)
+        returned, self.missing = self.missing, missing
+        if missing or not (returned or now != self._settled):
+            return False
+        self._settled = now
+        return True
 
 
 def _signature(path: Path) -> Signature:

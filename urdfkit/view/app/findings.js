@@ -23,7 +23,7 @@ export function findings(page) {
 
   page.on("findings", (message) => {
     known = message.findings.map((finding) => ({ ...finding, at: finding.link ?? page.childOf(finding.joint) }));
-    for (const finding of known) finding.links = everywhere(page, finding);
+    for (const finding of known) finding.links = finding.about.length ? [...new Set(finding.about.map(({ link, joint }) => link ?? page.childOf(joint)))] : everywhere(page, finding);
     rules = message.rules;
     page.findings = known;
     panel.badge(known.length ? String(known.length) : null, worst(known));

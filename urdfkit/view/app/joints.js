@@ -138,6 +138,9 @@ export class Joints {
     row.number.setAttribute("aria-label", unit ? `${joint.name} [${unit}]` : joint.name);
     const texts = joint.mimic ? [law(joint), ""] : joint.limited ? [short(joint.lower * factor), short(joint.upper * factor)] : ["no limit", ""];
     if (joint.limited && !joint.mimic && free) texts.splice(0, 2, `limits ${texts[0]} … ${texts[1]}`, "ignored");
+    // What is written below the slider may be typed, though it is rounded.
+    const typed = (end, outer) => (joint.limited && !free ? outer(end * factor, Number(short(end * factor))) : null);
+    Object.assign(row.number.bounds, { min: typed(joint.lower, Math.min), max: typed(joint.upper, Math.max), unit: unit === "deg" ? "°" : unit });
     [...row.ends.children].forEach((end, i) => (end.textContent = texts[i]));
   }
 

@@ -30,18 +30,29 @@ export function wrong(text, { min = null, max = null, unit = "", whole = false }
 export function numberField({ min = null, max = null, step = null, unit = "", whole = false, ...attributes } = {}) {
   const input = h("input.number", { type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", ...attributes });
   const bounds = { min, max, unit, whole };
+  input.bounds = bounds; // whoever made it may change them
   let good = input.value; // what stood there before a person began to write
   let writing = false;
   Object.defineProperty(input, "valueAsNumber", { get: () => readNumber(input.value) });
+  let marked = null; // until when it is marked as refused
+  const clear = () => {
+    clearTimeout(marked);
+    input.removeAttribute("aria-invalid");
+  };
   const refuse = (event, words) => {
     event.stopImmediatePropagation();
+    clearTimeout(marked);
     input.setAttribute("aria-invalid", "true");
     input.dispatchEvent(new CustomEvent("refused", { bubbles: true, detail: words }));
     writing = false;
     if (input.form) return; // it stays, so that the form is not sent without it
     input.value = good;
-    setTimeout(() => input.removeAttribute("aria-invalid"), 1500);
+    marked = setTimeout(clear, 4000);
   };
+  // Typing says so before the text changes; what writes otherwise (pasting by script, some keyboards) does not.
+  input.addEventListener("focus", () => {
+    if (!wrong(input.value, bounds)) good = input.value;
+  });
   input.addEventListener("beforeinput", () => {
     if (!writing && !wrong(input.value, bounds)) good = input.value;
     writing = true;
@@ -49,7 +60,7 @@ export function numberField({ min = null, max = null, step = null, unit = "", wh
   input.addEventListener("change", (event) => {
     const words = wrong(input.value, bounds);
     if (words) return refuse(event, named(input, words));
-    input.removeAttribute("aria-invalid");
+    clear();
     input.value = String(readNumber(input.value));
     writing = false;
   });
@@ -60,7 +71,7 @@ export function numberField({ min = null, max = null, step = null, unit = "", wh
     if (!sign || Number.isNaN(now)) return;
     event.preventDefault();
     const by = step ?? 10 ** (Math.floor(Math.log10(Math.abs(now) || 1)) - 1);
-    const next = Math.min(max ?? Infinity, Math.max(min ?? -Infinity, now + sign * by));
+    const next = Math.min(bounds.max ?? Infinity, Math.max(bounds.min ?? -Infinity, now + sign * by));
     input.value = String(Number(next.toPrecision(12)));
     input.dispatchEvent(new Event("change", { bubbles: true }));
   });

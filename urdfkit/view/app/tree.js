@@ -22,6 +22,7 @@ export function tree(page) {
   page.on("select", mark);
   page.on("findings", () => mark(page.selected));
   search.addEventListener("input", filter);
+  search.addEventListener("keydown", take);
   list.addEventListener("keydown", keys);
   page.shortcut({ key: "/", does: "find a link or joint", group: "Panels", run: () => (page.panels.open("tree"), search.focus()) });
 
@@ -72,6 +73,20 @@ export function tree(page) {
       button.toggleAttribute("data-found", wanted !== "" && name.toLowerCase().includes(wanted));
     }
     none.hidden = kept.size > 0 || rows.length === 0;
+  }
+
+  // Enter takes the first that fits best; the arrows go through all that fit, while one goes on writing.
+  function take(event) {
+    const wanted = search.value.trim().toLowerCase();
+    const found = rows.filter(({ name }) => wanted !== "" && name.toLowerCase().includes(wanted));
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if ((!step && event.key !== "Enter") || found.length === 0) return;
+    event.preventDefault();
+    const now = found.findIndex((row) => row.selected(page.selected));
+    const exact = found.findIndex(({ name }) => name.toLowerCase() === wanted);
+    const first = now >= 0 ? now : Math.max(0, exact);
+    const next = !step ? first : now < 0 ? (step > 0 ? 0 : found.length - 1) : (now + step + found.length) % found.length;
+    found[next].button.click();
   }
 
   function keys(event) {
