@@ -224,6 +224,11 @@ def test_publishing_by_a_form(ride) -> None:
         ("/x", "geometry_msgs/msg/Twist", {"liner": {}}, "did you mean `linear`"),
         ("/x", "geometry_msgs/msg/Twist", {"linear": {"x": "fast"}}, "float64"),
         ("/", "geometry_msgs/msg/Twist", {}, "a topic has a name"),
+        ("/cmd vel", "geometry_msgs/msg/Twist", {}, "`/cmd vel` is no name of a topic"),
+        (" simpleton/cmd_vel", "geometry_msgs/msg/Twist", {}, "did you mean `/simpleton/cmd_vel`"),
+        ("/1st", "geometry_msgs/msg/Twist", {}, "no name of a topic"),
+        ("/x\ty", "geometry_msgs/msg/Twist", {}, "no name of a topic"),
+        ("/grüße", "geometry_msgs/msg/Twist", {}, "no name of a topic"),
         ("/x", "std_msgs/msg/UInt8MultiArray", {"data": [2**40]}, "cannot take that message"),
         ("/gazebo/delete_model", "gazebo_msgs/srv/DeleteModel_Request", {}, "no message type"),
     ):
@@ -565,6 +570,45 @@ def test_several_robots_are_driven_one_at_a_time(ride) -> None:
     assert abs(ride.simulator.robots[name].state.base_velocity[0]) < 0.02  # the other one was told to stop
     ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0, "nobody"))
     spend(ride, 0.1)  # harmless
+
+
+def test_stop_ends_what_a_published_command_began(ride) -> None:
+    message = {"linear": {"x": 0.3}}
+    do(ride, "publish", topic="/simpleton/cmd_vel", type="geometry_msgs/msg/Twist", message=message)
+    spend(ride, 1.0)
+    assert ride.simulator.state.v[0] == pytest.approx(0.3, abs=0.02)
+    ride.page.inbox.put_action("stop")
+    spend(ride, 1.0)
+    assert abs(ride.simulator.state.v[0]) < 0.01
+    assert not ride.simulator.paused
+
+
+def test_stop_holds_for_every_robot_whoever_drives(ride) -> None:
+    name = do(ride, "spawn", model="mybot", pose=[2.0, 2.0, 0.0, 0.0])["name"]
+    heard: dict[str, list[float]] = {}
+    for robot in ride.simulator.robots.values():
+        for topic, kind in loop.command_topics(robot).items():
+            speeds = heard[robot.name] = []
+            ride.simulator.subscribe(topic, kind, lambda sent, speeds=speeds: speeds.append(sent.linear.x))
+    ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0, name))
+    spend(ride, FRAME)
+    assert heard[name] == [0.4]
+    ride.page.inbox.put_action("stop")
+    spend(ride, FRAME)
+    assert heard == {"simpleton": [0.0], name: [0.4, 0.0]}
+    assert ride.page.driver.holder is None
+    assert "stop" in ride.page.said  # the pages let go
+
+
+def test_what_is_put_into_something_is_said_on_the_page_each_time(ride) -> None:
+    for _ in range(2):
+        done = do(ride, "spawn", model="barrel", pose=[0.0, 0.1, 0.0, 0.0])
+        assert any("deep in `chassis`; put `barrel` elsewhere" in remark for remark in done["remarks"])
+        assert ride.page.said["notice"]["tone"] == "warning"
+        assert "remarks" not in do(ride, "remove", name="barrel")
+    done = do(ride, "walls", corners=[[-1.0, 0.0], [1.0, 0.0]])
+    assert any("`walls` starts 200 mm deep in `chassis`" in remark for remark in done["remarks"])
+    assert "remarks" not in do(ride, "walls", corners=[[-1.0, 3.0], [1.0, 3.0]])
 
 
 def test_random_orders_never_break_the_loop(ride) -> None:

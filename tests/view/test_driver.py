@@ -50,6 +50,14 @@ def test_a_word_in_time_keeps_it_going(driver: Driver, clock: Clock) -> None:
         assert driver.axes == AHEAD
 
 
+def test_stop_takes_the_wheel_out_of_any_hands(driver: Driver) -> None:
+    driver.offer(1, AHEAD)
+    driver.stop()
+    assert driver.axes is None
+    assert driver.holder is None
+    assert driver.offer(2, BACK)
+
+
 def test_closing_the_page_stops_the_robot_at_once(driver: Driver) -> None:
     driver.offer(1, AHEAD)
     driver.leave(2)

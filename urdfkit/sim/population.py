@@ -144,8 +144,7 @@ class Population:
         engine._evaluate()
         if self._stage.provider == "compiled":
             links = [f"{each.name}::{link}" for each in entry.robots for link in each.kinematics.link_names]
-            loose = [name for name in entry.offsets if name in self._stage.loose]
-            note_overlaps(engine, {*links, *loose}, self.note, newcomer=thing.name)
+            note_overlaps(engine, {*links, *entry.offsets}, self.note, newcomer=thing.name)
         return thing.name
 
     def remove(self, name: str) -> None:

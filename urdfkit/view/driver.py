@@ -56,6 +56,11 @@ class Driver:
             if self._holder is None or (self._holder == client and self._axes is None):
                 self._holder, self._heard = client, self._clock()
 
+    def stop(self) -> None:
+        """Take the wheel out of whoever's hands."""
+        with self._lock:
+            self._let_go()
+
     def leave(self, client: int) -> None:
         """Forget a page that closed or lost its connection; if it drove, the robot stops now."""
         with self._lock:

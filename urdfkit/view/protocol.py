@@ -9,7 +9,7 @@ which robot}, ``control`` {action}, ``ack`` {sequence}, ``seen`` {key, sequence}
 {number, order, values}.
 
 Python → browser: ``hello``, ``you``, ``model``, ``status``, ``fault``, ``progress``, ``joints``, ``sensors``,
-``answer``, and what the mode adds.
+``stop``, ``answer``, and what the mode adds.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ MAX_NAME = 200
 """Longest name of an order, a robot or a key [characters]."""
 MAX_WANTED = 64
 """Most keys one page may want."""
-ACTIONS = ("play", "pause", "reset")
+ACTIONS = ("play", "pause", "reset", "stop")
 
 POSE_HEADER = struct.Struct("<BBHId")
 """0x01, number of the model modulo 256, number of objects, sequence, time [s]: 16 bytes."""

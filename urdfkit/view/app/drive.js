@@ -6,10 +6,9 @@ const PERIOD = 50; // ms
 const SHIFTED = { "<": ",", ">": ".", ";": ",", ":": "." };
 
 export class Drive {
-  /** @param send called with {axes, speed, turn, robot}; @param pause called for the pause key */
-  constructor(send, pause) {
-    this.send = send;
-    this.pause = pause;
+  /** @param send called with {axes, speed, turn, robot}; @param pause called for the pause key; @param halt for stop */
+  constructor(send, pause, halt) {
+    Object.assign(this, { send, pause, halt });
     this.moves = {};
     this.factors = {};
     this.robot = "";
@@ -56,6 +55,12 @@ export class Drive {
     this.robot = robot;
   }
 
+  /** Stop what moves, whoever made it move. */
+  stop() {
+    this.release();
+    this.halt();
+  }
+
   release() {
     this.down.clear();
     this.held.clear();
@@ -88,7 +93,7 @@ export class Drive {
       if (!event.repeat) this.pause();
     } else if (key === "k" || key === " ") {
       event.preventDefault();
-      this.release();
+      if (!event.repeat) this.stop();
     }
   }
 

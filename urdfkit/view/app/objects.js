@@ -80,7 +80,7 @@ export class Objects {
     if (!this.chosen) return this.page.panels.open("world");
     const robot = this.robots.includes(this.chosen);
     const done = await this.#order("spawn", { model: this.chosen, pose: robot ? [x, y, 0, 0] : [x, y, Math.max(0, z), 0] });
-    if (done) this.page.toast(`${done.name} is there`, "good");
+    if (done) this.page.done(`${done.name} is there`, done);
   }
 
   /** Select an object by name. */

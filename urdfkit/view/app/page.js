@@ -56,6 +56,11 @@ export class Page {
     this.timer = setTimeout(() => (box.hidden = true), 3000 + 40 * text.length);
   }
 
+  /** Say that an order was done, and what is to be known about it. */
+  done(words, { remarks = [] } = {}) {
+    this.toast([words, ...remarks].join("; "), remarks.length ? "warning" : "good");
+  }
+
   /**
    * Add a key.
    * @param key as KeyboardEvent.key; @param does words for the list under ?; @param modes where it works

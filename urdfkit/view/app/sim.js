@@ -41,7 +41,7 @@ function common(page) {
 
 function drive(page) {
   page.panels.add({ id: "drive", title: "Drive", icon: WHEEL, modes: ["sim"], order: 10, element: $("drive-section"), pinned: true });
-  const wheel = new Drive((held) => page.send("axes", held), () => $("pause").click());
+  const wheel = new Drive((held) => page.send("axes", held), () => $("pause").click(), () => page.send("control", { action: "stop" }));
   const more = h("details", { id: "steering" }, h("summary", {}, "Sliders that stay, and gamepad"));
   $("keys").before(more);
   chooser(page, wheel, $("drive-section"));
@@ -53,7 +53,7 @@ function drive(page) {
     page.panels.available("drive", message.drives);
     $("pad").hidden = !message.drives || page.mode !== "sim";
   });
-  page.on("lost", () => wheel.release());
+  for (const event of ["lost", "stop"]) page.on(event, () => wheel.release());
   page.expose("drive", wheel);
 }
 

@@ -30,7 +30,7 @@ export function steering(page, drive, host) {
     for (const each of all) each.input.value = 0;
     for (const { output } of all) output.textContent = "0 %";
   };
-  host.append(h("button.wide", { type: "button", id: "steer-stop", onclick: () => drive.release() }, "Stop"));
+  host.append(h("button.wide", { type: "button", id: "steer-stop", onclick: () => drive.stop() }, "Stop"));
   drive.released = reset;
 }
 

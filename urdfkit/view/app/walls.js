@@ -119,8 +119,8 @@ export class Walls {
     if (this.corners.length < 2) return;
     const values = { corners: this.corners, doors: this.doors, height: this.height.valueAsNumber, thickness: this.thickness.valueAsNumber };
     try {
-      const { name } = await this.page.connection.order("walls", values);
-      this.page.toast(`built ${name}`, "good");
+      const done = await this.page.connection.order("walls", values);
+      this.page.done(`built ${done.name}`, done);
       this.clear();
     } catch (error) {
       this.page.toast(error.message, "error");

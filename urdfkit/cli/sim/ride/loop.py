@@ -73,6 +73,8 @@ class Ride:
         self._failed = False
         self._orders: deque[Order] = deque()
         self._reported = -math.inf
+        self._remarks: list[str] = []
+        self._log, simulator._note = simulator._note, self._remark
         self.look: Callable[[], None] = lambda: None  # for topics that have come up, where there is a recording
         self.pace = Pace(simulator.dt, clock)
         self.sights = Sights(simulator, server, clock)
@@ -134,20 +136,45 @@ class Ride:
             for part in self.parts:
                 part.forget()
             self.show()
+        elif action == "stop":
+            self._stop()
+            return
         else:
             simulator.paused = action == "pause" or self._failed
         self.pace.restart(simulator.t)
+
+    def _stop(self) -> None:
+        """Send zero to everything that drives, whoever gave the last command, and take the wheel out of all hands."""
+        self.server.driver.stop()
+        self.server.tell("stop")
+        self._driven = ""
+        for name, robot in self.simulator.robots.items():
+            if command_topics(robot):
+                self._tell(name, STOP)
 
     def _do(self, order: Order) -> None:
         if self._failed:  # nothing in it is a number any more
             self.server.answer(order, "the simulation has diverged; Reset starts again")
             return
+        self._remarks.clear()
         try:
             found = self._takes[order.name][1](order)
         except (UrdfkitError, OSError) as error:
             self.server.answer(order, str(error))
         else:
-            self.server.answer(order, **(found or {}))
+            answer: dict[str, Any] = dict(found or {})
+            if self._remarks:
+                answer["remarks"] = list(self._remarks)
+            self.server.answer(order, **answer)
+        # Who orders the same again is told the same again.
+        self.simulator._noted.difference_update(self._remarks)
+        self._remarks.clear()
+
+    def _remark(self, text: str) -> None:
+        """Say in the terminal, and on the page, what the user should know."""
+        self._log(text)
+        self._remarks.append(text)
+        self.server.tell("notice", text=text, tone="warning")
 
     def _fail(self, error: SimulationError) -> None:
         self.simulator.paused = self._failed = True

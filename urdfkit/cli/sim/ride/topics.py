@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import struct
 from collections import deque
 from typing import TYPE_CHECKING
@@ -12,7 +13,7 @@ from urdfkit.errors import UsageError, did_you_mean
 from urdfkit.view.orders import Order, Schema, text, tree
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from urdfkit.sim.simulator import Simulator
     from urdfkit.view.server import Server
@@ -25,6 +26,8 @@ OFTEN = 0.2
 """Seconds between two looks at one topic's last message, at least."""
 SHARE = 0.1
 """Part of the time that such looks may take: the last message of a camera is made by looking through it."""
+NAME = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+", re.ASCII)
+"""Names of topics that ROS 1 and 2 both take; https://design.ros2.org/articles/topic_and_service_names.html."""
 SPAN = 6
 """Lists over which rates are measured."""
 
@@ -106,6 +109,7 @@ class Topics(Part):
         name, kind = order.values["topic"], full_type_name(order.values["type"])
         if len(absolute(name)) < 2:
             raise UsageError("a topic has a name, such as /cmd_vel")
+        _require_name(name, [topic.name for topic in self.simulator.bus.topics])
         self._require_message(absolute(name), kind)
         try:
             self.simulator.bus.publish(name, kind, from_fields(kind, order.values["message"]))
@@ -120,3 +124,12 @@ class Topics(Part):
         known = {topic.name: topic.type for topic in self.simulator.bus.topics}
         if name in known and known[name] != kind:
             raise UsageError(f"topic `{name}` carries {known[name]}, not {kind}{did_you_mean(kind, [known[name]])}")
+
+
+def _require_name(name: str, known: Sequence[str]) -> None:
+    """Refuse a new topic of a name that no ROS node could have; one that is there keeps its name."""
+    from urdfkit.bus import absolute
+
+    if absolute(name) not in known and not NAME.fullmatch(absolute(name)):
+        near = did_you_mean(absolute(name.replace(" ", "")), known)
+        raise UsageError(f"`{name}` is no name of a topic: letters, digits, _ and / between them, no blanks{near}")
