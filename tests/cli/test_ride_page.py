@@ -228,6 +228,12 @@ def test_topics_are_listed_looked_at_plotted_and_published_to(page, keep, until)
     curve = "[...urdfkit.plots.curves.values()][0].curve"
     until(lambda: page.evaluate(f"{curve}.values.at(-1)") > 0.1)
     keep(page, "publish")
+    for key in ("k", "Space"):  # they stop what a hand did not begin
+        page.locator("#pane").focus()
+        page.keyboard.press(key)
+        until(lambda: abs(page.evaluate("urdfkit.page.status.speed")) < 0.01)
+        page.get_by_role("button", name="Publish", exact=True).click()
+        until(lambda: page.evaluate("urdfkit.page.status.speed") > 0.3)
 
 
 PINCH = """([[left, right], [wider, widest]]) => {
@@ -322,6 +328,20 @@ def test_objects_are_inserted_moved_turned_and_deleted(page, keep, until) -> Non
     page.keyboard.press("Delete")
     until(lambda: "crate" not in names(page))
     assert not page.evaluate("urdfkit.scene.byLink.has('world/crate')")
+
+
+def test_walls_through_the_robot_are_a_warning(page, until) -> None:
+    put_down(page)
+    look_from_above(page, 9.0)
+    page.locator("#open-world").click()
+    page.locator("#draw-walls").click()
+    for corner in ((-1.5, 0.0), (1.8, 0.0)):
+        page.mouse.click(*spot(page, *corner))
+    page.locator("#wall-build").click()
+    until(lambda: "built walls; `walls` starts" in page.locator("#toast").inner_text())
+    assert page.locator("#toast").get_attribute("data-tone") == "warning"
+    page.keyboard.press("Escape")
+    order(page, "remove", name="walls")
 
 
 def test_walls_with_a_door_are_drawn_and_the_world_is_saved(page, keep, until, tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.cli.lab import TWINS
 from urdfkit.cli.findings import Findings
 from urdfkit.description import load
 from urdfkit.errors import ResourceError, UsageError
@@ -68,21 +69,6 @@ def test_only_the_finding_that_was_named_is_mended(tmp_path: Path) -> None:
     findings.mend(rows[1]["number"])
     assert 'xyz="0 1 0"' in path.read_text()
     assert 'xyz="0 0 2"' in path.read_text()
-
-
-TWINS = """<robot name="two" xmlns:xacro="http://www.ros.org/wiki/xacro">
-  <link name="a"><visual><origin rpy="1.5708 0 0"/><geometry><box size="1 1 1"/></geometry></visual></link>
-  <link name="b"><visual><origin rpy="1.5708 0 0"/><geometry><box size="1 1 1"/></geometry></visual></link>
-  <joint name="j" type="fixed"><parent link="a"/><child link="b"/><origin rpy="1.5708 0 0"/></joint>
-  <xacro:macro name="wheel" params="side">
-    <link name="wheel_${side}">
-      <visual><origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.1" length="0.1"/></geometry></visual></link>
-    <joint name="${side}" type="fixed"><parent link="a"/><child link="wheel_${side}"/></joint>
-  </xacro:macro>
-  <xacro:wheel side="left"/>
-  <xacro:wheel side="right"/>
-</robot>
-"""
 
 
 @pytest.mark.parametrize("nth", range(4))

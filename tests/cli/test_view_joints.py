@@ -32,6 +32,19 @@ def test_units_of_angles(page, until, keep) -> None:
     keep(page, "degrees")
 
 
+def test_a_typed_limit_is_taken_as_it_is_shown_and_no_more(page, until) -> None:
+    page.get_by_label("Angles in").first.select_option("deg")
+    number = page.get_by_label("bend [deg]")
+    number.fill("57.296")  # a little more than the limit of 1 rad, which is what is shown
+    number.press("Enter")
+    until(lambda: values(page)["bend"] == pytest.approx(1.0))
+    number.fill("57.4")
+    number.press("Enter")
+    until(lambda: "bend: 57.4 ° is too much; the most is 57.296 °" in page.locator("#toast").inner_text())
+    assert values(page)["bend"] == 1.0
+    page.get_by_label("Angles in").first.select_option("rad")
+
+
 def test_centre_random_and_zero(page, until, keep) -> None:
     page.get_by_role("button", name="Centre").click()
     until(lambda: values(page)["bend"] == pytest.approx(-0.5))

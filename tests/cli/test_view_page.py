@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("pinocchio")
 pytest.importorskip("meshcat")
 
-from tests.cli.lab import ROBOT, at, panel, values, write
+from tests.cli.lab import ROBOT, TWINS, at, panel, values, write
 
 pytestmark = pytest.mark.browser
 
@@ -68,6 +68,52 @@ def test_a_badge_leads_to_the_finding_and_its_fix_is_applied(serve, visits, unti
         )
         assert sent != "done"
     assert visits.problems == []
+
+
+def test_a_finding_in_a_macro_marks_every_link_it_made(serve, visits, until, tmp_path: Path) -> None:
+    path = tmp_path / "two.urdf.xacro"
+    path.write_text(TWINS)
+    page = visits.open(serve("view", str(path)).url)
+    page.wait_for_selector(".badge")
+    page.locator("#open-findings").click()
+    card = page.locator(".finding").filter(has_text="two.urdf.xacro:7")
+    assert card.locator(".chips .chip").all_inner_texts() == ["wheel_left", "wheel_right"]
+    assert "wheel" in card.inner_text().split("two.urdf.xacro:10")[0]  # through which call
+    for link in ("a", "b", "wheel_left", "wheel_right"):
+        assert page.locator(f".badge[data-link={link}]").count() == 1
+    left = "urdfkit.page.findings.filter(({ code }) => code === 'X112').length"
+    for count in (3, 2, 1, 0):  # all of them say the same
+        first = page.locator(".finding").filter(has_text="X112").first
+        first.get_by_role("button", name="Apply fix").click()
+        until(lambda count=count: page.evaluate(left) == count)
+    assert "1.5708" not in path.read_text()
+    assert visits.problems == []
+
+
+def test_find_by_name_and_take_it_with_enter(page) -> None:
+    page.locator("#pane").focus()
+    page.keyboard.press("/")
+    page.keyboard.type("low")
+    page.keyboard.press("Enter")
+    assert page.evaluate("urdfkit.page.selected") == {"link": "lower"}
+    page.locator("#tree-search").fill("t")  # turn, tip, left, right …
+    found = page.evaluate("[...document.querySelectorAll('.tree [data-found]')].map((each) => each.textContent)")
+    page.keyboard.press("Enter")
+    seen = [page.evaluate("urdfkit.page.selected")]
+    for _ in found[1:]:
+        page.keyboard.press("ArrowDown")
+        seen.append(page.evaluate("urdfkit.page.selected"))
+    assert len({str(each) for each in seen}) == len(found) > 3
+    page.keyboard.press("ArrowDown")
+    assert page.evaluate("urdfkit.page.selected") == seen[0]  # round
+    page.keyboard.press("ArrowUp")
+    assert page.evaluate("urdfkit.page.selected") == seen[-1]
+    page.locator("#tree-search").fill("left")
+    page.keyboard.press("Enter")
+    assert page.evaluate("urdfkit.page.selected") == {"link": "left"}
+    page.locator("#tree-search").fill("nothing")
+    page.keyboard.press("Enter")
+    assert page.evaluate("urdfkit.page.selected") == {"link": "left"}
 
 
 def test_a_screenshot_and_a_turn_are_kept(page, keep) -> None:

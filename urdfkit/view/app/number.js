@@ -61,7 +61,7 @@ export function numberField({ min = null, max = null, step = null, unit = "", wh
     const words = wrong(input.value, bounds);
     if (words) return refuse(event, named(input, words));
     clear();
-    input.value = String(readNumber(input.value));
+    good = input.value = String(readNumber(input.value));
     writing = false;
   });
   // As fields of the browser's own do; where there is no step it is a tenth of the size of the number.
