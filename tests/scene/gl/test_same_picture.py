@@ -94,6 +94,20 @@ def test_a_zoo(lights) -> None:
     agree(gl.take(LENS, EYE), rays.take(LENS, EYE))
 
 
+@pytest.mark.parametrize(
+    ("solid", "most"),
+    [(Sphere(1.0), 3e-3), (Ellipsoid((1.0, 1.2, 1.4)), 3e-3), (Cylinder(1.0, 4.0), 1.5e-3), (Capsule(1.0, 2.0), 3e-3)],
+)
+def test_a_round_solid_that_fills_the_picture(solid, most: float) -> None:
+    gl, rays = both(table_of(visual(solid, "round", (1.6, 0.07, 0.03))), lit())
+    one, other = gl.take(LENS, np.eye(4)), rays.take(LENS, np.eye(4))
+    seen = (one.shapes == other.shapes) & (other.shapes >= 0)
+    assert seen.mean() > 0.9
+    wrong = np.abs(one.depth[seen] - other.depth[seen]) / other.depth[seen]
+    assert np.quantile(wrong, 0.99) <= most
+    assert np.median(wrong) <= 0.6 * most
+
+
 def test_a_house_from_many_places() -> None:
     world = load_world("house")
     scene, poses = world_scene(world)

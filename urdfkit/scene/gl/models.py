@@ -20,6 +20,9 @@ Array = NDArray[np.float64]
 AROUND = 64
 """Facets around a cylinder or a sphere."""
 
+SWELL = 2.0 / (1.0 + np.cos(np.pi / AROUND))
+"""Greater radius of facets, whose edges lie as far outside the round then as their middles inside."""
+
 VERTEX = 12
 """Numbers per vertex: position, normal, place on the texture, colour and opacity."""
 
@@ -170,7 +173,8 @@ def _solid(key: Any) -> tuple[Array, Array, bool]:
         return square, np.tile([0.0, 0.0, 1.0], (6, 1)), True
     if key in (solids.SPHERE, solids.ELLIPSOID):
         height = np.linspace(-np.pi / 2, np.pi / 2, AROUND // 2 + 1)
-        return *_turned(np.cos(height), np.sin(height), np.cos(height), np.sin(height), turn), False
+        rim, z = np.cos(height), np.sin(height)
+        return *_turned(SWELL * rim, SWELL * z, rim, z, turn), False
     if key == solids.CYLINDER:
         rim = np.array([0.0, 1.0, 1.0, 1.0, 1.0, 0.0])
         z = np.array([-1.0, -1.0, -1.0, 1.0, 1.0, 1.0])
@@ -189,6 +193,7 @@ def _solid(key: Any) -> tuple[Array, Array, bool]:
 
 def _turned(rim: Array, z: Array, out: Array, up: Array, turn: Array) -> tuple[Array, Array]:
     """Return the triangles of a line turned about z, and their normals, which lean out and up."""
+    rim = SWELL * rim
 
     def around(radial: Array, axial: Array) -> Array:
         return np.stack(
