@@ -54,6 +54,7 @@ class TriMesh:
         face_textures: for each triangle which of them, -1 for none; shape (m,), int32, or None.
         face_gloss: for each triangle colour, 0..1, and exponent of its gloss; shape (m, 4), float32, or None.
         missing: names of pictures that the file asks for and that are not there, or are none.
+        broken: those of them that are there, and no pictures.
         hash: hexadecimal digest of all of the above: equal meshes have equal hashes.
     """
 
@@ -67,6 +68,7 @@ class TriMesh:
     face_textures: NDArray[np.int32] | None = field(default=None, repr=False)
     missing: tuple[str, ...] = ()
     face_gloss: NDArray[np.float32] | None = field(default=None, repr=False)
+    broken: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         digest = hashlib.sha256("".join(texture.hash for texture in self.textures).encode())
@@ -178,7 +180,8 @@ def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bo
         raise ResourceError(f"mesh {path.name} cannot be read: {reason}") from error
     factor = metres_per_unit(content) if suffix == ".dae" else 1.0
     mesh = _merge(path, parts, np.array(scale, dtype=float) * factor, places)
-    return replace(mesh, missing=tuple(dict.fromkeys(beside.missing))) if beside.missing else mesh
+    missing, broken = (tuple(dict.fromkeys(names)) for names in (beside.missing, beside.broken))
+    return replace(mesh, missing=missing, broken=broken) if missing else mesh
 
 
 def _parts(scene: Any) -> Iterator[tuple[Any, Any]]:

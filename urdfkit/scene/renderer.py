@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor, wait
 from typing import Literal, Protocol, get_args
 
 from numpy.typing import ArrayLike
 
 from urdfkit.errors import SimulationError, did_you_mean
-from urdfkit.scene.gl.probe import Found, on_processor, probe
+from urdfkit.scene.gl.probe import SECONDS, Found, on_processor, probe, probe_anew
 from urdfkit.scene.image import Painter, Picture
 from urdfkit.scene.lens import Lens
 from urdfkit.scene.lights import Lighting
@@ -31,12 +32,19 @@ class TakesPictures(Protocol):
         ...
 
 
-def check(renderer: str, device: Callable[[], Found] = probe) -> None:
+PATIENCE = 1.5
+"""Seconds of trying a driver before the user is told what is waited for."""
+
+
+def check(
+    renderer: str, device: Callable[[], Found] = probe_anew, *, note: Callable[[str], None] = lambda text: None
+) -> None:
     """Refuse a renderer that there is not.
 
     Args:
         renderer: one of `RENDERERS`.
         device: tries whether OpenGL works.
+        note: tells the user that this takes long.
 
     Raises:
         SimulationError: there is no such renderer, or OpenGL is asked for and does not work here.
@@ -45,7 +53,7 @@ def check(renderer: str, device: Callable[[], Found] = probe) -> None:
         raise SimulationError(
             f"no renderer `{renderer}`{did_you_mean(renderer, RENDERERS)} (there are {', '.join(RENDERERS)})"
         )
-    if renderer == "gl" and not (found := device()).works:
+    if renderer == "gl" and not (found := _tried(device, note)).works:
         raise SimulationError(f"renderer `gl` does not work here: {found.name}; `ray` does everywhere")
 
 
@@ -70,7 +78,7 @@ def painter_of(
     """
     if renderer == "ray":
         return Painter(table, lighting)
-    found = device()
+    found = _tried(device, note)
     if not found.works:
         if "not installed" not in found.name:
             note(f"OpenGL does not work here ({found.name}): pictures are taken by casting rays")
@@ -84,6 +92,15 @@ def painter_of(
     except Exception as error:  # whatever the driver raises
         note(f"OpenGL does not work here ({_first_line(error)}): pictures are taken by casting rays")
         return Painter(table, lighting)
+
+
+def _tried(device: Callable[[], Found], note: Callable[[str], None]) -> Found:
+    """Return what came of trying; a driver that takes long is spoken of meanwhile."""
+    with ThreadPoolExecutor(max_workers=1) as trying:
+        future = trying.submit(device)
+        if not wait([future], timeout=PATIENCE).done:
+            note(f"trying the graphics driver, which does not answer: {SECONDS:g} s at most")
+        return future.result()
 
 
 def _first_line(error: Exception) -> str:

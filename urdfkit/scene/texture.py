@@ -102,6 +102,7 @@ class Beside(dict[str, bytes]):
     Attributes:
         read: the files that have been read, with what tells that they have changed.
         missing: names of pictures that were not there, or are none.
+        broken: those of them that are there.
     """
 
     def __init__(self, path: Path, limit: int) -> None:
@@ -110,6 +111,7 @@ class Beside(dict[str, bytes]):
         self._limit = limit
         self.read: dict[Path, tuple[int, int]] = {}
         self.missing: list[str] = []
+        self.broken: list[str] = []
 
     def __missing__(self, name: str) -> bytes:
         wanted = name.replace("\\", "/").removeprefix("file://")
@@ -128,6 +130,7 @@ class Beside(dict[str, bytes]):
                     content = path.read_bytes()
                     if picture and not _opens(content):
                         self.missing.append(name)
+                        self.broken.append(name)
                     return content
         if picture:
             self.missing.append(name)

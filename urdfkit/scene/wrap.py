@@ -34,6 +34,7 @@ class Wrapper:
     def __init__(self, resolve: Callable[[str], Path]) -> None:
         self._resolve = resolve
         self._known: dict[str, Texture | None] = {}
+        self._broken: set[str] = set()
 
     def wrapped(self, geometry: Geometry, mesh: TriMesh | None, name: str) -> TriMesh | None:
         """Return a shape with a picture on it.
@@ -50,16 +51,20 @@ class Wrapper:
         if name not in self._known:
             try:
                 self._known[name] = read_texture(self._resolve(name))
-            except (ResourceError, OSError, ValueError, SyntaxError):  # the last three are what Pillow raises
+            except (ResourceError, FileNotFoundError):
                 self._known[name] = None
+            except (OSError, ValueError, SyntaxError):  # what Pillow raises
+                self._known[name] = None
+                self._broken.add(name)
         texture = self._known[name]
         found = mesh if mesh is not None else solid(geometry)
         if texture is None or found is None:
-            return found and replace(found, missing=(*found.missing, name))
+            broken = (*found.broken, name) if found and name in self._broken else ()
+            return found and replace(found, missing=(*found.missing, name), broken=broken)
         if found.uv is None:
             return None
         wrapped = np.zeros(len(found.faces), dtype=np.int32)
-        return replace(found, colors=None, textures=(texture,), face_textures=wrapped, missing=())
+        return replace(found, colors=None, textures=(texture,), face_textures=wrapped, missing=(), broken=())
 
 
 def solid(geometry: Geometry) -> TriMesh | None:

@@ -172,9 +172,9 @@ class View:
             for shape in self.scene.with_role("visual"):
                 for name in shape.mesh.missing if shape.mesh is not None and not shape.has_color else ():
                     place = f"{shape.position}: " if shape.position else ""
-                    self._note(
-                        f"{place}`{shape.name}` is seen without its texture: `{name}` is not there, or no picture"
-                    )
+                    broken = shape.mesh is not None and name in shape.mesh.broken
+                    why = "is no picture that can be read" if broken else "is not there"
+                    self._note(f"{place}`{shape.name}` is seen without its texture: `{name}` {why}")
             self._painter = painter_of(table, self._lighting, self._renderer, self._note)
         return self._painter
 
@@ -192,7 +192,7 @@ class Surroundings:
     """
 
     def __init__(self, population: Populated, note: Callable[[str], None], renderer: str = "ray") -> None:
-        check(renderer)
+        check(renderer, note=note)
         self._renderer = renderer
         self._population = population
         self._note = note

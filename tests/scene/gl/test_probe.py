@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
+from threading import Event
 
 import pytest
 
@@ -10,6 +12,9 @@ from tests.scene.gl.test_same_picture import table_of, zoo
 from tests.scene.test_image import lit
 from urdfkit.description.world import Light
 from urdfkit.errors import SimulationError
+from urdfkit.scene import renderer as renderer_module
+from urdfkit.scene.gl import probe as probing
+from urdfkit.scene.gl import verdict
 from urdfkit.scene.gl.probe import Found, ask, on_processor
 from urdfkit.scene.image import Painter
 from urdfkit.scene.renderer import check, painter_of
@@ -38,6 +43,59 @@ def test_a_program_that_is_not_there() -> None:
     found = ask(["/no/such/program"])
     assert not found.works
     assert "no process could be started" in found.name
+
+
+def test_a_driver_that_hangs_is_not_tried_again_while_nothing_changes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(verdict, "folder", lambda: tmp_path)
+    asked: list[int] = []
+    found = Found(False, "", "the driver did not draw a triangle in 10 s")
+
+    def ask(command: list[str]) -> Found:
+        asked.append(len(command))
+        return found
+
+    monkeypatch.setattr(probing, "ask", ask)
+    monkeypatch.setattr(probing, "find_spec", lambda name: object())
+    plainly, anew = probing.probe.__wrapped__, probing.probe_anew.__wrapped__  # without what one process remembers
+    monkeypatch.setattr(probing, "probe_anew", anew)
+    assert plainly() == found
+    assert plainly().name == f"{found.name}, the last time; --renderer gl tries again"
+    assert len(asked) == 1
+    monkeypatch.setenv("LIBGL_ALWAYS_SOFTWARE", "true-enough")
+    assert plainly() == found
+    assert len(asked) == 2
+    monkeypatch.setattr(verdict, "BELIEVED", 0.0)
+    assert plainly() == found
+    monkeypatch.undo()
+    monkeypatch.setattr(verdict, "folder", lambda: tmp_path)
+    monkeypatch.setattr(probing, "find_spec", lambda name: object())
+    monkeypatch.setattr(probing, "ask", lambda command: Found(True, "egl", "a card"))
+    assert anew().works
+    assert verdict.recall() is None
+
+
+def test_nobody_remembers_where_nothing_can_be_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(verdict, "folder", lambda: Path("/dev/null/x"))
+    verdict.remember("it hung")
+    assert verdict.recall() is None
+
+
+def test_a_driver_that_takes_long_is_spoken_of(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(renderer_module, "PATIENCE", 0.0)
+    told, notes = Event(), []
+
+    def note(text: str) -> None:
+        notes.append(text)
+        told.set()
+
+    def slow() -> Found:
+        assert told.wait(10.0)
+        return Found(True, "no such backend", "llvmpipe")
+
+    assert isinstance(painter_of(table_of(*zoo()), lit(SUN), "auto", note, slow), Painter)
+    assert notes == ["trying the graphics driver, which does not answer: 10 s at most"]
 
 
 BROKEN = Found(False, "", "the driver crashed (signal 11)")

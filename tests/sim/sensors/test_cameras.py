@@ -230,7 +230,10 @@ def test_edges_are_smooth_where_that_is_asked_for(post) -> None:
     assert (np.isnan(edge) | (np.abs(edge - 3.0) < 0.2)).all()
 
 
-def test_a_texture_that_is_not_there_is_named_once(post, tmp_path) -> None:
+@pytest.mark.parametrize(("content", "why"), [(None, "is not there"), (b"?", "is no picture that can be read")])
+def test_a_texture_that_is_not_there_is_named_once(post, tmp_path, content, why: str) -> None:
+    if content is not None:
+        (tmp_path / "gone.png").write_bytes(content)
     (tmp_path / "plate.obj").write_text(
         "mtllib plate.mtl\nv 0 1 0\nv 0 -1 0\nv 0 0 3\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n"
     )
@@ -242,7 +245,7 @@ def test_a_texture_that_is_not_there_is_named_once(post, tmp_path) -> None:
     (picture,) = heard(simulator, "/cam/image_raw")
     heard(simulator, "/cam/image_raw")
     (note,) = [note for note in notes if "gone.png" in note]
-    said = "`world/walls/visual/v` is seen without its texture: `gone.png` is not there, or no picture"
+    said = f"`world/walls/visual/v` is seen without its texture: `gone.png` {why}"
     assert re.fullmatch(rf"\S+\.\w+:\d+:\d+: {re.escape(said)}", note)
     assert len(np.unique(pixels(picture).reshape(-1, 3), axis=0)) == 2
 

@@ -13,8 +13,12 @@ from functools import lru_cache
 from importlib.util import find_spec
 from typing import Any
 
-SECONDS = 30.0
+from urdfkit.scene.gl import verdict
+
+SECONDS = 10.0
 """A driver that has not drawn a triangle by then does not work."""
+
+HUNG = "did not draw a triangle"
 
 BACKENDS = ("egl", "")
 """EGL draws without a display; else whatever the platform has."""
@@ -43,10 +47,20 @@ class Found:
 
 @lru_cache(maxsize=1)
 def probe() -> Found:
-    """Return whether OpenGL works here; tried once per process."""
+    """Return whether OpenGL works here; tried once per process, and not at all where it hung the last time."""
+    if (hung := verdict.recall()) is not None:
+        return Found(False, "", f"{hung}, the last time; --renderer gl tries again")
+    return probe_anew()
+
+
+@lru_cache(maxsize=1)
+def probe_anew() -> Found:
+    """Return whether OpenGL works here; tried once per process. That it hangs is remembered."""
     if find_spec("moderngl") is None:
         return Found(False, "", "moderngl is not installed: pip install 'urdfkit[gl]'")
-    return ask([sys.executable, "-m", "urdfkit.scene.gl.probe"])
+    found = ask([sys.executable, "-m", "urdfkit.scene.gl.probe"])
+    verdict.remember(found.name if HUNG in found.name else None)
+    return found
 
 
 def ask(command: list[str], *, seconds: float = SECONDS) -> Found:
@@ -59,7 +73,7 @@ def ask(command: list[str], *, seconds: float = SECONDS) -> Found:
     try:
         done = subprocess.run(command, capture_output=True, timeout=seconds, check=False)
     except subprocess.TimeoutExpired:
-        return Found(False, "", f"the driver did not draw a triangle in {seconds:g} s")
+        return Found(False, "", f"the driver {HUNG} in {seconds:g} s")
     except OSError as error:
         return Found(False, "", f"no process could be started ({error.strerror})")
     if done.returncode < 0:
