@@ -4,15 +4,25 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from urdfkit.cli import main
+from urdfkit.cli.sim import scans
+from urdfkit.sim.sensors import clouds
 
 Capture = pytest.CaptureFixture[str]
 ROBOT = Path(__file__).parents[2] / "robots/diff_wheeled_robot/diff_wheeled_robot_description/urdf"
 LASER = str(ROBOT / "diff_wheeled_robot_with_laser.urdf.xacro")
+
+
+def saved_by(message: Any) -> tuple[Path, bytes]:
+    bus = SimpleNamespace(latest=lambda topic: message)
+    (found,) = scans.contents(SimpleNamespace(bus=bus, t=0.0), [("/points", Path("x.csv"))])  # type: ignore[arg-type]
+    return found
 
 
 def run(robot: str, *options: str, world: str = "cylinders", seconds: str = "0.1") -> int:
@@ -79,3 +89,34 @@ def test_what_cannot_be_saved_is_said(
     assert run(robot, option, seconds=seconds) == 2
     assert said in capsys.readouterr().err.splitlines()[-1]
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("option", ["--save-scan=/scan={}.json", "--save-image=/image={}.png", "--save-world={}.sdf"])
+def test_places_are_looked_at_before_anything_runs(tmp_path: Path, capsys: Capture, monkeypatch, option: str) -> None:
+    monkeypatch.setattr("urdfkit.cli.sim.headless.load", lambda _: pytest.fail("the run has started"))
+    (tmp_path / "seen").mkdir()
+    wrong = option.format(tmp_path / "sene" / "x")
+    assert main(["sim", "run", LASER, "--for", "9", f"--save-scan=/scan={tmp_path / 'v.csv'}", wrong]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert f"cannot write {tmp_path}/sene/x." in line
+    assert line.endswith(f"no folder {tmp_path}/sene; did you mean `seen`?")
+    (tmp_path / "x.json").mkdir()
+    assert main(["sim", "run", LASER, "--for", "9", f"--save-scan={tmp_path / 'x.json'}"]) == 2
+    assert capsys.readouterr().err.endswith("x.json is a folder\n")
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["seen", "x.json"]
+
+
+def test_nothing_is_written_where_one_has_not_come(tmp_path: Path, capsys: Capture) -> None:
+    arguments = ["--world", "void", "--for", "0.03", f"--save-image={tmp_path / 'a.png'}"]  # pictures come at 20 Hz
+    assert main(["sim", "run", "gem_e2", *arguments, f"--save-scan={tmp_path / 'b.json'}"]) == 2
+    assert "run for longer" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_colours_of_points_are_columns() -> None:
+    points = {name: np.array([1.0, np.nan]) for name in "xyz"}
+    packed = np.array([0x010203, 0xFA8000], dtype=np.uint32).view(np.float32)
+    layout = ((*clouds.XYZ, ("rgb", "f4", 16)), 32)
+    (file, content) = saved_by(clouds.cloud(0.0, "eye", layout, {**points, "rgb": packed}, width=2))
+    assert file == Path("x.csv")
+    assert content.decode().splitlines() == ["x,y,z,r,g,b", "1.0,1.0,1.0,1,2,3", "nan,nan,nan,250,128,0"]

@@ -8,6 +8,7 @@ import re
 import sys
 import time
 from math import ceil
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from urdfkit.cli.parser import add_model
@@ -119,10 +120,14 @@ def run(arguments: argparse.Namespace) -> int:
     """Simulate and report."""
     if arguments.cmd_ramp is not None and arguments.cmd_vel is None:
         raise UsageError("sim run: --cmd-ramp ramps up --cmd-vel, which is missing")
-    from urdfkit.cli.sim import pictures, scans
+    from urdfkit.atomic import write_bytes
+    from urdfkit.cli.sim import pictures, saved, scans
     from urdfkit.cli.sim.kernel import prepare_kernel
     from urdfkit.cli.sim.report import as_json, as_text
 
+    saved.check_places("--save-image", (each.file for each in arguments.save_image))
+    saved.check_places("--save-scan", (each.file for each in arguments.save_scan))
+    saved.check_places("--save-world", [Path(arguments.save_world)] if arguments.save_world is not None else [])
     if arguments.engine == "compiled":
         prepare_kernel(sys.stderr)
     simulator = load(arguments)
@@ -133,8 +138,8 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.record is not None:
             simulator.every(LOOK, look)
         spent = advance(simulator, arguments.duration, arguments.until)
-    pictures.save(simulator, images)
-    scans.save(simulator, ranges)
+    for file, content in [*pictures.contents(simulator, images), *scans.contents(simulator, ranges)]:
+        write_bytes(file, content)
     if arguments.save_world is not None:
         simulator.save_world(arguments.save_world)
     print(json.dumps(as_json(simulator, spent), indent=1) if arguments.json else as_text(simulator, spent))

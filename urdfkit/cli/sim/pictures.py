@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.atomic import write_bytes
 from urdfkit.cli.sim import saved
 from urdfkit.errors import MissingDependencyError, UsageError
 
@@ -32,18 +31,17 @@ def find_topics(simulator: Simulator, wanted: Sequence[TopicFile]) -> list[tuple
     return saved.find_topics(simulator, wanted, option="--save-image", types=(IMAGE,), what="pictures", suffix=".png")
 
 
-def save(simulator: Simulator, wanted: Sequence[tuple[str, Path]]) -> None:
-    """Write the last picture of each topic.
+def contents(simulator: Simulator, wanted: Sequence[tuple[str, Path]]) -> Iterator[tuple[Path, bytes]]:
+    """Yield each file and what is to be in it, the last picture of its topic.
 
     Raises:
         UsageError: none has been taken so far.
-        ResourceError: it cannot be written.
     """
     for topic, file in wanted:
         message = simulator.bus.latest(topic)
         if message is None:
             raise UsageError(f"--save-image: no picture came on {topic} in {simulator.t:g} s; run for longer")
-        write_bytes(file, png(message))
+        yield file, png(message)
 
 
 def png(message: Any) -> bytes:

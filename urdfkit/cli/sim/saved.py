@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from urdfkit.bus import absolute
+from urdfkit.description.packages import near_path
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
@@ -20,6 +22,26 @@ SAVED_BY = {
     "sensor_msgs/msg/PointCloud2": ("--save-scan", "points"),
 }
 """Type of messages → the option that saves them, and what they are called."""
+
+
+def check_places(option: str, files: Iterable[Path]) -> None:
+    """Refuse what cannot be written, before anything is computed.
+
+    Args:
+        option: such as ``--save-image``.
+        files: to be written.
+
+    Raises:
+        UsageError: there is no such folder, nothing may be written there, or a folder has the file's name.
+    """
+    for file in files:
+        folder = file.parent
+        if file.is_dir():
+            raise UsageError(f"{option}: {file} is a folder")
+        if not folder.is_dir():
+            raise UsageError(f"{option}: cannot write {file}: no folder {folder}{near_path(folder)}")
+        if not os.access(folder, os.W_OK | os.X_OK):
+            raise UsageError(f"{option}: cannot write {file}: nothing may be written into {folder}")
 
 
 def find_topics(

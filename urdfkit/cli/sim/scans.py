@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.atomic import write_text
 from urdfkit.cli.sim import saved
 from urdfkit.errors import UsageError
 
@@ -33,12 +32,11 @@ def find_topics(simulator: Simulator, wanted: Sequence[TopicFile]) -> list[tuple
     return found
 
 
-def save(simulator: Simulator, wanted: Sequence[tuple[str, Path]]) -> None:
-    """Write the last scan of each topic; numbers that are not finite are null in JSON.
+def contents(simulator: Simulator, wanted: Sequence[tuple[str, Path]]) -> Iterator[tuple[Path, bytes]]:
+    """Yield each file and what is to be in it, the last scan of its topic; what is not finite is null in JSON.
 
     Raises:
         UsageError: none has been taken so far.
-        ResourceError: it cannot be written.
     """
     for topic, file in wanted:
         message = simulator.bus.latest(topic)
@@ -48,7 +46,8 @@ def save(simulator: Simulator, wanted: Sequence[tuple[str, Path]]) -> None:
         stamp = message.header.stamp
         time = stamp.sec + 1e-9 * stamp.nanosec
         about = {"topic": topic, "frame": message.header.frame_id, "time": time, **numbers}
-        write_text(file, _table(columns) if file.suffix.lower() == ".csv" else _json(about, columns))
+        text = _table(columns) if file.suffix.lower() == ".csv" else _json(about, columns)
+        yield file, text.encode()
 
 
 def _scan(message: Any) -> tuple[dict[str, float], dict[str, Any]]:
@@ -75,7 +74,21 @@ def _cloud(message: Any) -> tuple[dict[str, float], dict[str, Any]]:
         }
     )
     rows = np.frombuffer(message.data.tobytes(), dtype=row)
-    return {"width": message.width, "height": message.height}, {name: rows[name] for name in row.names or ()}
+    columns: dict[str, Any] = {}
+    for name in row.names or ():
+        if name in ("rgb", "rgba") and rows[name].dtype.itemsize == 4:
+            columns |= _colors(rows[name], name)
+        else:
+            columns[name] = rows[name]
+    return {"width": message.width, "height": message.height}, columns
+
+
+def _colors(packed: Any, names: str) -> dict[str, Any]:
+    """Return a column of 0 to 255 for each of the colours that PCL packs into 32 bits, blue lowest."""
+    import numpy as np
+
+    bits = np.ascontiguousarray(packed).view("<u4")
+    return {name: (bits >> shift) & 255 for name, shift in zip("rgba", (16, 8, 0, 24), strict=True) if name in names}
 
 
 def _json(about: Mapping[str, Any], columns: Mapping[str, Any]) -> str:
