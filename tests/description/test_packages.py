@@ -166,6 +166,7 @@ def test_uris(package: Package, write: Write) -> None:
     [
         ("package://own/meshes/arm.STL", "did you mean `arm.stl`?"),
         ("package://own/mesh/arm.stl", "did you mean `meshes`?"),
+        ("package://own/meshes/arms.stl", "did you mean `arm.stl`?"),
         ("package://onw/meshes/arm.stl", "no package `onw`"),
         ("http://example.com/arm.stl", "from this machine only"),
         ("nothing.stl", "no file nothing.stl"),
@@ -177,6 +178,14 @@ def test_uris_that_mean_nothing(package: Package, write: Write, uri: str, messag
     with pytest.raises(ResourceError) as caught:
         Packages(near=own, environment={}).resolve(uri, own / "r.urdf")
     assert message in str(caught.value)
+
+
+def test_files_are_not_near_for_their_suffix_alone(package: Package, write: Write) -> None:
+    own = package("ws/src/own", "own")
+    write("ws/src/own/meshes/soup.stl", "")
+    with pytest.raises(ResourceError) as caught:
+        Packages(near=own, environment={}).resolve("package://own/meshes/gone.stl", own / "r.urdf")
+    assert "did you mean" not in str(caught.value)
 
 
 def test_source_folders_stand_for_what_cmake_installs(package: Package, write: Write) -> None:

@@ -240,7 +240,10 @@ class Packages:
 
 
 def near_path(path: Path) -> str:
-    """Return a did-you-mean for the first part of `path` that is not there; cases are compared loosely."""
+    """Return a did-you-mean for the first part of `path` that is not there; cases are compared loosely.
+
+    What two names have in common beyond the first dot makes neither near to the other.
+    """
     missing, parent = path, path.parent
     while not parent.is_dir() and parent != parent.parent:
         missing, parent = parent, parent.parent
@@ -248,7 +251,12 @@ def near_path(path: Path) -> str:
         names = sorted(child.name for child in parent.iterdir())
     except OSError:
         return ""
-    return did_you_mean(missing.name, names)
+    stem = _stem(missing.name)
+    return did_you_mean(missing.name, [name for name in names if did_you_mean(stem, [_stem(name)])])
+
+
+def _stem(name: str) -> str:
+    return name.partition(".")[0] or name
 
 
 def _shipped_robots() -> Path | None:

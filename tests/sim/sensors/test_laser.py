@@ -156,6 +156,7 @@ def test_a_reset_starts_the_count_again(post) -> None:
         (sensor(LASER, inside=scan().replace("<min>0.1", "<min>-0.1")), "<min> is -0.1 m; it must be zero or greater"),
         (sensor(LASER, inside=scan(far=0.05)), "a lidar that sees from 0.1 m to 0.05 m sees nothing"),
         (sensor(LASER, inside=""), "a lidar lacks its <ray>"),
+        (sensor(type="gpu_lidar", inside=""), "a lidar lacks its <lidar>"),
         (sensor(LASER, inside=scan("many")), "<samples> is `many`; it must be a finite number"),
         (sensor(LASER, inside=scan(9_000_000)), "9000000 × 1 rays are more than 4000000"),
         (sensor(LASER, inside=scan(noise=noise(-1))), "<stddev> is `-1`; it must be a finite number, 0 or greater"),
