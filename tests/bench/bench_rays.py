@@ -1,6 +1,6 @@
 """Rays per CPU second beside MuJoCo's mj_multiRay, embree and PyBullet, on one core and the same house.
 
-Run it: ``python tests/bench/bench_rays.py [--seconds 0.5] [--rounds 3] [--json]``. Everybody gets the same collision
+Run it: ``python tests/bench/bench_rays.py [--seconds 0.3] [--rounds 3] [--json]``. Everybody gets the same collision
 shapes and the same rays from the same place; all take turns, and the best round of each counts, because other programs
 only ever take time away. Embree knows triangles only and gets solids as meshes, flat, with its poses frozen. Then,
 ours alone: a hundred and a thousand objects in one room, and pictures with and without shadows.

@@ -21,6 +21,6 @@ def add_renderer(parser: argparse.ArgumentParser) -> None:
         type=_renderer,
         choices=("auto", "ray", "gl"),
         default="auto",
-        help="who takes the cameras' pictures: ray casts rays, gl draws by OpenGL, auto whichever is quicker "
-        "(default: auto)",
+        help="who takes the cameras' pictures: ray casts rays (also rays, cpu), gl draws by OpenGL (also opengl, egl, "
+        "gpu), auto whichever is quicker (default: auto)",
     )
