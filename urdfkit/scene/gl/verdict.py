@@ -11,6 +11,7 @@ import platform
 import sys
 import time
 from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
 from pathlib import Path
 
 from urdfkit.atomic import write_text
@@ -83,7 +84,9 @@ def _around() -> tuple[object, ...]:
         (name, value) for name, value in os.environ.items() if name in VARIABLES or name.startswith(BEGINNINGS)
     )
     files = [(str(path), _stamp(path)) for place in PLACES for path in sorted(Path("/").glob(place))]
-    return sys.executable, _version("moderngl"), _version("glcontext"), platform.uname(), chosen, files
+    spec = find_spec("moderngl")
+    drawn_by = (sys.executable, spec and spec.origin, _version("moderngl"), _version("glcontext"))
+    return *drawn_by, platform.uname(), chosen, files
 
 
 def _stamp(path: Path) -> tuple[int, int]:
