@@ -330,6 +330,45 @@ def test_objects_are_inserted_moved_turned_and_deleted(page, keep, until) -> Non
     assert not page.evaluate("urdfkit.scene.byLink.has('world/crate')")
 
 
+def test_objects_are_inserted_by_the_keyboard_alone(page, until) -> None:
+    put_down(page)
+    page.locator("#open-world").press("Enter")
+    page.locator("#library-filter").fill("crate")
+    page.locator(".library-entry").first.press("Enter")
+    for field, value in (("x", "1,5"), ("y", "-1"), ("yaw", "90")):
+        page.locator(f"#insert-{field}").fill(value)
+        page.locator(f"#insert-{field}").press("Enter")
+    page.locator("#insert-typed").press("Enter")
+    until(lambda: "crate" in names(page))
+    pose = order(page, "where", name="crate")["pose"]
+    assert [pose[0], pose[1], pose[5]] == pytest.approx([1.5, -1.0, math.pi / 2], abs=1e-3)
+    page.keyboard.press("Escape")
+    assert not page.locator("#insert-typed").is_visible()
+    order(page, "remove", name="crate")
+
+
+FOLDED = """() => {
+  const joint = (name) => ({ name, lower: -1, upper: 1, unit: "rad", value: 0 });
+  const arm = (k) => ({ name: `r/c${k}`, type: "t", running: true, joints: [joint(`j${k}`)] });
+  const panel = document.getElementById("panel-arms");
+  const shown = () => [...panel.querySelectorAll("[data-joint]")].filter((each) => each.checkVisibility());
+  const seen = [];
+  for (const count of [7, 7, 4]) {
+    urdfkit.page.emit("arms", { arms: [...Array(count).keys()].map(arm) });
+    urdfkit.page.panels.open("arms");
+    seen.push(shown().map((each) => each.dataset.joint));
+    if (seen.length === 1) seen.push(panel.offsetHeight < 0.6 * innerHeight), panel.querySelector("[data-controller='r/c3'] .unfold").click();
+  }
+  urdfkit.page.emit("arms", { arms: [] });
+  return seen;
+}"""  # noqa: E501
+"""All at once, so that nothing the simulation says comes between."""
+
+
+def test_the_joints_of_many_controllers_are_folded_away(page) -> None:
+    assert page.evaluate(FOLDED) == [[], True, ["j3"], ["j0", "j1", "j2", "j3"]]
+
+
 def test_walls_through_the_robot_are_a_warning(page, until) -> None:
     put_down(page)
     look_from_above(page, 9.0)

@@ -4,12 +4,14 @@ import { h, short } from "./dom.js";
 import { numberField } from "./number.js";
 
 const ARM = "M5 20h6M8 20v-6l-2-4 5-5 4 2M15 7l3-3M15 7l4 1M6 10a1 1 0 1 0 0 .1";
+const MANY = 4; // controllers beyond which their joints are folded away
 const PERIOD = 60; // ms between two commands while a slider is dragged
 
 export function arms(page) {
   const panel = page.panels.add({ id: "arms", title: "Arms", icon: ARM, modes: ["sim"], order: 15 });
   page.panels.available("arms", false);
   const rows = new Map(); // controller → joint → row
+  const unfolded = new Map(); // controller → whether a person has folded its joints out or away
   let waiting = new Map();
   let timer = null;
   const say = (error) => page.toast(error.message, "error");
@@ -47,13 +49,22 @@ export function arms(page) {
     return { item, slider, number, real, mark, joint };
   }
 
-  function controllerOf(arm) {
+  function controllerOf(arm, _, all) {
     const joints = new Map(arm.joints.map((joint) => [joint.name, row(arm.name, joint)]));
     rows.set(arm.name, joints);
     const switched = h("button.bare", { type: "button", "aria-label": `${arm.running ? "Stop" : "Start"} ${arm.name}` }, arm.running ? "Stop" : "Start");
     switched.addEventListener("click", () => page.connection.order("controller", { controller: arm.name, running: !arm.running }).catch(say));
-    const words = h("div.row", {}, h("h3", { title: arm.type }, arm.name.split("/").slice(1).join("/")), h("span.space"), switched);
-    return h("section.controller", { "data-controller": arm.name, "data-running": String(arm.running) }, words, h("ul.bare-list", {}, ...[...joints.values()].map(({ item }) => item)));
+    const list = h("ul.bare-list", {}, ...[...joints.values()].map(({ item }) => item));
+    const fold = h("button.bare.unfold", { type: "button", "aria-label": `Joints of ${arm.name}`, hidden: all.length <= MANY });
+    const show = (open) => {
+      list.hidden = !open;
+      fold.textContent = open ? "▾" : "▸";
+      fold.setAttribute("aria-expanded", open);
+    };
+    show(all.length <= MANY || (unfolded.get(arm.name) ?? false));
+    fold.addEventListener("click", () => (unfolded.set(arm.name, list.hidden), show(list.hidden)));
+    const words = h("div.row", {}, fold, h("h3", { title: arm.type }, arm.name.split("/").slice(1).join("/")), h("span.space"), switched);
+    return h("section.controller", { "data-controller": arm.name, "data-running": String(arm.running) }, words, list);
   }
 
   page.on("arms", ({ arms: all }) => {

@@ -19,10 +19,11 @@ export class Objects {
     this.filter.addEventListener("input", () => this.#library());
     this.library = h("div.library", { role: "listbox", "aria-label": "Library" });
     this.hint = h("p.quiet", {}, "Choose something, then click where it shall stand.");
+    this.form = this.#typed();
     this.list = h("ul.bare-list.objects", { "aria-label": "In the world" });
     this.detail = h("section.object", { hidden: true });
     const save = h("button.wide", { type: "button", id: "save-world", onclick: () => this.#order("save", {}).then((done) => done && page.toast(`saved ${done.bytes} bytes`, "good")) }, "Save the world as SDF");
-    this.panel.body.append(h("h3", {}, "Insert"), this.filter, this.library, this.hint, (this.extra = h("div")), h("h3", {}, "In the world"), this.list, this.detail, save);
+    this.panel.body.append(h("h3", {}, "Insert"), this.filter, this.library, this.hint, this.form, (this.extra = h("div")), h("h3", {}, "In the world"), this.list, this.detail, save);
     page.tools.tool({ id: "place", title: "Insert what is chosen in the library", icon: PLACE, modes: ["sim"], order: 60, take: (held) => held || this.#choose(null) });
     this.mover = new Mover(page, (pose) => this.#place(pose));
     page.on("objects", (message) => this.#take(message));
@@ -73,13 +74,25 @@ export class Objects {
     this.hint.textContent = name ? `Click in the picture where ${name.replaceAll("_", " ")} shall stand.` : "Choose something, then click where it shall stand.";
     if (name) this.page.tools.hold("place");
     else if (this.page.tools.held === "place") this.page.tools.hold(null);
+    this.form.hidden = !name;
     this.#library();
   }
 
-  async #insert([x, y, z]) {
+  /** Where it shall stand, for those who type rather than click. */
+  #typed() {
+    const field = (name, unit, step) => {
+      const input = numberField({ step, unit, value: "0", id: `insert-${name}`, "aria-label": `${name} of what is inserted [${unit}]` });
+      return [input, h("label", {}, `${name} `, input, h("span.unit", {}, unit))];
+    };
+    const [[x, atX], [y, atY], [yaw, turned]] = [field("x", "m", 0.1), field("y", "m", 0.1), field("yaw", "°", 5)];
+    const insert = () => this.#insert([x.valueAsNumber, y.valueAsNumber, 0], (yaw.valueAsNumber * Math.PI) / 180);
+    return h("div", { hidden: true }, h("div.pose", {}, atX, atY, turned), h("button.wide", { type: "button", id: "insert-typed", onclick: insert }, "Insert there"));
+  }
+
+  async #insert([x, y, z], yaw = 0) {
     if (!this.chosen) return this.page.panels.open("world");
     const robot = this.robots.includes(this.chosen);
-    const done = await this.#order("spawn", { model: this.chosen, pose: robot ? [x, y, 0, 0] : [x, y, Math.max(0, z), 0] });
+    const done = await this.#order("spawn", { model: this.chosen, pose: robot ? [x, y, 0, yaw] : [x, y, Math.max(0, z), yaw] });
     if (done) this.page.done(`${done.name} is there`, done);
   }
 
