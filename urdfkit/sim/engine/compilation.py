@@ -79,7 +79,7 @@ class WriteField(AbstractTemplate):  # type: ignore[misc]
         return None
 
 
-def _of_kind(builder: Any, access: Any, dtype: Any) -> Any:
+def of_kind(builder: Any, access: Any, dtype: Any) -> Any:
     """Tell the compiler that floats and integers are different places."""
     module = builder.module
     root = module.add_metadata(["urdfkit"])
@@ -95,12 +95,12 @@ def _zero() -> Any:
 
 @lower_builtin(operator.getitem, Field, types.Integer)  # type: ignore[untyped-decorator]
 def _read(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-    return _of_kind(builder, builder.load(builder.gep(args[0], [args[1]])), sig.args[0].dtype)
+    return of_kind(builder, builder.load(builder.gep(args[0], [args[1]])), sig.args[0].dtype)
 
 
 @lower_builtin(operator.setitem, Field, types.Integer, types.Any)  # type: ignore[untyped-decorator]
 def _write(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-    _of_kind(builder, builder.store(args[2], builder.gep(args[0], [args[1]])), sig.args[0].dtype)
+    of_kind(builder, builder.store(args[2], builder.gep(args[0], [args[1]])), sig.args[0].dtype)
     return context.get_dummy_value()
 
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from urdfkit.errors import SimulationError
 from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS, Arrays
 from urdfkit.sim.engine.body import Body, Member
+from urdfkit.sim.engine.contact_rows import FASTEST_RECOVERY, MOBILITY
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
 from urdfkit.sim.engine.limits import PASSING, WHIRLING
 from urdfkit.sim.engine.parts import find_candidates, find_contacts, find_impulses
@@ -23,7 +24,7 @@ from urdfkit.sim.engine.reference_exchange import exchange
 from urdfkit.sim.engine.reference_motion import go, inward, move, outward
 from urdfkit.sim.engine.reference_servo import grow_integrals, servo_effort, servos, set_integral_parts
 from urdfkit.sim.engine.reference_trees import Tree, free_model, model_of
-from urdfkit.sim.engine.rows import FASTEST_JOINT, FASTEST_RECOVERY, MOBILITY, RECOVERY
+from urdfkit.sim.engine.rows import FASTEST_JOINT, RECOVERY
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS
 from urdfkit.sim.engine.state import configuration, turning
 from urdfkit.sim.engine.warmup import load_compiled, world_digest

@@ -29,14 +29,16 @@ from urdfkit.sim.engine.arrays import (
 )
 from urdfkit.sim.engine.collide import collide_with_plane, near_plane
 from urdfkit.sim.engine.compilation import field
+from urdfkit.sim.engine.contact_rows import contact_rows
 from urdfkit.sim.engine.dynamics import place, solve_forward, terms
 from urdfkit.sim.engine.flight import flies, fly
 from urdfkit.sim.engine.friction import rub
 from urdfkit.sim.engine.integrate import move
 from urdfkit.sim.engine.limits import passes_limits, whirls
-from urdfkit.sim.engine.rows import contact_rows, joint_rows, push, whiten
+from urdfkit.sim.engine.rows import joint_rows
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, account, limited, overloaded, smooth_motion
 from urdfkit.sim.engine.solve import solve
+from urdfkit.sim.engine.whiten import push, whiten
 
 ALONE = True
 """There is but one tree: what is asked for others falls away when the kernel is compiled."""

@@ -12,6 +12,7 @@ KERNEL_MODULES = (
     "arrays",
     "collide",
     "compilation",
+    "contact_rows",
     "dynamics",
     "exchange",
     "flight",
@@ -26,6 +27,7 @@ KERNEL_MODULES = (
     "solve",
     "spatial",
     "step",
+    "whiten",
 )
 """Modules of this package with compiled functions, for one robot on its plane."""
 WORLD_FOLDERS = ("pairs", "world")

@@ -9,9 +9,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.arrays import WIDTH, At
+from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
-from urdfkit.sim.engine.guess import HOLDS, SLIDES
+from urdfkit.sim.engine.world.products import load_six, times_six
+from urdfkit.sim.engine.world.six import put, six
 
 MOST_TREES = 62
 """Most trees of an island: as many as a number has bits."""
@@ -32,12 +33,18 @@ def arrange(floats: Any, integers: Any, root: int, rows: int) -> int:
     """Order the trees of an island for elimination; return how many dofs they have, 0 if there are too many trees.
 
     Afterwards ``block_tree`` lists the trees in order, ``tree_block`` their places in it, ``block_first`` where their
-    dofs start, and ``block_after`` those after each that it shares a block with, as bits.
+    dofs start, and ``block_after`` those after each that it shares a block with, as bits. For each row ``at_a`` and
+    ``at_b`` tell where the dofs of its trees start, ``of_a`` and ``of_b`` how many these are: none where there is but
+    one tree.
     """
     tree_dof = field(integers, integers, At.tree_dof)
     island_next = field(integers, integers, At.island_next)
     row_a = field(integers, integers, At.row_a)
     row_b = field(integers, integers, At.row_b)
+    at_a = field(integers, integers, At.at_a)
+    at_b = field(integers, integers, At.at_b)
+    of_a = field(integers, integers, At.of_a)
+    of_b = field(integers, integers, At.of_b)
     block_tree = field(integers, integers, At.block_tree)
     tree_block = field(integers, integers, At.tree_block)
     block_first = field(integers, integers, At.block_first)
@@ -81,122 +88,22 @@ def arrange(floats: Any, integers: Any, root: int, rows: int) -> int:
         block_first[k] = first
         first += tree_dof[tree + 1] - tree_dof[tree]
     block_first[count] = first
+    for k in range(rows):
+        a, b = row_a[k], row_b[k]
+        at_a[k], of_a[k] = block_first[tree_block[a]], tree_dof[a + 1] - tree_dof[a]
+        at_b[k] = of_b[k] = 0
+        if b >= 0:
+            at_b[k], of_b[k] = block_first[tree_block[b]], tree_dof[b + 1] - tree_dof[b]
     return first
 
 
 @inlined
-def add_six(into: Any, at: int, c: float, b: Any) -> None:
-    """Add c·b to six numbers."""
-    r0, r1, r2 = into[at] + c * b[0], into[at + 1] + c * b[1], into[at + 2] + c * b[2]
-    r3, r4, r5 = into[at + 3] + c * b[3], into[at + 4] + c * b[4], into[at + 5] + c * b[5]
-    into[at], into[at + 1], into[at + 2] = r0, r1, r2
-    into[at + 3], into[at + 4], into[at + 5] = r3, r4, r5
-
-
-@inlined
-def add_block(K: Any, n: int, i: int, j: int, ni: int, nj: int, Y: Any, at: int, to: int, d: float) -> None:
-    """Add d·aᵀ·b to a block of K, a and b parts of a row."""
-    if nj == 6:
-        b = (Y[to], Y[to + 1], Y[to + 2], Y[to + 3], Y[to + 4], Y[to + 5])
-        for k in range(ni):
-            add_six(K, (i + k) * n + j, d * Y[at + k], b)
-        return
-    for k in range(ni):
-        c = d * Y[at + k]
-        if c != 0.0:
-            for m in range(nj):
-                K[(i + k) * n + j + m] += c * Y[to + m]
-
-
-@inlined
-def add_row(floats: Any, integers: Any, k: int, n: int, Y: Any, at: int, d: float) -> None:
-    """Add d·aᵀ·a to K, a written at a place of Y, of the trees of row k."""
-    tree_dof = field(integers, integers, At.tree_dof)
-    tree_block = field(integers, integers, At.tree_block)
-    block_first = field(integers, integers, At.block_first)
-    row_a = field(integers, integers, At.row_a)
-    row_b = field(integers, integers, At.row_b)
-    K = field(floats, integers, At.B)
-    a, b = row_a[k], row_b[k]
-    i, ni = block_first[tree_block[a]], tree_dof[a + 1] - tree_dof[a]
-    add_block(K, n, i, i, ni, ni, Y, at, at, d)
-    if b >= 0:
-        j, nj = block_first[tree_block[b]], tree_dof[b + 1] - tree_dof[b]
-        add_block(K, n, j, j, nj, nj, Y, at + ni, at + ni, d)
-        if i < j:
-            add_block(K, n, i, j, ni, nj, Y, at, at + ni, d)
-        else:
-            add_block(K, n, j, i, nj, ni, Y, at + ni, at, d)
-
-
-@compiled
-def assemble(floats: Any, integers: Any, root: int, rows: int, n: int, coned: bool) -> None:
-    """Write M, of each tree from its factor, and add what rows do to it: the upper triangle of K in B.
-
-    Where a contact slides, the row along its cone, if `coned`, or else that of its normal, and the one across its slip.
-    """
-    width = integers[WIDTH]
-    tree_dof = field(integers, integers, At.tree_dof)
-    island_next = field(integers, integers, At.island_next)
-    dof_row = field(integers, integers, At.dof_row)
-    tree_block = field(integers, integers, At.tree_block)
-    block_first = field(integers, integers, At.block_first)
-    state = field(integers, integers, At.state)
-    mu = field(floats, integers, At.mu)
-    near = field(floats, integers, At.near_x)
-    made = field(floats, integers, At.A)
-    Y = field(floats, integers, At.Y)
-    K = field(floats, integers, At.B)
-    L = field(floats, integers, At.L)
-    inverse_diagonal = field(floats, integers, At.inverse_diagonal)
-    stiffness = field(floats, integers, At.g)
-    for k in range(n * n):
-        K[k] = 0.0
-    tree = root
-    while tree >= 0:
-        first, size = tree_dof[tree], tree_dof[tree + 1] - tree_dof[tree]
-        at = block_first[tree_block[tree]]
-        for k in range(size):
-            row = dof_row[first + k] + first
-            diagonal = L[row + k] * inverse_diagonal[first + k]
-            for i in range(k):
-                c = L[row + i]
-                for j in range(i, k):
-                    K[(at + i) * n + at + j] += c * L[row + j]
-                K[(at + i) * n + at + k] += c * diagonal
-            K[(at + k) * n + at + k] += L[row + k]
-        tree = island_next[tree]
-    k = 0
-    while k < rows:
-        if state[k] == SLIDES:
-            # Two rows that its slip makes of three: see `slip` and `cones`.
-            a, b = near[k + 1], near[k + 2]
-            c, share = (mu[k], 1.0 / math.sqrt(1.0 + mu[k] * mu[k])) if coned else (0.0, 1.0)
-            at = k * width
-            for d in range(width):
-                first, second = Y[at + width + d], Y[at + 2 * width + d]
-                made[d] = share * (Y[at + d] - c * (a * first + b * second))
-                made[width + d] = a * second - b * first
-            add_row(floats, integers, k, n, made, 0, stiffness[k])
-            if near[k] > 0.0:
-                add_row(floats, integers, k, n, made, width, near[k])
-            k += 3
-            continue
-        if state[k] == HOLDS:
-            add_row(floats, integers, k, n, Y, k * width, stiffness[k])
-        k += 1
-
-
-@inlined
-def take_six(K: Any, n: int, i: int, first: int, beyond: int, start: int) -> None:
-    """Take off six numbers of row i what the eliminated rows have there."""
-    at = i * n + start
-    r0, r1, r2, r3, r4, r5 = K[at], K[at + 1], K[at + 2], K[at + 3], K[at + 4], K[at + 5]
-    for d in range(first, beyond):
-        c, to = K[d * n + i], d * n + start
-        r0, r1, r2 = r0 - c * K[to], r1 - c * K[to + 1], r2 - c * K[to + 2]
-        r3, r4, r5 = r3 - c * K[to + 3], r4 - c * K[to + 4], r5 - c * K[to + 5]
-    K[at], K[at + 1], K[at + 2], K[at + 3], K[at + 4], K[at + 5] = r0, r1, r2, r3, r4, r5
+def take_six(K: Any, n: int, i: int, first: int, start: int) -> None:
+    """Take off six numbers of row i what six eliminated rows have there."""
+    here, at, to = i * n + start, first * n + i, first * n + start
+    rest = six(K, here) - K[at] * six(K, to) - K[at + n] * six(K, to + n) - K[at + 2 * n] * six(K, to + 2 * n)
+    at, to = at + 3 * n, to + 3 * n
+    put(K, here, rest - K[at] * six(K, to) - K[at + n] * six(K, to + n) - K[at + 2 * n] * six(K, to + 2 * n))
 
 
 @compiled
@@ -229,18 +136,11 @@ def eliminate(floats: Any, integers: Any, n: int) -> bool:
                 left &= left - 1
                 start, size = block_first[b], block_first[b + 1] - block_first[b]
                 if size == 6:
-                    at = d * n + start
-                    own = (
-                        K[at] * inverse,
-                        K[at + 1] * inverse,
-                        K[at + 2] * inverse,
-                        K[at + 3] * inverse,
-                        K[at + 4] * inverse,
-                        K[at + 5] * inverse,
-                    )
-                    K[at], K[at + 1], K[at + 2], K[at + 3], K[at + 4], K[at + 5] = own
+                    own = inverse * six(K, d * n + start)
+                    put(K, d * n + start, own)
                     for i in range(d + 1, beyond):
-                        add_six(K, i * n + start, -K[d * n + i], own)
+                        here = i * n + start
+                        put(K, here, six(K, here) - K[d * n + i] * own)
                     continue
                 for j in range(start, start + size):
                     K[d * n + j] *= inverse
@@ -263,8 +163,8 @@ def eliminate(floats: Any, integers: Any, n: int) -> bool:
                 rest &= rest - 1
                 start, size = block_first[e], block_first[e + 1] - block_first[e]
                 for i in range(block_first[b], block_first[b + 1]):
-                    if size == 6:
-                        take_six(K, n, i, first, beyond, start)
+                    if size == 6 and beyond - first == 6:
+                        take_six(K, n, i, first, start)
                         continue
                     for d in range(first, beyond):
                         c = K[d * n + i]
@@ -272,6 +172,44 @@ def eliminate(floats: Any, integers: Any, n: int) -> bool:
                             K[i * n + j] -= c * K[d * n + j]
         k += 1
     return True
+
+
+@inlined
+def forward_six(K: Any, n: int, d: int, x: Any) -> Any:
+    """Return of x, from d on, what a block of six makes of it on the way forward."""
+    at = d * n + d
+    a = x[d] * K[at]
+    b = (x[d + 1] - a * K[at + 1]) * K[at + n + 1]
+    c = (x[d + 2] - a * K[at + 2] - b * K[at + n + 2]) * K[at + 2 * n + 2]
+    at, to = at + 3, at + 2 * n + 3
+    e = (x[d + 3] - a * K[at] - b * K[at + n] - c * K[to]) * K[to + n]
+    f = (x[d + 4] - a * K[at + 1] - b * K[at + n + 1] - c * K[to + 1] - e * K[to + n + 1]) * K[to + 2 * n + 1]
+    g = x[d + 5] - a * K[at + 2] - b * K[at + n + 2] - c * K[to + 2] - e * K[to + n + 2] - f * K[to + 2 * n + 2]
+    return a, b, c, e, f, g * K[to + 3 * n + 2]
+
+
+@inlined
+def backward_six(K: Any, n: int, d: int, x: Any) -> None:
+    """Do with a block of six, from d on, what is to be done on the way back."""
+    at = d * n + d
+    to = at + 3 * n + 3
+    g = x[d + 5] * K[to + 2 * n + 2]
+    f = (x[d + 4] - K[to + n + 2] * g) * K[to + n + 1]
+    e = (x[d + 3] - K[to + 1] * f - K[to + 2] * g) * K[to]
+    to = at + 2 * n + 2
+    c = (x[d + 2] - K[to + 1] * e - K[to + 2] * f - K[to + 3] * g) * K[to]
+    to = at + n + 1
+    b = (x[d + 1] - K[to + 1] * c - K[to + 2] * e - K[to + 3] * f - K[to + 4] * g) * K[to]
+    a = x[d] - K[at + 1] * b - K[at + 2] * c - K[at + 3] * e - K[at + 4] * f - K[at + 5] * g
+    x[d], x[d + 1], x[d + 2], x[d + 3], x[d + 4], x[d + 5] = a * K[at], b, c, e, f, g
+
+
+@inlined
+def take_product(K: Any, at: int, start: int, n: int, x: Any, d: int) -> None:
+    """Take off x, from d on, what a block of six by six, at a place of K, makes of x from `start` on."""
+    own = load_six(x, start)
+    for k in range(6):
+        x[d + k] -= times_six(K, at + k * n, own)
 
 
 @compiled
@@ -284,33 +222,54 @@ def substitute(floats: Any, integers: Any, n: int, x: Any) -> None:
     k = 0
     while block_first[k] < n:
         first, beyond, mask = block_first[k], block_first[k + 1], block_after[k]
-        for d in range(first, beyond):
-            c = x[d] * K[d * n + d]
-            x[d] = c
-            for j in range(d + 1, beyond):
-                x[j] -= c * K[d * n + j]
-            left, b = mask, k
-            while left != 0:
-                b += 1
-                while not (mask >> b) & one:
-                    b += 1
-                left &= left - 1
-                for j in range(block_first[b], block_first[b + 1]):
+        sixes = beyond - first == 6
+        if sixes:
+            a, c, e, f, g, h = forward_six(K, n, first, x)
+            x[first], x[first + 1], x[first + 2] = a, c, e
+            x[first + 3], x[first + 4], x[first + 5] = f, g, h
+        else:
+            for d in range(first, beyond):
+                c = x[d] * K[d * n + d]
+                x[d] = c
+                for j in range(d + 1, beyond):
                     x[j] -= c * K[d * n + j]
+        b = k
+        while mask >> (b + 1) != 0:
+            b += 1
+            if not (mask >> b) & one:
+                continue
+            start, size = block_first[b], block_first[b + 1] - block_first[b]
+            if sixes and size == 6:
+                at = first * n + start
+                rest = six(x, start) - x[first] * six(K, at) - x[first + 1] * six(K, at + n)
+                rest = rest - x[first + 2] * six(K, at + 2 * n) - x[first + 3] * six(K, at + 3 * n)
+                put(x, start, rest - x[first + 4] * six(K, at + 4 * n) - x[first + 5] * six(K, at + 5 * n))
+                continue
+            for d in range(first, beyond):
+                for j in range(start, start + size):
+                    x[j] -= x[d] * K[d * n + j]
         k += 1
     while k > 0:
         k -= 1
         first, beyond, mask = block_first[k], block_first[k + 1], block_after[k]
+        sixes = beyond - first == 6
+        b = k
+        while mask >> (b + 1) != 0:
+            b += 1
+            if not (mask >> b) & one:
+                continue
+            start, size = block_first[b], block_first[b + 1] - block_first[b]
+            if sixes and size == 6:
+                take_product(K, first * n + start, start, n, x, first)
+                continue
+            for d in range(first, beyond):
+                for j in range(start, start + size):
+                    x[d] -= K[d * n + j] * x[j]
+        if sixes:
+            backward_six(K, n, first, x)
+            continue
         for d in range(beyond - 1, first - 1, -1):
             c = x[d]
             for j in range(d + 1, beyond):
                 c -= K[d * n + j] * x[j]
-            left, b = mask, k
-            while left != 0:
-                b += 1
-                while not (mask >> b) & one:
-                    b += 1
-                left &= left - 1
-                for j in range(block_first[b], block_first[b + 1]):
-                    c -= K[d * n + j] * x[j]
             x[d] = c * K[d * n + d]

@@ -26,8 +26,9 @@ from typing import Any
 from urdfkit.sim.engine.arrays import WIDTH, At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.guess import AT_HIGH, AT_LOW, HOLDS, SLIDES
-from urdfkit.sim.engine.world.blocks import assemble, eliminate, substitute
-from urdfkit.sim.engine.world.products import push_row, row_speed, take_momentum
+from urdfkit.sim.engine.world.assemble import assemble
+from urdfkit.sim.engine.world.blocks import eliminate, substitute
+from urdfkit.sim.engine.world.products import push_contact, push_row, row_speed, row_speeds, take_momentum
 
 STEPS = 30
 """Most steps of Newton's method in a round."""
@@ -51,13 +52,17 @@ def onto_cone(mu: float, normal: float, first: float, second: float) -> Any:
 
 @inlined
 def classify(floats: Any, integers: Any, rows: int, rest: Any) -> float:
-    """Find what rows do at the velocities of now, add what they exert to `rest`, and return the largest impulse."""
+    """Find what rows do at the velocities of now, add what they exert to `rest`, and return the largest impulse.
+
+    Their impulses are kept in ``velocity``.
+    """
     low = field(floats, integers, At.low)
     high = field(floats, integers, At.high)
     mu = field(floats, integers, At.mu)
     x = field(floats, integers, At.x)
     w = field(floats, integers, At.y)
     stiffness = field(floats, integers, At.g)
+    exerted = field(floats, integers, At.velocity)
     near = field(floats, integers, At.near_x)
     state = field(integers, integers, At.state)
     largest = 0.0
@@ -73,15 +78,15 @@ def classify(floats: Any, integers: Any, rows: int, rest: Any) -> float:
             state[k + 1] = state[k + 2] = state[k]
             if state[k] == SLIDES:
                 near[k], near[k + 1], near[k + 2] = D * mu[k] * p / size, -first / size, -second / size
+            exerted[k], exerted[k + 1], exerted[k + 2] = p, a, b
             if p > 0.0:
-                push_row(floats, integers, k, p, rest)
-                push_row(floats, integers, k + 1, a, rest)
-                push_row(floats, integers, k + 2, b, rest)
+                push_contact(floats, integers, k, p, a, b, rest)
                 largest = max(largest, p)
             k += 3
             continue
         state[k] = AT_LOW if z <= low[k] else (AT_HIGH if z >= high[k] else HOLDS)
         p = min(high[k], max(low[k], z))
+        exerted[k] = p
         if p != 0.0:
             push_row(floats, integers, k, p, rest)
             largest = max(largest, abs(p))
@@ -89,7 +94,7 @@ def classify(floats: Any, integers: Any, rows: int, rest: Any) -> float:
     return largest
 
 
-@inlined
+@compiled
 def slope(floats: Any, integers: Any, rows: int, share: float, ahead: int) -> float:
     """Return how much power rows have along a step, of which a share has been taken; its rows' speeds are in A."""
     low = field(floats, integers, At.low)
@@ -113,7 +118,7 @@ def slope(floats: Any, integers: Any, rows: int, share: float, ahead: int) -> fl
             continue
         power += min(high[k], max(low[k], z)) * A[ahead + k]
         k += 1
-    return power
+    return float(power)
 
 
 @compiled
@@ -126,12 +131,16 @@ def descend(floats: Any, integers: Any, root: int, rows: int, n: int, balance: f
     A = field(floats, integers, At.A)
     speed = field(floats, integers, At.block_v)
     rest = field(floats, integers, At.block_f)
+    exerted = field(floats, integers, At.velocity)
     inertia = field(floats, integers, At.sum_v)
+    momentum = field(floats, integers, At.sum_s)
     ahead = 2 * integers[WIDTH]
+    for d in range(n):
+        momentum[d] = 0.0
+    take_momentum(floats, integers, root, speed, momentum)
     for taken in range(STEPS):
         for d in range(n):
-            rest[d] = 0.0
-        take_momentum(floats, integers, root, speed, rest)
+            rest[d] = momentum[d]
         largest = classify(floats, integers, rows, rest)
         off = 0.0
         for d in range(n):
@@ -150,9 +159,10 @@ def descend(floats: Any, integers: Any, root: int, rows: int, n: int, balance: f
         for d in range(n):
             a -= inertia[d] * speed[d]
             b -= inertia[d] * rest[d]
+        row_speeds(floats, integers, rows, rest, A, ahead)
+        start = a
         for k in range(rows):
-            A[ahead + k] = row_speed(floats, integers, k, rest)
-        start = a - slope(floats, integers, rows, 0.0, ahead)
+            start -= exerted[k] * A[ahead + k]
         if not start < 0.0:
             return taken
         share = 1.0
@@ -173,6 +183,7 @@ def descend(floats: Any, integers: Any, root: int, rows: int, n: int, balance: f
                     at_high *= 0.5
         for d in range(n):
             speed[d] += share * rest[d]
+            momentum[d] += share * inertia[d]
         for k in range(rows):
             w[k] += share * A[ahead + k]
     return STEPS
@@ -215,26 +226,28 @@ def set_out(floats: Any, integers: Any, rows: int, hardness: float, corrected: b
     g = field(floats, integers, At.slip)
     w = field(floats, integers, At.y)
     s = field(floats, integers, At.before)
+    felt = field(floats, integers, At.felt)
     stiffness = field(floats, integers, At.g)
     speed = field(floats, integers, At.block_v)
+    row_speeds(floats, integers, rows, speed, w, 0)
     for k in range(rows):
-        w[k] = g[k] + row_speed(floats, integers, k, speed)
+        w[k] += g[k]
         s[k] = 0.0
     k = 0
     while k < rows:
         if mu[k] > 0.0:
-            least = stiffness[k]
+            least = felt[k]
             for j in range(k + 1, k + 3):
                 # A tangent along which nothing can move has none.
-                if stiffness[j] > 0.0:
-                    least = min(least, stiffness[j])
+                if felt[j] > 0.0:
+                    least = min(least, felt[j])
             stiffness[k] = stiffness[k + 1] = stiffness[k + 2] = hardness * least
             if corrected:
                 s[k] = mu[k] * math.sqrt(w[k + 1] * w[k + 1] + w[k + 2] * w[k + 2])
                 w[k] += s[k]
             k += 3
         else:
-            stiffness[k] *= hardness
+            stiffness[k] = hardness * felt[k]
             k += 1
 
 

@@ -19,10 +19,10 @@ from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.dynamics import solve_forward
 from urdfkit.sim.engine.world.blocks import arrange
-from urdfkit.sim.engine.world.products import row_speed
+from urdfkit.sim.engine.world.products import row_speeds
 from urdfkit.sim.engine.world.revise import first_hold
 from urdfkit.sim.engine.world.rounds import go_round
-from urdfkit.sim.engine.world.slip import STIFFNESS, feel
+from urdfkit.sim.engine.world.slip import STIFFNESS, feel, stiffen
 from urdfkit.sim.engine.world.states import try_states
 
 WILD = 30.0
@@ -100,11 +100,13 @@ def hold(floats: Any, integers: Any, root: int, rows: int) -> int:
         for d in range(first, beyond):
             speed[at + d - first] = v[d] + u[d]
         tree = island_next[tree]
+    row_speeds(floats, integers, rows, speed, g, 0)
     largest = 0.0
     for k in range(rows):
-        g[k] = bias[k] + row_speed(floats, integers, k, speed)
+        g[k] += bias[k]
         largest = max(largest, abs(g[k]))
-    feel(floats, integers, rows)
+    feel(floats, integers, root, rows)
+    stiffen(floats, integers, rows)
     first_hold(floats, integers, rows)
     # As `solve` has it.
     tiny = 1e-11 * largest + 1e-14

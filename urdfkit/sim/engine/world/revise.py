@@ -8,7 +8,6 @@ from typing import Any
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.guess import AT_HIGH, AT_LOW, HOLDS
-from urdfkit.sim.engine.world.products import row_speed
 from urdfkit.sim.engine.world.slip import STIFFNESS, slide, strike
 
 
@@ -44,9 +43,9 @@ def first_hold(floats: Any, integers: Any, rows: int) -> None:
 
 
 @inlined
-def revise_contact(floats: Any, integers: Any, k: int, speed: Any, tiny: float) -> None:
+def revise_contact(floats: Any, integers: Any, k: int, tiny: float, least: float) -> None:
     """Change what the law forbids a contact, or take the direction of its slip anew."""
-    g = field(floats, integers, At.slip)
+    w = field(floats, integers, At.y)
     mu = field(floats, integers, At.mu)
     x = field(floats, integers, At.x)
     stiffness = field(floats, integers, At.g)
@@ -54,24 +53,19 @@ def revise_contact(floats: Any, integers: Any, k: int, speed: Any, tiny: float) 
     state = field(integers, integers, At.state)
     doing = state[k]
     if doing == AT_LOW:
-        normal = row_speed(floats, integers, k, speed) + g[k]
-        if normal < -tiny:
-            first = row_speed(floats, integers, k + 1, speed) + g[k + 1]
-            second = row_speed(floats, integers, k + 2, speed) + g[k + 2]
-            strike(floats, integers, k, normal, first, second, STIFFNESS / stiffness[k])
+        if w[k] < -tiny:
+            strike(floats, integers, k, w[k], w[k + 1], w[k + 2], STIFFNESS / stiffness[k])
     elif x[k] < 0.0:
         state[k] = state[k + 1] = state[k + 2] = AT_LOW
     elif doing == HOLDS:
         size = math.sqrt(x[k + 1] ** 2 + x[k + 2] ** 2)
-        if size > mu[k] * x[k] * (1.0 + 1e-9):
+        if size > mu[k] * x[k] * (1.0 + 1e-9) + least:
             # It will slip about as fast as what is too much for it would have kept it from.
             left = (size - mu[k] * x[k]) * STIFFNESS / max(stiffness[k + 1], stiffness[k + 2])
             slide(floats, integers, k, -x[k + 1] / size, -x[k + 2] / size, left, x[k])
     else:
-        first = row_speed(floats, integers, k + 1, speed) + g[k + 1]
-        second = row_speed(floats, integers, k + 2, speed) + g[k + 2]
         a, b = near[k + 1], near[k + 2]
-        forward = a * first + b * second
+        forward = a * w[k + 1] + b * w[k + 2]
         if forward < -tiny:
             state[k] = state[k + 1] = state[k + 2] = HOLDS
         else:
@@ -79,10 +73,9 @@ def revise_contact(floats: Any, integers: Any, k: int, speed: Any, tiny: float) 
 
 
 @compiled
-def revise(floats: Any, integers: Any, rows: int, tiny: float) -> bool:
-    """Change what the law forbids; return whether something had to change."""
-    speed = field(floats, integers, At.block_v)
-    g = field(floats, integers, At.slip)
+def revise(floats: Any, integers: Any, rows: int, tiny: float, least: float) -> bool:
+    """Change what the law forbids at the velocities y of the rows; return whether something had to change."""
+    w = field(floats, integers, At.y)
     low = field(floats, integers, At.low)
     high = field(floats, integers, At.high)
     mu = field(floats, integers, At.mu)
@@ -93,7 +86,7 @@ def revise(floats: Any, integers: Any, rows: int, tiny: float) -> bool:
     while k < rows:
         doing = state[k]
         if mu[k] > 0.0:
-            revise_contact(floats, integers, k, speed, tiny)
+            revise_contact(floats, integers, k, tiny, least)
             changed = changed or state[k] != doing
             k += 3
             continue
@@ -103,8 +96,7 @@ def revise(floats: Any, integers: Any, rows: int, tiny: float) -> bool:
             elif x[k] > high[k]:
                 state[k] = AT_HIGH
         else:
-            w = row_speed(floats, integers, k, speed) + g[k]
-            if (doing == AT_LOW and w < -tiny) or (doing == AT_HIGH and w > tiny):
+            if (doing == AT_LOW and w[k] < -tiny) or (doing == AT_HIGH and w[k] > tiny):
                 state[k] = HOLDS
         changed = changed or state[k] != doing
         k += 1
@@ -113,8 +105,10 @@ def revise(floats: Any, integers: Any, rows: int, tiny: float) -> bool:
 
 @compiled
 def start_over(floats: Any, integers: Any, rows: int, n: int) -> None:
-    """Begin with the velocities that are without impulses, and with the impulses of the last step."""
+    """Begin with the velocities that are without impulses, also of the rows, and with the impulses of the last step."""
     speed = field(floats, integers, At.block_v)
+    g = field(floats, integers, At.slip)
+    w = field(floats, integers, At.y)
     before = field(floats, integers, At.before)
     low = field(floats, integers, At.low)
     high = field(floats, integers, At.high)
@@ -132,5 +126,7 @@ def start_over(floats: Any, integers: Any, rows: int, n: int) -> None:
             continue
         x[k] = before[k] if doing == HOLDS else (low[k] if doing == AT_LOW else high[k])
         k += 1
+    for k in range(rows):
+        w[k] = g[k]
     for d in range(n):
         speed[d] = 0.0

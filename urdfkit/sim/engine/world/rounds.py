@@ -18,7 +18,7 @@ from urdfkit.sim.engine.compilation import compiled, field
 from urdfkit.sim.engine.guess import SLIDES
 from urdfkit.sim.engine.world.cones import descend, leave_wedged, set_out, take_over
 from urdfkit.sim.engine.world.products import row_speed
-from urdfkit.sim.engine.world.slip import feel, slide
+from urdfkit.sim.engine.world.slip import slide, stiffen
 from urdfkit.sim.engine.world.states import try_states
 
 HARDNESS = (1e-3, 1e-3, 1e-3, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2)
@@ -63,7 +63,7 @@ def try_from_here(floats: Any, integers: Any, root: int, rows: int, n: int, tiny
     x = field(floats, integers, At.x)
     near = field(floats, integers, At.near_x)
     state = field(integers, integers, At.state)
-    feel(floats, integers, rows)
+    stiffen(floats, integers, rows)
     for d in range(n):
         kept[d] = speed[d]
     for k in range(rows):
@@ -98,7 +98,6 @@ def go_round(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: flo
     for done in range(HEAP_ROUNDS if heap else MORE_ROUNDS):
         if done == TRIED_AFTER and try_from_here(floats, integers, root, rows, n, tiny, most):
             return done
-        feel(floats, integers, rows)
         row = min(done, len(HARDNESS) - 1)
         set_out(floats, integers, rows, HARDNESS[row], done > 0)
         descend(floats, integers, root, rows, n, BALANCE[row])

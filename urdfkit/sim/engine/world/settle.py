@@ -19,12 +19,14 @@ from urdfkit.sim.engine.arrays import (
     At,
 )
 from urdfkit.sim.engine.compilation import compiled, field
+from urdfkit.sim.engine.contact_rows import contact_rows
 from urdfkit.sim.engine.dynamics import solve_forward
 from urdfkit.sim.engine.flight import flies, fly
 from urdfkit.sim.engine.limits import passes_limits, whirls
-from urdfkit.sim.engine.rows import contact_rows, joint_rows, push, whiten
+from urdfkit.sim.engine.rows import joint_rows
 from urdfkit.sim.engine.servo import SERVO_ATTEMPTS, limited, overloaded, smooth_motion
 from urdfkit.sim.engine.solve import solve
+from urdfkit.sim.engine.whiten import push, whiten
 from urdfkit.sim.engine.world.hold import hold
 from urdfkit.sim.engine.world.islands import contacts_of
 from urdfkit.sim.engine.world.sweeps import sweep

@@ -19,32 +19,52 @@ from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.guess import HOLDS, SLIDES
 from urdfkit.sim.engine.linear import eliminate_and_solve
 from urdfkit.sim.engine.world.blocks import substitute
-from urdfkit.sim.engine.world.products import push_row, row_speed
+from urdfkit.sim.engine.world.products import push_contact, row_speed
 
 STIFFNESS = 1e6
 """Stiffness of a row that holds, over the inverse of what it feels of the masses."""
 
 
-@inlined
-def feel(floats: Any, integers: Any, rows: int) -> None:
-    """Give every row that holds its stiffness, from what it feels of the masses."""
+@compiled
+def feel(floats: Any, integers: Any, root: int, rows: int) -> None:
+    """Find, from what every row feels of the masses, the stiffness of one that holds, in ``felt``."""
     width = integers[WIDTH]
     tree_dof = field(integers, integers, At.tree_dof)
+    tree_block = field(integers, integers, At.tree_block)
+    island_next = field(integers, integers, At.island_next)
+    block_first = field(integers, integers, At.block_first)
     dof_row = field(integers, integers, At.dof_row)
-    row_a = field(integers, integers, At.row_a)
-    row_b = field(integers, integers, At.row_b)
+    at_a = field(integers, integers, At.at_a)
+    at_b = field(integers, integers, At.at_b)
+    of_a = field(integers, integers, At.of_a)
+    of_b = field(integers, integers, At.of_b)
     Y = field(floats, integers, At.Y)
     M = field(floats, integers, At.M)
+    lightness = field(floats, integers, At.block_f)
+    felt = field(floats, integers, At.felt)
+    tree = root
+    while tree >= 0:
+        first, at = tree_dof[tree], block_first[tree_block[tree]]
+        for d in range(first, tree_dof[tree + 1]):
+            lightness[at + d - first] = 1.0 / M[dof_row[d] + d]
+        tree = island_next[tree]
+    for k in range(rows):
+        total, at, first = 0.0, k * width, at_a[k]
+        for d in range(of_a[k]):
+            total += Y[at + d] * Y[at + d] * lightness[first + d]
+        at, first = at + of_a[k], at_b[k]
+        for d in range(of_b[k]):
+            total += Y[at + d] * Y[at + d] * lightness[first + d]
+        felt[k] = STIFFNESS / total if total > 0.0 else 0.0
+
+
+@inlined
+def stiffen(floats: Any, integers: Any, rows: int) -> None:
+    """Give every row the stiffness of one that holds."""
+    felt = field(floats, integers, At.felt)
     stiffness = field(floats, integers, At.g)
     for k in range(rows):
-        felt, at = 0.0, k * width
-        for side in range(2):
-            tree = row_a[k] if side == 0 else row_b[k]
-            if tree >= 0:
-                for d in range(tree_dof[tree], tree_dof[tree + 1]):
-                    felt += Y[at] * Y[at] / M[dof_row[d] + d]
-                    at += 1
-        stiffness[k] = STIFFNESS / felt if felt > 0.0 else 0.0
+        stiffness[k] = felt[k]
 
 
 @inlined
@@ -99,8 +119,7 @@ def follow(floats: Any, integers: Any, rows: int, n: int) -> int:
         for d in range(n):
             column[d] = 0.0
         c = -mu[k] * stiffness[k]
-        push_row(floats, integers, k + 1, c * near[k + 1], column)
-        push_row(floats, integers, k + 2, c * near[k + 2], column)
+        push_contact(floats, integers, k, 0.0, c * near[k + 1], c * near[k + 2], column)
         substitute(floats, integers, n, column)
         for d in range(n):
             A[at + d] = column[d]
@@ -119,7 +138,7 @@ def substitute_all(floats: Any, integers: Any, n: int, sliding: int, x: Any) -> 
         return True
     index = field(integers, integers, At.index)
     A = field(floats, integers, At.A)
-    share = field(floats, integers, At.y)
+    share = field(floats, integers, At.velocity)
     for i in range(sliding):
         share[i] = row_speed(floats, integers, index[i], x)
     for i in range(sliding * sliding):

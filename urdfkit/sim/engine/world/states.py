@@ -15,8 +15,9 @@ from typing import Any
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.guess import HOLDS, SLIDES
-from urdfkit.sim.engine.world.blocks import assemble, eliminate
-from urdfkit.sim.engine.world.products import push_row, row_speed, take_momentum
+from urdfkit.sim.engine.world.assemble import assemble
+from urdfkit.sim.engine.world.blocks import eliminate
+from urdfkit.sim.engine.world.products import push_contact, push_row, row_speeds, take_momentum
 from urdfkit.sim.engine.world.revise import revise, start_over
 from urdfkit.sim.engine.world.slip import STIFFNESS, follow, substitute_all
 
@@ -28,51 +29,52 @@ SLIDING_ROUNDS = 3
 """The same where contacts slide, before their directions are taken anew."""
 REVISIONS = 8
 """How often what rows do is changed before it is given up."""
+LEAST = 1e-12
+"""Ratio of the impulses that are rounding to the largest that can be: contacts without a load do not slide for these."""
 CONTRARY = 5e-3
 """Velocity [m/s or rad/s] by which rows that contradict each other may be off: 5 µm in a step of 1 ms."""
 
 
 @inlined
-def push_all(floats: Any, integers: Any, rows: int, speed: Any, rest: Any) -> None:
-    """Add to `rest` what all rows exert at these velocities."""
+def push_all(floats: Any, integers: Any, rows: int, rest: Any) -> None:
+    """Add to `rest` what all rows exert at the velocities that they are off by."""
     stiffness = field(floats, integers, At.g)
-    g = field(floats, integers, At.slip)
+    off = field(floats, integers, At.y)
     mu = field(floats, integers, At.mu)
     near = field(floats, integers, At.near_x)
     x = field(floats, integers, At.x)
     state = field(integers, integers, At.state)
     k = 0
     while k < rows:
-        if state[k] == SLIDES:
-            c = x[k] - stiffness[k] * (row_speed(floats, integers, k, speed) + g[k])
-            first = row_speed(floats, integers, k + 1, speed) + g[k + 1]
-            second = row_speed(floats, integers, k + 2, speed) + g[k + 2]
-            a, b = near[k + 1], near[k + 2]
-            across = near[k] * (a * second - b * first)
-            push_row(floats, integers, k, c, rest)
-            push_row(floats, integers, k + 1, b * across - mu[k] * c * a, rest)
-            push_row(floats, integers, k + 2, -a * across - mu[k] * c * b, rest)
+        if mu[k] > 0.0:
+            if state[k] == SLIDES:
+                a, b = near[k + 1], near[k + 2]
+                c, across = x[k] - stiffness[k] * off[k], near[k] * (a * off[k + 2] - b * off[k + 1])
+                first, second = b * across - mu[k] * c * a, -a * across - mu[k] * c * b
+                push_contact(floats, integers, k, c, first, second, rest)
+            elif state[k] == HOLDS:
+                c, first = x[k] - stiffness[k] * off[k], x[k + 1] - stiffness[k + 1] * off[k + 1]
+                second = x[k + 2] - stiffness[k + 2] * off[k + 2]
+                push_contact(floats, integers, k, c, first, second, rest)
             k += 3
             continue
         c = x[k]
         if state[k] == HOLDS:
-            c -= stiffness[k] * (row_speed(floats, integers, k, speed) + g[k])
+            c -= stiffness[k] * off[k]
         if c != 0.0:
             push_row(floats, integers, k, c, rest)
         k += 1
 
 
 @inlined
-def turn(floats: Any, integers: Any, k: int, speed: Any) -> float:
+def turn(floats: Any, integers: Any, k: int) -> float:
     """Turn friction against the slip; return the velocity by which that, or the normal, is not where it should be."""
     stiffness = field(floats, integers, At.g)
-    g = field(floats, integers, At.slip)
+    velocity = field(floats, integers, At.y)
     mu = field(floats, integers, At.mu)
     near = field(floats, integers, At.near_x)
     x = field(floats, integers, At.x)
-    w = row_speed(floats, integers, k, speed) + g[k]
-    first = row_speed(floats, integers, k + 1, speed) + g[k + 1]
-    second = row_speed(floats, integers, k + 2, speed) + g[k + 2]
+    w, first, second = velocity[k], velocity[k + 1], velocity[k + 2]
     a, b = near[k + 1], near[k + 2]
     c = x[k] - stiffness[k] * w
     forward, across = a * first + b * second, a * second - b * first
@@ -89,9 +91,13 @@ def turn(floats: Any, integers: Any, k: int, speed: Any) -> float:
 
 @compiled
 def correct(floats: Any, integers: Any, root: int, rows: int, n: int, sliding: int, tiny: float) -> int:
-    """Find velocities and impulses of the rows that hold or slide; return whether all are where they should be."""
+    """Find velocities and impulses of the rows that hold or slide; return whether all are where they should be.
+
+    Before and after, y is the velocity of each row that should be none.
+    """
     stiffness = field(floats, integers, At.g)
     g = field(floats, integers, At.slip)
+    off = field(floats, integers, At.y)
     mu = field(floats, integers, At.mu)
     x = field(floats, integers, At.x)
     speed = field(floats, integers, At.block_v)
@@ -101,20 +107,23 @@ def correct(floats: Any, integers: Any, root: int, rows: int, n: int, sliding: i
         for d in range(n):
             rest[d] = 0.0
         take_momentum(floats, integers, root, speed, rest)
-        push_all(floats, integers, rows, speed, rest)
+        push_all(floats, integers, rows, rest)
         if not substitute_all(floats, integers, n, sliding, rest):
             return NOT_MET
         moved = worst = 0.0
         for d in range(n):
             speed[d] += rest[d]
             moved = max(moved, abs(rest[d]))
+        row_speeds(floats, integers, rows, speed, off, 0)
         for k in range(rows):
+            off[k] += g[k]
             if state[k] == HOLDS:
-                error = row_speed(floats, integers, k, speed) + g[k]
-                x[k] -= stiffness[k] * error
-                worst = max(worst, abs(error))
-            elif state[k] == SLIDES and mu[k] > 0.0:
-                worst = max(worst, turn(floats, integers, k, speed))
+                x[k] -= stiffness[k] * off[k]
+                worst = max(worst, abs(off[k]))
+        if sliding > 0:
+            for k in range(rows):
+                if state[k] == SLIDES and mu[k] > 0.0:
+                    worst = max(worst, turn(floats, integers, k))
         if worst <= tiny:
             return MET
         if moved <= tiny:
@@ -132,16 +141,16 @@ def ease(floats: Any, integers: Any, rows: int, tiny: float) -> bool:
     high = field(floats, integers, At.high)
     bias = field(floats, integers, At.row_bias)
     g = field(floats, integers, At.slip)
-    speed = field(floats, integers, At.block_v)
+    off = field(floats, integers, At.y)
     state = field(integers, integers, At.state)
     for k in range(rows):
         if state[k] == HOLDS:
-            error = abs(row_speed(floats, integers, k, speed) + g[k])
+            error = abs(off[k])
             if error > tiny and (high[k] < math.inf or error > abs(bias[k])):
                 return False
     for k in range(rows):
         if state[k] == HOLDS:
-            g[k] -= row_speed(floats, integers, k, speed) + g[k]
+            g[k] -= off[k]
     return True
 
 
@@ -175,7 +184,7 @@ def try_states(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: f
                 largest = max(largest, abs(x[k]))
             if not largest <= most:
                 return 0
-        changed = revise(floats, integers, rows, tiny)
+        changed = revise(floats, integers, rows, tiny, LEAST * most)
         if changed:
             # Where what rows do comes round again, it will for ever.
             now = 0
