@@ -27,6 +27,7 @@ def test_an_arm_is_moved_by_its_sliders_and_a_depth_camera_gives_a_cloud(serve, 
     assert len(page.locator("#tip-at").inner_text().split(", ")) == 3
     assert not page.locator("#position, #heading, #velocity").filter(visible=True).count()
     until(lambda: page.locator("#panel-arms").is_visible())  # nothing drives: the arms come first
+    page.locator(".unfold").first.click()  # it has many controllers
     until(lambda: page.locator(".real").first.inner_text().startswith("is at"), 60)
     row = page.locator(".controller li").first
     joint = row.get_attribute("data-joint")
