@@ -30,7 +30,7 @@ SLIDING_ROUNDS = 3
 REVISIONS = 8
 """How often what rows do is changed before it is given up."""
 LEAST = 1e-12
-"""Ratio of the impulses that are rounding to the largest that can be: contacts without a load do not slide for these."""
+"""Ratio of the impulses that are rounding to the largest that can be: they let nothing slide."""
 CONTRARY = 5e-3
 """Velocity [m/s or rad/s] by which rows that contradict each other may be off: 5 µm in a step of 1 ms."""
 
