@@ -17,7 +17,7 @@ DAT_GUI_STYLES = ("'sha256-K7kXOYqP8pf16L5/PaLZ4u9Lt5q3nTyjCvyGtO/Af2k='",)
 """Hashes of the style sheets that meshcat's bundle injects for its own (here hidden) control panel."""
 
 
-_HOST = re.compile(r"(?:(?P<name>[A-Za-z0-9._-]+)|\[(?P<address>[0-9A-Fa-f:.]+)\])(?::(?P<port>[0-9]{1,5}))?", re.ASCII)
+_HOST = re.compile(r"(?:(?P<name>[A-Za-z0-9._-]+)|\[(?P<address>[0-9A-Fa-f:.]+)\])(?::[0-9]{1,5})?", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -54,15 +54,14 @@ class Gate:
         )
 
     def host_fits(self, host: str) -> bool:
-        """Whether the Host header names this server, its port too where it names one: no rebound name gets in.
+        """Whether the Host header names this server: the defence against DNS rebinding.
 
-        A port forwarded by ssh therefore has to have the same number at both ends.
+        Any port is accepted, so that a port forwarded by ssh works; the Origin rule keeps other ports' pages out.
         An IP literal cannot be rebound, so it is accepted where the network may connect at all.
         """
-        found = _HOST.fullmatch(host)
-        if found is None or (found["port"] is not None and int(found["port"]) != self.port):
+        name = host_name(host)
+        if name is None:
             return False
-        name = (found["name"] or found["address"]).lower()
         return name in self.names or (self.open_to_network and is_ip_literal(name))
 
     def origin_fits(self, origin: str | None, host: str) -> bool:
