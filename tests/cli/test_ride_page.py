@@ -45,6 +45,7 @@ def page(opened, until):
     page.evaluate(
         "for (const { id, open } of urdfkit.page.panels.all.values()) if (open) urdfkit.page.panels.close(id)"
     )
+    page.evaluate("for (const each of document.querySelectorAll('details')) each.open = false")
     page.evaluate("urdfkit.page.following = true; urdfkit.page.fit()")
     page.evaluate("urdfkit.page.status.time = Infinity")
     page.locator("#reset").click()

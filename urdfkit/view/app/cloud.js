@@ -22,7 +22,7 @@ export class Cloud {
   take(buffer, header, colored) {
     const stride = colored ? 16 : 12;
     this.count = Math.floor((buffer.byteLength - header) / stride);
-    if (this.count > this.capacity || colored !== this.colored) this.#allocate(Math.ceil(this.count * ROOM) + 64, colored);
+    if (this.count > this.capacity || this.capacity === 0 || colored !== this.colored) this.#allocate(Math.ceil(this.count * ROOM) + 64, colored);
     const { position, color } = this.points.geometry.attributes;
     if (!colored) {
       position.array.set(new Float32Array(buffer, header, 3 * this.count));
