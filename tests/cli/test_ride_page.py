@@ -378,7 +378,8 @@ def test_walls_through_the_robot_are_a_warning(page, until) -> None:
     for corner in ((-1.5, 0.0), (1.8, 0.0)):
         page.mouse.click(*spot(page, *corner))
     page.locator("#wall-build").click()
-    until(lambda: "`walls` starts" in page.locator("#toast").inner_text())  # in the answer, and as a remark of the world
+    # In the answer, and as a remark of the world.
+    until(lambda: "`walls` starts" in page.locator("#toast").inner_text())
     assert page.locator("#toast").get_attribute("data-tone") == "warning"
     page.keyboard.press("Escape")
     order(page, "remove", name="walls")
