@@ -1,9 +1,10 @@
 import os
+import signal
 from pathlib import Path
 
 import pytest
 
-from urdfkit.atomic import move_into_place, staging, write_bytes, write_text
+from urdfkit.atomic import move_into_place, staging, undisturbed, write_bytes, write_text
 from urdfkit.errors import ResourceError
 
 
@@ -123,3 +124,16 @@ def test_errors_do_not_name_the_temporary_folder(tmp_path, monkeypatch):
         assert str(caught.value) == f"{shown}: of no use"
     with pytest.raises(OSError, match="elsewhere"), staging(tmp_path):
         full("elsewhere")
+
+
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_waits_until_the_body_is_done(how):
+    arrived, done = [], []
+    before = signal.signal(how, lambda number, _: arrived.append((number, list(done))))
+    try:
+        with undisturbed():
+            signal.raise_signal(how)
+            done.append("body")
+        assert arrived == [(how, ["body"])]
+    finally:
+        signal.signal(how, before)

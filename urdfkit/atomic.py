@@ -7,6 +7,7 @@ import re
 import shutil
 import signal
 import tempfile
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -75,12 +76,32 @@ def staging(folder: Path) -> Iterator[Path]:
         ResourceError: nothing can be written there.
     """
     _sweep(folder)
-    try:
-        place = Path(tempfile.mkdtemp(prefix=f"{_STAGE}{_host()}-{os.getpid()}-", dir=folder))
-    except OSError as error:
-        raise ResourceError(f"cannot write into {folder}: {error.strerror}") from error
-    try:
+    with _temporary(folder) as place, _named_by_their_place(place, folder):
         yield place
+
+
+@contextmanager
+def _temporary(folder: Path) -> Iterator[Path]:
+    """Make the temporary folder, and take it away however the body ends, also when told to end in between."""
+    place: Path | None = None
+    try:
+        with undisturbed():
+            try:
+                place = Path(tempfile.mkdtemp(prefix=f"{_STAGE}{_host()}-{os.getpid()}-", dir=folder))
+            except OSError as error:
+                raise ResourceError(f"cannot write into {folder}: {error.strerror}") from error
+        yield place
+    finally:
+        if place is not None:
+            with undisturbed():
+                shutil.rmtree(place, ignore_errors=True)
+
+
+@contextmanager
+def _named_by_their_place(place: Path, folder: Path) -> Iterator[None]:
+    """Name in errors, in the place of the temporary folder, the one that it is for."""
+    try:
+        yield
     except OSError as error:
         written = Path(error.filename) if isinstance(error.filename, str) else place
         if not written.is_relative_to(place):
@@ -94,8 +115,6 @@ def staging(folder: Path) -> Iterator[Path]:
         for hidden, shown in there.items():
             said = said.replace(hidden, shown)
         raise ResourceError(said.replace(f"{place.name}/", "")) from error
-    finally:
-        shutil.rmtree(place, ignore_errors=True)
 
 
 def move_into_place(staged: Path, folder: Path) -> list[Path]:
@@ -132,15 +151,25 @@ def move_into_place(staged: Path, folder: Path) -> list[Path]:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Let Ctrl-C and a request to end wait until the body is done, where the system can."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+    """Let Ctrl-C, a request to end and a terminal that is closed wait until the body is done.
+
+    To block the signals would not do: another thread, such as a library's, would take them, and Python would act on
+    them here all the same.
+    """
+    arrived: list[int] = []
+    before = {}
+    if threading.current_thread() is threading.main_thread():
+        for name in ("SIGINT", "SIGTERM", "SIGHUP"):  # the last is not everywhere
+            number = getattr(signal, name, None)
+            if number is not None and signal.getsignal(number) not in (None, signal.SIG_IGN):
+                before[number] = signal.signal(number, lambda number, _: arrived.append(number))
     try:
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        for number in dict.fromkeys(arrived):
+            signal.raise_signal(number)
 
 
 def _sweep(folder: Path) -> None:

@@ -123,13 +123,14 @@ def test_without_a_preview_it_only_asks(terminal, tmp_path):
     assert "preview:" not in asking.until(r"(?s).*rover_description +\d+ files")[0]
 
 
-def test_an_interrupt_leaves_nothing(terminal, tmp_path):
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGHUP])
+def test_an_interrupt_leaves_nothing(terminal, tmp_path, how):
     asking = terminal("new", "robot", "rover")
     asking.until("ROS distribution")
     asking.type("jazzy")
     url = asking.until(r"preview: (http://\S+)")[1]
-    asking.process.send_signal(signal.SIGINT)
-    assert asking.process.wait(PATIENCE) == 130
+    asking.process.send_signal(how)
+    assert asking.process.wait(PATIENCE) == 128 + how
     assert list(tmp_path.iterdir()) == []
     with pytest.raises(ResourceError):
         links_on(url)

@@ -27,10 +27,10 @@ NEW = [
 ]
 
 
-def started(folder):
+def started(folder, *options):
     """Start to write a robot; return the process when it has begun to write."""
-    process = subprocess.Popen(NEW, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    while process.poll() is None and not list(folder.glob(".urdfkit-*/*")):
+    process = subprocess.Popen([*NEW, *options], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    while process.poll() is None and not list(folder.glob("**/.urdfkit-*/*")):
         time.sleep(0.005)
     assert process.poll() is None, "too quick to be interrupted"
     return process
@@ -49,6 +49,28 @@ def test_ctrl_c_leaves_nothing(folder):
     assert process.returncode == 130
     assert "Traceback" not in said
     assert [path.name for path in folder.iterdir()] == ["mine"]
+
+
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGHUP])
+def test_being_told_to_end_leaves_nothing_not_even_the_folder_it_made(folder, how):
+    process = started(folder, "--into", "src")
+    process.send_signal(how)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 128 + how
+    assert said == ""
+    assert [path.name for path in folder.iterdir()] == ["mine"]
+
+
+def test_a_closed_terminal_does_not_end_what_was_told_not_to_mind(folder):
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup does
+    try:
+        process = started(folder)
+    finally:
+        signal.signal(signal.SIGHUP, before)
+    process.send_signal(signal.SIGHUP)
+    process.communicate(timeout=60)
+    assert process.returncode == 0
+    assert (folder / "scout_description").is_dir()
 
 
 def test_what_a_killed_run_leaves_is_hidden_and_gone_with_the_next(folder):

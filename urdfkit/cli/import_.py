@@ -48,6 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
     Raises:
         UrdfkitError: it could not be done; nothing was written then.
     """
+    from urdfkit.cli.ending import ended_by_signals
     from urdfkit.cli.identity import identity
     from urdfkit.resources import templates_dir
     from urdfkit.scaffold import load_template
@@ -62,9 +63,10 @@ def run(arguments: argparse.Namespace) -> int:
     name = _name(template, arguments.name, file)
     folders = [_folder(word) for word in arguments.meshes]
     given |= {"year": str(datetime.now(timezone.utc).year), "into": Path(arguments.into).as_posix()}
-    wrapped = wrap(
-        file, name, Path(arguments.into), given, mesh_folders=folders, mend=_mended, repository=arguments.repository
-    )
+    with ended_by_signals():
+        wrapped = wrap(
+            file, name, Path(arguments.into), given, mesh_folders=folders, mend=_mended, repository=arguments.repository
+        )
     for folder, count in zip(wrapped.folders, wrapped.files, strict=True):
         print(f"{folder.as_posix()}  {count} files")
     if wrapped.beside:

@@ -12,6 +12,7 @@ from importlib import import_module
 from pathlib import Path
 
 from urdfkit.cli import updating
+from urdfkit.cli.ending import ended_by_signals
 from urdfkit.cli.identity import identity
 from urdfkit.cli.parser import Parser
 from urdfkit.cli.things import Kind, add_update, chosen
@@ -77,14 +78,25 @@ def run(arguments: argparse.Namespace) -> int:
     Raises:
         UrdfkitError: it could not be done; nothing was written then.
     """
+    with ended_by_signals():
+        code, model = _written(arguments)
+    if model is None:
+        return code
+    from urdfkit.cli import main
+
+    return main(["sim", "teleop", str(model)])
+
+
+def _written(arguments: argparse.Namespace) -> tuple[int, Path | None]:
+    """Return the exit code, and the model that is to be driven now."""
     if arguments.thing in ADDED:
-        return int(import_module(f"urdfkit.cli.new_{arguments.thing}").run(arguments))
+        return int(import_module(f"urdfkit.cli.new_{arguments.thing}").run(arguments)), None
     if arguments.thing is None:
         if not arguments.update:
             raise UsageError(
                 f"new: the following arguments are required: KIND ({', '.join([*template_names(), *ADDED])})"
             )
-        return updating.run(None, {}, Path(arguments.above_into), arguments, own=arguments.above_template)
+        return updating.run(None, {}, Path(arguments.above_into), arguments, own=arguments.above_template), None
     template = chosen(arguments.thing, arguments.template)
     for option in template.asks_later:
         if getattr(arguments, f"later_{option}") is not None:
@@ -99,7 +111,7 @@ def run(arguments: argparse.Namespace) -> int:
     for name, answer in given.items():
         template.question(name).accept(answer)
     if arguments.update:
-        return updating.run(template, given, into, arguments)
+        return updating.run(template, given, into, arguments), None
     if arguments.diff:
         raise UsageError("--diff goes with --update: there is nothing yet to compare with")
     template = updating.placed(template, into)
@@ -114,11 +126,7 @@ def run(arguments: argparse.Namespace) -> int:
     files = create(template, answers, into, check=findings, finish=drawn if answers.get("picture") == "yes" else None)
     teleop = template.teleop and arguments.teleop
     _tell(template, answers, files, into.resolve(), quiet=arguments.quiet or bool(teleop))
-    if not teleop:
-        return 0
-    from urdfkit.cli import main
-
-    return main(["sim", "teleop", str(into / fill(template.teleop, answers, where="teleop"))])
+    return 0, into / fill(template.teleop, answers, where="teleop") if teleop else None
 
 
 def _asked(template: Template, given: dict[str, str], *, preview: bool) -> dict[str, str]:
@@ -166,7 +174,11 @@ def _answered(question: Question, default: str | None) -> str:
     choices = f" ({', '.join(among)})" if len(among) > 1 else ""
     offered = f" = {default}" if default else ", several with commas, Enter for none" if question.several else ""
     print(f"{question.prompt}{choices}{unit}{offered}: ", end="", file=sys.stderr, flush=True)
-    line = sys.stdin.readline()
+    try:
+        line = sys.stdin.readline()
+    except (KeyboardInterrupt, SystemExit):  # the shell's prompt comes next, on a line of its own
+        print(file=sys.stderr)
+        raise
     if not line:
         print(file=sys.stderr)
         raise UrdfkitError("no more answers: nothing was written")

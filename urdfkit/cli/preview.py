@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
 import threading
 from collections.abc import Mapping
 from pathlib import Path
-from types import FrameType
-from typing import Any
 
 from urdfkit.atomic import write_bytes
 from urdfkit.cli.page import NEEDED
@@ -40,19 +37,11 @@ class Preview:
         self._name: str | None = None
         self._ready = threading.Event()
         self._told = False
-        self._signals: dict[int, Any] = {
-            getattr(signal, name): signal.SIG_DFL for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)
-        }
 
     def __enter__(self) -> Preview:
-        # Else a terminal that is closed would leave the page and its folder behind.
-        for number in self._signals:
-            self._signals[number] = signal.signal(number, _stop)
         return self
 
     def __exit__(self, *_: object) -> None:
-        for number, before in self._signals.items():
-            signal.signal(number, before)
         if self._view is not None:
             self._view.terminate()
             try:
@@ -119,10 +108,6 @@ class Preview:
         if self.url and not self._told:
             self._told = True
             print(f"preview: {self.url}", file=sys.stderr, flush=True)
-
-
-def _stop(_number: int, _frame: FrameType | None) -> None:
-    raise KeyboardInterrupt
 
 
 def can_preview(template: Template) -> bool:

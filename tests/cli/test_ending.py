@@ -1,0 +1,37 @@
+import io
+import signal
+
+import pytest
+
+from urdfkit.cli import main
+from urdfkit.cli.ending import ended_by_signals
+
+
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_ends_the_block_and_what_it_did_before_is_back(how):
+    before, undone = signal.getsignal(how), []
+    with pytest.raises(SystemExit) as ended, ended_by_signals():
+        try:
+            signal.raise_signal(how)
+        finally:
+            undone.append("undone")
+    assert ended.value.code == 128 + how
+    assert undone == ["undone"]
+    assert signal.getsignal(how) == before
+
+
+def test_ctrl_c_at_a_question_leaves_the_line(tmp_path, monkeypatch):
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+        def readline(self):
+            raise KeyboardInterrupt
+
+    shown = Terminal()
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.stdin", Terminal())
+    monkeypatch.setattr("sys.stderr", shown)
+    assert main(["new", "robot", "scout", "--no-preview"]) == 130
+    assert shown.getvalue().endswith(": \n")
+    assert list(tmp_path.iterdir()) == []
