@@ -10,11 +10,16 @@ from urdfkit.cli.ending import ended_by_signals
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_ends_the_block_and_what_it_did_before_is_back(how):
     before, undone = signal.getsignal(how), []
-    with pytest.raises(SystemExit) as ended, ended_by_signals():
-        try:
-            signal.raise_signal(how)
-        finally:
-            undone.append("undone")
+
+    def write():
+        with ended_by_signals():
+            try:
+                signal.raise_signal(how)
+            finally:
+                undone.append("undone")
+
+    with pytest.raises(SystemExit) as ended:
+        write()
     assert ended.value.code == 128 + how
     assert undone == ["undone"]
     assert signal.getsignal(how) == before

@@ -84,6 +84,7 @@ class Parser(argparse.ArgumentParser):
         # What is misspelt is often what seems to be missing.
         if "unrecognized arguments" not in message and (misspelt := self._unknown_option()) is not None:
             message = f"unrecognized arguments: {misspelt}"
+        message = re.sub(r"ignored explicit argument '(.*)'", r"takes no value, and `\1` is behind it", message)
         if unknown := re.search(r"unrecognized arguments: (\S+)", message):
             hint = self.elsewhere(unknown[1]) or did_you_mean(unknown[1], self._option_string_actions)
         elif choice := re.search(r"invalid choice: '([^']*)' \(choose from (.*)\)", message):
