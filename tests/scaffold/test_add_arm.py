@@ -48,6 +48,11 @@ def test_every_arm_is_clean(simpleton, dof):
     assert {"tool0", "left_finger", "right_finger"} <= {link.name.removesuffix("_link") for link in robot.links}
 
 
+def test_numbers_arrive_as_typed(simpleton):
+    assert new("--xyz", "-0.25123456", "0", "0.3", "--rpy", "0", "0", "3.141592653589793") == 0
+    assert '<origin xyz="-0.25123456 0 0.3" rpy="0 0 3.141592653589793"/>' in simpleton.read_text()
+
+
 def test_it_moves_as_its_controllers_say(place, simpleton):
     assert new("--dof", "5") == 0
     assert main(["new", "controllers", "--into", "simpleton_description"]) == 0

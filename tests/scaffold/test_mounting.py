@@ -10,7 +10,7 @@ from urdfkit.errors import ResourceError
 from urdfkit.lint import lint
 from urdfkit.scaffold.boxes import Boxes, gap
 from urdfkit.scaffold.free_place import Part, free_place, inside, spot
-from urdfkit.scaffold.mounting import mount, written
+from urdfkit.scaffold.mounting import exact, mount, written
 
 BASE = ((-0.2, -0.15, 0.0), (0.2, 0.15, 0.1))
 CUBE = ((-0.05, -0.05, -0.05), (0.05, 0.05, 0.05))
@@ -119,6 +119,11 @@ def test_on_a_link_of_several_shapes_it_stands_on_what_is_below_it():
 
 def test_numbers_are_written_without_a_negative_zero():
     assert written((-0.0, 0.15, -0.2)) == "0 0.15 -0.2"
+
+
+def test_numbers_that_were_given_keep_their_digits():
+    assert exact((3.141592653589793, -0.25123456, -0.0)) == "3.141592653589793 -0.25123456 0"
+    assert exact((0.1, 1e-9, 0.1 + 0.2)) == "0.1 1e-09 0.30000000000000004"
 
 
 def test_on_a_frame_it_goes_up_until_nothing_is_there():

@@ -308,3 +308,9 @@ def test_all_files_or_none(place, monkeypatch):
     assert everything(place) == {path.relative_to(place): b"old" for path in [place / "old"]}
     with pytest.raises(ResourceError, match="was changed meanwhile"):
         write_all([Alteration(place / "old", b"other", b"new")])
+
+
+def test_numbers_arrive_as_typed(place):
+    (place / "cart.urdf").write_text(URDF)
+    assert new("imu", "cart.urdf", "--xyz", "-0.25123456", "0", "0.3", "--rpy", "0", "0", "3.141592653589793") == 0
+    assert '<origin rpy="0 0 3.141592653589793" xyz="-0.25123456 0 0.3"/>' in (place / "cart.urdf").read_text()

@@ -19,7 +19,7 @@ from urdfkit.scaffold.boxes import Boxes, whole
 from urdfkit.scaffold.free_place import Part
 from urdfkit.scaffold.insertion import insert_before_end, xacro_prefix
 from urdfkit.scaffold.manifest import package_of, with_installed
-from urdfkit.scaffold.mounting import extent, mount, parent_link, written
+from urdfkit.scaffold.mounting import exact, extent, mount, parent_link, written
 from urdfkit.scaffold.names import free
 from urdfkit.scaffold.reading import load_template
 
@@ -83,7 +83,8 @@ def add_arm(robot: Robot, path: Path, request: ArmRequest) -> tuple[list[Alterat
     xyz, notes = mount(robot, parent, _part(arm, request.rpy), request.xyz)
     told = f"`{name}` on `{parent.name}` at {written(xyz)}, reaching {answers['arm_reach']} m"
     lines = _elements(xml, {*links, *joints}, _prefix(name))
-    origin = f'<origin xyz="{written(xyz)}" rpy="{written(request.rpy)}"/>'
+    at = exact(xyz) if request.xyz else written(xyz)
+    origin = f'<origin xyz="{at}" rpy="{exact(request.rpy)}"/>'
     return _changes(path, name, lines, parent.name, origin), [told, *notes]
 
 

@@ -77,9 +77,25 @@ def mount(robot: Robot, link: Link, part: Part, xyz: Vector | None) -> tuple[Vec
     return place, notes if own is None else []
 
 
-def written(values: Vector) -> str:
-    """Return three numbers as they are written in an attribute."""
-    return " ".join(f"{value + 0.0:.6g}" for value in values)  # no -0
+def written(values: Vector, digits: int = 6) -> str:
+    """Return three numbers as they are written in an attribute.
+
+    Args:
+        values: the numbers.
+        digits: how many of each; 17 are as many as it takes to read the same number again.
+    """
+    return " ".join(_shortest(value + 0.0, digits) for value in values)  # no -0
+
+
+def exact(values: Vector) -> str:
+    """Return three numbers with all of the digits that they were given with."""
+    return written(values, 17)
+
+
+def _shortest(value: float, digits: int) -> str:
+    """Return a number in as few digits as tell it, and no more than `digits`."""
+    texts = (f"{value:.{count}g}" for count in range(min(6, digits), digits))
+    return next((text for text in texts if float(text) == value), f"{value:.{digits}g}")
 
 
 def _listed(robot: Robot) -> str:

@@ -17,7 +17,7 @@ from urdfkit.scaffold.boxes import Boxes, whole
 from urdfkit.scaffold.free_place import Part
 from urdfkit.scaffold.insertion import insert_before_end, xacro_prefix
 from urdfkit.scaffold.manifest import bridges, package_of, with_dependency, with_installed
-from urdfkit.scaffold.mounting import mount, parent_link, written
+from urdfkit.scaffold.mounting import exact, mount, parent_link, written
 from urdfkit.scaffold.names import free
 from urdfkit.scaffold.sensor_macro import KINDS, bridge_entries, sensor_macro, topic_of
 
@@ -74,7 +74,7 @@ def add_sensor(robot: Robot, path: Path, request: Request, *, generation: str) -
     said = f'name="{name}" parent="{parent.name}" topic="{topic}" update_rate="{rate:g}"'
     call = [
         f"<xacro:{request.kind}_sensor {said}>",
-        f'  <origin xyz="{written(xyz)}" rpy="{written(request.rpy)}"/>',
+        f'  <origin xyz="{exact(xyz) if request.xyz else written(xyz)}" rpy="{exact(request.rpy)}"/>',
         f"</xacro:{request.kind}_sensor>",
     ]
     before = _read(path)
@@ -118,7 +118,7 @@ def _part(macro: str, request: Request, name: str) -> Part:
     call = [
         f'<link name="{_BARE}"/>',
         f'<xacro:{request.kind}_sensor name="{name}" parent="{_BARE}" topic="t" update_rate="1">',
-        f'  <origin xyz="0 0 0" rpy="{written(request.rpy)}"/>',
+        f'  <origin xyz="0 0 0" rpy="{exact(request.rpy)}"/>',
         f"</xacro:{request.kind}_sensor>",
     ]
     with tempfile.TemporaryDirectory() as folder:
