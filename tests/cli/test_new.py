@@ -85,6 +85,14 @@ def test_maintainer_is_asked_of_git(place, monkeypatch):
     assert '"grace@example.org">Grace<' in (place / "scout_gazebo/package.xml").read_text()
 
 
+def test_an_address_of_git_that_ros_refuses_is_left_out(place, monkeypatch):
+    config = place / "gitconfig"
+    config.write_text("[user]\n\tname = Grace\n\temail = grace@laptop\n")
+    monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(config))
+    assert main(["new", "package", "scout_tools"]) == 0
+    assert '"maintainer@example.com">Grace<' in (place / "scout_tools/package.xml").read_text()
+
+
 def test_quiet_prints_what_was_written_only(place, capsys):
     assert main(["new", "robot", "scout", "-q"]) == 0
     assert capsys.readouterr().out.splitlines() == [

@@ -61,10 +61,21 @@ def test_text(robot_template, typed):
     assert robot_template.question("maintainer").accept(typed) == typed
 
 
-@pytest.mark.parametrize("typed", ["nobody", "a@b@c", "a b@c", "<a@b>"])
+@pytest.mark.parametrize(
+    "typed",
+    [
+        *("nobody", "a@b@c", "a b@c", "<a@b>", "joe@laptop", "me@localhost"),
+        *("joe@x.y", "joe@host..de", "joe@büro.de", "joe@a.d3"),
+    ],
+)
 def test_what_is_no_address(robot_template, typed):
     with pytest.raises(UsageError, match="not of the form name@host"):
         robot_template.question("email").accept(typed)
+
+
+@pytest.mark.parametrize("typed", ["joe@example.org", "a.b+c@d-e.co.uk", "12345+joe@users.noreply.github.com"])
+def test_what_is_an_address(robot_template, typed):
+    assert robot_template.question("email").accept(typed) == typed
 
 
 def test_flags():

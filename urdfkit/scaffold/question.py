@@ -135,7 +135,7 @@ class Question:
 
     def _text_rule(self) -> str:
         return (
-            "it is not of the form name@host"
+            "it is not of the form name@host.domain, in ASCII"
             if "@[" in self.pattern
             else 'it is empty, or has a line break or one of < > & "'
         )
