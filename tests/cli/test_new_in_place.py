@@ -197,7 +197,18 @@ def test_a_template_of_ones_own(place, own, capsys):
     assert main(["new", "--update"]) == 2
     assert "the template ../template that template was made by is gone: --template DIR" in capsys.readouterr().err
     assert main(["new", "--update", "--template", "../moved"]) == 2
-    assert "is for `urdfkit new template`, not for `urdfkit new moved`" in capsys.readouterr().err
+    both = "is for `urdfkit new robot --template ../template`, not for `urdfkit new robot --template ../moved`"
+    assert both in capsys.readouterr().err
+
+
+def test_a_recipe_of_ones_own_template_says_how_to_make_it_again(place, own, capsys):
+    assert main(["new", "robot", "box", "--template", "../template", "--colour", "blue", "--yes"]) == 0
+    recipe = place / "box/urdfkit-new.toml"
+    command = recipe.read_text().splitlines()[0].removeprefix("# Again: urdfkit ").partition(" FILE")[0].split()
+    assert main([*command, str(recipe), "--into", "again", "--yes"]) == 0
+    assert (place / "again/box/COLOUR").read_text() == "blue"
+    assert main(["new", "robot", "--from", str(recipe), "--yes"]) == 2
+    assert "is for `urdfkit new robot --template ../template`, not for `urdfkit new robot`" in capsys.readouterr().err
 
 
 def test_help_is_of_the_template(place, own, capsys):

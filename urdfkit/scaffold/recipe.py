@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import shlex
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -59,8 +60,9 @@ def recipe_text(template: Template, answers: Mapping[str, str], digests: Mapping
         digests: of what was written, by path.
     """
     kind = template.name
+    again = _command(kind, template.source)
     lines = [
-        f"# Again: urdfkit new {kind} --from FILE, or in place urdfkit new --update; options change what is here.",
+        f"# Again: {again} --from FILE, or in place urdfkit new --update; options change what is here.",
         f'template = "{kind}"',
     ]
     lines += [
@@ -123,10 +125,12 @@ def read_recipe(template: Template, path: Path, instead: Mapping[str, str]) -> d
         UsageError: an answer of it is wrong, or it is another template's.
     """
     table = _read(path, "--from ")
-    table.pop(MADE, None)
+    made = table.pop(MADE, None)
     kind = table.pop("template", template.name)
     if kind != template.name:
-        raise UsageError(f"{path} is for `urdfkit new {kind}`, not for `urdfkit new {template.name}`")
+        source = str(made.get("source", "")) if isinstance(made, dict) else ""
+        mine = _command(template.name, template.source)
+        raise UsageError(f"{path} is for `{_command(str(kind), source)}`, not for `{mine}`")
     try:
         found = {
             name: question.accept(_text(question, value))
@@ -146,6 +150,11 @@ def read_recipe(template: Template, path: Path, instead: Mapping[str, str]) -> d
         if question.name not in instead and not applies(question.when, known):
             found.pop(question.name, None)
     return found
+
+
+def _command(kind: str, source: str) -> str:
+    """Return the command that makes something from a template: ours by its name, any other by its folder."""
+    return f"urdfkit new robot --template {shlex.quote(source)}" if source else f"urdfkit new {kind}"
 
 
 def _default(question: Question, answers: Mapping[str, str]) -> str | None:
