@@ -10,7 +10,6 @@ from contextlib import contextmanager
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from types import FrameType
-    from typing import NoReturn
 
 
 @contextmanager
@@ -23,17 +22,20 @@ def ended_by_signals() -> Iterator[None]:
         SystemExit: 128 and the number of the signal, as a shell reports a program that one has ended.
     """
     before = {}
+    ended: list[int] = []
+
+    def end(number: int, _frame: FrameType | None) -> None:
+        ended.append(number)
+        if len(ended) == 1:  # a shell says it again, and that must not interrupt the undoing
+            raise SystemExit(128 + number)
+
     if threading.current_thread() is threading.main_thread():
         for name in ("SIGTERM", "SIGHUP"):  # the second is not everywhere
             number = getattr(signal, name, None)
             if number is not None and signal.getsignal(number) == signal.SIG_DFL:
-                before[number] = signal.signal(number, _end)
+                before[number] = signal.signal(number, end)
     try:
         yield
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
-
-
-def _end(number: int, _frame: FrameType | None) -> NoReturn:
-    raise SystemExit(128 + number)
