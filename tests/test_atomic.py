@@ -137,3 +137,9 @@ def test_a_signal_waits_until_the_body_is_done(how):
         assert arrived == [(how, ["body"])]
     finally:
         signal.signal(how, before)
+
+
+def test_a_reader_that_goes_away_is_no_file_that_cannot_be_written(tmp_path):
+    with pytest.raises(BrokenPipeError), staging(tmp_path):
+        raise BrokenPipeError(32, "Broken pipe")
+    assert list(tmp_path.iterdir()) == []

@@ -102,6 +102,8 @@ def _named_by_their_place(place: Path, folder: Path) -> Iterator[None]:
     """Name in errors, in the place of the temporary folder, the one that it is for."""
     try:
         yield
+    except BrokenPipeError:  # no file of it: whoever reads what is printed has gone
+        raise
     except OSError as error:
         written = Path(error.filename) if isinstance(error.filename, str) else place
         if not written.is_relative_to(place):
