@@ -108,3 +108,10 @@ def test_into_a_folder_that_cannot_be_written(template, answers, place, monkeypa
     monkeypatch.setattr("tempfile.mkdtemp", refuse)
     with pytest.raises(ResourceError, match=r"cannot write into .*: Permission denied"):
         create(template, answers, place)
+
+
+@pytest.mark.parametrize("name", ["hall.sdf", "hall.world"])
+def test_the_name_of_a_world_is_no_folder(template, answers, place, name):
+    with pytest.raises(ResourceError, match=r"has the name of a world's file; try "):
+        create(template, answers, place / name)
+    assert not (place / name).exists()

@@ -14,6 +14,9 @@ from urdfkit.scaffold.filling import fill
 from urdfkit.scaffold.recipe import digest, recipe_text
 from urdfkit.scaffold.template import Template
 
+_WORLDS = (".sdf", ".world")
+"""What the names of files end in that a folder to write to is mistaken for."""
+
 Checker = Callable[[Path], Sequence[str]]
 """Looks at the rendered folder before it is moved into place; returns what is wrong with it, a line each."""
 
@@ -61,6 +64,8 @@ def create(
     Raises:
         ResourceError: something of that name is there, the result does not pass `check`, or it cannot be written.
     """
+    if folder.suffix in _WORLDS and not folder.is_dir():
+        raise ResourceError(f"{folder} would be a folder, and has the name of a world's file; try {folder.parent}")
     spare = template.spare(answers)
     for name in sorted({target.parts[0] for _, target in template.files(answers)} - spare):
         if os.path.lexists(folder / name):
