@@ -9,7 +9,7 @@ import yaml
 
 from urdfkit.cli import main
 
-BESIDE = [".devcontainer", ".github", ".gitignore", ".pre-commit-config.yaml", "LICENSE", "README.md"]
+BESIDE = [".devcontainer", ".github", ".gitignore", ".pre-commit-config.yaml", "LICENSE", "README.md", "pytest.ini"]
 
 
 @pytest.fixture

@@ -87,8 +87,8 @@ def test_it_becomes_packages(export, capsys, ros):
     assert everything(export) == before
     src = export.parent / "src"
     packages = ["my_arm_bringup", "my_arm_description", "my_arm_gazebo"]
-    beside = [".devcontainer", ".github", ".gitignore", ".pre-commit-config.yaml", "LICENSE", "README.md"]
-    assert sorted(path.name for path in src.iterdir()) == [*beside, *packages]
+    beside = [".devcontainer", ".github", ".gitignore", ".pre-commit-config.yaml", "LICENSE", "README.md", "pytest.ini"]
+    assert sorted(path.name for path in src.iterdir()) == sorted([*beside, *packages])
     said = capsys.readouterr().out
     assert f"beside them: {', '.join(beside)}" in said
     assert "2 meshes copied" in said
