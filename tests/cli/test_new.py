@@ -99,7 +99,7 @@ def test_quiet_prints_what_was_written_only(place, capsys):
         "scout_bringup  8 files",
         "scout_description  19 files",
         "scout_gazebo  11 files",
-        ".  .devcontainer, .github, .gitignore, .pre-commit-config.yaml, LICENSE, README.md",
+        ".  .devcontainer, .github, .gitignore, .pre-commit-config.yaml, LICENSE, README.md, pytest.ini",
     ]
 
 

@@ -112,7 +112,7 @@ def known_target(name: str | None) -> str | None:
     if written in _SEVERAL:
         raise UsageError(f"--target {name} is not known: {_SEVERAL[written]}?")
     releases = {one: known for known, distros in DISTROS.items() for one in distros}
-    if distro and family in DISTROS:
+    if distro and family in DISTROS and ("-" in written or distro.isdecimal()):
         others = {} if distro.isdecimal() else releases
         hint = did_you_mean(distro, DISTROS[family]) or did_you_mean(distro, others)
         near = hint.partition("`")[2].partition("`")[0]
