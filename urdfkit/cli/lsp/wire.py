@@ -63,7 +63,7 @@ def _is_answered(record: logging.LogRecord) -> bool:
     """Whether the editor is told, or another line says it, or the editor has gone."""
     raised = record.exc_info[1] if record.exc_info else None
     is_refusal = isinstance(raised, JsonRpcInvalidParams) and raised.__cause__ is None
-    has_gone = isinstance(raised, OSError) or (isinstance(raised, ValueError) and "closed file" in str(raised))
+    has_gone = isinstance(raised, ConnectionError) or (isinstance(raised, ValueError) and "closed file" in str(raised))
     return is_refusal or has_gone or str(record.msg).startswith(("Unable to deserialize", "Failed to report error"))
 
 
