@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
@@ -27,6 +28,15 @@ ATTRIBUTES: dict[str, tuple[str, ...]] = {
 }
 """Directive → its attributes (xacro 2.1, `check_attrs`)."""
 
+_MEANT = {
+    "arg": dict.fromkeys(("value", "val"), "default"),
+    "property": dict.fromkeys(("val",), "value"),
+    "include": dict.fromkeys(("file", "path", "src", "href"), "filename"),
+    "macro": dict.fromkeys(("args", "arguments", "param", "parameters"), "params"),
+    "insert_block": dict.fromkeys(("block",), "name"),
+}
+"""Directive → what other formats and functions call an attribute of it, and its name."""
+
 _OTHERS = frozenset(("attribute", "call", "element"))
 _LIKENESS = 0.8
 
@@ -43,13 +53,27 @@ def mend_spelling(document: minidom.Document, position_of: PositionOf) -> Iterat
         message = f"{what}; did you mean `{'' if tag.startswith('xacro:') else 'xacro:'}{meant}`?"
         yield Fault("misspelt-directive", message, *position_of(element), name=meant)
         rename(element, meant)
-    for element, name, right in misspelt_attributes(document):
+    for element in list(elements(document)):
+        directive = element.tagName.removeprefix("xacro:")
+        if directive in ATTRIBUTES and directive != element.tagName:
+            yield from _mend_attributes(element, directive, position_of)
+
+
+def _mend_attributes(element: Any, directive: str, position_of: PositionOf) -> Iterator[Fault]:
+    for name, right in misspelt_attributes(element, directive):
         hint = f"; did you mean `{right}`?" if right is not None else ""
         message = f"<{element.tagName}> has no attribute `{name}`{hint}"
         yield Fault("directive-attribute", message, *position_of(element), attribute=name, name=right)
         if right is not None:
             element.setAttribute(right, element.getAttribute(name))
         element.removeAttribute(name)
+    written = element.getAttribute("params") if directive == "macro" else ""
+    separated = _separated(written)
+    if separated != written:
+        message = f"parameters of a macro are separated by blanks: `{written[:80]}`"
+        details = {"value": separated}
+        yield Fault("directive-attribute", message, *position_of(element), attribute="params", details=details)
+        element.setAttribute("params", separated)
 
 
 def misspelt(document: minidom.Document) -> Iterator[tuple[minidom.Element, str, str]]:
@@ -78,24 +102,33 @@ def misspelt(document: minidom.Document) -> Iterator[tuple[minidom.Element, str,
             yield element, tag, meant
 
 
-def misspelt_attributes(document: minidom.Document) -> Iterator[tuple[minidom.Element, str, str | None]]:
+def misspelt_attributes(element: Any, directive: str) -> Iterator[tuple[str, str | None]]:
     """Yield the attributes that a directive does not have, with what is meant, if that can be told.
 
     Args:
-        document: may be changed while it is gone through.
+        element: may be changed while its attributes are gone through.
+        directive: its name, without prefix.
     """
-    for element in list(elements(document)):
-        directive = element.tagName.removeprefix("xacro:")
-        known = ATTRIBUTES.get(directive, ())
-        if not known or directive == element.tagName:
+    known = ATTRIBUTES[directive]
+    for name in list(element.attributes.keys()):
+        if name in known or name.startswith(("xmlns", "xacro:")):
             continue
-        for name in list(element.attributes.keys()):
-            if name in known or name.startswith(("xmlns", "xacro:")):
-                continue
-            free = tuple(one for one in known if not element.hasAttribute(one))
-            meant = _near(name, free)
-            if meant is not None or directive != "include":  # parameters of an include are another matter
-                yield element, name, meant
+        free = tuple(one for one in known if not element.hasAttribute(one))
+        meant = _MEANT.get(directive, {}).get(name.lower())
+        meant = meant if meant in free else _near(name, free)
+        if meant is not None or directive != "include":  # parameters of an include are another matter
+            yield name, meant
+
+
+def _separated(parameters: str) -> str:
+    """Return the parameters of a macro with blanks in place of commas; what may belong to a default is left alone."""
+    if not ("," in parameters or ";" in parameters) or any(mark in parameters for mark in "'\"[({"):
+        return parameters
+    between = r"[ \t]*[,;](?=\s)|[ \t]*[,;](?=\*|\w+\s*:?=)|[ \t]*[,;]\s*$"
+    if ":" not in parameters and "=" not in parameters:
+        between = r"[ \t]*[,;]"
+    parts = re.sub(between, " ", parameters)
+    return re.sub(r"(?<=\S) {2,}", " ", parts).rstrip() if not ("," in parts or ";" in parts) else parameters
 
 
 @lru_cache(maxsize=1_000)

@@ -60,8 +60,8 @@ class JointTypeUnknown(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the type with the nearest name is taken, or what other formats' types come nearest to. A hinge is taken for
-    revolute, and then lacks its limits.
+    Safe where a letter or two are wrong; a revolute joint may lack its limits then, which is reported next. Unsafe where
+    it is a guess: what other formats' types come nearest to.
     """
 
     code = "J402"
@@ -75,6 +75,7 @@ class JointTypeUnknown(RobotRule):
         for joint in model.robot.joints:
             if joint.type is None or joint.type in JOINT_TYPES:
                 continue
+            near = nearest(joint.type.strip(), JOINT_TYPES, likeness=0.85)
             right = _ELSEWHERE.get(joint.type.lower()) or nearest(joint.type.strip(), JOINT_TYPES)
             yield self.at(
                 model,
@@ -84,5 +85,7 @@ class JointTypeUnknown(RobotRule):
                 attribute="type",
                 joint=joint.name,
                 help=f"the types are {', '.join(JOINT_TYPES)}",
-                fix=new_value(model, joint.element, "type", right, "unsafe", f"Write `{right}`") if right else None,
+                fix=new_value(model, joint.element, "type", right, "safe" if near else "unsafe", f"Write `{right}`")
+                if right
+                else None,
             )

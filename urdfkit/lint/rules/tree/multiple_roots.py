@@ -17,7 +17,8 @@ class MultipleRoots(RobotRule):
     """More than one link has no parent.
 
     ## What it does
-    Looks for links that are nobody's child besides the root of the largest tree.
+    Looks for links that are nobody's child besides the root of the largest tree. A link that a joint must have meant
+    whose child is misspelt is left to child-link-undefined.
 
     ## Why is this bad?
     A robot is one tree. urdfdom refuses two roots, robot_state_publisher cannot connect the frames, and MuJoCo silently
@@ -53,6 +54,10 @@ class MultipleRoots(RobotRule):
         roots = robot.roots()
         if len(roots) < 2 or model.is_incomplete:
             return
+        missed = _missed(robot)
+        roots = [link for link in roots if link.name not in missed]
+        if len(roots) < 2:
+            return
         main = max(roots, key=lambda link: _links_below(robot, link.name))
         for link in roots:
             if link is not main:
@@ -75,6 +80,14 @@ def _links_below(robot: Robot, name: str) -> int:
                 seen.add(joint.child)
                 pending.append(joint.child)
     return len(seen)
+
+
+def _missed(robot: Robot) -> set[str]:
+    """Return the links that joints must have meant whose child is none."""
+    from urdfkit.description.queries import dangling
+    from urdfkit.lint.edits import meant
+
+    return {near for _, name, _ in dangling(robot, "child") if (near := meant(name, robot.link_by_name)[0]) is not None}
 
 
 def _remedy(robot: Robot, orphan: str, root: str) -> str:

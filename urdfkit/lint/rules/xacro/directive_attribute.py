@@ -19,11 +19,12 @@ class DirectiveAttribute(FaultRule):
 
     ## What it does
     Looks at the attributes of ``<xacro:property>``, ``<xacro:macro>``, ``<xacro:arg>``, ``<xacro:include>`` and of
-    conditions. The file is then read as if a misspelt one were spelt right, so that nothing follows from it.
+    conditions, and for commas between the parameters of a macro. The file is then read as if it were written right, so
+    that nothing follows from it.
 
     ## Why is this bad?
     xacro warns of an unknown attribute and leaves it out: a property with ``vlaue`` has no value, and an expression
-    that uses it fails somewhere else.
+    that uses it fails somewhere else. With a comma behind it a parameter is called ``name,``.
 
     ## Example
     ```xml
@@ -42,7 +43,8 @@ class DirectiveAttribute(FaultRule):
     ```
 
     ## Fix safety
-    Unsafe: the attribute is called what its name is nearest to; where nothing is near it is left to you.
+    Unsafe: the attribute is called what its name is nearest to (``default`` for the ``value`` of an argument), and
+    commas become blanks; where nothing is near it is left to you.
     """
 
     code = "X127"
@@ -55,9 +57,13 @@ class DirectiveAttribute(FaultRule):
         """Yield the finding, with its fix where the name is near another."""
         tag, fix = model.tag(fault.position), None
         written = tag.attributes.get(fault.attribute or "") if tag is not None else None
-        if written is not None and fault.name is not None:
-            source = model.document(fault.position.file).source
+        source = model.document(fault.position.file).source
+        value = fault.details.get("value")
+        if written is not None and value is not None:
+            edit = Edit(source.span(written.value_start, written.value_end), value)
+            fix = Fix("unsafe", "Separate them by blanks", (edit,))
+        elif written is not None and fault.name is not None:
             edit = Edit(source.span(written.start, written.start + len(written.name)), fault.name)
             fix = Fix("unsafe", f"Call it `{fault.name}`", (edit,))
-        severity: Severity = "error" if fault.name is not None else "warning"
+        severity: Severity = "error" if fault.name is not None or value is not None else "warning"
         yield self.at(model, fault, fault.message, attribute=fault.attribute, fix=fix, severity=severity)
