@@ -271,7 +271,52 @@ def test_an_outcome_that_would_be_broken_is_refused(place, capsys):
         assert "wheel_radius" in said.err
         assert "make it go with your scout_description/urdf/scout.urdf.xacro first" in said.err
         assert said.err.count("\n") == 1
-    assert {path: path.read_bytes() for path in place.rglob("*") if path.is_file()} == before
+    # Nothing is changed; what it would be is beside it, and once that is merged the same goes.
+    offered = model.with_name("scout.urdf.xacro.new")
+    after = {path: path.read_bytes() for path in place.rglob("*") if path.is_file()}
+    assert after.pop(offered).decode().rstrip().endswith("</robot>")
+    assert after == before
+    model.write_text(offered.read_text().replace("</robot>", '  <link name="flag"/>' + joint + "\n</robot>"))
+    offered.unlink()
+    assert main(["new", "robot", "--update", "--drive", "none", "-q", "--yes"]) == 0
+    assert 'name="flag"' in model.read_text()
+    assert main(["lint", "scout_description", "-q"]) == 0
+    capsys.readouterr()
+    assert main(["new", "--update"]) == 0
+    assert "nothing to update" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("options", [["--sensor", "lidar"], ["--arm", "5", "--gripper"]])
+def test_new_parts_beside_an_edited_file_wait_for_it_to_be_merged(place, capsys, options):
+    assert main(["new", "robot", "scout", "--no-picture", "--yes", "-q"]) == 0
+    model = place / "scout_description/urdf/scout.urdf.xacro"
+    mine = (
+        model.read_text()
+        .replace("</robot>", '  <link name="a"/><!-- mine -->\n</robot>')
+        .replace('<link name="a"/>', '<xacro:property name="mine" value="1"/>')
+    )
+    model.write_text(mine)
+    capsys.readouterr()
+    assert main(["new", "robot", "--update", *options, "-q"]) == 2  # nobody was asked
+    assert not model.with_name("scout.urdf.xacro.new").exists()
+    capsys.readouterr()
+    assert main(["new", "robot", "--update", *options, "--yes", "-q"]) == 0
+    said = capsys.readouterr().err
+    assert said == (
+        "urdfkit: left to merge: scout_description/urdf/scout.urdf.xacro.new into your scout.urdf.xacro; "
+        "until then nothing uses what is new\n"
+    )
+    assert model.read_text() == mine
+    assert main(["new", "--update"]) == 0
+    assert "scout_description/urdf/scout.urdf.xacro.new is left to merge" in capsys.readouterr().err
+    model.write_text(
+        model.with_name("scout.urdf.xacro.new").read_text().replace("</robot>", "  <!-- mine -->\n</robot>")
+    )
+    model.with_name("scout.urdf.xacro.new").unlink()
+    assert main(["lint", ".", "-q"]) == 0
+    capsys.readouterr()
+    assert main(["new", "--update"]) == 0
+    assert capsys.readouterr().err == ".: nothing to update\n"
 
 
 def test_a_package_that_an_edited_file_names_is_kept_whole(place, capsys):

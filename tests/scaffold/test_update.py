@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.errors import ResourceError, UsageError
-from urdfkit.scaffold import create, find_recipe, load_template, read_made, read_recipe, updating
+from urdfkit.scaffold import Fault, create, find_recipe, load_template, read_made, read_recipe, updating
 
 
 @pytest.fixture
@@ -116,8 +116,71 @@ def test_what_follows_from_answers_follows_again(template, place):
 def test_what_does_not_pass_changes_nothing(template, place):
     before = contents(place)
     with pytest.raises(ResourceError, match="would not be clean: bad"):
-        changed(template, place, size="2", check=lambda folder: ["bad"])
+        changed(template, place, size="2", check=lambda folder: [Fault("bad")])
     assert contents(place) == before
+
+
+def test_an_outcome_that_only_had_better_be_different_is_made_and_told(template, place):
+    (place / "box/more.txt").write_text("mine")  # before it is changed the result is clean, and so is what is there
+
+    def check(folder):
+        edited = (folder / "box/more.txt").read_text() == "mine"
+        size = (folder / "box/src/box.txt").read_text().split()[2]
+        return [Fault(f"odd {number} (box.txt:1)", is_error=False) for number in range(5) if edited and size == "2"]
+
+    recipe, into = find_recipe(template, place)
+    answers = template.answers(read_recipe(template, recipe, {"size": "2"})) | {"year": "2026", "into": "."}
+    with updating(template, answers, into, read_made(recipe), check=check) as update:
+        assert update.warned == (*(f"odd {number} (box.txt:1)" for number in range(3)), "… and 2 more")
+        update.apply()
+    assert (place / "box/src/box.txt").read_text().startswith("box is 2 m")
+
+
+def test_what_was_put_beside_and_edited_stays(template, place):
+    (place / "box/src/box.txt").write_text("mine\n")
+    beside = place / "box/src/box.txt.new"
+    for size in ("2", "3"):  # nobody has edited it
+        assert changed(template, place, size=size)["box/src/box.txt"] == "beside"
+        assert beside.read_text().startswith(f"box is {size} m")
+    beside.write_text("half merged")
+    changed(template, place, size="4")
+    assert beside.read_text() == "half merged"
+    assert (place / "box/src/box.txt.new.2").read_text().startswith("box is 4 m")
+
+
+def test_what_is_refused_may_be_offered_to_merge_from(template, place):
+    (place / "box/src/box.txt").write_text("mine\n")
+    before = contents(place)
+
+    def check(folder):
+        edited = "mine" in (folder / "box/src/box.txt").read_text()
+        return [Fault("bad")] if edited and "blue" in (folder / "box/more.txt").read_text() else []
+
+    recipe, into = find_recipe(template, place)
+    answers = template.answers(read_recipe(template, recipe, {"size": "2", "colour": "blue"}))
+    with updating(template, answers | {"year": "2026", "into": "."}, into, read_made(recipe), check=check) as update:
+        assert "would not be clean: bad; make it go with your box/src/box.txt first" in update.refused
+        update.offer()
+    after = contents(place)
+    assert after.pop("box/src/box.txt.new").startswith(b"box is 2 m")
+    assert after == before
+
+
+def test_parts_of_models_that_nothing_names_are_not_looked_at(template, place, small_template):
+    (small_template / "blue/part.xacro").write_text("<robot/>")
+    (small_template / "all/@name@/src/@name@.txt").write_text("@size@\n")
+    (place / "box/src/box.txt").write_text("mine\n")
+
+    def check(folder):
+        return [Fault("bad")] if (folder / "box/part.xacro").exists() and b"mine\n" in contents(folder).values() else []
+
+    recipe, into = find_recipe(template, place)
+    answers = template.answers(read_recipe(template, recipe, {"colour": "blue"})) | {"year": "2026", "into": "."}
+    with updating(template, answers, into, read_made(recipe), check=check) as update:
+        assert not update.refused
+        assert [path.as_posix() for path in update.unused] == ["box/part.xacro", "paint/part.xacro"]
+        update.apply()
+    assert (place / "box/part.xacro").is_file()
 
 
 def test_a_failure_undoes_all(template, place, monkeypatch):

@@ -6,15 +6,18 @@ import argparse
 import difflib
 import os
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.scaffold import (
+    BESIDE,
     Change,
+    Fault,
     Template,
+    Update,
     computed,
     find_recipe,
     named_template,
@@ -29,7 +32,7 @@ _WORDS = {
     "add": "new",
     "replace": "changed",
     "remove": "removed",
-    "beside": "edited by you: what it would be is put beside it as {name}.new",
+    "beside": "edited by you: what it would be is put beside it as {at}",
     "keep": "left as you have it",
     "needed": "kept: {because} names it",
 }
@@ -70,20 +73,45 @@ def run(
         real = [change for change in update.changes if not change.is_none]
         if not real:
             print(f"{into}: nothing to update", file=sys.stderr)
+            _tell(f"{path}{BESIDE} is left to merge" for path in made.digests if (into / f"{path}{BESIDE}").is_file())
             return 0
         _show(update.changes, recipe.relative_to(into), colour=_coloured(arguments.color), quiet=arguments.quiet)
+        if _said(arguments, "diff") or (update.refused and not update.beside):
+            if update.refused:
+                raise ResourceError(f"nothing was changed: {update.refused}")
+            _tell(_left(update))
+            return 1
+        count = len(update.beside if update.refused else real)
+        if not _said(arguments, "yes") and not _agreed(count, update.refused):
+            return 1
         if update.refused:
-            raise ResourceError(f"nothing was changed: {update.refused}")
-        if _said(arguments, "diff"):
-            return 1
-        if not _said(arguments, "yes") and not _agreed(len(real)):
-            return 1
+            update.offer()
+            beside = ", ".join(_beside(change) for change in update.beside)
+            raise ResourceError(f"nothing was changed: {update.refused} by {beside} beside it; then the same again")
         update.apply()
+        _tell(_left(update))
     return 0
 
 
-def findings(folder: Path, *, beside: Path | None = None) -> list[str]:
-    """Return what is wrong with a result, a line each.
+def _tell(lines: Iterable[str]) -> None:
+    for line in lines:
+        print(f"urdfkit: {line}", file=sys.stderr)
+
+
+def _beside(change: Change) -> str:
+    return change.at.name if change.at is not None else ""
+
+
+def _left(update: Update) -> Iterator[str]:
+    """Yield what an update leaves to the user, a line each."""
+    for change in update.beside:
+        unused = "; until then nothing uses what is new" if update.unused and change.path.suffix == ".xacro" else ""
+        yield f"left to merge: {(change.at or change.path).as_posix()} into your {change.path.name}{unused}"
+    yield from (f"the linter would say: {line}" for line in update.warned)
+
+
+def findings(folder: Path, *, beside: Path | None = None) -> list[Fault]:
+    """Return what is wrong with a result.
 
     Args:
         folder: where it was rendered to.
@@ -101,7 +129,11 @@ def findings(folder: Path, *, beside: Path | None = None) -> list[str]:
     if not models_in(folder):
         return []
     found = lint([folder], package_path=[folder, *([beside] if beside is not None else [])])
-    return [f"{f.code} {f.message} ({Path(f.file).name}:{f.line})" for f in found if f.severity != "info"]
+    return [
+        Fault(f"{f.code} {f.message} ({Path(f.file).name}:{f.line})", f.severity == "error")
+        for f in found
+        if f.severity != "info"
+    ]
 
 
 def drawn(folder: Path) -> None:
@@ -153,7 +185,7 @@ def placed(template: Template, into: Path) -> Template:
 
 def _show(changes: tuple[Change, ...], recipe: Path, *, colour: bool, quiet: bool) -> None:
     for change in changes:
-        print(f"{change.path.as_posix()}: {_WORDS[change.kind].format(name=change.path.name, because=change.because)}")
+        print(f"{change.path.as_posix()}: {_WORDS[change.kind].format(at=_beside(change), because=change.because)}")
         if quiet or change.is_none or change.path == recipe:
             continue
         for line in _difference(change):
@@ -177,12 +209,16 @@ def _said(arguments: argparse.Namespace, option: str) -> bool:
     return bool(getattr(arguments, option, False) or getattr(arguments, f"above_{option}", False))
 
 
-def _agreed(count: int) -> bool:
+def _agreed(count: int, refused: str) -> bool:
+    files = f"{count} file{'s' if count > 1 else ''}"
     if not (sys.stdin.isatty() and sys.stderr.isatty()):
-        raise UsageError(
-            f"{count} files would change and nothing was changed: --yes changes them, --diff only shows it"
-        )
-    print(f"Change {count} files? [y/N] ", end="", file=sys.stderr, flush=True)
+        if refused:
+            raise ResourceError(f"nothing was changed: {refused}; --yes puts {files} there to merge from")
+        raise UsageError(f"{files} would change and nothing was changed: --yes changes them, --diff only shows it")
+    if refused:
+        print(f"urdfkit: {refused}", file=sys.stderr)
+    asked = f"Put {files} there to merge from?" if refused else f"Change {files}?"
+    print(f"{asked} [y/N] ", end="", file=sys.stderr, flush=True)
     return sys.stdin.readline().strip().lower() in ("y", "yes")
 
 

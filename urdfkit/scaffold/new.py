@@ -11,14 +11,12 @@ from pathlib import Path
 from urdfkit.atomic import move_into_place, staging
 from urdfkit.errors import ResourceError
 from urdfkit.scaffold.filling import fill
+from urdfkit.scaffold.outcome import Checker
 from urdfkit.scaffold.recipe import digest, recipe_text
 from urdfkit.scaffold.template import Template
 
 _WORLDS = (".sdf", ".world")
 """What the names of files end in that a folder to write to is mistaken for."""
-
-Checker = Callable[[Path], Sequence[str]]
-"""Looks at the rendered folder before it is moved into place; returns what is wrong with it, a line each."""
 
 Finisher = Callable[[Path], None]
 """Adds to the rendered folder what no template holds, such as a picture of the robot."""

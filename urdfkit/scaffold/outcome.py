@@ -7,29 +7,58 @@ import re
 import shutil
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
+from urdfkit.scaffold.references import needed
+
 _LINE = re.compile(r":\d+\)$")
+_MODELS = (".urdf", ".xacro")
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """What is wrong with a result.
+
+    Attributes:
+        said: what, and where, in a line.
+        is_error: whether it does not work so; otherwise it had better not be.
+    """
+
+    said: str
+    is_error: bool = True
+
+    def __str__(self) -> str:
+        """Return what is wrong."""
+        return self.said
+
+
+Checker = Callable[[Path], Sequence[Fault]]
+"""Looks at the rendered folder before it is moved into place; returns what is wrong with it."""
 
 
 def worsened(
-    check: Callable[[Path], Sequence[str]],
+    check: Checker,
     folder: Path,
     stage: Path,
     tops: Collection[str],
     *,
     put: Iterable[Path],
     removed: Iterable[Path],
-) -> list[str]:
-    """Return what is wrong with packages after a change, and was not before.
+    added: Collection[Path] = (),
+) -> tuple[list[Fault], list[Path]]:
+    """Return what is wrong with packages after a change, and was not before; and what of it nothing uses yet.
+
+    A part of a model that nothing includes is a mistake on its own, and none of the model.
 
     Args:
-        check: says what is wrong, a line each.
+        check: says what is wrong.
         folder: of the packages.
         stage: holds what is put; there is room for copies in it.
         tops: the packages' folders.
         put: files that take the place of those in `folder`.
         removed: files that go.
+        added: of what is put, what may be left out of the look where nothing that stays names it.
     """
     before, after = stage / ".before", stage / ".after"
     for place in (before, after):
@@ -43,15 +72,24 @@ def worsened(
         (after / path).unlink(missing_ok=True)
         (after / path).parent.mkdir(parents=True, exist_ok=True)
         _linked(str(stage / path), str(after / path))
-    known = Counter(_LINE.sub("", line) for line in check(before))
+    parts = sorted(path for path in added if path.suffix in _MODELS)
+    used = needed(parts, after, set(parts)) if parts else {}
+    unused = [path for path in parts if path not in used]
+    for path in unused:
+        (after / path).unlink()
+    known = Counter(_known(fault) for fault in check(before))
     found = []
-    for line in check(after):
-        known[_LINE.sub("", line)] -= 1
-        if known[_LINE.sub("", line)] < 0:
-            found.append(line)
+    for fault in check(after):
+        known[_known(fault)] -= 1
+        if known[_known(fault)] < 0:
+            found.append(fault)
     shutil.rmtree(before)
     shutil.rmtree(after)
-    return found
+    return found, unused
+
+
+def _known(fault: Fault) -> str:
+    return _LINE.sub("", fault.said)
 
 
 def _linked(source: str, target: str) -> None:

@@ -2,7 +2,8 @@
 
 What nobody has edited since is replaced. What somebody has is left alone, and what it would be now is put beside it
 with ``.new`` behind its name, as package managers do with settings. What was deleted stays away, and what is made no
-more goes, unless a file that stays names it. The outcome has to be as clean as what was there.
+more goes, unless a file that stays names it. An outcome with errors that were not there is refused: then no more is put
+there than what it has to be merged with.
 """
 
 from __future__ import annotations
@@ -11,19 +12,23 @@ import os
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from itertools import chain, count
 from pathlib import Path
 from typing import Literal
 
 from urdfkit.atomic import staging, undisturbed
 from urdfkit.errors import ResourceError, UsageError
-from urdfkit.scaffold.new import Checker, Finisher, finished, render, write_recipe
-from urdfkit.scaffold.outcome import worsened
+from urdfkit.scaffold.new import Finisher, finished, render, write_recipe
+from urdfkit.scaffold.outcome import Checker, Fault, worsened
 from urdfkit.scaffold.recipe import Made, digest
 from urdfkit.scaffold.references import needed
 from urdfkit.scaffold.template import Template
 
 BESIDE = ".new"
 """Behind the name of what a file that was edited would be now."""
+
+_LISTED = 3
+"""So many findings are told; of more, how many."""
 
 Kind = Literal["add", "replace", "remove", "beside", "keep", "needed"]
 
@@ -35,10 +40,11 @@ class Change:
     Attributes:
         kind: it is new; it takes the place of one that was not edited; it is no more; it is put beside one that was
             edited; it was edited or deleted and is left so; or it would be no more, and a file that stays names it.
-        path: from the folder that is written to; of `beside` without the ending.
+        path: from the folder that is written to; of `beside` that of the file which was edited.
         before: what is there; empty where nothing is.
         after: what it would be; empty where nothing would.
         because: of `needed`, the file that names it.
+        at: of `beside`, where it is put.
     """
 
     kind: Kind
@@ -46,6 +52,7 @@ class Change:
     before: bytes = b""
     after: bytes = b""
     because: Path | None = None
+    at: Path | None = None
 
     @property
     def is_none(self) -> bool:
@@ -59,14 +66,22 @@ class Update:
 
     Attributes:
         changes: by path.
-        refused: why they are not to be made: with what was edited the outcome would be worse than what is there; empty
-            where it would not.
+        refused: why they are not to be made: with what was edited the outcome would not work; empty where it would.
+        warned: what the linter would say of the outcome, and does not of what is there, a line each.
+        unused: parts of models that are new, and that nothing names before what was edited is merged.
     """
 
     changes: tuple[Change, ...]
     refused: str
+    warned: tuple[str, ...]
+    unused: tuple[Path, ...]
     _stage: Path
     _folder: Path
+
+    @property
+    def beside(self) -> tuple[Change, ...]:
+        """What is put beside files that were edited, to merge from."""
+        return tuple(change for change in self.changes if change.kind == "beside")
 
     def apply(self) -> None:
         """Make the changes; if one fails all are undone.
@@ -76,14 +91,23 @@ class Update:
         """
         if self.refused:
             raise ResourceError(f"nothing was changed: {self.refused}")
+        self._make(self.changes)
+
+    def offer(self) -> None:
+        """Put no more than `beside` where it is to be merged from.
+
+        Raises:
+            ResourceError: it cannot be written.
+        """
+        self._make(self.beside)
+
+    def _make(self, changes: Sequence[Change]) -> None:
         undo: list[tuple[Path, Path]] = []
         old = self._stage / ".old"
         try:
             with undisturbed():
-                for number, change in enumerate(self.changes):
-                    target = self._folder / change.path
-                    if change.kind == "beside":
-                        target = target.with_name(target.name + BESIDE)
+                for number, change in enumerate(changes):
+                    target = self._folder / (change.at or change.path)
                     if change.is_none:
                         continue
                     if os.path.lexists(target):
@@ -98,7 +122,7 @@ class Update:
             for here, there in reversed(undo):
                 here.rename(there)
             raise ResourceError(f"nothing was changed: cannot write {target}: {error.strerror}") from error
-        for change in self.changes:
+        for change in changes:
             if change.kind == "remove":
                 _remove_empty(self._folder / change.path.parent, self._folder)
 
@@ -175,22 +199,40 @@ def updating(
         write_recipe(template, answers, stage, files, also=needed_yet)
         coming.append((recipe, _change(recipe, folder, stage, made, recipe)))
         changes = (*(change for _, change in coming if change is not None), *going)
-        refused = "" if check is None else _refused(changes, check, folder, stage)
-        yield Update(changes, refused, stage, folder)
+        found, unused = ([], []) if check is None else _worsened(changes, check, folder, stage)
+        warned = tuple(_shortened([str(fault) for fault in found]))
+        yield Update(changes, _refused(changes, found), warned, tuple(unused), stage, folder)
 
 
-def _refused(changes: Sequence[Change], check: Checker, folder: Path, stage: Path) -> str:
-    """Return what would be worse than it is, with what was edited in it; empty for nothing."""
+def _worsened(
+    changes: Sequence[Change], check: Checker, folder: Path, stage: Path
+) -> tuple[Sequence[Fault], Sequence[Path]]:
+    """Return what would be worse with what was edited in it, and what nothing uses before that is merged."""
     put = [change.path for change in changes if change.kind in ("add", "replace")]
     removed = [change.path for change in changes if change.kind == "remove"]
+    if not put and not removed:
+        return [], []
     tops = {change.path.parts[0] for change in changes if len(change.path.parts) > 1}
-    found = worsened(check, folder, stage, tops, put=put, removed=removed) if put or removed else []
-    if not found:
+    edited = any(change.kind == "beside" for change in changes)
+    added = [change.path for change in changes if change.kind == "add" and edited]
+    return worsened(check, folder, stage, tops, put=put, removed=removed, added=added)
+
+
+def _refused(changes: Sequence[Change], found: Sequence[Fault]) -> str:
+    """Return why the outcome is refused, and what to do about it; empty where it works."""
+    errors = [fault for fault in found if fault.is_error]
+    if not errors:
         return ""
-    more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+    more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
     edited = [change.path.as_posix() for change in changes if change.kind == "beside"]
     told = f"; make it go with your {', '.join(edited)} first" if edited else ""
-    return f"with what you have it would not be clean: {found[0]}{more}{told}"
+    return f"with what you have it would not be clean: {errors[0]}{more}{told}"
+
+
+def _shortened(lines: Sequence[str]) -> Iterator[str]:
+    yield from lines[:_LISTED]
+    if len(lines) > _LISTED:
+        yield f"… and {len(lines) - _LISTED} more"
 
 
 def _without_needed(going: Sequence[Change], folder: Path, ours: Collection[Path]) -> list[Change]:
@@ -231,7 +273,20 @@ def _change(path: Path, folder: Path, stage: Path, made: Made, recipe: Path) -> 
         return None
     if path == recipe or was == digest(before):
         return Change("replace", path, before, after)
-    return None if was == digest(after) else Change("beside", path, before, after)
+    if was == digest(after):
+        return None
+    return Change("beside", path, before, after, at=_place_beside(path, folder, {was, digest(after)}))
+
+
+def _place_beside(path: Path, folder: Path, ours: Collection[str | None]) -> Path:
+    """Return where what a file would be is put beside it: over what was put there before, unless that was edited."""
+    first = path.with_name(path.name + BESIDE)
+    places = chain([first], (first.with_name(f"{first.name}.{number}") for number in count(2)))
+    return next(each for each in places if not os.path.lexists(folder / each) or _digest(folder / each) in ours)
+
+
+def _digest(path: Path) -> str:
+    return digest(path.read_bytes()) if path.is_file() else ""
 
 
 def _left_over(path: Path, folder: Path, made: Made) -> Change | None:
