@@ -68,6 +68,25 @@ def test_it_moves_as_its_controllers_say(place, simpleton):
     assert [simulator.state.position(joint) for joint in joints] == pytest.approx([0.6, 0.3, -0.4], abs=1e-2)
 
 
+@pytest.mark.parametrize("ros", ["noetic", "jazzy", "humble"])
+def test_both_fingers_move(place, ros):
+    assert main(["new", "robot", "scout", "--ros", ros, "--no-picture", "--yes", "-q"]) == 0
+    assert new("--dof", "4", "--gripper", into="scout_description") == 0
+    assert ("<mimic" in (place / "scout_description/urdf/arm_macro.xacro").read_text()) == (ros != "noetic")
+    assert main(["new", "controllers", "--into", "scout_description"]) == 0
+    assert findings(place) == []
+    fingers = ["left_finger_joint", "right_finger_joint"]
+    simulator = Simulator(
+        load(place / "scout_description/urdf/scout.urdf.xacro", package_path=[place]), note=lambda _: None
+    )
+    topic = "/scout/gripper_controller/command" if ros == "noetic" else "/gripper_controller/joint_trajectory"
+    told = fingers if ros == "noetic" else fingers[:1]
+    point = {"positions": [0.015] * len(told), "time_from_start": {"sec": 1, "nanosec": 0}}
+    simulator.bus.publish(topic, TRAJECTORY, from_fields(TRAJECTORY, {"joint_names": told, "points": [point]}))
+    simulator.run(2.0)
+    assert [simulator.state.position(joint) for joint in fingers] == pytest.approx([0.015, 0.015], abs=1e-3)
+
+
 def test_two_arms_have_names_of_their_own(simpleton, capsys):
     assert new("--name", "left", "--reach", "0.3", "--xyz", "0", "0.1", "0.1") == 0
     assert new("--name", "right", "--reach", "0.3", "--xyz", "0", "-0.1", "0.1") == 0

@@ -1,6 +1,7 @@
 """`urdfkit new controllers`: joints that nothing drives get a controller, those that something drives no second one."""
 
 import shutil
+from xml.etree import ElementTree
 
 import pytest
 import yaml
@@ -403,8 +404,48 @@ def test_followers_and_what_a_mixed_chain_can_be_told(place):
         "shoulder_controller": ("position_controllers/JointTrajectoryController", ["shoulder_joint"]),
         "elbow_controller": ("effort_controllers/JointTrajectoryController", ["elbow_joint"]),
         "gripper_controller": ("velocity_controllers/JointTrajectoryController", ["finger_joint"]),
+        "gripper_effort_controller": ("effort_controllers/JointTrajectoryController", ["other_joint"]),
     }
     assert (folder / "urdf/control.xacro").read_text().count("<transmission ") == 1
+
+
+def test_gazebo_classic_passes_over_followers_so_they_are_told_too(place, capsys):
+    mirrored = ARM.replace(
+        '<mimic joint="finger_joint"/>', '<mimic joint="finger_joint" multiplier="-1" offset="0.5"/>'
+    )
+    bent = part("wrist", "elbow", more='<mimic joint="shoulder_joint"/>')
+    folder = robot(place, mirrored + bent, "catkin")
+    assert new() == 0
+    said = capsys.readouterr().err
+    assert "`other_joint` is -1 × `finger_joint` +0.5, which Gazebo Classic passes over: both are told" in said
+    settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())["rover"]
+    assert settings["gripper_controller"]["joints"] == ["finger_joint", "other_joint"]
+    assert settings["arm_controller"]["joints"] == ["shoulder_joint", "wrist_joint", "elbow_joint"]
+    assert (folder / "urdf/control.xacro").read_text().count("<transmission ") == 5
+    assert clean(folder) == []
+
+
+@pytest.mark.parametrize(("world", "told"), [("ignition-gazebo-", True), ("", False)])
+def test_in_ros2_followers_are_listed_or_they_do_not_follow(place, world, told):
+    folder = robot(place, f"{ARM}<!-- {world} -->")
+    assert new() == 0
+    block = ElementTree.parse(folder / "urdf/control.xacro").find("ros2_control")
+    joints = {joint.get("name"): joint for joint in block.findall("joint")}
+    follower = joints["other_joint"]
+    assert follower.findall("command_interface") == []
+    assert [each.get("name") for each in follower.findall("state_interface")] == ["position", "velocity"]
+    # Until humble the plugin takes it from there, since jazzy from <mimic>.
+    params = {each.get("name"): each.text for each in follower.findall("param")}
+    assert params == ({"mimic": "finger_joint", "multiplier": "1"} if told else {})
+
+
+def test_a_joint_that_nothing_can_move_is_told_with_its_place(place, capsys):
+    folder = robot(place, ARM.replace('effort="30"', 'effort="0"', 1))
+    assert new() == 0
+    lines = (folder / "urdf/rover.urdf.xacro").read_text().splitlines()
+    number = next(number for number, line in enumerate(lines, 1) if 'effort="0"' in line)
+    said = f"rover.urdf.xacro:{number}:5: `shoulder_joint` may have no effort: its controller will not move it\n"
+    assert said in capsys.readouterr().err
 
 
 def test_gains_of_a_joint_carry_its_weight(place):

@@ -60,8 +60,10 @@ def _added(arguments: argparse.Namespace) -> int:
     for option, question in _SIZES.items():
         if (value := getattr(arguments, option)) is not None:
             answers[question] = template.question(question).accept(value)
-    model, robot, _ = description(arguments)
+    model, robot, generation = description(arguments)
     xyz = None if arguments.xyz is None else vector(arguments.xyz, "--xyz")
+    # Gazebo Classic passes over joints that follow another: with ROS 1 both fingers have a motor, as in new robots.
+    answers["ros"] = "noetic" if generation == "classic" else "none"
     request = ArmRequest(arguments.name, answers, arguments.parent, xyz, vector(arguments.rpy, "--rpy"))
     alterations, notes = add_arm(robot, model.path, request)
     for note in () if arguments.quiet else notes:

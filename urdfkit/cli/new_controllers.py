@@ -12,7 +12,7 @@ from urdfkit.errors import ResourceError, UsageError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from urdfkit.description.robot import Robot
     from urdfkit.resources import ModelArgument
@@ -55,10 +55,10 @@ def run(arguments: argparse.Namespace) -> int:
     if generation == "gz" and _is_fortress(robot):
         generation = "fortress"
     there = hardware(robot, model.path)
-    found = roles(robot, there)
-    for note in () if arguments.quiet else found.notes:
-        print(f"urdfkit: {note}", file=sys.stderr)
+    found = roles(robot, there, follow=generation != "classic")
     made = controllers(found)
+    for note in () if arguments.quiet else (*found.notes, *_still(robot, made)):
+        print(f"urdfkit: {note}", file=sys.stderr)
     if not made:
         raise ResourceError(f"robot `{robot.name}` has no joint left that a controller could move; nothing was changed")
     own = package_of(model.path)
@@ -88,6 +88,16 @@ def _tell(made: list[Controller], arguments: argparse.Namespace) -> None:
     for each in () if arguments.quiet else made:
         by = f" ({each.interface}, as the model has it)" if each.interface else ""
         print(f"urdfkit: {each.name}: {', '.join(each.joints)}{by}", file=sys.stderr)
+
+
+def _still(robot: Robot, made: list[Controller]) -> Iterator[str]:
+    """Yield which joints get a controller and have limits that let nothing move them, with the place."""
+    for joint in (robot.joint_by_name[name] for each in made for name in each.joints):
+        limit = joint.limit
+        zero = [word for word in ("effort", "velocity") if limit is not None and getattr(limit, word) == 0.0]
+        if zero and limit is not None:
+            place = limit.element.origin.position
+            yield f"{place}: `{joint.name}` may have no {' and no '.join(zero)}: its controller will not move it"
 
 
 def _added(

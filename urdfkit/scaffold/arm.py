@@ -36,7 +36,8 @@ class ArmRequest:
 
     Attributes:
         name: of it; what its links and joints begin with, unless it is ``arm``; None: that, with a number if taken.
-        answers: to the questions of the template of robots: arm, arm_reach, arm_mass, payload, gripper, finger_travel.
+        answers: to the questions of the template of robots: arm, arm_reach, arm_mass, payload, gripper, finger_travel;
+            and ros, ``none`` where it is left out: in ``noetic`` no joint follows another.
         parent: the link it stands on; None: chosen.
         xyz: where, in the parent's frame [m]; None: on top, where nothing else is.
         rpy: how it is turned, roll, pitch and yaw [rad].

@@ -20,12 +20,14 @@ class Flavour:
         library: the file of Gazebo's plugin.
         name: what Gazebo's plugin is called.
         package: where they are.
+        told_of_mimics: whether ``<ros2_control>`` has to say which joints follow others; since jazzy ``<mimic>`` does.
     """
 
     hardware: str
     library: str
     name: str
     package: str
+    told_of_mimics: bool = False
 
 
 FLAVOURS = {
@@ -40,12 +42,14 @@ FLAVOURS = {
         "ign_ros2_control-system",
         "ign_ros2_control::IgnitionROS2ControlPlugin",
         "ign_ros2_control",
+        told_of_mimics=True,
     ),
     "classic-ros2": Flavour(
         "gazebo_ros2_control/GazeboSystem",
         "libgazebo_ros2_control.so",
         "gazebo_ros2_control",
         "gazebo_ros2_control",
+        told_of_mimics=True,
     ),
 }
 """By generation; Gazebo Classic with ROS 1 has transmissions instead."""
@@ -192,7 +196,26 @@ def _ros2(robot: Robot, made: list[Controller], name: str, flavour: Flavour) -> 
                 yield '    <state_interface name="position"/>'
             yield '    <state_interface name="velocity"/>'
             yield "  </joint>"
+            yield from (line for follower in _followers(robot, joint) for line in _follows(follower, flavour))
     yield "</ros2_control>"
+
+
+def _followers(robot: Robot, name: str) -> Iterator[Joint]:
+    """Yield the joints that follow another and stand in no ``<ros2_control>``: those of it alone do follow."""
+    listed = {each.get("name") for control in robot.ros2_control for each in control.element.find_all("joint")}
+    for joint in robot.joints:
+        if joint.mimic is not None and joint.mimic.joint == name and joint.name not in listed:
+            yield joint
+
+
+def _follows(joint: Joint, flavour: Flavour) -> Iterator[str]:
+    yield f'  <joint name="{joint.name}">'
+    if flavour.told_of_mimics and joint.mimic is not None:
+        yield f'    <param name="mimic">{joint.mimic.joint}</param>'
+        yield f'    <param name="multiplier">{joint.mimic.multiplier:g}</param>'
+    yield '    <state_interface name="position"/>'
+    yield '    <state_interface name="velocity"/>'
+    yield "  </joint>"
 
 
 def _loop2(flavour: Flavour, package: str) -> Iterator[str]:

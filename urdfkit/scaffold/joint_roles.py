@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from urdfkit.description.robot import Cylinder, Joint, Link, Pose, Robot, Sphere
@@ -42,7 +42,7 @@ class Roles:
     Attributes:
         wheels: None where there are none that make a differential drive.
         arms: joints of each chain, from its base on.
-        fingers: of grippers.
+        fingers: of grippers. With joints go those that follow them and are told what to do like them.
         notes: joints that no controller is for, and why, a line each.
         interfaces: what those of them can be told that have a transmission or are in ``<ros2_control>``.
     """
@@ -54,17 +54,19 @@ class Roles:
     interfaces: Mapping[str, str] = field(default_factory=dict)
 
 
-def roles(robot: Robot, there: Hardware | None = None) -> Roles:
+def roles(robot: Robot, there: Hardware | None = None, *, follow: bool = True) -> Roles:
     """Tell what the joints are for, by their type, axis, place and name, in the zero position.
 
     Args:
         robot: a tree.
         there: what joints can be told, and what tells them; None: as the robot's elements have it.
+        follow: whether the simulator has joints follow others; Gazebo Classic passes over ``<mimic>``.
     """
     notes: list[str] = []
     there = there or hardware(robot)
     parents = {joint.child: joint for joint in robot.joints}
     left_over: list[Joint] = []
+    followers: list[Joint] = []
     for joint in robot.joints:
         if joint.type not in _MOVED:
             continue
@@ -72,7 +74,7 @@ def roles(robot: Robot, there: Hardware | None = None) -> Roles:
         if joint.name in there.drivers:
             notes.append(f"`{joint.name}` is driven already, by {there.drivers[joint.name]}")
         elif joint.mimic is not None:
-            notes.append(f"`{joint.name}` follows `{joint.mimic.joint}`")
+            followers.append(joint)
         elif any(_CASTER.search(f"{each.name} {each.child}") for each in chain):
             notes.append(f"`{joint.name}` turns freely, as a caster")
         elif there.interfaces.get(joint.name) == "":
@@ -95,9 +97,25 @@ def roles(robot: Robot, there: Hardware | None = None) -> Roles:
         if joint not in fingers and joint not in rolling:
             base = [each for each in (joint, *_above(joint, parents)) if each in left_over and each not in fingers][-1]
             arms.setdefault(base.name, []).append(joint.name)
-    used = {joint.name: there.interfaces[joint.name] for joint in left_over if joint.name in there.interfaces}
+    names = [joint.name for joint in fingers]
+    notes += _followed(followers, [names, *arms.values()], there, follow=follow)
+    used = {
+        joint.name: there.interfaces[joint.name] for joint in (*left_over, *followers) if joint.name in there.interfaces
+    }
     chains = tuple(map(tuple, arms.values()))
-    return Roles(wheels, chains, tuple(joint.name for joint in fingers), tuple(notes), used)
+    return Roles(wheels, chains, tuple(names), tuple(notes), used)
+
+
+def _followed(followers: list[Joint], chains: list[list[str]], there: Hardware, *, follow: bool) -> Iterator[str]:
+    """Yield what is told of joints that follow others; add to the chains those that are told what to do, too."""
+    for joint, mimic in ((each, each.mimic) for each in followers if each.mimic is not None):
+        chain = next((names for names in chains if mimic.joint in names), None)
+        if follow or chain is None or there.interfaces.get(joint.name) == "":
+            yield f"`{joint.name}` follows `{mimic.joint}`"
+            continue
+        chain.insert(chain.index(mimic.joint) + 1, joint.name)
+        law = f"{mimic.multiplier:g} × `{mimic.joint}`{f' {mimic.offset:+g}' if mimic.offset else ''}"
+        yield f"`{joint.name}` is {law}, which Gazebo Classic passes over: both are told, so tell it that"
 
 
 def _is_finger(joint: Joint) -> bool:
