@@ -168,6 +168,9 @@ AROUND: tuple[Row, ...] = (
     ("", "packaging.controller_settings_misspelt", "ControllerSettingsMisspelt"),
     ("", "packaging.launch_not_well_formed", "LaunchNotWellFormed"),
     ("", "packaging.controller_interface_missing", "ControllerInterfaceMissing"),
+    ("", "packaging.hardware_interface_lacking", "HardwareInterfaceLacking"),
+    ("", "packaging.yaml_not_well_formed", "YamlNotWellFormed"),
+    ("", "packaging.controller_of_other_ros", "ControllerOfOtherRos"),
 )
 """Rules on the robot that are asked where there are launch files or YAML around it."""
 

@@ -60,8 +60,8 @@ class JointTypeUnknown(RobotRule):
     ```
 
     ## Fix safety
-    Safe where a letter or two are wrong; a revolute joint may lack its limits then, which is reported next. Unsafe where
-    it is a guess: what other formats' types come nearest to.
+    Safe where a letter or two are wrong; a revolute joint may lack its limits then, which is reported next. Unsafe
+    where it is a guess: what other formats' types come nearest to.
     """
 
     code = "J402"

@@ -67,7 +67,7 @@ class ControllerJointUndefined(RobotRule):
             if not source.file.endswith((".yaml", ".yml")):
                 continue
             for named in joints(source):
-                if named.name in known:
+                if named.name.rpartition("/")[2] in known:  # a controller that others are chained to stands before it
                     continue
                 others = names_around(model, "joint") if others is None else others
                 if any(re.fullmatch(pattern, named.name) for pattern in others):
