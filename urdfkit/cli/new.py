@@ -100,7 +100,9 @@ def _written(arguments: argparse.Namespace) -> tuple[int, Path | None]:
     template = chosen(arguments.thing, arguments.template)
     for option in template.asks_later:
         if getattr(arguments, f"later_{option}") is not None:
-            there = ", ".join(question.option for question in template.questions if question.kind != "package")
+            there = ", ".join(
+                question.option for question in template.questions if question.kind not in ("package", "world")
+            )
             raise UsageError(f"--{option} is not available yet; there is: {there}")
     given = {
         question.name: " ".join(value) if isinstance(value, list) else value

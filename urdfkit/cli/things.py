@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
+from itertools import takewhile
 from typing import Any
 
 from urdfkit.cli.parser import Parser
-from urdfkit.scaffold import Question, Template, named_template, template_at
+from urdfkit.scaffold import Question, Template, named_template, sanitised, template_at
 
 
 class Kind(Parser):
@@ -21,10 +23,19 @@ class Kind(Parser):
             UrdfkitError: there is no such template, it is wrong, or so are the arguments.
         """
         words = list(args or ())
+        self.elsewhere = partial(_meant, self.prog, words)
         if not self._is_filled and self.get_default("thing") is not None:
             self._is_filled = True
             _fill(self, chosen(self.get_default("thing"), _own(words)))
         return super().parse_known_args(words, namespace)
+
+
+def _meant(program: str, words: list[str], unknown: str) -> str:
+    """Return what to say of a word that is no option: a name is one word, and stands by itself."""
+    if unknown == "--name":
+        return f"; the name stands by itself: {program} NAME"
+    names = list(takewhile(lambda word: not word.startswith("-"), words))
+    return f"; did you mean `{sanitised(' '.join(names))}`?" if unknown in names[1:] else ""
 
 
 def _own(words: list[str]) -> str | None:

@@ -10,7 +10,7 @@ from typing import Literal
 
 from urdfkit.errors import UsageError, did_you_mean
 from urdfkit.scaffold.expression import value_of
-from urdfkit.scaffold.names import check_package_name
+from urdfkit.scaffold.names import check_package_name, check_world_name
 
 When = Mapping[str, tuple[str, ...]]
 """Which answers something is for, by question."""
@@ -39,7 +39,7 @@ class Question:
 
     name: str
     prompt: str
-    kind: Literal["package", "choice", "choices", "flag", "number", "packages", "text"]
+    kind: Literal["package", "world", "choice", "choices", "flag", "number", "packages", "text"]
     default: str | None = None
     default_for: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     unit: str = ""
@@ -98,6 +98,8 @@ class Question:
         answer = answer.strip()
         if self.kind == "package":
             return check_package_name(answer, suffixes=self.suffixes)
+        if self.kind == "world":
+            return check_world_name(answer)
         if self.kind == "number":
             return self._number(answer)
         if self.kind == "choices":
