@@ -160,13 +160,17 @@ class Evaluator:
         is_small = is_small or (kind is int and -_SMALL < value < _SMALL)
         return value if is_small else self.bounds.checked(value)
 
-    def count(self, text: str) -> None:
-        """Count the expressions of a text that is to be evaluated.
+    def has_room(self, expressions: int) -> bool:
+        """Return whether so many more may be evaluated."""
+        return not self.is_exhausted and self._evaluated + expressions <= MAX_EXPRESSIONS
+
+    def count(self, expressions: int) -> None:
+        """Count expressions that are to be evaluated.
 
         Raises:
             TooLarge: the run has evaluated too many.
         """
-        self._evaluated += text.count("$")
+        self._evaluated += expressions
         if self._evaluated > MAX_EXPRESSIONS:
             raise TooLarge(f"it is one of more than {MAX_EXPRESSIONS:,} expressions")
 

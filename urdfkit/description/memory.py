@@ -5,7 +5,9 @@ from __future__ import annotations
 from bisect import bisect_right
 
 from urdfkit.description.element import Element
+from urdfkit.description.likeness import adopt, are_alike
 from urdfkit.description.nodes import Document, Node
+from urdfkit.description.patterns import Shelf
 from urdfkit.description.planting import planted
 from urdfkit.description.reading import MAX_ATTRIBUTES, MAX_TAGS, MAX_VALUE, document_of
 from urdfkit.description.source import Source
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from urdfkit.description.run import Run
+    from urdfkit.description.values import Part
 
     Read = Callable[[Source], Any]
 
@@ -25,12 +28,14 @@ class Memory:
     """The files as they were when they were last well-formed, and the parts of robots that were read from them."""
 
     def __init__(self) -> None:
-        self.parts: dict[int, Any] = {}
+        self.parts: dict[Element, Part] = {}
         self._files: dict[tuple[str, bool], Whole] = {}
         self._elements: dict[tuple[object, ...], Element] = {}
+        self.shelf = Shelf()
 
     def settle(self, root: Element | None) -> None:
         """Put the elements of last time in the place of those below the root that have come out the same."""
+        self.shelf.turn()
         if root is None:
             return
         known, self._elements = self._elements, {}
@@ -39,7 +44,7 @@ class Memory:
             calls = at.expansions and (at.expansions[0].macro, at.expansions[0].position.line)
             key = (element.tag, element.attributes.get("name"), at.position.line, at.position.column, calls)
             old = known.get(key)
-            if old is not None and old is not element and _are_alike(old, element, None, None):
+            if old is not None and old is not element and are_alike(old, element):
                 root.children[index] = element = old
             self._elements[key] = element
 
@@ -129,6 +134,7 @@ class Whole:
         new = _children(around)
         if not new or _text(around) or any(_is_text(child) for child in new):
             return None
+        adopt(new[0], self.children[index])
         children = [*self.children[:index], *new, *self.children[index + 1 :]]
         places = [alone.offset(*_place(child)) for child in new]
         shift = starts[index] - len(opening) - (line - 1) - (column - 1)
@@ -139,31 +145,6 @@ class Whole:
 def _is_open(text: str) -> bool:
     """Whether what is markup can be told from the text alone: no CDATA, no document type, no UTF-16."""
     return "<!" not in text.replace("<!--", "") and "\0" not in text
-
-
-def _are_alike(one: Element, other: Element, above: Element | None, beside: Element | None) -> bool:
-    """Whether two elements say the same, and were written in the same place.
-
-    Args:
-        one: an element.
-        other: another.
-        above: what the first is in, where that is known to be alike.
-        beside: what the other is in.
-    """
-    if one is other:
-        return True
-    if one.tag != other.tag or one.attributes != other.attributes or one.text != other.text:
-        return False
-    here, there = one.origin.position, other.origin.position
-    if here.line != there.line or here.column != there.column or here.file != there.file:
-        return False
-    calls, others = one.origin.expansions, other.origin.expansions
-    is_as_above = above is not None and calls is above.origin.expansions
-    is_as_beside = beside is not None and others is beside.origin.expansions
-    if not (is_as_above and is_as_beside) and calls != others:
-        return False
-    below, these = one.children, other.children
-    return len(below) == len(these) and all(_are_alike(a, b, one, other) for a, b in zip(below, these, strict=True))
 
 
 def _read_element(source: Source) -> Element:

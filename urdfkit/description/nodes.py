@@ -8,6 +8,7 @@ not gone through, and a macro's call clones it as one. Comments and blank text a
 from __future__ import annotations
 
 from urdfkit.description.element import Element
+from urdfkit.description.patterns import Pattern, in_chain
 from urdfkit.description.reading import MAX_MADE_DEPTH, check_depth
 from urdfkit.description.source import Expansion, Origin, Position
 
@@ -66,7 +67,9 @@ class Node:
         stamp: where it was written.
         run: takes note of clones.
         finished: what it becomes, where xacro has nothing to do in it; then it has neither attributes nor children.
-        size: how many elements and attributes there are in what is finished.
+        size: how many elements and attributes there are below, where that is not in its attributes and children.
+        pattern: what it is made of, where xacro has but values to put in; then it has neither, as long as it is not
+            opened.
     """
 
     __slots__ = (
@@ -76,6 +79,7 @@ class Node:
         "nextSibling",
         "nodeName",
         "parentNode",
+        "pattern",
         "previousSibling",
         "run",
         "size",
@@ -94,13 +98,40 @@ class Node:
         run: Run,
         finished: list[Element] | None = None,
         size: int = 0,
+        pattern: Pattern | None = None,
     ) -> None:
+        self.pattern = pattern
         self.tagName = self.nodeName = tag
         self.attributes, self.stamp, self.run, self.finished, self.size = attributes, stamp, run, finished, size
         self.childNodes: list[Any] = []
         self.parentNode: Any = None
         self.nextSibling: Any = None
         self.previousSibling: Any = None
+
+    @classmethod
+    def of(cls, content: Element | Pattern, stamp: Stamp, run: Run) -> Node:
+        """Return a node of what xacro need not go through."""
+        if isinstance(content, Pattern):
+            return cls(content.tag, Attributes(), stamp, run, None, content.size - 1, content)
+        return cls(content.tag, Attributes(), stamp, run, [content], _size(content) - 1)
+
+    def finish(self, element: Element) -> None:
+        """Become an element that has its chain of calls already."""
+        self.finished, self.pattern, self.stamp = [element], None, (*self.stamp[:3], ())
+
+    def open(self) -> None:
+        """Become a node with attributes and children of its own, for xacro to go through."""
+        pattern = self.pattern
+        if pattern is None:
+            return
+        self.attributes, self.pattern, self.size = Attributes(pattern.attributes), None, 0
+        chain = self.stamp[3]
+        below: list[Any] = []
+        for child in pattern.children:
+            at = child.position if isinstance(child, Pattern) else child.origin.position
+            below.append(Node.of(child, (at.file, at.line, at.column, chain), self.run))
+        for child in with_texts(below, pattern.texts):
+            self.appendChild(child)
 
     # What xacro, and what mends its files, asks for; names as in the DOM.
 
@@ -191,7 +222,7 @@ class Node:
             count: is told how many elements and attributes are copied.
         """
         stamp = self.stamp if chain is None else (*self.stamp[:3], chain)
-        clone = Node(self.tagName, self.attributes.copied(), stamp, run, self.finished, self.size)
+        clone = Node(self.tagName, self.attributes.copied(), stamp, run, self.finished, self.size, self.pattern)
         count(1 + len(self.attributes) + self.size)
         before: Any = None
         below = clone.childNodes
@@ -213,6 +244,7 @@ class Node:
         Raises:
             XmlError: macros have made elements that are nested too deep.
         """
+        self.open()
         file, line, column, chain = self.stamp
         if depth + self.size >= MAX_MADE_DEPTH:
             check_depth(depth, Position(file, line, column))
@@ -233,17 +265,28 @@ class Node:
         return [Element(self.tagName, attributes, children, text.strip(), origin)]
 
 
+def with_texts(children: list[Any], texts: list[tuple[int, str]]) -> list[Any]:
+    """Return children with the texts between them; texts that are all blank are left out.
+
+    Args:
+        children: is changed.
+        texts: in order: how many children come before, and what it says.
+    """
+    if not all(data.isspace() for _, data in texts):
+        for index, data in reversed(texts):
+            children.insert(index, Text(data))
+    return children
+
+
+def _size(element: Element) -> int:
+    """Return how many elements and attributes there are in an element, itself included."""
+    return 1 + len(element.attributes) + sum([_size(child) for child in element.children])
+
+
 def _check_all(element: Element, depth: int) -> None:
     check_depth(depth, element.origin.position)
     for child in element.children:
         _check_all(child, depth + 1)
-
-
-def in_chain(element: Element, chain: tuple[Expansion, ...]) -> Element:
-    """Return an element, and all below it, as one that macro calls led to."""
-    children = [in_chain(child, chain) for child in element.children]
-    origin = Origin(element.origin.position, chain)
-    return Element(element.tag, dict(element.attributes), children, element.text, origin)
 
 
 class Document:

@@ -37,11 +37,8 @@ from urdfkit.errors import did_you_mean
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable
-    from typing import Any
-
     from urdfkit.description.packages import Packages
-    from urdfkit.description.robot import Problem
+    from urdfkit.description.values import Part
 
 SHAPES = ("box", "cylinder", "sphere", "capsule", "mesh")
 """What a ``<geometry>`` may hold."""
@@ -54,7 +51,7 @@ def parse(
     *,
     files: tuple[Path, ...] = (),
     packages: Packages | None = None,
-    known: dict[int, tuple[Element, Any, list[Problem]]] | None = None,
+    known: dict[Element, Part] | None = None,
 ) -> Robot:
     """Read a robot.
 
@@ -62,31 +59,18 @@ def parse(
         root: the ``<robot>`` element after expansion. Any other element gives a robot without links.
         files: what was read, for `Robot.files`.
         packages: for `Robot.packages`.
-        known: the links and joints that were read before from the same elements, by `id` of these, with the problems in
-            them; brought up to date.
+        known: the parts that were read before from the same elements, by these, with the problems in them; brought up
+            to date.
     """
-    reader = Reader()
-    now: dict[int, tuple[Element, Any, list[Problem]]] = {}
-
-    def part(read: Callable[[Reader, Element], Any], element: Element) -> Any:
-        before = len(reader.problems)
-        found = known.get(id(element)) if known is not None else None
-        if found is None:
-            one = read(reader, element)
-            found = element, one, reader.problems[before:]
-        else:
-            reader.problems += found[2]
-        now[id(element)] = found
-        return found[1]
-
+    reader = Reader(known)
     name = reader.text(root, "name") if root.tag == "robot" else root.get("name")
     links, joints, materials, transmissions, gazebo, controls = [], [], [], [], [], []
     for child in root.children:
         reader.subject = ""
         if child.tag == "link":
-            links.append(part(_link, child))
+            links.append(reader.part(_link, child))
         elif child.tag == "joint":
-            joints.append(part(_joint, child))
+            joints.append(reader.part(_joint, child))
         elif child.tag == "material":
             materials.append(_material(reader, child))
         elif child.tag == "transmission":
@@ -97,7 +81,7 @@ def parse(
             controls.append(ros2_control(child))
     if known is not None:
         known.clear()
-        known.update(now)
+        known.update(reader.parts)
     return Robot(
         name,
         tuple(links),
@@ -118,9 +102,9 @@ def _link(reader: Reader, element: Element) -> Link:
     inertial = element.find("inertial")
     return Link(
         name,
-        _inertial(reader, inertial) if inertial is not None else None,
-        tuple([_visual(reader, child) for child in element.find_all("visual")]),
-        tuple([_collision(reader, child) for child in element.find_all("collision")]),
+        reader.part(_inertial, inertial) if inertial is not None else None,
+        tuple([reader.part(_visual, child) for child in element.find_all("visual")]),
+        tuple([reader.part(_collision, child) for child in element.find_all("collision")]),
         element,
     )
 

@@ -6,7 +6,8 @@ from functools import partial
 from xml.parsers import expat
 
 from urdfkit.description.element import Element
-from urdfkit.description.nodes import Attributes, Document, Node, Text
+from urdfkit.description.nodes import Attributes, Document, Node, with_texts
+from urdfkit.description.patterns import Pattern
 from urdfkit.description.reading import MAX_DEPTH, MAX_VALUE, parse_with, refuse_excess, too_deep
 from urdfkit.description.source import Origin, Position, Source
 from urdfkit.description.vocabulary import TAGS
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 _PLAIN = TAGS - {"macro", "property", "include", "arg", "if", "unless", "insert_block"}
 """Elements in which xacro has nothing to do, and which nobody means as its directives."""
 
+_MORE, _VALUES, _NOTHING = range(3)
+"""What xacro has to do in an element: more, to put values in, nothing."""
+
 _ODD = ("<![CDATA[", "<!DOCTYPE", "xacro:eval-comments", "\0")
 """What has to be read by minidom's own builder; expat takes a text with zeros for UTF-16, in which we see no markup."""
 
@@ -28,15 +32,15 @@ class _Open:
     """An element that is not closed yet.
 
     Attributes:
-        is_plain: xacro has nothing to do in it, as far as has been read.
+        work: what xacro has to do in it, as far as has been read.
         holds: what is plain in it stays where it is: it is no block that macros take apart.
     """
 
-    __slots__ = ("attributes", "children", "column", "holds", "is_plain", "line", "size", "tag", "texts")
+    __slots__ = ("attributes", "children", "column", "holds", "line", "size", "tag", "texts", "work")
 
-    def __init__(self, tag: str, attributes: Any, line: int, column: int, is_plain: bool, holds: bool) -> None:
+    def __init__(self, tag: str, attributes: Any, line: int, column: int, work: int, holds: bool) -> None:
         self.tag, self.attributes, self.line, self.column = tag, attributes, line, column
-        self.is_plain, self.holds = is_plain, holds
+        self.work, self.holds = work, holds
         self.size = 1 + len(attributes)
         self.children: list[Any] = []
         self.texts: list[tuple[int, str]] = []
@@ -95,15 +99,9 @@ class _Planter:
             self._check(parser, tag.rpartition(" ")[2], attributes.values())
         line, column = parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
         above = stack[-1] if stack else None
-        is_plain = (
-            tag in _PLAIN
-            and above is not None
-            and above.holds
-            and not self._declared
-            and (not attributes or ("$" not in "".join(attributes.values()) and " " not in "".join(attributes)))
-        )
-        if is_plain:
-            holds = True
+        holds = tag in _PLAIN and above is not None and above.holds
+        if holds and not self._declared and (not attributes or " " not in "".join(attributes)):
+            work = _VALUES if attributes and "$" in "".join(attributes.values()) else _NOTHING
         else:
             tag, attributes = _qualified(tag), Attributes({_qualified(name): attributes[name] for name in attributes})
             if self._declared:
@@ -112,28 +110,28 @@ class _Planter:
             holds = tag in TAGS or tag == "xacro:macro"
             if tag in ("xacro:if", "xacro:unless") and above is not None:
                 holds = above.holds
-            self._spoil()
-        stack.append(_Open(tag, attributes, line, column, is_plain, holds))
+            work = _MORE
+        self._spoil(work)
+        stack.append(_Open(tag, attributes, line, column, work, holds))
         if len(stack) > MAX_DEPTH:
             too_deep(self._source, parser)
 
-    def _spoil(self) -> None:
-        """Note that there is something to do for xacro in all that is open."""
+    def _spoil(self, work: int) -> None:
+        """Note that there is so much to do for xacro in all that is open."""
         for one in reversed(self._stack):
-            if not one.is_plain:
+            if one.work <= work:
                 break
-            one.is_plain = False
-            one.attributes = Attributes(one.attributes)
+            one.work = work
 
     def _text(self, data: str) -> None:
         top = self._stack[-1]
         if "$" in data:
-            self._spoil()
+            self._spoil(_VALUES)
         top.texts.append((len(top.children), data))
 
     def _end(self, _: str) -> None:
         one = self._stack.pop()
-        done = self._element(one) if one.is_plain else self._node(one)
+        done = self._node(one) if one.work == _MORE else self._content(one)
         if self._stack:
             above = self._stack[-1]
             above.children.append(done)
@@ -141,27 +139,25 @@ class _Planter:
         else:
             self.root = done
 
-    def _element(self, one: _Open) -> Any:
-        children = [element for element, _ in one.children]
+    def _content(self, one: _Open) -> Element | Pattern:
+        position = Position(self._file, one.line, one.column)
+        if one.work == _VALUES:
+            return Pattern(one.tag, one.attributes, one.children, one.texts, position, one.size)
         text = "".join([data for _, data in one.texts]).strip() if one.texts else ""
-        origin = Origin(Position(self._file, one.line, one.column))
-        return Element(one.tag, one.attributes, children, text, origin), one.size
+        return Element(one.tag, one.attributes, one.children, text, Origin(position))
 
     def _node(self, one: _Open) -> Node:
-        node = Node(one.tag, one.attributes, (self._file, one.line, one.column, ()), self._run)
-        below: list[Any] = [self._leaf(child) if type(child) is tuple else child for child in one.children]
-        if not all(data.isspace() for _, data in one.texts):
-            for index, data in reversed(one.texts):
-                below.insert(index, Text(data))
-        for child in below:
+        node = Node(one.tag, Attributes(one.attributes), (self._file, one.line, one.column, ()), self._run)
+        below: list[Any] = []
+        for child in one.children:
+            if isinstance(child, Node):
+                below.append(child)
+            else:
+                at = child.position if isinstance(child, Pattern) else child.origin.position
+                below.append(Node.of(child, (at.file, at.line, at.column, ()), self._run))
+        for child in with_texts(below, one.texts):
             node.appendChild(child)
         return node
-
-    def _leaf(self, finished: tuple[Element, int]) -> Node:
-        element, size = finished
-        position = element.origin.position
-        stamp = (position.file, position.line, position.column, ())
-        return Node(element.tag, Attributes(), stamp, self._run, [element], size - 1)
 
 
 def _qualified(name: str) -> str:

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import re
-
+from urdfkit.description.patterns import Maker
 from urdfkit.description.planting import can_plant, planted
 from urdfkit.description.recovery import RecoveringRun
-from urdfkit.description.too_large import MAX_CHARACTERS
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from types import ModuleType
     from typing import Any
 
     from urdfkit.description.memory import Memory
     from urdfkit.description.source import Source
-
-_SIMPLE = (int, float, bool, str)
-_EXPRESSION = re.compile(r"\$\{([^}]*)\}")
 
 
 class QuickRun(RecoveringRun):
@@ -32,9 +28,12 @@ class QuickRun(RecoveringRun):
     is_mixed = False
     memory: Memory | None = None
 
-    def __init__(self, *arguments: Any, **options: Any) -> None:
-        super().__init__(*arguments, **options)
-        self._pieces: dict[str, list[str]] = {}
+    def take(self, xacro: ModuleType) -> dict[str, Any]:
+        """Take stock of xacro, and of what is remembered."""
+        lent = super().take(xacro)
+        self._shelf = self.memory.shelf if self.memory is not None else None
+        self._maker = Maker(self.evaluator, self._shelf)
+        return lent
 
     def expand(self) -> None:
         """Expand the file as far as it goes."""
@@ -84,52 +83,34 @@ class QuickRun(RecoveringRun):
     # What xacro calls instead of its own functions of the same name.
 
     def handle_macro_call(self, node: Any, macros: Any, symbols: Any) -> Any:
-        """Expand a macro call; leave alone what is finished."""
-        return node.finished is not None or super().handle_macro_call(node, macros, symbols)
+        """Expand a macro call; make elements of what needs nothing but values."""
+        if node.finished is not None:
+            if self._shelf is not None and node.stamp[3]:
+                node.finish(self._maker.finished(node.finished[0], node.stamp[3]))
+            return True
+        if node.pattern is not None:
+            made = self._maker.element(node.pattern, symbols, node.stamp[3])
+            if made is not None:
+                node.finish(made)
+                return True
+            node.open()
+        return super().handle_macro_call(node, macros, symbols)
 
     def eval_text(self, text: str, symbols: Any) -> Any:
         """Evaluate text; where all it needs is known, without a lexer."""
         if type(text) is str and "$" in text:
             try:
-                value = self._known(text, symbols)
+                value = self._maker.value(text, symbols)
             except Exception:  # whatever it is, it is raised again, and looked into
                 value = None
             if value is not None:
                 return value
         return super().eval_text(text, symbols)
 
-    def _known(self, text: str, symbols: Any) -> Any:
-        """Return the value of a text of names, numbers and their quotients; None where it is not as plain as that."""
-        pieces = self._pieces.get(text)
-        if pieces is None:
-            pieces = self._pieces[text] = _EXPRESSION.split(text)
-            if any("$" in piece for piece in pieces):
-                pieces.clear()
-        if len(pieces) < 2 or self.evaluator.is_exhausted:
-            return None
-        values: list[Any] = []
-        for index, piece in enumerate(pieces):
-            if index % 2:
-                code = self.evaluator.compile(piece)
-                if code.form != "plain" or not all(_is_known(name, symbols) for name in code.names):
-                    return None
-                values.append(self.evaluator.safe_eval(piece, symbols))
-            elif piece:
-                values.append(piece)
-        value = values[0] if len(values) == 1 else "".join(map(str, values))
-        if type(value) not in _SIMPLE or (type(value) is str and len(value) > MAX_CHARACTERS):
-            return None
-        self.evaluator.count(text)
-        return value
+    def _begin_call(self, name: str, macro: Any) -> None:
+        super()._begin_call(name, macro)
+        if self._shelf is not None and self.chain:
+            self.chain = self._shelf.chain(self.chain[0], self.position_of(self._calling)[1])
 
     def remove_previous_comments(self, node: Any) -> None:
         """Do nothing: there are no comments."""
-
-
-def _is_known(name: str, table: Any) -> bool:
-    """Whether a property has its value already; what is not among the properties is looked for by others."""
-    while hasattr(table, "parent"):
-        if dict.__contains__(table, name):
-            return name not in table.unevaluated and type(dict.__getitem__(table, name)) in _SIMPLE
-        table = table.parent
-    return dict.__contains__(table, name) and type(dict.__getitem__(table, name)) in _SIMPLE

@@ -209,7 +209,7 @@ class Run(Substitution):
         if type(text) is str:
             if "$" not in text:
                 return text
-            self.evaluator.count(text)
+            self.evaluator.count(text.count("$"))
         value = self.stock["eval_text"](text, symbols)
         if type(value) is str and len(value) > MAX_CHARACTERS:
             raise excess("a text", MAX_CHARACTERS, "characters")

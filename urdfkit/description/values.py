@@ -10,18 +10,47 @@ from urdfkit.description.robot import Pose, Problem, Vector
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from typing import Any
+
     from urdfkit.description.robot import ProblemKind
+
+    Part = tuple[str, Any, list[Problem]]
+    """Of what the messages spoke when an element was read, what was made of it, and the problems in it."""
 
 ZERO: Vector = (0.0, 0.0, 0.0)
 
 
 class Reader:
-    """Reads values and notes problems, in document order."""
+    """Reads values and notes problems, in document order.
 
-    def __init__(self) -> None:
+    Args:
+        known: what was made of elements before; None where nobody remembers.
+
+    Attributes:
+        parts: what is made of elements now.
+    """
+
+    def __init__(self, known: Mapping[Element, Part] | None = None) -> None:
         self.problems: list[Problem] = []
+        self.parts: dict[Element, Part] = {}
+        self._known = known
         self.subject = ""
         """The link or joint being read, for the messages."""
+
+    def part(self, read: Callable[[Reader, Element], Any], element: Element) -> Any:
+        """Return what is made of an element; what was made of it before, where that is known."""
+        if self._known is None:
+            return read(self, element)
+        found = self._known.get(element)
+        if found is None or (found[2] and found[0] != self.subject):
+            subject, before = self.subject, len(self.problems)
+            one = read(self, element)
+            found = subject, one, self.problems[before:]
+        else:
+            self.problems += found[2]
+        self.parts[element] = found
+        return found[1]
 
     def note(self, kind: ProblemKind, message: str, element: Element, attribute: str | None = None) -> None:
         """Note a problem.
