@@ -194,3 +194,12 @@ def test_source_folders_stand_for_what_cmake_installs(package: Package, write: W
     found = Packages(near=own, environment={})
     assert found.resolve("package://demo/meshes/a.stl", own) == mesh
     assert found.relocate(own / "meshes" / "b.stl") is None
+
+
+def test_a_last_word_in_common_makes_no_package_near():
+    from urdfkit.description.packages import near_package
+
+    known = ("artoo_description", "husky_description", "kmsg")
+    assert near_package("flir_camera_description", known) == ""
+    assert "husky_description" in near_package("huksy_description", known)
+    assert "husky_description" in near_package("husky_descripton", known)

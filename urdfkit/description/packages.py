@@ -74,7 +74,7 @@ class Packages:
         if name not in self._found:
             found = self._look_up(name) if _is_plain(name) else None
             if found is None:
-                hint = did_you_mean(name, self._seen)
+                hint = near_package(name, self._seen)
                 message = f"no package `{name}` in {self._looked_in()}{hint or '; see --package-path'}"
                 self.answers[("find", name)] = f"!{message}"
                 raise ResourceError(message)
@@ -237,6 +237,13 @@ class Packages:
             for name, folder in found.items():
                 self._seen.setdefault(name, folder)
         return self._crawled[top]
+
+
+def near_package(name: str, known: Iterable[str]) -> str:
+    """Return a did-you-mean for a package; a last word in common (``_description``) makes no two names near."""
+    stem, _, last = name.rpartition("_")
+    parts = ((other, *other.rpartition("_")[::2]) for other in known)
+    return did_you_mean(name, [other for other, own, end in parts if end != last or did_you_mean(stem, [own])])
 
 
 def near_path(path: Path) -> str:

@@ -109,6 +109,7 @@ ROBOT: tuple[Row, ...] = (
     ("size!", "geometry.nonpositive_primitive", "NonpositivePrimitive"),
     ("material", "geometry.material_undefined", "MaterialUndefined"),
     ("color", "geometry.rgba_out_of_range", "RgbaOutOfRange"),
+    ("color", "geometry.material_invisible", "MaterialInvisible"),
     ("cylinder sphere", "geometry.wheel_off_its_axis", "WheelOffItsAxis"),
     ("mesh", "geometry.mesh_file_missing", "MeshFileMissing"),
     ("mesh", "geometry.mesh_package_unknown", "MeshPackageUnknown"),
@@ -140,6 +141,7 @@ ROBOT: tuple[Row, ...] = (
     ("plugin sensor", "gazebo.duplicate_sensor_or_plugin", "DuplicateSensorOrPlugin"),
     ("plugin sensor", "gazebo.sensors_share_topic", "SensorsShareTopic"),
     ("gazebo", "gazebo.conflicting_blocks", "ConflictingBlocks"),
+    ("plugin sensor", "gazebo.topic_with_blank", "TopicWithBlank"),
     ("plugin sensor", "gazebo.plugin_or_sensor_unnamed", "PluginOrSensorUnnamed"),
     ("sensor", "gazebo.sensor_type_unknown", "SensorTypeUnknown"),
     ("parameters", "gazebo.plugin_file_missing", "PluginFileMissing"),
@@ -158,6 +160,8 @@ ROBOT: tuple[Row, ...] = (
     ("ros2_control", "control.ros2_control_in_gazebo", "Ros2ControlInGazebo"),
     ("ros2_control", "control.ros2_control_hardware", "HardwareMismatch"),
     ("ros2_control", "control.interface_combination", "InterfaceCombination"),
+    ("ros2_control", "control.hardware_without_plugin", "HardwareWithoutPlugin"),
+    ("command_interface", "control.interface_limits", "InterfaceLimits"),
 )
 
 AROUND: tuple[Row, ...] = (

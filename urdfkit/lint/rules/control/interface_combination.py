@@ -32,7 +32,7 @@ class InterfaceCombination(RobotRule):
       <link name="arm"/>
       <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
       <ros2_control name="arm" type="system">
-        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
         <joint name="elbow">
           <command_interface name="postion"/>
           <state_interface name="position"/>
@@ -48,7 +48,7 @@ class InterfaceCombination(RobotRule):
       <link name="arm"/>
       <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
       <ros2_control name="arm" type="system">
-        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
         <joint name="elbow">
           <command_interface name="position"/>
           <state_interface name="position"/>

@@ -45,6 +45,9 @@ class HardwareMismatch(RobotRule):
       <ros2_control name="arm" type="system">
         <hardware><plugin>gz_ros2_control/GazeboSystem</plugin></hardware>
       </ros2_control>
+      <gazebo>
+        <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin"/>
+      </gazebo>
     </robot>
     ```
 
@@ -55,6 +58,9 @@ class HardwareMismatch(RobotRule):
       <ros2_control name="arm" type="system">
         <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
       </ros2_control>
+      <gazebo>
+        <plugin filename="gz_ros2_control-system" name="gz_ros2_control::GazeboSimROS2ControlPlugin"/>
+      </gazebo>
     </robot>
     ```
 

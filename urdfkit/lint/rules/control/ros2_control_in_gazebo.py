@@ -29,7 +29,7 @@ class Ros2ControlInGazebo(RobotRule):
       <link name="base"/>
       <gazebo>
         <ros2_control name="arm" type="system">
-          <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+          <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
         </ros2_control>
       </gazebo>
     </robot>
@@ -40,7 +40,7 @@ class Ros2ControlInGazebo(RobotRule):
     <robot name="arm">
       <link name="base"/>
       <ros2_control name="arm" type="system">
-        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
       </ros2_control>
     </robot>
     ```

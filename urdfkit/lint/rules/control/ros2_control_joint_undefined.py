@@ -29,7 +29,7 @@ class Ros2ControlJointUndefined(RobotRule):
       <link name="arm"/>
       <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
       <ros2_control name="arm" type="system">
-        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
         <joint name="ellbow">
           <command_interface name="position"/>
           <state_interface name="position"/>
@@ -45,7 +45,7 @@ class Ros2ControlJointUndefined(RobotRule):
       <link name="arm"/>
       <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
       <ros2_control name="arm" type="system">
-        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
         <joint name="elbow">
           <command_interface name="position"/>
           <state_interface name="position"/>

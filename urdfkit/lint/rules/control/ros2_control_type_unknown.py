@@ -30,7 +30,7 @@ class Ros2ControlTypeUnknown(RobotRule):
     <robot name="arm">
       <link name="base"/>
       <ros2_control name="arm" type="sytem">
-        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
       </ros2_control>
     </robot>
     ```
@@ -40,7 +40,7 @@ class Ros2ControlTypeUnknown(RobotRule):
     <robot name="arm">
       <link name="base"/>
       <ros2_control name="arm" type="system">
-        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
       </ros2_control>
     </robot>
     ```

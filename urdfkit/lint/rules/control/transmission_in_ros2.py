@@ -44,7 +44,7 @@ class TransmissionInRos2(RobotRule):
       <link name="arm"/>
       <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
       <ros2_control name="arm" type="system">
-        <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+        <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
         <joint name="elbow">
           <command_interface name="effort"/>
           <state_interface name="position"/>

@@ -18,7 +18,8 @@ class PluginLinkUndefined(RobotRule):
     """A plugin names a link that is not there.
 
     ## What it does
-    Looks at those parameters of the plugins it knows that name links: base frames of drives, bodies of sensors.
+    Looks at those parameters of the plugins it knows that name links: base frames of drives (``robotBaseFrame``,
+    ``child_frame_id``), bodies of sensors.
 
     ## Why is this bad?
     The plugin stops, or publishes transforms of a frame that nobody has.
@@ -60,7 +61,9 @@ class PluginLinkUndefined(RobotRule):
         """Yield a finding for each link that a plugin names and the robot lacks."""
         if model.is_incomplete:
             return
-        for text, element, parameter, _ in references(model, ("link",)):
+        for text, element, parameter, _ in references(model, ("link", "frame")):
+            if parameter.names == "frame" and parameter.meaning != "base_frame":
+                continue
             if is_frame(text, model.robot):
                 continue
             near, hint = meant(text.strip("\"'"), model.robot.link_by_name)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 _TEMPLATE = r"\{%|\{\{|\$\{"
 _BARE = r"\s*(?:-\s+)?([A-Za-z_][\w/.-]*)(?:\s+[^\s:#]\S*)?\s*(?:#.*)?$"
 _CLOSE = r"\s*(?:-\s+)?([A-Za-z_][\w/.-]*):[^\s:/]\S*\s*(?:#.*)?$"
+_TAB = r"\btab\b|\\t"
 _UNFINISHED = r"mapping values|expected (?:':'|key|block|<block|'?-'? indicator)"
 """What libyaml says where a line is no ``name: value`` (scanner.c, parser.c)."""
 
@@ -67,7 +68,9 @@ class YamlNotWellFormed(RobotRule):
                 continue
             roots, broken = documents(source)
             if broken is not None:
-                if "\\t" not in broken.why or "controller" not in source.text:  # tabs are controller-settings-misspelt
+                if (
+                    not re.search(_TAB, broken.why) or "controller" not in source.text
+                ):  # tabs are controller-settings-misspelt
                     yield self._where(source, broken)
                 continue
             for root in roots:
