@@ -16,6 +16,7 @@ from urdfkit.scaffold.alteration import Alteration, write_all
 from urdfkit.scaffold.boxes import Boxes
 from urdfkit.scaffold.free_place import Part, spot
 from urdfkit.scaffold.insertion import insert_before_end
+from urdfkit.scaffold.manifest import with_installed
 from urdfkit.scaffold.sensor_macro import GENERATIONS, KINDS, sensor_macro
 from urdfkit.sim import Simulator
 
@@ -232,8 +233,36 @@ def test_what_is_installed_by_name_gets_a_neighbour(place):
         + "\ninstall(FILES\n  urdf/scout.urdf.xacro\n  DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/urdf)\n"
     )
     assert new("gps", folder) == 0
-    assert "\n  urdf/scout.urdf.xacro\n  urdf/gps_sensor.xacro\n  DESTINATION" in cmake.read_text()
+    assert "\n  urdf/gps_sensor.xacro\n  urdf/scout.urdf.xacro\n  DESTINATION" in cmake.read_text()  # in order
     assert "  <exec_depend>hector_gazebo_plugins</exec_depend>\n" in (folder / "package.xml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        (
+            "(FILES urdf/a.xacro urdf/z.xacro DESTINATION x)",
+            "(FILES urdf/a.xacro urdf/m.xacro urdf/z.xacro DESTINATION x)",
+        ),
+        ("(FILES urdf/a.xacro\n  DESTINATION x)", "(FILES urdf/a.xacro urdf/m.xacro\n  DESTINATION x)"),
+        (
+            "(files\r\n\turdf/a.xacro\r\n\tDESTINATION x)",
+            "(files\r\n\turdf/a.xacro\r\n\turdf/m.xacro\r\n\tDESTINATION x)",
+        ),
+        (
+            "(FILES\n  urdf/z.xacro  # first\n  urdf/a.xacro\n  urdf/b.xacro\n  DESTINATION x)",
+            "(FILES\n  urdf/z.xacro  # first\n  urdf/a.xacro\n  urdf/m.xacro\n  urdf/b.xacro\n  DESTINATION x)",
+        ),
+        ('(PROGRAMS "urdf/a.xacro" DESTINATION x)', '(PROGRAMS "urdf/a.xacro" urdf/m.xacro DESTINATION x)'),
+        ("(FILES urdf/a.xacro urdf/m.xacro DESTINATION x)", None),
+        ("(FILES urdf/aa.xacro DESTINATION urdf/a.xacro)", None),
+        ("(DIRECTORY urdf DESTINATION x)", None),
+    ],
+)
+def test_where_a_new_file_goes_among_those_that_are_installed(tmp_path, before, after):
+    (tmp_path / "CMakeLists.txt").write_bytes(f"project(x)\ninstall{before}\n".encode())
+    change = with_installed(tmp_path, tmp_path / "urdf/a.xacro", tmp_path / "urdf/m.xacro")
+    assert (change and change.after) == (after and f"project(x)\ninstall{after}\n".encode())
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,8 @@ _NEEDS = re.compile(r"<(?:build_|exec_|run_|build_export_|test_)?depend\b[^>]*>\
 _LAST = re.compile(
     r"(?m)^([ \t]*)<(?:buildtool_|build_|exec_|run_|test_|build_export_)?depend\b.*?</\w+>[^\n]*\n", re.DOTALL
 )
-_FILES = re.compile(r"install\s*\(\s*(?:FILES|PROGRAMS)\b[^)]*\)", re.IGNORECASE)
+_FILES = re.compile(r"(?i:install\s*\(\s*(?:FILES|PROGRAMS))\b([^)]*?)(?:\)|\s[A-Z_]{4,}\s)")
+_FILE = re.compile(r'#[^\n]*|"[^"]*"|[^\s"#]+')
 
 
 def package_of(path: Path) -> Path | None:
@@ -59,6 +60,8 @@ def with_dependency(package: Path, name: str, *, alone: bool = False) -> Alterat
 def with_installed(package: Path, beside: Path, new: Path) -> Alteration | None:
     """Return the change to CMakeLists.txt that installs a new file where another is installed by its name.
 
+    A list that is in order stays so.
+
     None where nothing has to be told: a folder is installed as a whole, or nothing is.
 
     Args:
@@ -74,14 +77,18 @@ def with_installed(package: Path, beside: Path, new: Path) -> Alteration | None:
     root = package.resolve()
     known, wanted = (file.resolve().relative_to(root).as_posix() for file in (beside, new))
     for rule in _FILES.finditer(text):
-        place = re.search(rf"(?m)(^[ \t]*)?(?<![\w./-]){re.escape(known)}(?![\w./-])", rule[0])
-        if place is not None and not re.search(rf"(?<![\w./-]){re.escape(wanted)}(?![\w./-])", rule[0]):
-            end = rule.start() + place.end()
+        listed = [file for file in _FILE.finditer(text, *rule.span(1)) if not file[0].startswith("#")]
+        names = [file[0].strip('"') for file in listed]
+        if known in names and wanted not in names:
+            in_order = names == sorted(names)
+            later = [file for file, name in zip(listed, names, strict=True) if in_order and name > wanted]
+            place = later[0] if later else listed[-1 if in_order else names.index(known)]
             newline = "\r\n" if "\r\n" in text else "\n"
-            between = f"{newline}{place[1]}" if place[1] else " "
-            return Alteration(
-                path, before, (text[:end] + between + wanted + text[end:]).encode("utf-8", "surrogateescape")
-            )
+            indent = re.search(r"\n([ \t]*)\Z", text[: place.start()])
+            between = f"{newline}{indent[1]}" if indent is not None else " "
+            put = wanted + between if later else between + wanted
+            at = place.start() if later else place.end()
+            return Alteration(path, before, f"{text[:at]}{put}{text[at:]}".encode("utf-8", "surrogateescape"))
     return None
 
 
