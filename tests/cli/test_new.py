@@ -169,6 +169,9 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
         (["robot"], "name of the robot is missing"),
         (["robot", "My Robot"], "no ROS package name: .*; did you mean `my_robot`?"),
         (["robot", "scout_description"], "did you mean `scout`?"),
+        (["robot", "my", "scout"], "unrecognized arguments: scout; did you mean `my_scout`?"),
+        (["robot", "--name", "scout"], "unrecognized arguments: --name; it stands by itself: urdfkit new robot NAME"),
+        (["robot", "src/scout"], "did you mean `scout --into src`?"),
         (
             ["robot", "scout", "--ros", "foxy"],
             "--ros `foxy` is not available; the nearest is `humble`; there is: humble, jazzy, kilted",

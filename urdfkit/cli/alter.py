@@ -50,7 +50,9 @@ def description(arguments: argparse.Namespace) -> tuple[ModelArgument, Robot, st
 
     into = arguments.into
     if into is not None and not Path(into).expanduser().exists():
-        near = did_you_mean(into, [path.name for path in Path.cwd().iterdir()])
+        there = sorted(path.name for path in Path.cwd().iterdir())
+        begun = [name for name in there if name.startswith(into) and name.endswith("_description")]
+        near = did_you_mean(into, there) or (f"; did you mean `{begun[0]}`?" if begun else "")
         raise ResourceError(f"--into {into}: no such file or folder{near}")
     try:
         model = find_model([*([into] if into is not None else []), *arguments.arg], package_path=arguments.package_path)

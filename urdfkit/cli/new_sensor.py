@@ -6,10 +6,18 @@ import argparse
 import sys
 
 from urdfkit.cli.alter import add_description, apply, description, number, vector
-from urdfkit.errors import UsageError
+from urdfkit.errors import UsageError, did_you_mean
 
 SUMMARY = "a sensor, added to a description that is there"
 _KINDS = ("lidar", "lidar3d", "camera", "depth", "imu", "gps")
+_CALLED = {
+    **dict.fromkeys(("laser", "laserscan", "hokuyo", "rplidar", "sick", "scan"), "lidar"),
+    **dict.fromkeys(("velodyne", "ouster", "vlp16", "vlp-16", "pointcloud"), "lidar3d"),
+    **dict.fromkeys(("webcam", "rgb", "rgb_camera", "mono"), "camera"),
+    **dict.fromkeys(("realsense", "kinect", "rgbd", "depth_camera", "d435", "zed", "stereo"), "depth"),
+    **dict.fromkeys(("gnss", "navsat"), "gps"),
+}
+"""What some call them, makers included."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -20,7 +28,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "  urdfkit new sensor lidar --into scout_description\n"
         "  urdfkit new sensor camera --into urdf/arm.urdf.xacro --name wrist --parent tool0 --xyz 0.05 0 0 --diff"
     )
-    parser.add_argument("sensor", choices=_KINDS, metavar="SENSOR", help=", ".join(_KINDS))
+    parser.add_argument("sensor", nargs="?", metavar="SENSOR", help=", ".join(_KINDS))
     add_description(parser)
     parser.add_argument(
         "--name", help="of the sensor; its links begin with it (default: the kind, with a number from the second on)"
@@ -45,6 +53,12 @@ def run(arguments: argparse.Namespace) -> int:
     """
     from urdfkit.scaffold.sensor import Request, add_sensor
 
+    if arguments.sensor is None:
+        raise UsageError(f"new sensor: the following arguments are required: SENSOR ({', '.join(_KINDS)})")
+    if arguments.sensor not in _KINDS:
+        called = _CALLED.get(arguments.sensor.lower())
+        near = f"; the nearest is `{called}`" if called else did_you_mean(arguments.sensor, _KINDS)
+        raise UsageError(f"new sensor: there is no `{arguments.sensor}`{near}; there is: {', '.join(_KINDS)}")
     model, robot, generation = description(arguments)
     rate = None
     if arguments.update_rate is not None:

@@ -89,6 +89,8 @@ class Parser(argparse.ArgumentParser):
             hint = self.elsewhere(unknown[1]) or did_you_mean(unknown[1], self._option_string_actions)
         elif choice := re.search(r"invalid choice: '([^']*)' \(choose from (.*)\)", message):
             hint = did_you_mean(choice[1], re.findall(r"[\w-]+", choice[2]))
+        elif "expected 3 arguments" in message:
+            hint = ": three numbers with blanks between, such as 0.1 0 0.2"
         raise UsageError(f"{self.prog.removeprefix('urdfkit').strip()}: {message}{hint}".removeprefix(": "))
 
     def _unknown_option(self) -> str | None:

@@ -10,6 +10,19 @@ from typing import Any
 from urdfkit.cli.parser import Parser
 from urdfkit.scaffold import Question, Template, named_template, sanitised, template_at
 
+_CALLED = {
+    "--rate": "--update-rate",
+    "--hz": "--update-rate",
+    "--frequency": "--update-rate",
+    "--joints": "--dof",
+    "--axes": "--dof",
+    "--link": "--parent",
+    "--position": "--xyz",
+    "--pose": "--xyz",
+    "--origin": "--xyz",
+}
+"""What some call options of `urdfkit new`."""
+
 
 class Kind(Parser):
     """The parser of one template, or of the user's own that is named behind it: its options are the questions."""
@@ -23,18 +36,29 @@ class Kind(Parser):
             UrdfkitError: there is no such template, it is wrong, or so are the arguments.
         """
         words = list(args or ())
-        self.elsewhere = partial(_meant, self.prog, words)
+        self.elsewhere = partial(_meant, self, words)
         if not self._is_filled and self.get_default("thing") is not None:
             self._is_filled = True
             _fill(self, chosen(self.get_default("thing"), _own(words)))
         return super().parse_known_args(words, namespace)
 
 
-def _meant(program: str, words: list[str], unknown: str) -> str:
-    """Return what to say of a word that is no option: a name is one word, and stands by itself."""
-    if unknown == "--name":
-        return f"; the name stands by itself: {program} NAME"
-    names = list(takewhile(lambda word: not word.startswith("-"), words))
+def _meant(kind: argparse.ArgumentParser, words: list[str], unknown: str) -> str:
+    """Return what to say of a word that is no option: whose it is, or that it stands by itself."""
+    options = kind._option_string_actions
+    if (called := _CALLED.get(unknown)) in options:
+        return f"; did you mean `{called}`?"
+    is_added = kind.get_default("thing") is None  # to a description that is there
+    own = next((each for each in kind._actions if not each.option_strings and each.metavar), None)
+    if own is not None and unknown in (("--kind", "--type", "--sensor") if is_added else ("--name",)):
+        return f"; it stands by itself: {kind.prog} {own.metavar}"
+    if unknown.startswith("-"):
+        return ""
+    if "--dof" in options and unknown.isdigit():
+        return f"; did you mean `--dof {unknown}`?"
+    if is_added:
+        return f"; did you mean `--into {unknown}`?"
+    names = list(takewhile(lambda word: not word.startswith("-"), words))  # a name is one word
     return f"; did you mean `{sanitised(' '.join(names))}`?" if unknown in names[1:] else ""
 
 
