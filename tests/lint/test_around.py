@@ -242,3 +242,59 @@ def test_a_manifest_that_is_being_edited_counts_as_it_is_in_the_editor(tmp_path,
     assert codes({}) == ["K956"]
     assert codes({str(folder / "package.xml"): needs}) == []
     assert codes({str(folder / "package.xml"): f"<!-- {needs} -->"}) == ["K956"]
+
+
+def test_what_launch_files_in_python_hand_to_gazebo(tmp_path):
+    (tmp_path / "package.xml").write_text(
+        "<package format='3'><name>cart</name><version>1.0.0</version><exec_depend>ros_gz_sim</exec_depend>"
+        "<exec_depend>ros_gz_bridge</exec_depend></package>"
+    )
+    (tmp_path / "cart.urdf").write_text("<robot name='cart'><link name='base'/></robot>")
+    launch = tmp_path / "cart.launch.py"
+    lines = (
+        'Node(package="ros_gz_sim", executable="create", arguments=["-nmae", "cart", "-topic", "robot_descripton"])',
+        'Node(package="ros_gz_bridge", executable="parameter_bridge", arguments=[',
+        '    "/cmd_vel@geometry_msgs/msg/Twist]gz.msgs.Twits",',
+        '    "/scan@sensor_msgs/msg/LaserScan[gz.msgs.PointCloudPacked",',
+        '    "/clock@rosgraph_msgs/msg/Clock[gz.msgs.Clock", "--ros-args"])',
+    )
+    launch.write_text("\n".join(lines))
+    found = [(f.code, f.line, f.column) for f in lint(tmp_path, target="ros2")]
+    assert found == [
+        ("K968", 1, lines[0].index("-nmae") + 1),
+        ("K968", 1, lines[0].index("robot_descripton") + 1),
+        ("K969", 3, lines[2].index("gz.msgs") + 1),
+        ("K969", 4, lines[3].index("gz.msgs") + 1),
+    ]
+
+
+HARDWARE = """<robot name='arm' xmlns:xacro='http://www.ros.org/wiki/xacro'>
+  <link name='base'/><link name='upper'/>
+  <joint name='elbow' type='fixed'><parent link='base'/><child link='upper'/></joint>
+  <ros2_control name='arm' type='system'>
+    <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
+    <joint name='elbow'>{}</joint>
+  </ros2_control>
+</robot>"""
+
+
+@pytest.mark.parametrize(
+    ("interfaces", "other", "is_found"),
+    [
+        ("<command_interface name='position'/>", "", True),
+        ("<xacro:if value='true'><command_interface name='position'/></xacro:if>", "", False),
+        ("<command_interface name='position'/>", HARDWARE.format("<command_interface name='velocity'/>"), False),
+        ("<command_interface name='velocity'/>", "", False),
+    ],
+)
+def test_interfaces_that_may_come_from_elsewhere_are_let_pass(tmp_path, interfaces, other, is_found):
+    (tmp_path / "package.xml").write_text("<package format='3'><name>arm</name><version>1.0.0</version></package>")
+    (tmp_path / "arm.urdf.xacro").write_text(HARDWARE.format(interfaces))
+    if other:
+        (tmp_path / "other.urdf.xacro").write_text(other)
+    (tmp_path / "arm.yaml").write_text(
+        "controller_manager:\n  ros__parameters:\n"
+        "    group: {type: velocity_controllers/JointGroupVelocityController}\n"
+        "group:\n  ros__parameters:\n    joints: [elbow]\n"
+    )
+    assert ("K965" in {finding.code for finding in lint(tmp_path / "arm.urdf.xacro", target="ros2")}) is is_found

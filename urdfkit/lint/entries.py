@@ -120,6 +120,8 @@ def _of_file(path: Path) -> list[Entry]:
     if path.name.endswith((*LAUNCH, *YAML)):
         return _around(path)
     text = _text(path)
+    if _begins_with_robot(text):
+        return [Entry(path)]
     root = re.search(_ROOT, text)
     if root is None or root[1] is None or re.search(_NAMED, root[2]):
         return [Entry(path)]
@@ -130,6 +132,16 @@ def _of_file(path: Path) -> list[Entry]:
         if above:
             return [Entry(_relative(model), (path,)) for model in above]
     return [Entry(path, (), _is_library(text))]
+
+
+def _begins_with_robot(text: str) -> bool:
+    """Whether a text plainly is a robot with a name; most are, and need no patterns."""
+    start = text.lstrip("\ufeff \t\r\n")
+    if start.startswith("<?xml"):
+        start = start.partition("?>")[2].lstrip()
+    tag, end, _ = start.partition(">")
+    is_closed = bool(end) and tag.count('"') % 2 == 0 and tag.count("'") % 2 == 0
+    return is_closed and tag.startswith("<robot ") and ' name="' in tag
 
 
 def _around(path: Path) -> list[Entry]:

@@ -175,6 +175,8 @@ AROUND: tuple[Row, ...] = (
     ("", "packaging.hardware_interface_lacking", "HardwareInterfaceLacking"),
     ("", "packaging.yaml_not_well_formed", "YamlNotWellFormed"),
     ("", "packaging.controller_of_other_ros", "ControllerOfOtherRos"),
+    ("", "packaging.spawn_argument_misspelt", "SpawnArgumentMisspelt"),
+    ("", "packaging.bridge_misspelt", "BridgeMisspelt"),
 )
 """Rules on the robot that are asked where there are launch files or YAML around it."""
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _RESET = "\x1b[0m"
 _STYLES = {"error": "\x1b[1;31m", "warning": "\x1b[1;33m", "info": "\x1b[1;36m", "bold": "\x1b[1m", "dim": "\x1b[34m"}
 _TAB = "    "
-_CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f]")
+_CONTROL = r"[\x00-\x1f\x7f-\x9f]"
 """What a terminal would obey."""
 _LISTED_CALLS = 4
 _LONG = 400
@@ -78,7 +78,7 @@ class TextReport:
         span = finding.span
         end = span.end_column if span.end_line == span.line else len(line.rstrip()) + 1
         before, marked = line[: span.column - 1], line[span.column - 1 : max(end, span.column + 1) - 1]
-        shown = _CONTROL.sub("\ufffd", line.rstrip().replace("\t", _TAB))
+        shown = re.sub(_CONTROL, "\ufffd", line.rstrip().replace("\t", _TAB))
         start, length = _columns(before), max(_columns(marked), 1)
         number = str(span.line)
         if self.width is not None or len(shown) > _LONG:

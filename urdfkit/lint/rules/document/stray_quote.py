@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 _ALWAYS = "`\u2018\u2019\u201c\u201d"
 _QUOTES = "\"'"
 _INVISIBLE = "[\u00a0\u200b-\u200f\u2060\ufeff]"
-_BETWEEN = (">\\s*[\"']", '"\\s*</', "'\\s*</")
 _FOREIGN = f"[{_ALWAYS}]|{_INVISIBLE}"
 
 
@@ -92,9 +91,16 @@ class StrayQuote(RobotRule):
 
 def _is_suspect(text: str) -> bool:
     """Whether there may be such a character. Plain texts need not wait for patterns of others."""
-    if "`" in text or "'\"" in text or "\"'" in text or any(re.search(pattern, text) for pattern in _BETWEEN):
+    if "`" in text or "'\"" in text or "\"'" in text or _has_quotes_outside(text):
         return True
     return not text.isascii() and re.search(_FOREIGN, text) is not None
+
+
+def _has_quotes_outside(text: str) -> bool:
+    """Whether a quote follows a tag, or an end tag a quote."""
+    if any(piece.rstrip().endswith(('"', "'")) for piece in text.split("</")[:-1]):
+        return True
+    return any(piece.lstrip().startswith(('"', "'")) for piece in text.split(">")[1:])
 
 
 def _cleaned(value: str) -> str | None:

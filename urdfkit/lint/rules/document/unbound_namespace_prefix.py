@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
     from urdfkit.lint.syntax import Document
 
-_PREFIXED = re.compile(r"[<\s]([A-Za-z_][\w.-]*):[A-Za-z_][\w.-]*(?=[\s/>=])")
+_PREFIXED = r"[<\s]([A-Za-z_][\w.-]*):[A-Za-z_][\w.-]*(?=[\s/>=])"
+_NO_NAME = frozenset("\"'=/>")
 
 
 class UnboundNamespacePrefix(SourceRule):
@@ -69,7 +70,9 @@ class UnboundNamespacePrefix(SourceRule):
                 fix=Fix("safe", "Write `xmlns:xacro`", declaration(document)),
             )
             return
-        used = {prefix for prefix in _PREFIXED.findall(text) if f"xmlns:{prefix}" not in text} - {"xml", "xmlns"}
+        if not any(f"xmlns:{prefix}" not in text for prefix in _before_colons(text)):
+            return
+        used = {prefix for prefix in re.findall(_PREFIXED, text) if f"xmlns:{prefix}" not in text} - {"xml", "xmlns"}
         if not used or not document.roots:
             return
         root = document.roots[0]
@@ -89,3 +92,9 @@ class UnboundNamespacePrefix(SourceRule):
                     help=f"write {bound} on the root element of this file",
                     fix=Fix("safe", f"Bind the prefix `{prefix}:`", edits) if edits else None,
                 )
+
+
+def _before_colons(text: str) -> set[str]:
+    """Return what may be a prefix: what colons follow, from a blank or ``<`` on."""
+    words = {word.rpartition("<")[2] for piece in text.split(":")[:-1] for word in piece.rsplit(None, 1)[-1:]}
+    return {word for word in words if word and _NO_NAME.isdisjoint(word)} - {"xml", "xmlns"}

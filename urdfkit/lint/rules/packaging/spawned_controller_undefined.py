@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 
+_SPAWNERS = ("spawner", "spawner.py", "controller_spawner", "controller_spawner.py")
+
+
 class SpawnedControllerUndefined(RobotRule):
     """A launch file spawns a controller that no settings define.
 
@@ -73,47 +76,12 @@ class SpawnedControllerUndefined(RobotRule):
 
 def _spawned(source: Source) -> Iterator[Named]:
     """Yield what a launch file hands to spawners as constants; what follows an option is left out."""
-    from urdfkit.lint.controllers import Named
-    from urdfkit.lint.launch import uncommented
+    from urdfkit.lint.started import started
 
-    if source.file.endswith(".py"):
-        yield from _in_python(source)
-        return
-    text = uncommented(source)
-    for tag in re.finditer(r"<node\b[^>]*>", text):
-        if not re.search(r"\b(?:type|exec)\s*=\s*[\"'](?:controller_)?spawner(?:\.py)?[\"']", tag[0]):
+    for node in started(source):
+        if node.program not in _SPAWNERS:
             continue
-        arguments = re.search(r"\bargs\s*=\s*([\"'])(.*?)\1", tag[0], re.DOTALL)
-        words = list(re.finditer(r"\S+", arguments[2])) if arguments is not None else []
-        for before, word in zip([None, *words], words, strict=False):
-            is_option = before is not None and before[0].startswith("-")
-            if re.fullmatch(r"[A-Za-z]\w*", word[0]) and not is_option and arguments is not None:
-                yield Named(word[0], tag.start() + arguments.start(2) + word.start())
-
-
-def _in_python(source: Source) -> Iterator[Named]:
-    import ast
-
-    from urdfkit.lint.controllers import Named
-    from urdfkit.lint.launch import Reader, name_of, parsed, place
-
-    tree = parsed(source)
-    if tree is None:
-        return
-    reader = Reader(tree)
-    for node in ast.walk(tree):
-        if not isinstance(node, ast.Call) or name_of(node.func) != "Node":
-            continue
-        given = {word.arg: word.value for word in node.keywords}
-        program, arguments = given.get("executable"), given.get("arguments")
-        if (
-            program is None
-            or reader.text(program) not in ("spawner", "spawner.py")
-            or not isinstance(arguments, ast.List)
-        ):
-            continue
-        for before, word in zip([None, *arguments.elts], arguments.elts, strict=False):
-            name = word.value if isinstance(word, ast.Constant) else None
-            is_option = before is not None and (reader.text(before) or "-").startswith("-")
-            if isinstance(name, str) and re.fullmatch(r"[A-Za-z]\w*", name) and not is_option:
-                yield Named(name, place(source, word)[0] + 1)
+        for before, word in zip([None, *node.arguments], node.arguments, strict=False):
+            is_option = before is not None and before.name.startswith("-")
+            if word is not None and re.fullmatch(r"[A-Za-z]\w*", word.name) and not is_option:
+                yield word

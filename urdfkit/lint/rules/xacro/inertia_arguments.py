@@ -66,9 +66,10 @@ class InertiaArguments(SourceRule):
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
         """Yield a finding for each call with another mass than that beside it."""
-        macros, source = model.signatures, document.source
-        if not macros or "<inertial" not in source.text:
+        source = document.source
+        if not any(_may_name_mass(piece) for piece in source.text.split("<inertial")[1:]):
             return
+        macros = model.signatures
         for tag in document.walk():
             if tag.name != "inertial":
                 continue
@@ -92,3 +93,9 @@ class InertiaArguments(SourceRule):
                         attribute=name,
                         fix=Fix("unsafe", f"Write {masses[0].value}", (Edit(span, masses[0].value),)),
                     )
+
+
+def _may_name_mass(text: str) -> bool:
+    """Whether something between an ``<inertial>`` and its end may have an attribute for the mass."""
+    words = text.partition("</inertial")[0].split()
+    return any(word.startswith(("m=", "mass=")) or word in ("m", "mass") for word in words)

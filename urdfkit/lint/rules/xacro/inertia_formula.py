@@ -61,7 +61,7 @@ class InertiaFormula(SourceRule):
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
         """Yield a finding for each formula with one wrong moment."""
         text = document.source.text
-        if "<inertia" not in text or "${" not in text:
+        if not any("${" in piece.partition("<")[0] for piece in text.split("<inertia")[1:]):
             return
         from urdfkit.lint.algebra import slip
 

@@ -61,6 +61,9 @@ class UnprefixedMacroCall(SourceRule):
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
         """Yield a finding for each call without its prefix."""
+        sources = model.expanded.sources.values()
+        if not any(f"<{name}" in document.source.text for source in sources for name in _near_definitions(source.text)):
+            return
         macros = model.signatures
         if not macros:
             return
@@ -75,6 +78,12 @@ class UnprefixedMacroCall(SourceRule):
                     f"`<{tag.name}>` is copied, not expanded: a call of the macro `{tag.name}` is `<xacro:{tag.name}>`",
                     fix=Fix("safe", f"Write `xacro:{tag.name}`", prefixing(document, tag)),
                 )
+
+
+def _near_definitions(text: str) -> set[str]:
+    """Return what may be a macro's name: all that quotes cut off behind the word."""
+    heads = [piece.partition("<")[0].replace("'", '"') for piece in text.split("macro")[1:]]
+    return {part.removeprefix("xacro:") for head in heads for part in head.split('"')} - {""}
 
 
 def _is_call(tag: Tag, signatures: list[Signature]) -> bool:
