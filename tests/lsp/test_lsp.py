@@ -72,8 +72,8 @@ def test_what_is_typed_is_linted_before_it_is_saved(cart):
     found = cart.published("cart.urdf.xacro")
     assert codes(found) == ["T202"]
     line = ROBOT[: ROBOT.index('<child link="mast"/>')].count("\n")
-    assert found[1]["range"]["start"] == {"line": line, "character": 11}
-    assert found[1]["severity"] == 1
+    assert found[0]["range"]["start"] == {"line": line, "character": 11}
+    assert found[0]["severity"] == 1
     cart.change("cart.urdf.xacro", ROBOT[: ROBOT.index("<gazebo>")])
     assert codes(cart.published("cart.urdf.xacro")) == ["E001"]
     cart.change("cart.urdf.xacro", ROBOT)

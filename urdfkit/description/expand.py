@@ -19,6 +19,7 @@ import sys
 from _thread import RLock  # threading itself takes half a millisecond to import
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
@@ -34,6 +35,9 @@ if TYPE_CHECKING:
     from urdfkit.description.memory import Memory
     from urdfkit.description.recovery import RecoveringRun
     from urdfkit.description.run import Run
+
+_LATER = ("ast", "glob", "xacro.cli")
+"""What xacro imports and needs for odd names, for includes with ``*``, and for its own command line."""
 
 _LOCK = RLock()
 _RECURSION_LIMIT = 10_000
@@ -138,25 +142,39 @@ def is_xacro(path: str | Path) -> bool:
     return not str(path).lower().endswith(".urdf")
 
 
-def _stock() -> Any:
-    """Import xacro without what only its own command line needs: that takes as long as expanding a small file."""
-    if "xacro" not in sys.modules and "xacro.cli" not in sys.modules:
-        stand_in: Any = ModuleType("xacro.cli")
-        stand_in.process_args = _process_args
-        sys.modules["xacro.cli"] = stand_in
-        try:
-            import xacro
-        finally:
-            del sys.modules["xacro.cli"]
-    import xacro
+class _Later(ModuleType):
+    """A module that is imported when somebody takes something from it."""
 
-    return xacro
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        if sys.modules.get(self.__name__) is self:
+            del sys.modules[self.__name__]
+        return getattr(import_module(self.__name__), name)
 
 
 def _process_args(*arguments: Any, **options: Any) -> Any:
     from xacro.cli import process_args
 
     return process_args(*arguments, **options)
+
+
+def _stock() -> Any:
+    """Import xacro without what most files do not need of it: that takes as long as expanding a small one."""
+    if "xacro" not in sys.modules:
+        later: dict[str, Any] = {name: _Later(name) for name in _LATER if name not in sys.modules}
+        if "xacro.cli" in later:
+            later["xacro.cli"].process_args = _process_args
+        sys.modules.update(later)
+        try:
+            import xacro
+        finally:
+            for name, module in later.items():
+                if sys.modules.get(name) is module:
+                    del sys.modules[name]
+    import xacro
+
+    return xacro
 
 
 @contextmanager

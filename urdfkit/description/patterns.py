@@ -6,8 +6,6 @@ A `Pattern` is what a person wrote, with its expressions. Where all that these n
 
 from __future__ import annotations
 
-import re
-
 from urdfkit.description.element import Element
 from urdfkit.description.source import Expansion, Origin, Position
 from urdfkit.description.too_large import MAX_CHARACTERS
@@ -22,7 +20,6 @@ if TYPE_CHECKING:
     Chain = tuple[Expansion, ...]
 
 _SIMPLE = (int, float, bool, str)
-_EXPRESSION = re.compile(r"\$\{([^}]*)\}")
 
 
 class Pattern:
@@ -255,10 +252,20 @@ class Maker:
         """Return a text cut at its expressions: these are every second; nothing where it is not as plain as that."""
         pieces = self._pieces.get(text)
         if pieces is None:
-            pieces = self._pieces[text] = _EXPRESSION.split(text)
-            if any("$" in piece for piece in pieces):
-                pieces.clear()
+            pieces = self._pieces[text] = _cut(text)
         return pieces
+
+
+def _cut(text: str) -> list[str]:
+    """Return a text cut at its ``${…}``; nothing where there is another ``$``."""
+    before, *others = text.split("${")
+    pieces = [before]
+    for other in others:
+        expression, end, after = other.partition("}")
+        if not end:
+            return []
+        pieces += expression, after
+    return [] if any("$" in piece for piece in pieces) else pieces
 
 
 def in_chain(element: Element, chain: Chain) -> Element:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from keyword import iskeyword
+
 from urdfkit.description.patterns import Maker
 from urdfkit.description.planting import can_plant, planted
 from urdfkit.description.recovery import RecoveringRun
@@ -23,7 +25,7 @@ class QuickRun(RecoveringRun):
         memory: what is remembered of the files; None where nothing is.
     """
 
-    HOOKS = (*RecoveringRun.HOOKS, "remove_previous_comments")
+    HOOKS = (*RecoveringRun.HOOKS, "is_valid_name", "remove_previous_comments")
 
     is_mixed = False
     memory: Memory | None = None
@@ -111,6 +113,12 @@ class QuickRun(RecoveringRun):
         super()._begin_call(name, macro)
         if self._shelf is not None and self.chain:
             self.chain = self._shelf.chain(self.chain[0], self.position_of(self._calling)[1])
+
+    def is_valid_name(self, name: str) -> bool:
+        """Return whether a property may be called so; plain names are not parsed as Python for it."""
+        if name.isascii() and name.isidentifier() and not iskeyword(name):
+            return True
+        return bool(self.stock["is_valid_name"](name))
 
     def remove_previous_comments(self, node: Any) -> None:
         """Do nothing: there are no comments."""
