@@ -66,7 +66,9 @@ def commands(answers: dict[str, str]) -> list[tuple[float, float]]:
     return [(top, 0.0), (0.0, turn), (top, turn)]
 
 
-def errors(robot: Robot, v: float, w: float) -> tuple[float, float, float]:
+def errors(
+    robot: Robot, v: float, w: float, *, settled: float = SETTLED, seconds: float = SECONDS
+) -> tuple[float, float, float]:
     """Return how far it is from its speed and from its rate, relative to what was told, and its greatest tilt [rad]."""
     simulator = Simulator(robot, note=lambda _: None)
     while simulator.t < RAMP:
@@ -74,10 +76,10 @@ def errors(robot: Robot, v: float, w: float) -> tuple[float, float, float]:
         simulator.command((v * share, 0, 0), (0, 0, w * share))
         simulator.step()
     simulator.command((v, 0, 0), (0, 0, w))
-    simulator.run(SETTLED - RAMP)
+    simulator.run(settled - RAMP)
     way = turned = tilt = 0.0
     since, (x, y, _, *_, qz, qw) = simulator.t, simulator.link_poses()[0]
-    while simulator.t < SETTLED + SECONDS - 1e-9:
+    while simulator.t < settled + seconds - 1e-9:
         simulator.command((v, 0, 0), (0, 0, w))
         simulator.run(0.1)
         before = (x, y), 2 * math.atan2(qz, qw)
