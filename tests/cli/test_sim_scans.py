@@ -91,7 +91,9 @@ def test_what_cannot_be_saved_is_said(
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("option", ["--save-scan=/scan={}.json", "--save-image=/image={}.png", "--save-world={}.sdf"])
+@pytest.mark.parametrize(
+    "option", ["--save-scan=/scan={}.json", "--save-image=/image={}.png", "--save-world={}.sdf", "--record={}.mcap"]
+)
 def test_places_are_looked_at_before_anything_runs(tmp_path: Path, capsys: Capture, monkeypatch, option: str) -> None:
     monkeypatch.setattr("urdfkit.cli.sim.headless.load", lambda _: pytest.fail("the run has started"))
     (tmp_path / "seen").mkdir()
@@ -103,7 +105,15 @@ def test_places_are_looked_at_before_anything_runs(tmp_path: Path, capsys: Captu
     (tmp_path / "x.json").mkdir()
     assert main(["sim", "run", LASER, "--for", "9", f"--save-scan={tmp_path / 'x.json'}"]) == 2
     assert capsys.readouterr().err.endswith("x.json is a folder\n")
+    assert main(["sim", "run", LASER, "--for", "9", "--record", f"{tmp_path}/x.bag"]) == 2
+    assert "recordings are MCAP; call it x.mcap" in capsys.readouterr().err
     assert sorted(each.name for each in tmp_path.iterdir()) == ["seen", "x.json"]
+
+
+def test_a_ride_looks_at_the_place_of_its_recording_first(tmp_path: Path, capsys: Capture, monkeypatch) -> None:
+    monkeypatch.setattr("urdfkit.resources.find_model", lambda *_, **__: pytest.fail("the robot is looked for"))
+    assert main(["sim", "teleop", LASER, "--record", f"{tmp_path}/nowhere/x.mcap"]) == 2
+    assert f"--record: cannot write {tmp_path}/nowhere/x.mcap: no folder" in capsys.readouterr().err
 
 
 def test_nothing_is_written_where_one_has_not_come(tmp_path: Path, capsys: Capture) -> None:

@@ -26,6 +26,19 @@ STEM = "recording"
 """What a recording is called until it is moved into place."""
 
 
+def check_name(path: Path) -> None:
+    """Refuse a file that is called anything else than a recording.
+
+    Args:
+        path: the file.
+
+    Raises:
+        UsageError: it is not called ``.mcap``.
+    """
+    if path.suffix != SUFFIX:
+        raise UsageError(f"cannot record to {path}: recordings are MCAP; call it {path.stem}{SUFFIX}")
+
+
 class Recorder:
     """Listens to every topic that carries messages, from `look` on, until `close`.
 
@@ -47,8 +60,7 @@ class Recorder:
 
     def __init__(self, bus: Bus, path: str | Path, clock: Callable[[], float]) -> None:
         self.path = Path(path)
-        if self.path.suffix != SUFFIX:
-            raise UsageError(f"cannot record to {path}: recordings are MCAP; call it {self.path.stem}{SUFFIX}")
+        check_name(self.path)
         if self.path.is_dir():
             raise ResourceError(f"cannot record to {path}: it is a folder")
         self.count = 0

@@ -51,10 +51,12 @@ def run(arguments: argparse.Namespace) -> int:
     """Serve until interrupted, or write the page."""
     require_page("view", "view", beside=("rosbags",))
     from urdfkit.cli.findings import Findings
+    from urdfkit.cli.sim.saved import check_places
     from urdfkit.resources import find_model
     from urdfkit.view.security import is_loopback
     from urdfkit.view.server import Server
 
+    check_places("--html", [Path(arguments.html)] if arguments.html is not None else [])
     model = find_model(arguments.model, package_path=arguments.package_path)
     if arguments.html is not None:
         return export(model, Path(arguments.html), quiet=arguments.quiet)

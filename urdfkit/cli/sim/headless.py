@@ -15,7 +15,7 @@ from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim import values
 from urdfkit.cli.sim.controllers import add_controllers
 from urdfkit.cli.sim.distro import add_distro
-from urdfkit.cli.sim.recording import LOOK, add_record, recording
+from urdfkit.cli.sim.recording import LOOK, add_record, check_record, recording
 from urdfkit.cli.sim.renderer import add_renderer
 from urdfkit.cli.unused import note_unused
 from urdfkit.errors import SimulationError, UsageError, did_you_mean
@@ -127,6 +127,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     saved.check_places("--save-image", (each.file for each in arguments.save_image))
     saved.check_places("--save-scan", (each.file for each in arguments.save_scan))
+    check_record(arguments.record)
     saved.check_places("--save-world", [Path(arguments.save_world)] if arguments.save_world is not None else [])
     if arguments.engine == "compiled":
         prepare_kernel(sys.stderr)

@@ -5,7 +5,10 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING
+
+from urdfkit.cli.sim.saved import check_places
 
 if TYPE_CHECKING:
     import argparse
@@ -21,6 +24,23 @@ def add_record(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--record", metavar="FILE.mcap", help="record every topic, pictures too, for ros2 bag and its relatives"
     )
+
+
+def check_record(file: str | None) -> None:
+    """Refuse a recording that cannot be written, before anything is loaded.
+
+    Args:
+        file: of ``--record``; None for none.
+
+    Raises:
+        UsageError: it is not called ``.mcap``, or cannot be written where it is.
+    """
+    if file is None:
+        return
+    from urdfkit.bridges.recorder import check_name
+
+    check_name(Path(file))
+    check_places("--record", [Path(file)])
 
 
 @contextmanager

@@ -10,7 +10,7 @@ from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim.compiling import compile_kernel, compile_rays, progress
 from urdfkit.cli.sim.controllers import add_controllers
 from urdfkit.cli.sim.distro import add_distro
-from urdfkit.cli.sim.recording import add_record, recording
+from urdfkit.cli.sim.recording import add_record, check_record, recording
 from urdfkit.cli.sim.renderer import add_renderer
 from urdfkit.cli.unused import note_unused
 
@@ -53,6 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.view.running import noted
     from urdfkit.view.server import Server
 
+    check_record(arguments.record)
     with until_interrupted():
         model = find_model(arguments.model, package_path=arguments.package_path)
         robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
