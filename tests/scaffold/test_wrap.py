@@ -139,6 +139,46 @@ def test_meshes_are_found_wherever_they_were_said_to_be(export, uri):
     assert list(meshes.copies) == [(export / "meshes/fine/link1.stl").resolve()]
 
 
+@pytest.mark.parametrize(
+    ("file", "uri"),
+    [
+        ("Grün Arm.stl", "package://gone/meshes/Grün Arm.stl"),
+        ("Grün Arm.stl", "package://gone/meshes/Gr%C3%BCn%20Arm.stl"),
+        ("Gru\u0308n Arm.stl", "meshes/Grün Arm.stl"),  # as a Mac packs it
+        ("100%.stl", "meshes/100%.stl"),
+    ],
+)
+def test_names_of_meshes_that_are_written_in_more_than_one_way(export, file, uri):
+    (export / "meshes" / file).write_bytes(stl())
+    meshes = Meshes(export / "urdf/arm.urdf")
+    place = "100_.stl" if "100" in file else "Grun_Arm.stl"
+    assert meshes.uri(uri, "arm") == f"package://arm/meshes/{place}"
+    assert list(meshes.copies) == [(export / "meshes" / file).resolve()]
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "iso-8859-1"])
+def test_names_that_not_every_tool_takes(export, capsys, encoding):
+    (export / "meshes/Grün Arm.STL").write_bytes(stl())
+    text = CAD.format(link1="package://x/meshes/Grün Arm.STL").replace("link1", "Grün Arm").replace("joint1", "Joint 1")
+    text = text.replace("base_link.STL", "B").replace("base_link", "base link").replace("B", "base_link.STL")
+    plugin = '<gazebo><plugin name="p" filename="libgazebo_ros_p3d.so"><bodyName>base link</bodyName></plugin></gazebo>'
+    text = text.replace("</robot>", f'<gazebo reference="Grün Arm"><mu1>1</mu1></gazebo>{plugin}</robot>')
+    file = export / "urdf/arm.urdf"
+    file.write_bytes(text.replace("utf-8", encoding.removesuffix("-sig")).encode(encoding))
+    assert main(["import", "export/urdf/arm.urdf", "--ros", "noetic"]) == 0
+    said = "`My Arm.SLDASM` → `my_arm`, `base link` → `base_link`, `Grün Arm` → `Grun_Arm`, `Joint 1` → `Joint_1`"
+    assert f"\nrenamed: {said}\n" in capsys.readouterr().out
+    package = export.parent / "my_arm_description"
+    robot = load(package / "urdf/my_arm.urdf.xacro", package_path=[export.parent])
+    assert (robot.name, [link.name for link in robot.links]) == ("my_arm", ["base_link", "Grun_Arm"])
+    joint = robot.joint_by_name["Joint_1"]
+    assert (joint.parent, joint.child) == ("base_link", "Grun_Arm")
+    assert [block.reference for block in robot.gazebo] == ["Grun_Arm", None]
+    assert robot.gazebo[1].plugins[0].element.find("bodyName").text == "base_link"
+    assert (package / "meshes/Grun_Arm.STL").is_file()
+    assert not [finding for finding in lint([package], package_path=[export.parent]) if finding.code == "N302"]
+
+
 def test_files_of_one_name_are_kept_apart(export):
     (export / "other/link1.stl").write_bytes(stl(0.03))
     meshes = Meshes(export / "urdf/arm.urdf")
@@ -180,11 +220,14 @@ def test_a_missing_mesh_is_refused(export, capsys):
         (["export/urdf/arm.urdf", "--meshes", "a"], "--meshes a: no such folder"),
         (["export/urdf/two.urdf"], "urdfkit: export/urdf/two.urdf:1:"),
         (["x.xacro"], "is a xacro"),
+        (["export/urdf/room.sdf"], "room.sdf is SDF"),
+        (["export/meshes/base_link.STL"], "base_link.STL is a mesh: import the URDF that names it"),
     ],
 )
 def test_what_cannot_be_is_refused_and_nothing_written(export, capsys, words, says):
     (export / "urdf/two.urdf").write_text('<robot name="t"><link name="a"/><link name="b"/></robot>')
     (export.parent / "x.xacro").write_text("<robot/>")
+    (export / "urdf/room.sdf").write_text("<sdf/>")
     before = everything(export.parent)
     assert main(["import", *words]) == 2
     said = capsys.readouterr().err
@@ -223,6 +266,8 @@ def test_the_packages_build(export, debian):
 @pytest.mark.parametrize("ros", ["jazzy", "noetic"])
 def test_it_has_what_new_robots_have(export, ros):
     """The same tests, CI and settings, from the same files."""
+    file = export / "urdf/arm.urdf"
+    file.write_text(file.read_text().replace("My Arm.SLDASM", "My-Arm"))
     assert main(["import", "export/urdf/arm.urdf", "--ros", ros, "--into", "src"]) == 0
     assert main(["new", "robot", "my_arm", "--drive", "none", "--ros", ros, "--into", "new", "--yes", "-q"]) == 0
     ours, new = export.parent / "src", export.parent / "new"
@@ -241,7 +286,7 @@ def test_it_has_what_new_robots_have(export, ros):
     ]
     assert len(same) >= 9
     for path in same:
-        text = (new / path).read_text().replace('== "my_arm"', '== "My Arm.SLDASM"')
+        text = (new / path).read_text().replace('== "my_arm"', '== "My-Arm"')
         assert (ours / path).read_text() == text, path
     assert "The robot my_arm: imported from `arm.urdf`." in (ours / "README.md").read_text()
     for path in ours.rglob("*"):

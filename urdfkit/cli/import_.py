@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 from datetime import datetime, timezone
 from pathlib import Path
 
@@ -15,6 +16,16 @@ if TYPE_CHECKING:
     from urdfkit.scaffold.template import Template
 
 _SUFFIXES = ("_description", "_gazebo", "_bringup", "_urdf", ".sldasm", ".SLDASM")
+
+_MESH = "a mesh: import the URDF that names it"
+_OTHER = {
+    ".sdf": "SDF: `--world` of the simulator takes it, import takes URDF",
+    ".world": "a world: `--world` of the simulator takes it, import takes URDF",
+    ".zip": "an archive: unpack it, and import the URDF in it",
+    **dict.fromkeys((".stl", ".dae", ".obj", ".gltf", ".glb", ".ply"), _MESH),
+    **dict.fromkeys((".step", ".stp", ".sldasm", ".sldprt", ".f3d", ".fcstd"), "CAD: import the URDF exported from it"),
+}
+"""What is no URDF, by the end of its name."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -76,7 +87,7 @@ def run(arguments: argparse.Namespace) -> int:
             print(f"\n{wrapped.meshes} mesh{'es' if wrapped.meshes > 1 else ''} copied; {file} is as it was")
         for line in wrapped.said:
             print(line)
-        where = wrapped.folders[0].as_posix()
+        where = shlex.quote(wrapped.folders[0].as_posix())
         print(f"\nnext:\n  urdfkit lint {where}\n  urdfkit view {where}\n  urdfkit sim teleop {where}")
     return 0
 
@@ -94,6 +105,8 @@ def _file(word: str) -> Path:
     if not path.is_file():
         there = [each.name for each in path.parent.iterdir()] if path.parent.is_dir() else []
         raise ResourceError(f"no such file: {word}{did_you_mean(path.name, there)}")
+    if (instead := _OTHER.get(path.suffix.lower())) is not None:
+        raise UsageError(f"{word} is {instead}")
     if path.suffix == ".xacro":
         raise UsageError(
             f"{word} is a xacro, which may have files beside it: urdfkit expand {word} -o FILE.urdf, and import that"

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterator, Sequence
 from html import unescape
 from pathlib import Path, PurePosixPath
+from urllib.parse import unquote
 
 from urdfkit.description.packages import Packages
 from urdfkit.errors import ResourceError
+from urdfkit.scaffold.names import ascii_letters
 
 URI = re.compile(r"""(<(?:mesh|texture)\b[^>]*?\bfilename\s*=\s*)(["'])(.*?)\2""", re.DOTALL)
 """The files that elements of URDF name."""
@@ -49,12 +52,16 @@ class Meshes:
             written: the URI as written in XML.
             package: the name of the new package; empty: relative to a folder beside ``meshes``.
         """
-        source = self._find(unescape(written))
+        uri = unescape(written)
+        source = self._find(uri)
+        if source is None and "%" in uri:
+            uri = unquote(uri)
+            source = self._find(uri)
         if source is None:
             self.missing += [written] if written not in self.missing else []
             return written
         if source not in self.copies:
-            self._add(source, _place(unescape(written)))
+            self._add(source, _place(uri))
         return f"package://{package}/{self.copies[source]}" if package else f"../{self.copies[source]}"
 
     def copy(self, package: Path) -> None:
@@ -103,10 +110,15 @@ class Meshes:
                 if parts and (path := home.joinpath(*parts)).is_file():
                     return path.resolve()
         for home in (*self.folders, self.description.resolve().parent, self.description.resolve().parent.parent):
-            found = [path for path in _below(home) if path.name.lower() == tail.name.lower()]
+            found = [path for path in _below(home) if _alike(path.name) == _alike(tail.name)]
             if len(found) == 1:
                 return found[0].resolve()
         return None
+
+
+def _alike(name: str) -> str:
+    """Return a file's name as it compares: case aside, and whether an umlaut is one character or two."""
+    return unicodedata.normalize("NFC", name).lower()
 
 
 def _needs(source: Path) -> list[str]:
@@ -128,9 +140,14 @@ def _tail(uri: str) -> PurePosixPath:
 def _place(uri: str) -> str:
     """Return where a file goes: below ``meshes``, with the folders that it had below one of that name.
 
-    Blanks, commas, ``#``, ``%`` and what else a URI has to escape become ``_``: not everybody escapes alike.
+    Blanks, commas, ``#``, ``%`` and what else a URI has to escape become ``_``, and letters lose their accents: not
+    everybody escapes alike.
     """
-    parts = [re.sub(r"[^\w.+-]+", "_", part, flags=re.ASCII) for part in _tail(uri).parts if part not in (".", "..")]
+    parts = [
+        re.sub(r"[^\w.+-]+", "_", ascii_letters(part), flags=re.ASCII)
+        for part in _tail(uri).parts
+        if part not in (".", "..")
+    ]
     named = [index for index, part in enumerate(parts[:-1]) if part.lower() in _FOLDER_NAMES]
     return str(PurePosixPath("meshes", *(parts[named[-1] + 1 :] if named else parts[-1:])))
 

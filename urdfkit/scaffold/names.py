@@ -13,6 +13,7 @@ from urdfkit.errors import UsageError
 _VALID = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
 _WORLD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _WORLD_FILE = re.compile(r"\.(sdf|world)$", re.IGNORECASE)
+_PLAIN = re.compile(r"[A-Za-z0-9_.-][A-Za-z0-9_./-]*")
 _LONGEST = 60
 
 
@@ -58,7 +59,7 @@ def check_world_name(name: str) -> str:
         return name
     bare = _WORLD_FILE.sub("", name)
     last = PurePosixPath(bare).name
-    words = re.sub(r"\W+", "_", _ascii(bare), flags=re.ASCII).strip("_")
+    words = re.sub(r"\W+", "_", ascii_letters(bare), flags=re.ASCII).strip("_")
     near = f"world_{words}".rstrip("_") if not words[:1].isalpha() else words
     hint = _into(bare, _WORLD.fullmatch(last) is not None) or near[:_LONGEST].rstrip("_")
     raise UsageError(
@@ -77,8 +78,12 @@ def _into(name: str, is_name: bool) -> str:
     return f"{path.name} --into {path.parent}" if is_name and len(path.parts) > 1 and ".." not in path.parts else ""
 
 
-def _ascii(name: str) -> str:
-    """Return a name with letters in the place of those with accents."""
+def ascii_letters(name: str) -> str:
+    """Return a name with letters in the place of those with accents, and without what has none.
+
+    Args:
+        name: anything.
+    """
     return unicodedata.normalize("NFKD", name.replace("ß", "ss")).encode("ascii", "ignore").decode()
 
 
@@ -88,11 +93,24 @@ def sanitised(name: str) -> str:
     Args:
         name: anything.
     """
-    words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", _ascii(name))
+    words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", ascii_letters(name))
     words = re.sub(r"[^a-z0-9]+", "_", words.lower()).strip("_")
     if not words or not words[0].isalpha():
         words = f"robot_{words}".rstrip("_")
     return words[:_LONGEST].rstrip("_") if len(words) > 1 else f"{words}_robot"
+
+
+def plain(name: str) -> str:
+    """Return the name of a link or joint nearest to `name` that every tool takes; empty for none.
+
+    Those are letters, digits, ``_``, ``-`` and ``.``, and ``/`` but in front.
+
+    Args:
+        name: anything.
+    """
+    if _PLAIN.fullmatch(name):
+        return name
+    return re.sub(r"[^\w./-]+", "_", ascii_letters(name), flags=re.ASCII).strip("_/")
 
 
 def free(name: str, is_taken: Callable[[str], bool]) -> str:

@@ -20,6 +20,7 @@ from urdfkit.scaffold.filling import fill
 from urdfkit.scaffold.meshes import URI, Meshes
 from urdfkit.scaffold.new import is_fresh, made
 from urdfkit.scaffold.reading import load_template
+from urdfkit.scaffold.renaming import in_utf8, renamed, told
 
 KINDS = ("description", "gazebo", "bringup")
 
@@ -76,7 +77,10 @@ def wrap(
         if target.exists() or target.is_symlink():
             raise ResourceError(f"{target} is already there; nothing is overwritten")
     meshes = Meshes(file, mesh_folders)
-    content = rewritten(_read(file), meshes, f"{name}_description" if len(kinds) > 1 else "")
+    text, new = renamed(in_utf8(_read(file)).decode("utf-8", "surrogateescape"), name)
+    content = rewritten(
+        text.encode("utf-8", "surrogateescape"), meshes, f"{name}_description" if len(kinds) > 1 else ""
+    )
     if meshes.missing:
         more = f" and {len(meshes.missing) - 1} more" if len(meshes.missing) > 1 else ""
         raise ResourceError(f"{file}: no file for `{meshes.missing[0]}`{more}; nothing was written: --meshes DIR?")
@@ -90,7 +94,7 @@ def wrap(
         model.parent.mkdir(parents=True, exist_ok=True)
         model.write_bytes(content)
         meshes.copy(stage / f"{name}_description")
-        said = list(mend(stage))
+        said = [*told(new), *mend(stage)]
         robot = _loaded(model, stage, file)
         picture = _drawn(robot, stage / f"{name}_description", name)
         origin = f"imported from `{file.name}`"
