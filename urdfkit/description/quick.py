@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from types import ModuleType
     from typing import Any
 
+    from typing_extensions import Self
+
     from urdfkit.description.memory import Memory
     from urdfkit.description.source import Source
 
@@ -57,21 +59,12 @@ class QuickRun(RecoveringRun):
             return super().read_document(source)
         return planted(source, self) if self.memory is None else self.memory.document(source, self)
 
-    def with_hindsight(self) -> RecoveringRun | None:
+    def with_hindsight(self) -> Self | None:
         """Return a run that knows what this one found defined too late; None when there is nothing new."""
         again = super().with_hindsight()
-        if again is None:
-            return None
-        quick = QuickRun(
-            again.path,
-            again.arguments,
-            again.packages,
-            mend_prefixes=self._mend_prefixes,
-            hindsight=again.hindsight,
-            texts=again.texts,
-        )
-        quick.memory = self.memory
-        return quick
+        if again is not None:
+            again.memory = self.memory
+        return again
 
     def printed(self) -> str:
         """Return the document as stock xacro prints it: by a run that keeps what is to be printed."""

@@ -8,21 +8,17 @@ values that the first pass came to in the end.
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
 
 from urdfkit.description.calls import LEFT_OUT, fitted, is_call_of, near_macro
 from urdfkit.description.diagnosis import defined_in, fault_of, undefined_macro, undefined_property
-from urdfkit.description.endless import Endless
-from urdfkit.description.expanded import Expanded
-from urdfkit.description.faults import Fault, Unprefixed
+from urdfkit.description.faults import Unprefixed
 from urdfkit.description.frames import Place, place_of_call
 from urdfkit.description.grafting import child_at_fault, drop
+from urdfkit.description.noting import NotingRun
 from urdfkit.description.prefixes import looks_like_a_call, mend_directives, rename
 from urdfkit.description.reading import shown_path, stamped_document
-from urdfkit.description.run import Run
 from urdfkit.description.source import Position, Source
 from urdfkit.description.spelling import mend_spelling
-from urdfkit.description.too_large import TooMany
 from urdfkit.description.unknown import FallbackSymbols, Unknown, peek
 from urdfkit.description.vocabulary import TAGS
 from urdfkit.errors import XmlError
@@ -33,90 +29,25 @@ if TYPE_CHECKING:
     from typing import Any
     from xml.dom import minidom
 
-    from urdfkit.description.packages import Packages
 
 _MAX_DROPPED = 1_000
 """Give up on an element after so many of its children had to be dropped."""
 
 
-class RecoveringRun(Run):
-    """One expansion that goes on after errors.
+class RecoveringRun(NotingRun):
+    """One expansion that goes on after errors: what xacro calls mends what is wrong."""
 
-    Args:
-        path: as the user named it.
-        arguments: values for ``$(arg …)``.
-        packages: resolves ``$(find …)``.
-        mend_prefixes: read directives and macro calls without ``xacro:`` as if they had it.
-        hindsight: values of properties, and macros, that an earlier run found defined too late.
-        texts: contents to read instead of those on disk, by absolute path.
-    """
+    HOOKS = (*NotingRun.HOOKS, "eval_all", "get_boolean_value", "process_include")
 
-    HOOKS = (*Run.HOOKS, "eval_all", "get_boolean_value", "process_include")
-
-    def __init__(
-        self,
-        path: str,
-        arguments: Mapping[str, str],
-        packages: Packages,
-        *,
-        mend_prefixes: bool,
-        hindsight: tuple[Mapping[str, Any], Mapping[str, Any]] = ({}, {}),
-        texts: Mapping[str, str] | None = None,
-    ) -> None:
-        super().__init__(path, arguments, packages, texts=texts)
-        self._mend_prefixes = mend_prefixes
-        self.hindsight = self._late_properties, self._late_macros = hindsight
-        self._unprefixed: dict[Unprefixed, None] = {}
-        self._unresolved: set[tuple[Position, str | None]] = set()
-        self._strangers: set[str] = set()
-        self._included = ""
-        self._endless: set[str] = set()
-        self._tables: tuple[Any, Any] | None = None
-        self._evaluating = 0
-        self._is_full = False
-        self._level = 0
-        self._found_unknown = False
+    _included = ""
+    _evaluating = _level = 0
+    _found_unknown = _missed = False
 
     def take(self, xacro: ModuleType) -> dict[str, Any]:
         """Lend the recovering functions too."""
         lent = super().take(xacro)
         lent["_global_symbols"] = FallbackSymbols(lent["_global_symbols"], self.missing_symbol)
         return lent
-
-    def expand(self) -> None:
-        """Expand the file as far as it goes; xacro's globals have to be lent.
-
-        Raises:
-            ResourceError: the file cannot be read.
-        """
-        try:
-            super().expand()
-        except XmlError as error:
-            self._note(fault_of(error, self, sys._getframe()))
-        self._learn()
-
-    def with_hindsight(self) -> RecoveringRun | None:
-        """Return a run that knows what this one found defined too late; None when there is nothing new."""
-        properties, macros = self._learned
-        if self._is_full or self.evaluator.is_exhausted:
-            return None
-        if properties.keys() <= self._late_properties.keys() and macros.keys() <= self._late_macros.keys():
-            return None
-        return RecoveringRun(
-            self.path,
-            self.arguments,
-            self.packages,
-            mend_prefixes=self._mend_prefixes,
-            hindsight=({**self._late_properties, **properties}, {**self._late_macros, **macros}),
-            texts=self.texts,
-        )
-
-    def outcome(self) -> Expanded:
-        """Return what came of it, with the faults."""
-        plain = super().outcome()
-        return Expanded(
-            **{**vars(plain), "unprefixed": tuple(self._unprefixed), "unresolved": frozenset(self._unresolved)}
-        )
 
     # What xacro calls instead of its own functions of the same name.
 
@@ -212,8 +143,6 @@ class RecoveringRun(Run):
             self._found_unknown = True
             return Unknown(f"${{{expr}}}")
         return value
-
-    _missed = False
 
     def missing_symbol(self, name: str) -> Any:
         """Return the value of a property that is not defined (yet), and note it.
@@ -325,73 +254,6 @@ class RecoveringRun(Run):
             return self.stock["resolve_macro"](name, macros, symbols)[2]
         except (KeyError, TypeError):
             return self._late_macros.get(name)
-
-    def _learn(self) -> None:
-        """Remember the values of what was undefined when used and is defined by now."""
-        properties: dict[str, Any] = {}
-        macros: dict[str, Any] = {}
-        self._learned = properties, macros
-        if self._tables is None:
-            return
-        table_of_macros, table = self._tables
-        for kind, name in {(fault.kind, fault.name): None for fault in self.faults.values() if fault.name}:
-            if kind == "undefined-property" and dict.__contains__(table, name):
-                value = table[name]
-                if not isinstance(value, Unknown):
-                    properties[name] = value
-            elif kind == "undefined-macro" and dict.__contains__(table_of_macros, name):
-                macros[name] = dict.__getitem__(table_of_macros, name)
-        for name in self._strangers:
-            if dict.__contains__(table_of_macros, name):
-                macros[name] = dict.__getitem__(table_of_macros, name)
-
-    def _fault(self, error: Exception, node: Any) -> Fault:
-        """Diagnose what was raised; which of too many elements, or rounds, was the last is of no interest."""
-        if isinstance(error, TooMany) and node is not None:
-            return Fault("too-many", str(error), *self.position_of(node))
-        fault = fault_of(error, self, sys._getframe(1))
-        if isinstance(error, Endless) and error.what == "file":
-            return Fault(**{**vars(fault), "position": self.position_of(node)[0]})
-        return fault
-
-    def _goes_up(self, error: Exception, files: int, *, is_inside: bool) -> bool:
-        """Return whether an error is dealt with further out: what is dropped is what a person wrote, with all it made.
-
-        Args:
-            error: what was raised.
-            files: how many files include each other here; where one of them does so twice, a round has begun again.
-            is_inside: whether this is inside what a person wrote.
-        """
-        if isinstance(error, Endless) and error.what == "file":
-            open_files = [shown_path(file) for file in self.xacro.filestack[:files]]
-            return len(set(open_files)) < len(open_files)
-        return isinstance(error, TooMany | RecursionError) and is_inside
-
-    def _note(self, fault: Fault) -> None:
-        if fault.kind == "too-many":
-            if self._is_full:
-                return
-            self._is_full = True
-        # What calls itself twice would be tried a power of two times.
-        self._endless.update(fault.details.get("cycle", ()) if fault.kind == "recursion" else ())
-        key = (fault.kind, fault.position, fault.attribute, fault.name, fault.message, fault.expansions)
-        self.faults.setdefault(key, fault)
-
-    def _note_at(self, place: Place, facts: dict[str, Any]) -> None:
-        position, expansions, attribute = self.where(place)
-        expression = place.expression
-        self._note(Fault(position=position, expansions=expansions, attribute=attribute, expression=expression, **facts))
-
-    def _mark_unresolved(self) -> None:
-        place = place_of_call(sys._getframe(2))
-        if place.node is not None and place.property is None:
-            self._unresolved.add((self.position_of(place.node)[0], place.attribute))
-
-    def _unwind(self, depth: tuple[int, int]) -> None:
-        """Forget the files and macros that an error left open."""
-        del self.xacro.filestack[depth[0] :]
-        del self.xacro.macrostack[depth[1] :]
-        self.end_call()
 
 
 def _too_late(what: str, name: str, at: Position | None) -> str:
