@@ -202,7 +202,7 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
         (["robot", "scout", "--sensor", "lidar", "--base-length", "0.2"], "the sensors have no room: --base-length"),
         (["robot", "scout", "--gripper"], "--gripper is for --arm 3 or 4 or 5 or 6 or 7"),
         (["robot", "scout", "--wheel-raduis", "1"], "did you mean `--wheel-radius`?"),
-        (["robot", "scout", "--wheel-radius", "5cm"], r"--wheel-radius `5cm` is no number \(in m\)"),
+        (["robot", "scout", "--wheel-radius", "5in"], r"--wheel-radius `5in` is no number \(in m, cm, mm\)"),
         (["robot", "scout", "--mass", "400"], "no material is that heavy: --mass"),
         (["robot", "scout", "--mass", "0.01"], "nothing is that light: --mass"),
         (["robot", "scout", "--mass", "-1"], "--mass -1 kg is out of range"),

@@ -37,7 +37,7 @@ def test_what_skids_is_not_behind_at_the_end_of_a_ramp(robot_template, tmp_path)
 
 
 def test_what_skids_turns_with_a_mast_and_an_arm_on_it(robot_template, tmp_path):
-    """Off its middle it turns more, as the docs say; 25 % where the wheels were too weak for what stands on the base."""
+    """Off its middle it turns more, as the docs say; with wheels too weak for what stands on the base 25 %."""
     given = {
         "drive": "skid",
         "ros": "none",

@@ -13,6 +13,18 @@ def test_numbers(typed, answer):
     assert RADIUS.accept(typed) == answer
 
 
+@pytest.mark.parametrize(("typed", "answer"), [("25 cm", "0.25"), ("25cm", "0.25"), (".5m", "0.5"), ("1e2 mm", "0.1")])
+def test_numbers_with_their_unit(typed, answer):
+    assert RADIUS.accept(typed) == answer
+
+
+@pytest.mark.parametrize(
+    ("unit", "typed", "answer"), [("kg", "500 g", "0.5"), ("m/s", "36 km/h", "10"), ("", "2", "2")]
+)
+def test_other_units(unit, typed, answer):
+    assert Question("x", "X", "number", unit=unit).accept(typed) == answer
+
+
 @given(st.floats(0.01, 10))
 def test_numbers_keep_ten_digits(value):
     assert float(RADIUS.accept(repr(value))) == pytest.approx(value, rel=1e-9)
@@ -21,7 +33,12 @@ def test_numbers_keep_ten_digits(value):
 @pytest.mark.parametrize(
     ("typed", "message"),
     [
-        ("5cm", r"--wheel-radius `5cm` is no number \(in m\)"),
+        ("5in", r"--wheel-radius `5in` is no number \(in m, cm, mm\)"),
+        ("5 kg", r"is no number \(in m, cm, mm\)"),
+        ("0,25", r"is no number .*; did you mean `0\.25`\?"),
+        ("1,000", r"is no number \(in m, cm, mm\)$"),
+        ("cm", "is no number"),
+        ("5000 cm", "out of range"),
         ("", "is no number"),
         ("0", "--wheel-radius 0 m is out of range: 0.01 to 10 m"),
         ("-1", "out of range"),
@@ -42,6 +59,21 @@ def test_choices():
         ros.accept("humble")
     with pytest.raises(UsageError, match="did you mean `jazzy`"):
         ros.accept("jazy")
+
+
+def test_choices_however_they_are_written(robot_template):
+    assert robot_template.question("license").accept("mit") == "MIT"
+    assert robot_template.question("sensor").accept("Lidar and camera") == "lidar camera"
+    assert robot_template.question("sensor").accept("none") == ""
+    with pytest.raises(UsageError, match="given twice"):
+        robot_template.question("sensor").accept("lidar, Lidar")
+
+
+def test_every_question_explains_itself(robot_template):
+    explained = {question.name: question.explanation for question in robot_template.questions}
+    assert all(explained.values())
+    assert explained["base_length"] == "a number in m, 0.005 to 50"
+    assert explained["license"] == "one of Apache-2.0, BSD-3-Clause, MIT"
 
 
 def test_computed_default():

@@ -12,6 +12,16 @@ from urdfkit.errors import UsageError, did_you_mean
 from urdfkit.scaffold.expression import value_of
 from urdfkit.scaffold.names import check_package_name, check_world_name
 
+UNITS = {
+    "m": {"m": 1.0, "cm": 0.01, "mm": 0.001},
+    "kg": {"kg": 1.0, "g": 0.001, "t": 1000.0},
+    "m/s": {"m/s": 1.0, "cm/s": 0.01, "km/h": 1 / 3.6},
+    "N·m": {"N·m": 1.0, "Nm": 1.0},
+}
+"""What may stand behind a number, by the unit it is meant in, and how much of that it is."""
+
+_MEASURE = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*([^\W\d].*)", re.IGNORECASE)
+
 When = Mapping[str, tuple[str, ...]]
 """Which answers something is for, by question."""
 
@@ -115,6 +125,7 @@ class Question:
         return answer
 
     def _choice(self, answer: str) -> str:
+        answer = {choice.lower(): choice for choice in self.choices}.get(answer.lower(), answer)
         if answer not in self.choices:
             near = did_you_mean(answer, self.choices)
             if (meant := self.called.get(answer.lower())) is not None:
@@ -123,9 +134,12 @@ class Question:
         return answer
 
     def _several(self, answers: list[str]) -> str:
-        """Return them in the order of the choices, with spaces between."""
+        """Return them in the order of the choices, with spaces between; `none` alone is none of them."""
+        if [answer.lower() for answer in answers] == ["none"]:
+            return ""
+        answers = [self._choice(answer) for answer in answers if answer != "and"]
         for answer in answers:
-            if answers.count(self._choice(answer)) > 1:
+            if answers.count(answer) > 1:
                 raise UsageError(f"{self.option} `{answer}` is given twice; one of each")
         return " ".join(choice for choice in self.choices if choice in answers)
 
@@ -144,15 +158,32 @@ class Question:
 
     def _number(self, answer: str) -> str:
         unit = f" {self.unit}" if self.unit else ""
+        known = UNITS.get(self.unit, {})
+        measure = _MEASURE.fullmatch(answer)
         try:
-            value = float(answer)
+            value = float(measure[1]) * known[measure[2]] if measure and measure[2] in known else float(answer)
         except ValueError:
-            in_unit = f" (in {self.unit})" if self.unit else ""
-            raise UsageError(f"{self.option} `{answer}` is no number{in_unit}") from None
+            in_unit = f" (in {', '.join(known) or self.unit})" if self.unit else ""
+            near = answer.replace(",", ".", 1)
+            hint = f"; did you mean `{near}`?" if re.fullmatch(r"-?\d*\.(?!\d{3}$)\d+", near) else ""
+            raise UsageError(f"{self.option} `{answer}` is no number{in_unit}{hint}") from None
         least, greatest = self.range
         if not least <= value <= greatest:
             raise UsageError(f"{self.option} {answer}{unit} is out of range: {least:g} to {greatest:g}{unit}")
         return f"{value:.10g}"
+
+    @property
+    def explanation(self) -> str:
+        """What to say to who does not know what is asked."""
+        if self.help:
+            return self.help
+        if self.kind == "package":
+            return "lower case letters, digits and single underscores, as in my_robot"
+        if self.kind == "number":
+            least, greatest = self.range
+            return f"a number{f' in {self.unit}' if self.unit else ''}, {least:g} to {greatest:g}"
+        among = ("yes", "no") if self.kind == "flag" else self.choices
+        return f"one of {', '.join(among)}" if among else "any text"
 
     def out_of_range(self, answer: str) -> str:
         """Return what is wrong with a number that follows from other answers.
