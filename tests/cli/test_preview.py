@@ -14,6 +14,7 @@ import pytest
 from urdfkit.cli.preview import Preview, can_preview
 from urdfkit.description import load
 from urdfkit.errors import ResourceError
+from urdfkit.lint import lint
 from urdfkit.resources import templates_dir
 from urdfkit.scaffold import load_template
 
@@ -92,10 +93,10 @@ def links_on(url):
 
 def test_the_page_follows_the_answers(terminal, tmp_path):
     asking = terminal("new", "robot")
+    url = asking.until(r"preview: (http://127\.0\.0\.1:\d+/\?token=\S+)")[1]
+    assert "left_wheel" in " ".join(links_on(url))  # before anything was asked
     asking.until("Name of the robot")
     asking.type("rover")
-    url = asking.until(r"preview: (http://127\.0\.0\.1:\d+/\?token=\S+)")[1]
-    assert "left_wheel" in " ".join(links_on(url))
     asking.until(r"ROS distribution[^\n]*: ")
     asking.type("jazzy")
     asking.until(r"Drive [^\n]*: ")
@@ -123,12 +124,22 @@ def test_without_a_preview_it_only_asks(terminal, tmp_path):
     assert "preview:" not in asking.until(r"(?s).*rover_description +\d+ files")[0]
 
 
+def test_who_does_not_know_may_ask(terminal):
+    asking = terminal("new", "robot", "rover", "--no-preview")
+    asking.until("ROS distribution")
+    asking.type("?")
+    asking.until("noetic is ROS 1, the others ROS 2")
+    asking.until("ROS distribution")
+    asking.type("quit")
+    asking.until("--ros `quit` is not available.*; Ctrl-C ends, and writes nothing")
+
+
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGHUP])
 def test_an_interrupt_leaves_nothing(terminal, tmp_path, how):
     asking = terminal("new", "robot", "rover")
+    url = asking.until(r"preview: (http://\S+)")[1]
     asking.until("ROS distribution")
     asking.type("jazzy")
-    url = asking.until(r"preview: (http://\S+)")[1]
     asking.process.send_signal(how)
     assert asking.process.wait(PATIENCE) == 128 + how
     assert list(tmp_path.iterdir()) == []
@@ -139,15 +150,19 @@ def test_an_interrupt_leaves_nothing(terminal, tmp_path, how):
 def test_answers_that_make_no_robot_leave_the_last_one(monkeypatch):
     monkeypatch.setattr(Preview, "_start", lambda self: None)
     with Preview(TEMPLATE) as shown:
+        shown.follow({"wheel_radius": "5"})
+        assert list(shown.folder.iterdir()) == []
         shown.follow({"drive": "diff"})
-        assert list(shown.folder.iterdir()) == []  # no name yet
+        assert load(shown.model).name == "robot"  # no name yet
         shown.follow({"name": "rover", "drive": "diff"})
-        model = shown.folder / "rover_description/urdf/rover.urdf.xacro"
-        before = model.read_bytes()
+        assert load(shown.model).name == "rover"
+        assert [str(finding) for finding in lint([shown.model])] == []
+        drive = shown.folder / "rover_description/urdf/drive.xacro"
+        before = drive.read_bytes()
         shown.follow({"name": "rover", "drive": "diff", "wheel_radius": "5"})
-        assert model.read_bytes() == before
-        shown.follow({"name": "other", "drive": "diff", "base_length": "0.6"})
-        assert b'"base_length" value="0.6"' in model.read_bytes()
+        assert drive.read_bytes() == before
+        shown.follow({"name": "rover", "drive": "diff", "base_length": "0.6", "arm": "6"})
+        assert load(shown.model).joint_by_name["elbow_joint"].type == "revolute"
         folder = shown.folder
     assert not folder.exists()
 

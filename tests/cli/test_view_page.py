@@ -70,6 +70,41 @@ def test_a_badge_leads_to_the_finding_and_its_fix_is_applied(serve, visits, unti
     assert visits.problems == []
 
 
+def test_a_robot_that_outgrows_the_view_is_fitted_again_but_not_against_a_person(
+    serve, visits, until, tmp_path: Path
+) -> None:
+    path = tmp_path / "box.urdf"
+
+    def grow(size: float) -> None:
+        shape = f'<visual><geometry><box size="{size} {size} {size}"/></geometry></visual>'
+        path.write_text(f'<robot name="box"><link name="base">{shape}</link></robot>')
+
+    def radius() -> float:
+        return float(page.evaluate("urdfkit.stage.radius"))
+
+    grow(1.0)
+    page = visits.open(serve("view", str(path)).url)
+    until(lambda: radius() == pytest.approx(0.75**0.5))
+    for size in (2.0, 0.5):
+        grow(size)
+        until(lambda size=size: radius() == pytest.approx(0.75**0.5 * size))
+    model = page.evaluate("urdfkit.scene.model")
+    grow(0.55)
+    until(lambda: page.evaluate("urdfkit.scene.model") != model)
+    page.wait_for_timeout(200)
+    assert radius() == pytest.approx(0.75**0.5 * 0.5)
+    middle = page.locator("#pane").bounding_box()
+    page.mouse.move(middle["x"] + middle["width"] / 2, middle["y"] + middle["height"] / 2)
+    page.mouse.wheel(0, 300)
+    page.wait_for_timeout(200)
+    camera = page.evaluate("urdfkit.stage.viewer.camera.position.toArray()")
+    model = page.evaluate("urdfkit.scene.model")
+    grow(3.0)
+    until(lambda: page.evaluate("urdfkit.scene.model") != model)
+    page.wait_for_timeout(200)
+    assert page.evaluate("urdfkit.stage.viewer.camera.position.toArray()") == pytest.approx(camera)
+
+
 def test_a_finding_in_a_macro_marks_every_link_it_made(serve, visits, until, tmp_path: Path) -> None:
     path = tmp_path / "two.urdf.xacro"
     path.write_text(TWINS)

@@ -138,6 +138,7 @@ def _asked(template: Template, given: dict[str, str], *, preview: bool) -> dict[
     if not preview or not can_preview(template):
         return _ask(template, given)
     with Preview(template) as shown:
+        shown.follow(given)
         return _ask(template, given, follow=shown.follow)
 
 
@@ -153,11 +154,15 @@ def _ask(
             found.setdefault(question.name, default or "")
             continue
         while question.name not in found:
+            answer = _answered(question, default)
+            if answer == "?":
+                print(f"  {question.explanation}", file=sys.stderr)
+                continue
             try:
-                answer = _answered(question, default)
                 accepted = {**found, question.name: question.accept(answer or default or "")}
             except UsageError as error:
-                print(f"  {error}", file=sys.stderr)
+                leave = "; Ctrl-C ends, and writes nothing" if answer.lower() in ("q", "quit", "exit") else ""
+                print(f"  {error}{leave}", file=sys.stderr)
                 continue
             wrong, instead = template.contradiction(accepted, question.name)
             if wrong and not instead:  # it is an earlier answer that would have to change

@@ -13,10 +13,13 @@ from pathlib import Path
 from urdfkit.atomic import write_bytes
 from urdfkit.cli.page import NEEDED
 from urdfkit.errors import UrdfkitError
+from urdfkit.resources import find_model
 from urdfkit.scaffold import Template, computed, fill
 
 PATIENCE = 6.0
-"""Seconds to wait for the page before the next question is asked without it."""
+"""Seconds to wait for the page before the first question is asked without it."""
+STAND_IN = "robot"
+"""What the robot is called until it has a name."""
 _ENDING = 5.0
 
 
@@ -27,6 +30,10 @@ class Preview:
 
     Args:
         template: which has a robot to look at (`Template.teleop`).
+
+    Attributes:
+        model: the file that the page looks at.
+        url: of the page; empty while there is none.
     """
 
     def __init__(self, template: Template) -> None:
@@ -34,7 +41,7 @@ class Preview:
         self.folder = Path(tempfile.mkdtemp(prefix="urdfkit-preview-"))
         self.url = ""
         self._view: subprocess.Popen[str] | None = None
-        self._name: str | None = None
+        self.model = self.folder / "preview.urdf.xacro"
         self._ready = threading.Event()
         self._told = False
 
@@ -57,14 +64,10 @@ class Preview:
         """Show the robot of these answers, the others by default; where they make none, that of before stays.
 
         Args:
-            found: answers by question; without a name nothing is shown yet.
+            found: answers by question.
         """
-        if "name" not in found:
-            return
-        # Files keep their names while the page looks at them.
-        self._name = self._name or found["name"]
         try:
-            self._write({**found, "name": self._name})
+            self._write({"name": STAND_IN, **found})
         except UrdfkitError:  # sizes that do not go together, yet
             return
         if self._view is None:
@@ -79,15 +82,15 @@ class Preview:
             targets = self.template.render({**answers, "year": "", "into": "."}, Path(place))
             # What includes others comes last: the page looks again when that changes.
             for target in sorted(targets, key=lambda path: (".urdf." in path.name, path)):
-                content, old = Path(place, target).read_bytes(), self.folder / target
-                if not old.exists() or old.read_bytes() != content:
-                    old.parent.mkdir(parents=True, exist_ok=True)
-                    write_bytes(old, content)
+                _put(self.folder / target, Path(place, target).read_bytes())
+        home = self.folder / fill(self.template.teleop, answers, where="teleop")
+        robot = find_model([str(home)]).path.relative_to(self.folder).as_posix()
+        # The page looks at one file, whatever the robot is called.
+        _put(self.model, _WINDOW.format(name=answers["name"], robot=robot).encode())
 
     def _start(self) -> None:
-        model = self.folder / fill(self.template.teleop, {"name": self._name or ""}, where="teleop")
         self._view = subprocess.Popen(
-            [sys.executable, "-m", "urdfkit", "view", str(model), "--port", "0", "--quiet"],
+            [sys.executable, "-m", "urdfkit", "view", str(self.model), "--port", "0", "--quiet"],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
@@ -108,6 +111,19 @@ class Preview:
         if self.url and not self._told:
             self._told = True
             print(f"preview: {self.url}", file=sys.stderr, flush=True)
+
+
+_WINDOW = """<robot name="{name}" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="{robot}"/>
+</robot>
+"""
+
+
+def _put(path: Path, content: bytes) -> None:
+    """Write a file that is not that already."""
+    if not path.exists() or path.read_bytes() != content:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_bytes(path, content)
 
 
 def can_preview(template: Template) -> bool:

@@ -22,6 +22,7 @@ const scene = new Scene(stage);
 const page = new Page(stage, scene, new Panels($("panel"), $("rail")));
 let root = 0;
 let fitted = false;
+let changed = false; // whether the robot is another one than what the view was fitted to
 let touched = false; // whether a person has turned the view themselves
 stage.viewer.controls.addEventListener("start", () => (touched = true));
 
@@ -37,7 +38,8 @@ page.on("hello", (message) => {
   page.panels.use(message.mode);
 });
 page.on("model", (message) => {
-  if (page.model?.name !== message.name) fitted = false;
+  if (!page.model || (page.mode === "sim" && page.model.name !== message.name)) fitted = false;
+  changed = true;
   page.model = message;
   root = message.root;
   document.title = `${message.name} · urdfkit`;
@@ -85,6 +87,11 @@ function applied(sequence, time) {
     scene.settled().then(() => {
       document.body.dataset.ready = page.fit();
     });
+  } else if (changed && page.mode === "view") {
+    scene.settled().then(() => {
+      if (stage.outgrown(scene.bounds())) page.fit(null);
+    });
   }
+  changed = false;
   document.body.dataset.frames = Number(document.body.dataset.frames ?? 0) + 1;
 }

@@ -10,6 +10,7 @@ const THEMES = {
   dark: { sky: 0x161b23, major: 0x49566a, minor: 0x2a3340, shadow: 0.45, hemisphere: 0.7 },
 };
 const FOV = 42;
+const ROOM = 1.3; // how much larger than when the view was fitted a robot may be
 const PATIENCE = 2500; // ms after which what there is is drawn, though the robot has not come yet
 
 export class Stage {
@@ -162,9 +163,23 @@ export class Stage {
     this.sun.shadow.camera.updateProjectionMatrix();
     this.haze();
     controls.update();
+    this.fitted = { sphere, place: this.#place() };
     this.begin();
     this.dirty();
     return true;
+  }
+
+  /** Whether a box is out of the picture of the last fit, or little in it, while nobody has moved the camera since. */
+  outgrown(box) {
+    if (!this.fitted || box.isEmpty() || this.#place() !== this.fitted.place) return false;
+    const { center, radius } = box.getBoundingSphere(new THREE.Sphere());
+    const before = this.fitted.sphere;
+    return before.center.distanceTo(center) + radius > ROOM * before.radius || radius * ROOM * ROOM < before.radius;
+  }
+
+  #place() {
+    const { camera, controls } = this.viewer;
+    return [...camera.position.toArray(), ...controls.target.toArray(), camera.isOrthographicCamera ? camera.zoom : 0].map((x) => x.toPrecision(4)).join();
   }
 
   /** Tell where the root link is [m, z up]; light and ground go with it, the camera too if it should. */

@@ -58,13 +58,14 @@ export class Tools {
 export function tools(page) {
   page.tools = new Tools(page, document.getElementById("tools"));
   page.on("hello", () => page.tools.offer());
-  page.fit = () => {
+  /** Bring the robot into the picture; `direction` null looks from where it is looked from now. */
+  page.fit = (direction) => {
     // In the simulation from behind, so that forward is away from the driver and left is left.
     const sim = page.mode === "sim";
     const room = sim ? (page.drives === false ? 1.2 : 1.9) : 1; // who drives wants to see where to
     const box = page.scene.bounds();
     const view = sim && !box.isEmpty() ? page.sight.clear(box, [-1, -0.55, 0.75], page.stage.distance(box, room)) : { direction: [1, 0.75, 0.6], part: 1 };
-    const done = page.stage.fit(box, view.direction, room * view.part);
+    const done = page.stage.fit(box, direction === null ? null : view.direction, room * view.part);
     page.emit("fit", done);
     return done;
   };
