@@ -196,7 +196,7 @@ def test_wheels_that_sink_a_mass_that_lacks_and_what_a_foreign_plugin_hides(tmp_
     def serious(target):
         return sorted(f.code for f in lint(tmp_path, target=target) if f.severity != "info")
 
-    assert serious("ros1") == ["G610", "G610", "I501", "S901", "S902", "Z805"]
+    assert serious("ros1") == ["G610", "G610", "I501", "S901", "S902", "S908", "Z805"]
     assert serious("gz") == ["I501", "Z807"]
 
 
@@ -220,3 +220,41 @@ def test_what_follows_from_another_defect_is_not_said(tmp_path):
     codes = {f.code for f in lint(tmp_path)}
     assert codes >= {"G611", "T204"}
     assert codes.isdisjoint({"I514", "S906"})
+
+
+WHEEL_FILE = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="wheel"><link name="w"/></xacro:macro>
+</robot>"""
+
+
+def test_the_file_whose_include_was_forgotten_is_named(tmp_path):
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "wheel.xacro").write_text(WHEEL_FILE)
+    cart = tmp_path / "cart.urdf.xacro"
+    text = '<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">\n  <xacro:wheel/>\n</robot>\n'
+    cart.write_text(text)
+    (found,) = lint(cart)
+    assert (found.code, found.help) == ("X103", "`wheel` is defined in parts/wheel.xacro: include that file")
+    fixed = fix([Entry(cart)], Options(), within=[tmp_path], unsafe=True)
+    include = '\n  <xacro:include filename="parts/wheel.xacro"/>\n'
+    assert [change.after.decode() for change in fixed.changes] == [text.replace("\n", include, 1)]
+    (tmp_path / "parts" / "other.xacro").write_text(WHEEL_FILE)
+    (found,) = lint(cart)
+    assert found.fix is None, "two files define it: which one is meant is not known"
+
+
+def test_a_misspelt_type_is_mended_where_its_limits_are_missing(tmp_path):
+    (tmp_path / "arm.urdf").write_text(
+        '<robot name="arm"><link name="a"/><link name="b"/>\n<joint name="j" type="revolut"><parent link="a"/>'
+        '<child link="b"/><axis xyz="0 0 1"/></joint></robot>'
+    )
+    fixed = fix([Entry(tmp_path / "arm.urdf")], Options(), within=[tmp_path], unsafe=False)
+    assert [b'type="revolute"' in change.after for change in fixed.changes] == [True]
+
+
+def test_a_misspelt_child_is_one_finding(tmp_path):
+    (tmp_path / "arm.urdf").write_text(
+        '<robot name="arm"><link name="a"/><link name="gripper"/>\n'
+        '<joint name="j" type="fixed"><parent link="a"/><child link="griper"/></joint></robot>'
+    )
+    assert [finding.code for finding in lint(tmp_path)] == ["T202"]

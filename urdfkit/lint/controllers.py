@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from urdfkit.description.source import Source
 
 _TYPE = r"(?m)^([ \t]*)type[ \t]*:[ \t]*[\"']?\w*(?:_controllers?|_broadcaster)/\w+[\"']?[ \t]*\r?$"
+_IN_BRACES = (
+    r"(?m)^[ \t]*[\"']?([\w/-]+)[\"']?[ \t]*:[ \t]*\{[^{}\n]*\btype[ \t]*:[ \t]*[\"']?"
+    r"\w*(?:_controllers?|_broadcaster)/\w+"
+)
 _JOINTS = r"(?m)^([ \t]*)(joints?|(?:left|right)_wheel(?:_names)?)[ \t]*:[ \t]*"
 _ITEM = r"[ \t]*-[ \t]+([\"']?)([\w./-]+)\1[ \t]*\r?$"
 _WORD = r"([\"']?)([\w./-]+)\1"
@@ -72,7 +76,8 @@ def typed(source: Source) -> Iterator[Named]:
 
 def controllers(source: Source) -> list[str]:
     """Return the names of the controllers that a YAML file gives a type."""
-    text, found = uncommented(source), []
+    text = uncommented(source)
+    found = [at[1].strip("/").rpartition("/")[2] for at in re.finditer(_IN_BRACES, text)]
     for at in re.finditer(_TYPE, text):
         indent = len(at[1])
         for line in reversed(
@@ -91,7 +96,7 @@ def controllers(source: Source) -> list[str]:
 def joints(source: Source) -> Iterator[Named]:
     """Yield the joints that controllers name in a YAML file, where it has any controllers."""
     text = uncommented(source)
-    if not re.search(_TYPE, text):
+    if not re.search(_TYPE, text) and not re.search(_IN_BRACES, text):
         return
     for at in re.finditer(_JOINTS, text):
         rest = text[at.end() : text.find("\n", at.end()) + 1 or len(text)]

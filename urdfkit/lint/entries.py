@@ -18,6 +18,8 @@ SUFFIXES = (".urdf", ".xacro")
 _SKIPPED = frozenset(("build", "install", "devel", "log", "node_modules", "__pycache__"))
 _IGNORE_MARKS = frozenset(("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"))
 _MAX_DEPTH = 12
+_MAX_LOOSE = 200
+"""Files that are looked at where there is no package."""
 
 # Compiled on first use: to lint one named file takes none of the last four.
 _COMMENT = r"(?s)<!--.*?(?:-->|\Z)"  # one that is never closed is looked at once
@@ -104,6 +106,16 @@ def _of_folder(folder: Path) -> list[Entry]:
 def descriptions(folder: Path) -> Iterator[tuple[Path, str]]:
     """Yield every description and fragment in a folder, with its text, comments left out."""
     yield from ((path, _text(path)) for path in _walk(folder, 0))
+
+
+def near_descriptions(package: Path | None, path: Path) -> Iterator[tuple[Path, str]]:
+    """Yield the descriptions of a package; without one, those in the folder of a file, and one below."""
+    if package is not None:
+        yield from descriptions(package)
+        return
+    folder = path.absolute().parent
+    files = sorted(file for file in (*folder.glob("*.xacro"), *folder.glob("*/*.xacro")) if file.is_file())
+    yield from ((file, _text(file)) for file in files[:_MAX_LOOSE])
 
 
 def _robots_in(folder: Path) -> list[Entry]:

@@ -119,6 +119,21 @@ class Model:
         return found
 
     @cached_property
+    def macros_around(self) -> dict[str, list[Path]]:
+        """Macro → the files of the package, or of the entry's folder, that define it and were not read."""
+        from pathlib import Path
+
+        from urdfkit.lint.entries import near_descriptions
+
+        read = {str(Path(file).absolute()) for file in self.expanded.sources}
+        found: dict[str, list[Path]] = {}
+        for path, text in near_descriptions(self.package, self.expanded.path):
+            if str(path.absolute()) not in read:
+                for name, _ in signatures(text):
+                    found.setdefault(name, []).append(path.absolute())
+        return found
+
+    @cached_property
     def signatures(self) -> dict[str, list[Signature]]:
         """The parameters of every macro that any of the files defines, with prefix or without, by its name."""
         found: dict[str, list[Signature]] = {}

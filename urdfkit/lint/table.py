@@ -122,6 +122,7 @@ ROBOT: tuple[Row, ...] = (
     ("plugin", "semantics.wheel_diameter", "WheelDiameter"),
     ("plugin", "semantics.left_right_swapped", "LeftRightSwapped"),
     ("plugin", "semantics.drive_wheels_misaligned", "DriveWheelsMisaligned"),
+    ("plugin", "semantics.caster_off_the_ground", "CasterOffTheGround"),
     ("optical!", "semantics.optical_frame", "OpticalFrame"),
     ("type=fixed", "semantics.double_offset", "DoubleOffset"),
     ("gazebo", "gazebo.gazebo_reference_undefined", "GazeboReferenceUndefined"),

@@ -161,7 +161,7 @@ def _is_meant(topic: str, near: str) -> bool:
 
 
 def _is_below(topic: str, model: Model) -> bool:
-    """Whether a topic, or what stands before its last slash, is written in a description, with other arguments maybe."""
+    """Whether a topic, or what stands before its last slash, is written in a description, for other arguments maybe."""
     names = "|".join(re.escape(name) for name in {topic, topic.rpartition("/")[0] or topic})
     pattern = rf"topic>\s*/?(?:{names})\s*<"
     return any(re.search(pattern, source.text) for source in model.expanded.sources.values())

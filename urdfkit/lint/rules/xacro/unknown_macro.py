@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 from urdfkit.lint.edits import nearest
 from urdfkit.lint.finding import Edit, Finding, Fix
 from urdfkit.lint.rule import FaultRule
@@ -19,7 +21,8 @@ class UnknownMacro(FaultRule):
 
     ## What it does
     Reports calls of macros that no file defines before the call, and misspelt directives (``<xacro:proprety>``,
-    ``<marco>``), which xacro takes for calls, or for nothing.
+    ``<marco>``), which xacro takes for calls, or for nothing. Where another file of the package, or beside it, defines
+    the macro, its include is missing.
 
     ## Why is this bad?
     xacro stops; its message names the macro but not the line of the call.
@@ -45,7 +48,8 @@ class UnknownMacro(FaultRule):
     ```
 
     ## Fix safety
-    Unsafe: the directive, or the macro with the nearest name, is taken.
+    Unsafe: the directive, or the macro with the nearest name, is taken, or the file of the package that defines the
+    macro is included.
     """
 
     code = "X103"
@@ -59,9 +63,17 @@ class UnknownMacro(FaultRule):
         right = fault.name
         if fault.kind == "undefined-macro":
             right = fault.details.get("meant") or nearest(fault.name or "", fault.candidates, likeness=0.7)
+        changed: dict[str, object] = {}
         fix = self._renamed(model, fault, right) if right and fault.defined_at is None else None
+        if fix is None and fault.kind == "undefined-macro" and fault.defined_at is None:
+            file = _defining(fault.name or "", model)
+            if file is not None:
+                changed["help"] = f"`{fault.name}` is defined in {file}: include that file"
+                fix = _included(file, fault, model)
+        if fix is not None:
+            changed["fix"] = fix
         for finding in super().check(fault, model):
-            yield Finding(**{**finding.__dict__, "fix": fix}) if fix is not None else finding
+            yield Finding(**{**finding.__dict__, **changed}) if changed else finding
 
     def _renamed(self, model: Model, fault: Fault, right: str) -> Fix | None:
         tag = model.tag(fault.position)
@@ -72,3 +84,26 @@ class UnknownMacro(FaultRule):
         name = f"xacro:{right}"
         edits = tuple(Edit(source.span(end, end + len(tag.name)), name) for end in ends)
         return Fix("unsafe", f"Call it <{name}>", edits)
+
+
+def _defining(name: str, model: Model) -> str | None:
+    """Return the one file that nothing includes and that defines a macro, as seen from the entry; None else."""
+    files = model.macros_around.get(name, [])
+    if len(files) != 1:
+        return None
+    return os.path.relpath(files[0], model.expanded.path.absolute().parent).replace(os.sep, "/")
+
+
+def _included(file: str, fault: Fault, model: Model) -> Fix | None:
+    """Return the fix that includes a file at the top of the entry, where that is where the macro is called."""
+    from urdfkit.description.reading import shown_path
+
+    entry = fault.position.file
+    if entry != shown_path(model.expanded.path):
+        return None
+    root = next((tag for tag in model.document(entry).roots if tag.name == "robot"), None)
+    if root is None or root.close is None:
+        return None
+    source = model.document(entry).source
+    text = f'\n  <xacro:include filename="{file}"/>'
+    return Fix("unsafe", f"Include {file}", (Edit(source.span(root.end, root.end), text),))
