@@ -439,6 +439,18 @@ def test_in_ros2_followers_are_listed_or_they_do_not_follow(place, world, told):
     assert params == ({"mimic": "finger_joint", "multiplier": "1"} if told else {})
 
 
+@pytest.mark.parametrize("more", [[], [None]])
+def test_transmissions_are_nothing_to_ros2(place, capsys, more):
+    folder = robot(place, CHAIN + transmissions("Effort", ["shoulder_joint", "elbow_joint"], *more))
+    assert new("--sim", "gz") == 0
+    assert "arm_controller: shoulder_joint, elbow_joint\n" in capsys.readouterr().err
+    written = (folder / "urdf/control.xacro").read_text()
+    assert '<joint name="elbow_joint">' in written
+    assert "gz_ros2_control-system" in written
+    settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())
+    assert settings["arm_controller"]["ros__parameters"]["command_interfaces"] == ["position"]
+
+
 def test_a_joint_that_nothing_can_move_is_told_with_its_place(place, capsys):
     folder = robot(place, ARM.replace('effort="30"', 'effort="0"', 1))
     assert new() == 0

@@ -220,6 +220,8 @@ def test_a_missing_mesh_is_refused(export, capsys):
         (["export/urdf/arm.urdf", "--meshes", "a"], "--meshes a: no such folder"),
         (["export/urdf/two.urdf"], "urdfkit: export/urdf/two.urdf:1:"),
         (["x.xacro"], "is a xacro"),
+        (["export/urdf/arm.urdf", "--out", "a"], "did you mean `--into`?"),
+        (["export/urdf/arm.urdf", "src"], "did you mean `--into src`?"),
         (["export/urdf/room.sdf"], "room.sdf is SDF"),
         (["export/meshes/base_link.STL"], "base_link.STL is a mesh: import the URDF that names it"),
     ],

@@ -7,6 +7,7 @@ import shlex
 from datetime import datetime, timezone
 from pathlib import Path
 
+from urdfkit.cli.parser import Parser
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
 
 TYPE_CHECKING = False
@@ -33,6 +34,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
         "examples:\n  urdfkit import arm.urdf\n  urdfkit import export/arm.urdf --name arm --ros noetic --into src"
     )
+    if isinstance(parser, Parser):
+        parser.elsewhere = _meant
     parser.add_argument("file", metavar="FILE", help="the URDF; it is only read")
     parser.add_argument("--name", help="what the packages' names begin with (default: the robot's)")
     parser.add_argument(
@@ -51,6 +54,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(
             f"--{name}", help=f"for package.xml{' (default: as git knows)' if name != 'license' else ''}"
         )
+
+
+def _meant(unknown: str) -> str:
+    """Return what to say of a word that is no option: that it is where to write to, or of which name."""
+    if unknown in ("-o", "--out", "--output", "--dir", "--dest"):
+        return "; did you mean `--into`?"
+    return "" if unknown.startswith("-") else f"; did you mean `--into {unknown}`?"
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -109,7 +119,7 @@ def _file(word: str) -> Path:
         raise UsageError(f"{word} is {instead}")
     if path.suffix == ".xacro":
         raise UsageError(
-            f"{word} is a xacro, which may have files beside it: urdfkit expand {word} -o FILE.urdf, and import that"
+            f"{path} is a xacro, which may have files beside it: urdfkit expand {path} -o FILE.urdf, and import that"
         )
     return path
 

@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
     model, robot, generation = description(arguments)
     if generation == "gz" and _is_fortress(robot):
         generation = "fortress"
-    there = hardware(robot, model.path)
+    there = hardware(robot, model.path, generation=generation)
     found = roles(robot, there, follow=generation != "classic")
     made = controllers(found)
     for note in () if arguments.quiet else (*found.notes, *_still(robot, made)):

@@ -88,7 +88,9 @@ class Parser(argparse.ArgumentParser):
         if unknown := re.search(r"unrecognized arguments: (\S+)", message):
             hint = self.elsewhere(unknown[1]) or did_you_mean(unknown[1], self._option_string_actions)
         elif choice := re.search(r"invalid choice: '([^']*)' \(choose from (.*)\)", message):
-            hint = did_you_mean(choice[1], re.findall(r"[\w-]+", choice[2]))
+            option = f"--{choice[1]}"
+            told = f"; did you mean `{option}`?" if option in self._option_string_actions else ""
+            hint = told or did_you_mean(choice[1], re.findall(r"[\w-]+", choice[2]))
         elif "expected 3 arguments" in message:
             hint = ": three numbers with blanks between, such as 0.1 0 0.2"
         raise UsageError(f"{self.prog.removeprefix('urdfkit').strip()}: {message}{hint}".removeprefix(": "))

@@ -11,6 +11,7 @@ from urdfkit.cli.parser import Parser
 from urdfkit.scaffold import Question, Template, named_template, sanitised, template_at
 
 _CALLED = {
+    **dict.fromkeys(("-o", "--out", "--output", "--dir", "--dest"), "--into"),
     "--rate": "--update-rate",
     "--hz": "--update-rate",
     "--frequency": "--update-rate",

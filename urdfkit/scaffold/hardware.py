@@ -40,19 +40,22 @@ class Hardware:
         return element.text.strip() or None if element is not None else None
 
 
-def hardware(robot: Robot, path: Path | None = None) -> Hardware:
+def hardware(robot: Robot, path: Path | None = None, *, generation: str = "") -> Hardware:
     """Return what joints can be told, and what tells them.
 
     Args:
         robot: as loaded.
         path: its file; the YAML of its package and of those beside it says which controllers there are.
+        generation: of the simulator: transmissions are ``classic``'s alone, ``<ros2_control>`` is of all others; empty
+            for any.
     """
     plugins = [plugin for block in robot.gazebo for plugin in block.plugins]
-    loops = [plugin for plugin in plugins if _LOOPS.search(f"{plugin.filename} {plugin.name}")]
+    every = [plugin for plugin in plugins if _LOOPS.search(f"{plugin.filename} {plugin.name}")]
+    loops = [plugin for plugin in every if _runs(plugin, generation)]
     names = {joint.name for joint in robot.joints}
     drivers: dict[str, str] = {}
     for plugin in plugins:
-        if plugin not in loops and not _TELLS_ONLY.search(f"{plugin.filename} {plugin.name}"):
+        if plugin not in every and not _TELLS_ONLY.search(f"{plugin.filename} {plugin.name}"):
             for element in plugin.element.walk():
                 drivers |= {word: f"plugin `{plugin.name}`" for word in element.text.split() if word in names}
     loop = loops[0] if loops else None
@@ -60,16 +63,22 @@ def hardware(robot: Robot, path: Path | None = None) -> Hardware:
     files = [*_around(path), *_named(found.loop_says("parameters"))] if path is not None else []
     for file in dict.fromkeys(file.resolve() for file in files):
         drivers |= {joint: f"controller `{name}` ({file.name})" for joint, name in _controlled(file) if joint in names}
-    return Hardware(dict(_interfaces(robot)), drivers, loop)
+    return Hardware(dict(_interfaces(robot, generation)), drivers, loop)
 
 
-def _interfaces(robot: Robot) -> Iterator[tuple[str, str]]:
-    for transmission in robot.transmissions:
+def _runs(plugin: Plugin, generation: str) -> bool:
+    """Whether a plugin that runs controllers does so in that generation of the simulator, ROS 1's or ROS 2's."""
+    is_ros2 = "ros2_control" in f"{plugin.filename} {plugin.name}"
+    return not generation or is_ros2 == (generation != "classic")
+
+
+def _interfaces(robot: Robot, generation: str) -> Iterator[tuple[str, str]]:
+    for transmission in robot.transmissions if generation in ("", "classic") else ():
         for joint in transmission.joints:
             kinds = (*joint.hardware_interfaces, *(k for a in transmission.actuators for k in a.hardware_interfaces))
             said = [kind.rpartition("/")[2].removesuffix("JointInterface").lower() for kind in kinds]
             yield joint.name or "", _first(said)
-    for control in robot.ros2_control:
+    for control in robot.ros2_control if generation != "classic" else ():
         for element in control.element.find_all("joint"):
             if commands := element.find_all("command_interface"):
                 yield element.get("name") or "", _first([command.get("name") or "" for command in commands])
