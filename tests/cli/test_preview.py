@@ -134,6 +134,17 @@ def test_who_does_not_know_may_ask(terminal):
     asking.until("--ros `quit` is not available.*; Ctrl-C ends, and writes nothing")
 
 
+def test_what_does_not_go_with_earlier_answers_is_asked_again_where_something_else_would(terminal):
+    sizes = ("--base-length", "0.1", "--base-width", "0.1", "--base-height", "0.05", "--mass", "0.2")
+    asking = terminal("new", "robot", "rover", "--no-preview", "--ros", "none", "--drive", "none", *sizes)
+    asking.until("Sensors ")
+    asking.type("lidar")
+    asking.until("the sensors have no room: --base-length has to be at least 0.3 m")
+    asking.until("Sensors ")
+    asking.type("")
+    asking.until("Joints of an arm")
+
+
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGHUP])
 def test_an_interrupt_leaves_nothing(terminal, tmp_path, how):
     asking = terminal("new", "robot", "rover")

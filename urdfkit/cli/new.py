@@ -165,10 +165,13 @@ def _ask(
                 print(f"  {error}{leave}", file=sys.stderr)
                 continue
             wrong, instead = template.contradiction(accepted, question.name)
-            if wrong and not instead:  # it is an earlier answer that would have to change
-                raise UsageError(f"{wrong}; nothing was written")
+            if wrong and not instead:
+                as_usual = {**found, question.name: default or ""}
+                if default is None or accepted == as_usual or template.contradiction(as_usual, question.name)[0]:
+                    # It is an earlier answer that would have to change.
+                    raise UsageError(f"{wrong}; nothing was written")
             if wrong:
-                print(f"  {wrong} ({instead})", file=sys.stderr)
+                print(f"  {wrong} ({instead})" if instead else f"  {wrong}", file=sys.stderr)
                 continue
             found = accepted
             follow(found)
