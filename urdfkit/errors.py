@@ -86,6 +86,21 @@ class MissingDependencyError(UrdfkitError):
     """An optional dependency is not installed."""
 
 
+def bug(error: BaseException, whose: str = "urdfkit") -> str:
+    """Return one line on an error that nobody meant: whose fault it is, what it says, where it was raised.
+
+    Args:
+        error: as it was caught.
+        whose: the package to blame.
+    """
+    frame = error.__traceback__
+    while frame is not None and frame.tb_next is not None:
+        frame = frame.tb_next
+    place = f"{frame.tb_frame.f_code.co_filename}:{frame.tb_lineno}" if frame is not None else "unknown place"
+    what = " ".join(str(error).split())
+    return f"a bug in {whose}, not in your files: {type(error).__name__}: {what} ({place})"
+
+
 def did_you_mean(name: str, candidates: Iterable[str]) -> str:
     """Return ``; did you mean `x`?`` for the candidate nearest to `name`, or an empty string.
 

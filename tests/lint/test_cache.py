@@ -181,3 +181,28 @@ def test_errors_come_back_from_other_processes(write, package, monkeypatch):
     write("w.urdf", b"<sdf/>")
     with pytest.raises(ModelError, match="<sdf> is no robot description"):
         run([Entry(package), Entry(Path("w.urdf"))], Options(), jobs=2)
+
+
+@pytest.mark.parametrize("before", [[], ["--format", "json"], ["--statistics"]])
+def test_what_was_found_before_is_shown_with_its_lines(write, monkeypatch, tmp_path, capsys, before):
+    from urdfkit.cli import main
+
+    monkeypatch.setenv("URDFKIT_CACHE_DIR", str(tmp_path / "cache"))
+    path = str(write("c.urdf", '<link name="a"/>\n<link name="b" kind="x"/>'))
+    assert main(["lint", path, *before]) == 1
+    capsys.readouterr()
+    assert main(["lint", path]) == 1
+    again = capsys.readouterr().out
+    assert main(["lint", path, "--no-cache"]) == 1
+    assert again == capsys.readouterr().out
+    assert "^^^^" in again
+
+
+def test_findings_in_files_that_have_gone_come_without_lines(write, monkeypatch, tmp_path):
+    monkeypatch.setenv("URDFKIT_CACHE_DIR", str(tmp_path / "cache"))
+    path = write("c.urdf", '<link name="a" kind="x"/>')
+    lint(path)
+    again = lint(path)
+    path.unlink()
+    assert again.sources.get("c.urdf") is None
+    assert again.sources.get("d.urdf") is None

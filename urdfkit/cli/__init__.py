@@ -70,7 +70,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     except Exception as error:
         if {"-v", "--verbose"} & set(arguments):
             raise
-        print(f"urdfkit: {_bug(error)}", file=sys.stderr)
+        from urdfkit.errors import bug
+
+        print(f"urdfkit: {bug(error)}; -v shows the traceback", file=sys.stderr)
         return 2
 
 
@@ -124,16 +126,6 @@ def _run(arguments: list[str]) -> int:
 
 def _module(command: str) -> ModuleType:
     return import_module(f"urdfkit.cli.{command}{'_' if iskeyword(command) else ''}")
-
-
-def _bug(error: Exception) -> str:
-    """Say in one line that this is our fault, and where; ``-v`` shows the traceback."""
-    frame = error.__traceback__
-    while frame is not None and frame.tb_next is not None:
-        frame = frame.tb_next
-    place = f"{frame.tb_frame.f_code.co_filename}:{frame.tb_lineno}" if frame is not None else "unknown place"
-    what = " ".join(str(error).split())
-    return f"a bug in urdfkit, not in your files: {type(error).__name__}: {what} ({place}); -v shows the traceback"
 
 
 def _version() -> str:

@@ -43,7 +43,7 @@ class Findings:
 
         Returns:
             ``findings``, one object each; ``rules``, code → the rule's page as Markdown; ``fault``, why nothing could
-            be looked at, or None.
+            be looked at, or not by all rules, or None.
         """
         from urdfkit.cli.whereabouts import Whereabouts
         from urdfkit.lint.engine import run
@@ -52,7 +52,7 @@ class Findings:
         places = None if robot is None else Whereabouts(robot)
         try:
             settings = self._settings()
-            outcome = run(self._entries(), self._options(settings))
+            outcome = run(self._entries(), self._options(settings), keep_going=True)
         except UrdfkitError as error:
             return {"findings": [], "rules": {}, "fault": str(error)}
         rows = []
@@ -62,7 +62,11 @@ class Findings:
             self._known[self._next] = finding
             rows.append(self._row(self._next, finding, outcome, places))
             self._next += 1
-        return {"findings": rows, "rules": _pages({row["code"] for row in rows}), "fault": None}
+        return {
+            "findings": rows,
+            "rules": _pages({row["code"] for row in rows}),
+            "fault": next(iter(outcome.refused), None),
+        }
 
     def mend(self, number: int) -> str:
         """Apply the safe fix of one finding: linted in memory first, then written beside the file and moved.

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
 ZERO: Vector = (0.0, 0.0, 0.0)
 
+LARGEST = 1e30
+"""A thousand times as many metres as the universe has across: what is more counts as infinite, as its powers would."""
+
 
 class Reader:
     """Reads values and notes problems, in document order.
@@ -93,8 +96,8 @@ class Reader:
                 self._note_arity(element, attribute, text, 1)
             else:
                 self._note_number(element, attribute, text, "a number")
-        elif math.isnan(value) or (math.isinf(value) and not infinite):
-            self.note("not-finite", f'{attribute}="{text}" of <{element.tag}> is not finite', element, attribute)
+        elif math.isnan(value) or (abs(value) > LARGEST and not infinite):
+            self._note_infinite(element, attribute, text)
             return None
         return value
 
@@ -115,8 +118,8 @@ class Reader:
         if len(values) != count:
             self._note_arity(element, attribute, text, count)
             return None
-        if not all(map(math.isfinite, values)):
-            self.note("not-finite", f'{attribute}="{text}" of <{element.tag}> is not finite', element, attribute)
+        if not all(map(math.isfinite, values)) or max(map(abs, values)) > LARGEST:
+            self._note_infinite(element, attribute, text)
             return None
         return tuple(values)
 
@@ -145,6 +148,11 @@ class Reader:
     def _note_number(self, element: Element, attribute: str, text: str, wanted: str) -> None:
         where = f"{attribute} of <{element.tag}>"
         self.note("bad-number", _not(text, wanted, where), element, attribute)
+
+    def _note_infinite(self, element: Element, attribute: str, text: str) -> None:
+        values = numbers(text) or ()
+        why = "beyond all measure" if all(map(math.isfinite, values)) else "not finite"
+        self.note("not-finite", f'{attribute}="{_short(text)}" of <{element.tag}> is {why}', element, attribute)
 
     def _note_arity(self, element: Element, attribute: str, text: str, count: int) -> None:
         given = len(text.split())

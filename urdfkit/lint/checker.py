@@ -23,6 +23,7 @@ from urdfkit.record import field, record
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
+    from typing import Any
 
     from urdfkit.description.memory import Memory
     from urdfkit.description.robot import Robot
@@ -97,10 +98,11 @@ class Checker:
     Args:
         options: what to look for, and how to expand.
         cached: take and keep what was found before.
+        keep_going: where a rule fails by a fault of its own, ask the others, and say so in what was found.
     """
 
-    def __init__(self, options: Options, *, cached: bool = False) -> None:
-        self.options = options
+    def __init__(self, options: Options, *, cached: bool = False, keep_going: bool = False) -> None:
+        self.options, self.keep_going = options, keep_going
         self.memory: Memory | None = None
         self.sources: dict[str, Source] = {}
         self.packages = Packages(options.package_path)
@@ -124,9 +126,18 @@ class Checker:
 
     def check(self, entry: Entry) -> Found:
         """Lint one entry file and everything it includes."""
-        found, model = self.examine(entry)
-        if self.cache is not None:
-            self.cache.put(entry, found, model.expanded)
+        from urdfkit.errors import UrdfkitError, bug
+
+        try:
+            found, model = self.examine(entry)
+            if self.cache is not None and not found.refused:
+                self.cache.put(entry, found, model.expanded)
+        except UrdfkitError:
+            raise
+        except Exception as error:
+            if not self.keep_going:
+                raise
+            return Found((), {}, refused=f"{entry.path}: {bug(error)}")
         return found
 
     def tried(self, entry: Entry) -> Found:
@@ -150,6 +161,7 @@ class Checker:
                 note = f"linted for {guessed.target}: {guessed.manifest.parent.name} {guessed.why}"
         model = model_of(entry.path, options, packages=self.packages.beside(entry.path), memory=self.memory)
         self.sources.update(model.expanded.sources)
+        self._failures: list[str] = []
         findings = list(self._ask_source_rules(model))
         findings += self._ask_fault_rules(model, entry)
         if model.expanded.root is not None and not entry.is_library:
@@ -157,7 +169,7 @@ class Checker:
             outside = around_rules() if model.around else ()
             for rule in (*robot_rules(model.robot, model.target), *outside, *foreign):
                 if self._applies(rule, model.target):
-                    findings += rule().check(model)
+                    findings += self._ask(rule, entry.path, model)
         used: tuple[str, ...] = ()
         if any("urdfkit:" in source.text for source in model.expanded.sources.values()):
             findings, used = self._suppress(findings, model, entry)
@@ -168,7 +180,7 @@ class Checker:
             only = {path.resolve() for path in entry.only}
             names = {name for name, path in files.items() if Path(path).resolve() in only}
             findings = [finding for finding in findings if finding.file in names]
-        return Found(tuple(findings), files, note, used), model
+        return Found(tuple(findings), files, note, used, "; ".join(self._failures)), model
 
     def _ask_source_rules(self, model: Model) -> Iterator[Finding]:
         sources = model.expanded.sources
@@ -176,7 +188,7 @@ class Checker:
         rules = [rule for rule in (*source_rules(sources), *foreign) if self._applies(rule, model.target)]
         for file in sources:
             for rule in rules:
-                yield from rule().check(model.document(file), model)
+                yield from self._ask(rule, file, model.document(file), model)
 
     def _ask_fault_rules(self, model: Model, entry: Entry) -> Iterator[Finding]:
         if not model.expanded.faults:
@@ -187,7 +199,21 @@ class Checker:
                 continue
             for rule in rules:
                 if rule.claims(fault) and self._applies(type(rule), model.target):
-                    yield from rule.check(fault, model)
+                    yield from self._ask(type(rule), entry.path, fault, model)
+
+    def _ask(self, rule: type[Any], file: Path | str, *subject: Any) -> Iterator[Finding]:
+        """Yield what a rule finds in a subject; where it fails, note that for the file and go on."""
+        from urdfkit.errors import UrdfkitError, bug
+
+        try:
+            yield from rule().check(*subject)
+        except UrdfkitError:
+            raise
+        except Exception as error:
+            if not self.keep_going:
+                raise
+            whose = rule.__module__.partition(".")[0]
+            self._failures.append(f"{file}: {rule.code} {rule.name} could not look at it: {bug(error, whose)}")
 
     def _suppress(self, findings: list[Finding], model: Model, entry: Entry) -> tuple[list[Finding], tuple[str, ...]]:
         """Return what no comment suppresses, and the places of the comments that do, for all files of the model."""

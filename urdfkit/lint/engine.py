@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from urdfkit.errors import ResourceError
 from urdfkit.lint.checker import Checker as Checker
 from urdfkit.lint.checker import Options as Options
 from urdfkit.lint.checker import model_of as model_of
@@ -15,6 +16,7 @@ from urdfkit.record import record
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+    from typing import Any
 
     from urdfkit.description.source import Source, Span
 
@@ -85,7 +87,7 @@ def run(
         options: how.
         cached: take what was found before where nothing has changed since, and keep what is found now.
         jobs: how many processes to lint in at most.
-        keep_going: lint the others where some of several cannot be linted, and say why not in the outcome.
+        keep_going: lint the others where some of several cannot be linted, or a rule fails, and say so in the outcome.
 
     Raises:
         UsageError: a code or the target is not known.
@@ -94,7 +96,7 @@ def run(
     """
     options = Options(**{**options.__dict__, "target": known_target(options.target)})
     entries = list(entries)
-    checker = Checker(options, cached=cached)
+    checker = Checker(options, cached=cached, keep_going=keep_going)
     check = checker.tried if keep_going and len(entries) > 1 else checker.check
     found = {entry: known for entry in entries if (known := checker.known(entry)) is not None}
     hits = len(found)
@@ -124,11 +126,21 @@ def _is_in_use(finding: Finding, used: set[str]) -> bool:
 
 
 class Sources(dict[str, "Source"]):
-    """The text of every file that was read, by the name findings use; read again when it is not at hand."""
+    """The text of every file that was read, by the name findings use; read again when it is not at hand.
+
+    What was found before comes without the texts that it was found in.
+    """
 
     def __init__(self, sources: Mapping[str, Source], files: Mapping[str, Path]) -> None:
         super().__init__(sources)
         self._files = files
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """Return the text of a file, the default where nobody has read it or it has gone."""
+        try:
+            return self[name]
+        except (KeyError, ResourceError):
+            return default
 
     def __missing__(self, name: str) -> Source:
         from urdfkit.description.source import Source

@@ -134,7 +134,7 @@ class Found:
         files: name in findings → file, absolute, of every file that was read.
         note: what target was guessed and why, one line; empty where none was.
         used: the places of comments that suppress something here, each with a code.
-        refused: why it could not be linted, one line; empty where it could.
+        refused: why it could not be linted, or not by all rules, one line; empty where it could.
     """
 
     findings: tuple[Finding, ...]

@@ -42,7 +42,7 @@ def check_all(entries: Sequence[Entry], options: Options, *, cached: bool, jobs:
     context = multiprocessing.get_context("fork" if quick else "spawn")
     count = min(jobs, len(entries))
     try:
-        with ProcessPoolExecutor(count, context, _begin, (options, cached)) as pool:
+        with ProcessPoolExecutor(count, context, _begin, (options, cached, keep_going)) as pool:
             return list(
                 pool.map(_try if keep_going else _check, entries, chunksize=max(1, len(entries) // (8 * count)))
             )
@@ -50,8 +50,8 @@ def check_all(entries: Sequence[Entry], options: Options, *, cached: bool, jobs:
         raise ResourceError("a process that linted was ended from outside; try --jobs 1") from error
 
 
-def _begin(options: Options, cached: bool) -> None:
-    _checkers[:] = [Checker(options, cached=cached)]
+def _begin(options: Options, cached: bool, keep_going: bool) -> None:
+    _checkers[:] = [Checker(options, cached=cached, keep_going=keep_going)]
 
 
 def _check(entry: Entry) -> Found:

@@ -70,3 +70,9 @@ def diagnostic(finding: Finding, source: Source) -> types.Diagnostic:
         source="urdfkit",
         related_information=related or None,
     )
+
+
+def failure(text: str) -> types.Diagnostic:
+    """Return what could not be looked at, by our own fault, as the protocol has it: at the start of the file."""
+    start = types.Position(0, 0)
+    return types.Diagnostic(types.Range(start, start), text, severity=types.DiagnosticSeverity.Error, source="urdfkit")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from lsprotocol import types
 
-from urdfkit.cli.lsp.protocol import diagnostic, offset_of, path_of, position_of, range_of
+from urdfkit.cli.lsp.protocol import diagnostic, failure, offset_of, path_of, position_of, range_of
 from urdfkit.description.reading import read_source, shown_path
 from urdfkit.errors import UrdfkitError
 
@@ -88,7 +88,10 @@ class Session:
         for file, findings in self.project.findings(path).items():
             its = uri if file == path else file.as_uri()
             source = self._source(file)
-            self._show(its, [diagnostic(finding, source) for finding in findings if finding.file == source.file])
+            shown = [diagnostic(finding, source) for finding in findings if finding.file == source.file]
+            if file == path:
+                shown += map(failure, self.project.failures(path))
+            self._show(its, shown)
 
     def _tidy_later(self) -> None:
         """Look for cyclic garbage when nobody types: in the middle it would take longer than what is waited for."""

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from urdfkit.description.memory import Memory
 from urdfkit.description.packages import Packages
-from urdfkit.errors import UrdfkitError
+from urdfkit.errors import UrdfkitError, bug
 from urdfkit.lint.engine import Checker, Options, merged, model_of
 from urdfkit.lint.entries import Entry, find_entries
 from urdfkit.record import record
@@ -27,7 +27,8 @@ class Analysis:
         model: what came out; None where the entry cannot be read.
         findings: in all of its files.
         files: name in findings → file, absolute.
-        failure: why there is no model.
+        failure: why there is no model, or which rule could not look at it.
+        is_ours: whether the failure is our fault.
         known: the model as it was when it could last be read: while a tag is typed, the names in it still count.
     """
 
@@ -35,6 +36,7 @@ class Analysis:
     findings: tuple[Finding, ...]
     files: Mapping[str, Path]
     failure: str = ""
+    is_ours: bool = False
     known: Model | None = None
 
 
@@ -101,6 +103,10 @@ class Project:
                 found[files[finding.file]].append(finding)
         return found
 
+    def failures(self, path: Path) -> list[str]:
+        """Return what of the models that a file is part of could not be looked at by our own fault, one line each."""
+        return list(dict.fromkeys(one.failure for one in self.analyses(path) if one.is_ours))
+
     def probe(self, entry: Path, path: Path, offset: int, written: str) -> list[str]:
         """Return what a text would come out as if it were written into a file: one value for each expansion.
 
@@ -128,7 +134,7 @@ class Project:
             options = Options(**{**self.options.__dict__, "texts": dict(self.texts)})
             try:
                 if self._checker is None:  # it looks through the installed packages for rules: once is enough
-                    self._checker = Checker(options)
+                    self._checker = Checker(options, keep_going=True)
                 checker = self._checker
                 checker.options, checker.packages = options, self._packages
                 checker.memory = self._memories.setdefault(entry, Memory())
@@ -138,7 +144,10 @@ class Project:
                 findings = tuple(merged(found.findings))
                 if model.robot.links and not any(fault.kind == "xml" for fault in model.expanded.faults):
                     self._last[entry] = model
-                self._analyses[entry] = Analysis(model, findings, files, "", self._last.get(entry, model))
+                known, failure = self._last.get(entry, model), found.refused
+                self._analyses[entry] = Analysis(model, findings, files, failure, bool(failure), known)
             except UrdfkitError as error:
                 self._analyses[entry] = Analysis(None, (), {}, str(error))
+            except Exception as error:
+                self._analyses[entry] = Analysis(None, (), {}, f"{entry.path}: {bug(error)}", is_ours=True)
         return self._analyses[entry]

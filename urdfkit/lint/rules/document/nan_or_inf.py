@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.numbers import numbers
+from urdfkit.description.values import LARGEST as BEYOND
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -19,14 +20,18 @@ _ATTRIBUTES = {
     "origin": ("xyz", "rpy"),
     "mass": ("value",),
     "inertia": ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
+    "box": ("size",),
+    "cylinder": ("radius", "length"),
+    "sphere": ("radius",),
+    "capsule": ("radius", "length"),
 }
 
 
 class NanOrInf(RobotRule):
-    """A pose, a mass or an inertia is not finite, or no length of this world.
+    """A pose, a size, a mass or an inertia is not finite, or no length of this world.
 
     ## What it does
-    Reports ``nan`` and ``inf``, and poses, masses and inertias beyond 1e10, which stand for infinity in some
+    Reports ``nan`` and ``inf``, and poses, sizes, masses and inertias beyond 1e10, which stand for infinity in some
     exporters. Limits of joints may be infinite.
 
     ## Why is this bad?
@@ -71,6 +76,6 @@ class NanOrInf(RobotRule):
                 # Only what has an exponent or eleven digits can be so large.
                 if text is None or (len(text) < 11 and "e" not in text.lower()):
                     continue
-                if any(LARGEST < abs(value) < float("inf") for value in numbers(text) or ()):
+                if any(LARGEST < abs(value) <= BEYOND for value in numbers(text) or ()):
                     message = f'{attribute}="{text}" of <{element.tag}> stands for infinity'
                     yield self.at(model, element, message, attribute=attribute)
