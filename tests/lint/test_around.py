@@ -298,3 +298,49 @@ def test_interfaces_that_may_come_from_elsewhere_are_let_pass(tmp_path, interfac
         "group:\n  ros__parameters:\n    joints: [elbow]\n"
     )
     assert ("K965" in {finding.code for finding in lint(tmp_path / "arm.urdf.xacro", target="ros2")}) is is_found
+
+
+def test_a_package_whose_settings_a_plugin_reads_is_looked_at(tmp_path):
+    description, control = tmp_path / "arm_description", tmp_path / "arm_control"
+    description.mkdir()
+    control.mkdir()
+    for folder in (description, control):
+        (folder / "package.xml").write_text(f"<package><name>{folder.name}</name></package>")
+    settings = control / "controllers.yaml"
+    plugin = '<plugin name="control" filename="libgazebo_ros2_control.so"><parameters>{}</parameters></plugin>'
+    text = '<robot name="arm"><link name="base"/>\n<gazebo>{}</gazebo></robot>'
+    (description / "arm.urdf").write_text(text.format(plugin.format(settings)))
+    lines = "controller_manager:\n  ros__parameters:\n    {}\n    use_sim_time: true\n"
+    settings.write_text(lines.format("update_rate 100"))
+    assert [(f.code, f.line) for f in lint(description, target="ros2")] == [("K966", 3)]
+    settings.write_text(lines.format("update_rate: 100"))
+    assert lint(description, target="ros2") == []
+    settings.write_text(lines.format("update_rate 100"))
+    (description / "arm.urdf").write_text(text.format(""))
+    assert lint(description, target="ros2") == []
+
+
+@pytest.mark.parametrize(
+    ("lines", "place", "said"),
+    [
+        ("a:\n  b\n  - one\n  - two\n  c: 1\n", 2, "a colon behind `b` is missing"),
+        ("a:\n  b: 1\n  c:2\n  d: 3\n", 3, "a blank behind `c:` is missing"),
+        ("a: {b: 1\nc: 2\n", 2, "expected"),
+        ("a:\n  b: 'open\n", 3, "end of stream"),
+    ],
+)
+def test_where_a_text_ceases_to_be_yaml(tmp_path, lines, place, said):
+    (tmp_path / "package.xml").write_text("<package><name>arm</name></package>")
+    (tmp_path / "arm.urdf").write_text('<robot name="arm"><link name="base"/></robot>')
+    (tmp_path / "arm.yaml").write_text(lines)
+    (found,) = lint(tmp_path)
+    assert (found.code, found.line) == ("K966", place), found
+    assert said in found.message
+
+
+def test_what_a_condition_holds():
+    from urdfkit.lint.around import is_conditional
+
+    assert is_conditional('<xacro:if value="1"><gazebo/></xacro:if>', "<gazebo")
+    assert not is_conditional('<xacro:if value="1"><link/></xacro:if><gazebo/>', "<gazebo")
+    assert not is_conditional('<gazebo/><xacro:unless value="1"/>', "<gazebo")

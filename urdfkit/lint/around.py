@@ -38,6 +38,23 @@ def names_around(model: Model, tag: str) -> list[str]:
     return [_pattern(name, calls, every) for name in dict.fromkeys(names)]
 
 
+def is_conditional(text: str, what: str) -> bool:
+    """Whether a text has something inside of a condition of xacro.
+
+    Args:
+        text: of a description.
+        what: a pattern without groups.
+    """
+    depth = 0
+    for at in re.finditer(rf"<(/?)xacro:(?:if|unless)\b|{what}", text):
+        if at[1] is None:
+            if depth:
+                return True
+        else:
+            depth = max(depth - 1, 0) if at[1] else depth + 1
+    return False
+
+
 def _pattern(name: str, calls: str, texts: str) -> str:
     """Return the pattern of a name: what a macro's parameter stands for is what its calls give, if that is written."""
     parts = []

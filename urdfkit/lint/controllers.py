@@ -57,7 +57,7 @@ TYPES = (
 )
 """The types of ros_controllers (Noetic) and ros2_controllers (Rolling)."""
 
-_WRITTEN_TYPE = r"(?m)^[ \t]*type[ \t]*:[ \t]*[\"']?([\w]+/[\w]+)[\"']?[ \t]*\r?$"
+_WRITTEN_TYPE = r"(?m)(?:^|[{,])[ \t]*type[ \t]*:[ \t]*[\"']?([\w]+/[\w]+)[\"']?[ \t]*(?=\r?$|[},])"
 
 
 @record
@@ -125,9 +125,14 @@ def _listed(text: str, start: int, indent: int) -> Iterator[Named]:
 
 
 def joints_of(source: Source, kind: Named) -> list[str]:
-    """Return the joints that stand in the same block as the type of a controller, as `typed` returns it."""
+    """Return the joints that stand in the same block as the type of a controller, as `typed` returns it.
+
+    Of a block in braces none are known.
+    """
     text = uncommented(source)
     line = text.rfind("\n", 0, kind.start) + 1
+    if "{" in text[line : kind.start]:
+        return []
     indent = len(text[line:]) - len(text[line:].lstrip(" "))
 
     def is_inside(row: str) -> bool:

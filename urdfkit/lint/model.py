@@ -107,16 +107,40 @@ class Model:
 
     @cached_property
     def around(self) -> dict[str, Source]:
-        """The launch files and YAML of the package and of those beside it that depend on it, as the user is shown."""
+        """The launch files and YAML of the package and of those beside it, as the user is shown.
+
+        Those are the packages that depend on it, and those whose settings a plugin of the robot reads.
+        """
         from urdfkit.description.reading import read_source, shown_path
 
         found: dict[str, Source] = {}
-        for file in self.expanded.packages.around(self.package) if self.package is not None else ():
+        packages = self.expanded.packages
+        files = packages.around(self.package) if self.package is not None else []
+        for package in self._configured() if self.package is not None else ():
+            files = [*files, *(file for file in packages.around(package) if file not in files)]
+        for file in files:
             try:
                 found[shown_path(file)] = read_source(file, shown_as=shown_path(file), texts=self.texts)
             except ResourceError:
                 continue
         return found
+
+    def _configured(self) -> list[Path]:
+        """Return the packages beside the robot's whose settings a plugin of it reads."""
+        from pathlib import Path
+
+        from urdfkit.description.surroundings import package_of
+
+        found: dict[Path, None] = {}
+        for block in self.robot.gazebo:
+            for plugin in block.plugins:
+                for child in plugin.element.find_all("parameters"):
+                    file = Path(child.text) if child.text.startswith("/") and "$" not in child.text else None
+                    package = package_of(file) if file is not None and file.is_file() else None
+                    if package is not None and self.package is not None and package.parent == self.package.parent:
+                        found[package] = None
+        found.pop(self.package, None)  # type: ignore[arg-type]
+        return list(found)
 
     @cached_property
     def macros_around(self) -> dict[str, list[Path]]:

@@ -140,6 +140,7 @@ def offered(model: Model) -> dict[str, dict[bool, list[str]]] | None:
     None where arguments, or another description of the package, may make it another hardware.
     """
     from urdfkit.description.surroundings import package_of
+    from urdfkit.lint.around import is_conditional
     from urdfkit.lint.entries import descriptions
 
     robot = model.robot
@@ -156,7 +157,7 @@ def offered(model: Model) -> dict[str, dict[bool, list[str]]] | None:
     if any("$" in name for name in found):
         return None
     own = {str(Path(name).absolute()): source.text for name, source in model.expanded.sources.items()}
-    if any(re.search(_CONDITIONAL, text) for text in own.values() if "_interface" in text):
+    if any(is_conditional(text, _PARTS) for text in own.values() if "_interface" in text):
         return None
     packages = {package_of(Path(file)) for file in model.around}
     for folder in sorted({model.package, *(package for package in packages if package is not None)}):
@@ -166,4 +167,5 @@ def offered(model: Model) -> dict[str, dict[bool, list[str]]] | None:
     return found
 
 
-_CONDITIONAL = r"(?s)<xacro:(if|unless)\b(?:(?!</xacro:\1).)*(?:_interface|<xacro:(?!if|unless|property|arg)\w)"
+_PARTS = r"_interface|<xacro:(?!if|unless|property|arg)\w"
+"""What may bring an interface."""

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from urdfkit.description.source import Source
     from urdfkit.lint.model import Model
 
-_NODE = r"<node\b(?:\"[^\"]*\"|'[^']*'|[^>\"'])*>"
+_NODE = r"<node\b[^<>]*>"
 _ARGUMENTS = r"\bargs\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.gazebo import plugins
+from urdfkit.lint.gazebo import plugins, simulated_hardware
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -18,6 +18,10 @@ _PLUGINS = {
     "gazebo_ros2_control/GazeboSystem": ("libgazebo_ros2_control.so", "gazebo_ros2_control"),
 }
 """Hardware → file and name of the plugin that loads it (the READMEs of gz_ros2_control and gazebo_ros2_control)."""
+
+
+_PARTS = r"<(?:gazebo|plugin|ros2_control|xacro:(?!if|unless|property|arg)\w)"
+"""What may bring the plugin, or the hardware."""
 
 
 class HardwareWithoutPlugin(RobotRule):
@@ -69,6 +73,9 @@ class HardwareWithoutPlugin(RobotRule):
             element = hardware.find("plugin") if hardware is not None else None
             if element is None or element.text not in _PLUGINS:
                 continue
+            own = simulated_hardware(model)
+            if own is not None and element.text.partition("/")[0] not in own:
+                continue  # It is hardware of another Gazebo: that has to be changed first.
             if not _is_loaded_elsewhere(model):
                 file, name = _PLUGINS[element.text]
                 message = f"`{element.text}` is loaded by a plugin for Gazebo, and there is none"
@@ -81,10 +88,10 @@ def _is_loaded_elsewhere(model: Model) -> bool:
     """Whether another description of the package, or a part of these files that is left out, names a plugin."""
     import re
 
+    from urdfkit.lint.around import is_conditional
     from urdfkit.lint.entries import descriptions
 
-    pattern = r"<plugin\b[^>]*ros2_control|<xacro:(?:if|unless)\b"
-    if any(re.search(pattern, source.text) for source in model.expanded.sources.values()):
+    if any(is_conditional(source.text, _PARTS) for source in model.expanded.sources.values()):
         return True
     texts = descriptions(model.package) if model.package is not None else ()
     return any(re.search(r"<plugin\b[^>]*ros2_control", text) for _, text in texts)

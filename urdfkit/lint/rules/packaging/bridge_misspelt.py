@@ -71,7 +71,7 @@ class BridgeMisspelt(RobotRule):
             for one, keys in in_yaml(source):
                 every.append((source, one))
                 for key in keys:
-                    near = nearest(key.text, KEYS, likeness=0.85) if key.text not in KEYS else None
+                    near = nearest(key.text, KEYS, likeness=0.7) if key.text not in KEYS else None
                     if near is not None:
                         message = f"the bridge reads no `{key.text}`; did you mean `{near}`?"
                         yield Finding(self.code, self.name, self.severity, message, span_of(source, key))

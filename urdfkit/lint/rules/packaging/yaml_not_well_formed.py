@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 _TEMPLATE = r"\{%|\{\{|\$\{"
 _BARE = r"\s*(?:-\s+)?([A-Za-z_][\w/.-]*)(?:\s+[^\s:#]\S*)?\s*(?:#.*)?$"
+_ITEM = r"\s*-\s+[^\s:]+\s*(?:#.*)?$"
 _CLOSE = r"\s*(?:-\s+)?([A-Za-z_][\w/.-]*):[^\s:/]\S*\s*(?:#.*)?$"
-_TAB = r"\btab\b|\\t"
 _UNFINISHED = r"mapping values|expected (?:':'|key|block|<block|'?-'? indicator)"
 """What libyaml says where a line is no ``name: value`` (scanner.c, parser.c)."""
 
@@ -68,9 +68,8 @@ class YamlNotWellFormed(RobotRule):
                 continue
             roots, broken = documents(source)
             if broken is not None:
-                if (
-                    not re.search(_TAB, broken.why) or "controller" not in source.text
-                ):  # tabs are controller-settings-misspelt
+                has_tab = "\t" in source.line(min(broken.line, len(source.line_starts)))
+                if not has_tab or "controller" not in source.text:  # there controller-settings-misspelt tells of tabs
                     yield self._where(source, broken)
                 continue
             for root in roots:
@@ -91,7 +90,9 @@ class YamlNotWellFormed(RobotRule):
         line, column = min(broken.line, last), broken.column
         message = f"this is no YAML: {broken.why}"
         if re.search(_UNFINISHED, broken.why):
-            for number in range(line, max(line - 4, 0), -1):
+            above = range(line, 0, -1)
+            lines = [number for number in above if not re.match(_ITEM, source.line(number))]
+            for number in lines[:4]:
                 text = source.line(number).rstrip()
                 bare, close = re.match(_BARE, text), re.match(_CLOSE, text)
                 if bare is None and close is None:
