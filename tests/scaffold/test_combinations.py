@@ -7,6 +7,7 @@ import re
 import pytest
 import yaml
 
+from tests.scaffold.drive_search import errors
 from urdfkit.cli import main
 from urdfkit.description import load
 from urdfkit.lint import lint
@@ -137,10 +138,12 @@ def test_lints_clean_loads_is_seen_and_moves(robot_template, tmp_path, arm_joint
     simulator = Simulator(robot, note=notes.append)
     assert not [note for note in notes if "controllers of" not in note and "spherical_coordinates" not in note]
     if row["drive"] != "none":
-        # Where a robot that skids bears more on one side it turns about another point: straight on, then.
+        # Where a robot that skids bears more on one side it turns about another point: straight on, then, and turned.
         command = {"skid": (0.4, 0, 0), "omni": (0.4, 0.1, 0.3)}.get(row["drive"], (0.4, 0, 0.3))
         off, way = driven(simulator, command)
         assert off <= 0.01 * way
+        if row["drive"] == "skid":
+            assert errors(robot, 0.0, 0.5)[1] < 0.01
     if row["arm"] != "none":
         targets = dict(zip(arm_joints[row["arm"]], itertools.cycle(ARM_TARGETS), strict=False))
         tell(simulator, row["ros"], targets, 1)
