@@ -57,6 +57,13 @@ def allowed(model: Model) -> set[str]:
     )
 
 
+def simulated_hardware(model: Model) -> tuple[str, ...] | None:
+    """Return the packages that bring ros2_control's hardware in the target's Gazebo; None where it may be any."""
+    if allowed(model) == {"gz"}:
+        return ("gz_ros2_control", "ign_ros2_control")
+    return ("gazebo_ros2_control",) if model.target == "classic" else None
+
+
 def is_foreign(plugin: Plugin, model: Model) -> bool:
     """Whether the target has no such plugin: then nothing of it is read, and nothing else has to be said."""
     found = generations(plugin)
