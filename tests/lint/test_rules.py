@@ -258,3 +258,21 @@ def test_a_misspelt_child_is_one_finding(tmp_path):
         '<joint name="j" type="fixed"><parent link="a"/><child link="griper"/></joint></robot>'
     )
     assert [finding.code for finding in lint(tmp_path)] == ["T202"]
+
+
+@pytest.mark.parametrize(
+    ("hardware", "wrong", "right"),
+    [
+        ("gazebo_ros2_control/GazeboSystem", ("gz", "ros2-jazzy"), ("ros2", "classic", None)),
+        ("gz_ros2_control/GazeboSimSystem", ("classic",), ("ros2", "gz", "ros2-humble", None)),
+    ],
+)
+def test_hardware_of_another_gazebo_than_the_target_is_found_without_a_plugin(tmp_path, hardware, wrong, right):
+    (tmp_path / "r.urdf").write_text(
+        f'<robot name="r"><link name="a"/><ros2_control name="s" type="system"><hardware><plugin>{hardware}</plugin>'
+        "</hardware></ros2_control></robot>"
+    )
+    for target in wrong:
+        assert {f.code for f in lint(tmp_path, target=target)} == {"C709"}
+    for target in right:
+        assert "C709" not in {f.code for f in lint(tmp_path, target=target)}

@@ -131,6 +131,7 @@ ROBOT: tuple[Row, ...] = (
     ("plugin sensor", "gazebo.sensor_frame_undefined", "SensorFrameUndefined"),
     ("plugin", "gazebo.plugin_param_unknown", "PluginParamUnknown"),
     ("plugin", "gazebo.plugin_param_wrong_generation", "PluginParamWrongGeneration"),
+    ("plugin", "gazebo.plugin_parameter_missing", "PluginParameterMissing"),
     ("plugin", "gazebo.plugin_name_case", "PluginNameCase"),
     ("plugin", "gazebo.plugin_filename_malformed", "PluginFilenameMalformed"),
     ("plugin", "gazebo.plugin_unknown", "PluginUnknown"),

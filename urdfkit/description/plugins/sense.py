@@ -20,6 +20,35 @@ ORDERED = (("min_depth", "max_depth"), ("min_range", "max_range"))
 """Meanings of plugins' parameters of which the first is the smaller."""
 
 
+NUMBERS = frozenset(
+    (
+        *("update_rate", "samples", "resolution", "min_angle", "max_angle"),
+        *("horizontal_fov", "width", "height", "near", "far", "mean", "stddev"),
+    )
+)
+"""What holds a number wherever it stands in a ``<sensor>``, but for plugins (sdformat: sensor.sdf, noise.sdf …)."""
+
+_MAX_ANGLE = 6.3
+"""A little more than a full turn [rad]: 6.2832 is written often."""
+
+
+def senseless_numbers(sensor: Element) -> Senseless:
+    """Yield what should be a number and is none, rates below zero, and angles of more than a full turn."""
+    for child in sensor.children:
+        if child.tag == "plugin":
+            continue
+        if child.tag not in NUMBERS or child.children:
+            yield from senseless_numbers(child)
+            continue
+        value = _value(child.text)
+        if child.text and isnan(value) and child.text.lower() != "nan":
+            yield child, f"<{child.tag}> is `{child.text}`, which is no number"
+        elif child.tag == "update_rate" and value < 0.0:
+            yield child, f"<update_rate> is {value:g} Hz; it must be zero or greater, and zero is as often as possible"
+        elif child.tag in ("min_angle", "max_angle") and abs(value) > _MAX_ANGLE:
+            yield child, f"<{child.tag}> is {value:g} rad, more than a full turn: angles are in radians"
+
+
 def senseless_scan(lidar: Element) -> Senseless:
     """Yield what makes no sense in a ``<ray>`` or ``<lidar>``; the defaults are sdformat's (lidar.sdf)."""
     pattern, reach = lidar.find("scan"), lidar.find("range")

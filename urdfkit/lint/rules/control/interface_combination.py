@@ -30,7 +30,7 @@ class InterfaceCombination(RobotRule):
     <robot name="arm">
       <link name="base"/>
       <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>
       <ros2_control name="arm" type="system">
         <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
         <joint name="elbow">
@@ -46,7 +46,7 @@ class InterfaceCombination(RobotRule):
     <robot name="arm">
       <link name="base"/>
       <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>
       <ros2_control name="arm" type="system">
         <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
         <joint name="elbow">

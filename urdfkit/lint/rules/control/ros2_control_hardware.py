@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import nearest, new_text
-from urdfkit.lint.gazebo import plugins
+from urdfkit.lint.gazebo import plugins, simulated_hardware
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 from urdfkit.lint.target import WITHOUT_CLASSIC
 
@@ -33,7 +33,7 @@ class HardwareMismatch(RobotRule):
     ``gazebo_ros2_control/GazeboSystem``, gz_ros2_control ``gz_ros2_control/GazeboSimSystem`` and ign_ros2_control
     ``ign_ros2_control/IgnitionSystem``. Names that are nearly one of them, or nearly ``mock_components/GenericSystem``,
     are reported too; other hardware passes. From Jazzy on (``--target ros2-jazzy``) there is no Gazebo classic, and so
-    no ``gazebo_ros2_control/GazeboSystem``.
+    no ``gazebo_ros2_control/GazeboSystem``; nor is there for ``--target gz``, and ``classic`` has only that one.
 
     ## Why is this bad?
     pluginlib finds no such class: the controller manager stops.
@@ -91,11 +91,13 @@ class HardwareMismatch(RobotRule):
             if text == HARDWARE["gazebo_ros2_control"] and model.release in WITHOUT_CLASSIC:
                 right, message = HARDWARE["gz_ros2_control"], f"`{text}` does not exist for {model.release}"
             elif text in HARDWARE.values():
+                if not hosts and (own := simulated_hardware(model)) is not None and package not in own:
+                    hosts = {own[0]}
                 # In Humble gz_ros2_control has the hardware of both names.
                 if len(hosts) != 1 or package in hosts or {package, *hosts} == {"gz_ros2_control", "ign_ros2_control"}:
                     continue
                 right = HARDWARE[next(iter(hosts))]
-                message = f"`{text}` is not the hardware of the Gazebo plugin {next(iter(hosts))}"
+                message = f"`{text}` is not the hardware of {next(iter(hosts))}"
             else:
                 near = HARDWARE.get(package) or nearest(text, (*HARDWARE.values(), *MOCKS), likeness=0.9)
                 if near is None:

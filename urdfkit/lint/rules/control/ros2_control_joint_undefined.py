@@ -14,20 +14,22 @@ if TYPE_CHECKING:
 
 
 class Ros2ControlJointUndefined(RobotRule):
-    """``<ros2_control>`` names a joint that is not there.
+    """``<ros2_control>`` names a joint that is not there, or commands one that is fixed.
 
     ## What it does
-    Compares the joints of ``<ros2_control>`` with those of the robot.
+    Compares the joints of ``<ros2_control>`` with those of the robot. Those with a ``<command_interface>`` have to
+    move; that a fixed joint is commanded is a warning.
 
     ## Why is this bad?
-    The controller manager stops: "Joint … not found in URDF".
+    The controller manager stops: "Joint … not found in URDF". What commands a fixed joint moves nothing, and
+    in Gazebo there is no such joint.
 
     ## Example
     ```xml
     <robot name="arm">
       <link name="base"/>
       <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>
       <ros2_control name="arm" type="system">
         <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
         <joint name="ellbow">
@@ -43,7 +45,7 @@ class Ros2ControlJointUndefined(RobotRule):
     <robot name="arm">
       <link name="base"/>
       <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>
       <ros2_control name="arm" type="system">
         <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
         <joint name="elbow">
@@ -71,7 +73,13 @@ class Ros2ControlJointUndefined(RobotRule):
         for block in model.robot.ros2_control:
             for element in block.element.find_all("joint"):
                 name = element.get("name")
-                if not name or name in joints or "$" in name:
+                if not name or "$" in name:
+                    continue
+                if name in joints:
+                    command = element.find("command_interface")
+                    if command is not None and joints[name].type == "fixed":
+                        message = f"<ros2_control> `{block.name}` commands the joint `{name}`, which is fixed"
+                        yield self.at(model, command, message, joint=name, severity="warning")
                     continue
                 near, hint = meant(name, joints)
                 yield self.at(

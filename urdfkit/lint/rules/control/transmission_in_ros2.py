@@ -26,7 +26,7 @@ class TransmissionInRos2(RobotRule):
     <robot name="arm">
       <link name="base"/>
       <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>
       <transmission name="elbow_transmission">
         <type>transmission_interface/SimpleTransmission</type>
         <joint name="elbow">
@@ -42,7 +42,7 @@ class TransmissionInRos2(RobotRule):
     <robot name="arm">
       <link name="base"/>
       <link name="arm"/>
-      <joint name="elbow" type="fixed"><parent link="base"/><child link="arm"/></joint>
+      <joint name="elbow" type="continuous"><parent link="base"/><child link="arm"/><axis xyz="0 0 1"/></joint>
       <ros2_control name="arm" type="system">
         <hardware><plugin>mock_components/GenericSystem</plugin></hardware>
         <joint name="elbow">

@@ -11,6 +11,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from urdfkit.description.element import Element
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
@@ -83,10 +84,20 @@ class StrayQuote(RobotRule):
                 if clean is not None and not model.is_unresolved(element, attribute):
                     fix = new_value(model, element, attribute, clean, "safe", f"Write `{clean}`")
                     yield self.at(model, element, _message(value, clean), attribute=attribute, fix=fix)
-            clean = _cleaned(element.text) if element.text and not element.children else None
+            text = _written(model, element) if element.text and not element.children else ""
+            clean = _cleaned(text) if text else None
             if clean is not None and not model.is_unresolved(element):
                 fix = new_text(model, element, clean, "safe", f"Write `{clean}`")
-                yield self.at(model, element, f"<{element.tag}>: {_message(element.text, clean)}", fix=fix)
+                yield self.at(model, element, f"<{element.tag}>: {_message(text, clean)}", fix=fix)
+
+
+def _written(model: Model, element: Element) -> str:
+    """Return the text of an element, with what reading it has stripped from its ends: that may be unseen characters."""
+    tag = model.tag(element.origin.position)
+    if tag is None or tag.close is None or tag.children:
+        return element.text
+    text = model.document(element.origin.position.file).source.text[tag.end : tag.close]
+    return text if text.strip() == element.text else element.text
 
 
 def _is_suspect(text: str) -> bool:
@@ -113,7 +124,7 @@ def _cleaned(value: str) -> str | None:
         elif last in _QUOTES and clean.count(last) == 1:
             clean = clean[:-1]
     clean = clean.strip()
-    return clean if clean and clean != value.strip() else None
+    return clean if clean and clean != value.strip(" \t\r\n") else None
 
 
 def _message(value: str, clean: str) -> str:

@@ -20,7 +20,8 @@ class SensorRangeInvalid(RobotRule):
     ## What it does
     Looks for lidars without samples or with a resolution of zero, for a smaller number above the larger one in
     ``<min>`` and ``<max>``, ``<min_angle>`` and ``<max_angle>``, ``<near>`` and ``<far>``, ``<pointCloudCutoff>`` and
-    ``<pointCloudCutoffMax>``, ``<min_range>`` and ``<max_range>``, and for cameras whose field of view is none.
+    ``<pointCloudCutoffMax>``, ``<min_range>`` and ``<max_range>``, and for cameras whose field of view is none. Also
+    for numbers that are none, rates below zero and angles of more than a full turn.
 
     ## Why is this bad?
     Such a sensor sees nothing; the simulator of this package leaves it out.
@@ -67,11 +68,16 @@ class SensorRangeInvalid(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each number that leaves nothing to see."""
-        from urdfkit.description.plugins.sense import senseless_camera, senseless_parameters, senseless_scan
+        from urdfkit.description.plugins.sense import (
+            senseless_camera,
+            senseless_numbers,
+            senseless_parameters,
+            senseless_scan,
+        )
 
         for block in model.robot.gazebo:
             for sensor in block.sensors:
-                found: list[tuple[Element, str]] = []
+                found: list[tuple[Element, str]] = [*senseless_numbers(sensor.element)]
                 for child in sensor.element.children:
                     if child.tag in ("ray", "lidar"):
                         found += senseless_scan(child)

@@ -14,10 +14,10 @@ if TYPE_CHECKING:
 
 
 class MimicJointUndefined(RobotRule):
-    """A joint mimics a joint that is not there.
+    """A joint mimics a joint that is not there, that never moves, or itself.
 
     ## What it does
-    Looks for ``<mimic joint="…"/>`` that names no joint.
+    Looks for ``<mimic joint="…"/>`` that names no joint, a fixed one, or the joint that it stands in.
 
     ## Why is this bad?
     No reader complains. The joint never moves, or robot_state_publisher leaves its frame out.
@@ -80,9 +80,25 @@ class MimicJointUndefined(RobotRule):
             return
         for joint in model.robot.joints:
             mimic = joint.mimic
-            if mimic is None or mimic.joint in model.robot.joint_by_name:
+            if mimic is None:
                 continue
-            near, hint = meant(mimic.joint, [name for name in model.robot.joint_by_name if name != joint.name])
+            others = [name for name in model.robot.joint_by_name if name != joint.name]
+            if mimic.joint in others:
+                if model.robot.joint_by_name[mimic.joint].type == "fixed":
+                    yield self.at(
+                        model,
+                        mimic.element,
+                        f"joint `{joint.name}` mimics `{mimic.joint}`, which is fixed and never moves",
+                        attribute="joint",
+                        joint=joint.name,
+                        severity="warning",
+                    )
+                continue
+            if mimic.joint == joint.name:
+                message = f"joint `{joint.name}` mimics itself"
+                yield self.at(model, mimic.element, message, attribute="joint", joint=joint.name)
+                continue
+            near, hint = meant(mimic.joint, others)
             yield self.at(
                 model,
                 mimic.element,

@@ -1,0 +1,83 @@
+"""Z831 plugin-parameter-missing."""
+
+from __future__ import annotations
+
+from urdfkit.lint.gazebo import is_foreign, plugins, spec_of, specs
+from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
+
+_REQUIRED = {
+    ("imu", "ros1"): ("body",),
+    ("p3d", "ros1"): ("body", "topic"),
+    ("p3d", "ros2"): ("body",),
+}
+"""Kind and generation → what it stops without (gazebo_plugins, gazebo_ros_imu.cpp and gazebo_ros_p3d.cpp)."""
+
+
+class PluginParameterMissing(RobotRule):
+    """A plugin lacks a parameter without which it stops.
+
+    ## What it does
+    Looks for the plugins ``libgazebo_ros_imu.so`` of ROS 1 and ``libgazebo_ros_p3d.so`` without the body that they
+    measure, and for the latter of ROS 1 without its topic.
+
+    ## Why is this bad?
+    The plugin says so once, among all that Gazebo prints when it starts, and publishes nothing.
+
+    ## Example
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <gazebo>
+        <plugin name="truth" filename="libgazebo_ros_p3d.so">
+          <topicName>truth</topicName>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+
+    ## Use instead
+    ```xml
+    <robot name="cart">
+      <link name="base"/>
+      <gazebo>
+        <plugin name="truth" filename="libgazebo_ros_p3d.so">
+          <bodyName>base</bodyName>
+          <topicName>truth</topicName>
+        </plugin>
+      </gazebo>
+    </robot>
+    ```
+    """
+
+    code = "Z831"
+    name = "plugin-parameter-missing"
+    not_for = NOT_GAZEBO
+
+    def check(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each parameter that has to be written and is not, nor any that may mean it."""
+        if model.is_incomplete:
+            return
+        from urdfkit.description.plugins.unread import unread
+
+        for plugin, _, sensor in plugins(model.robot):
+            spec = spec_of(plugin, model.target)
+            if spec is None or sensor is not None or is_foreign(plugin, model):
+                continue
+            mistaken = {each.meant for each in unread(plugin, spec)}
+            for meaning in _REQUIRED.get((spec.kind, spec.generation), ()):
+                tags = {found.tag for each in specs(plugin) if (found := each.by_meaning(meaning)) is not None}
+                parameter = spec.by_meaning(meaning)
+                if parameter is None or parameter.tag in mistaken:
+                    continue
+                if not any(child.tag in tags for child in plugin.element.children):
+                    name = (plugin.filename or "").strip()
+                    what = "the link it measures" if parameter.names == "link" else "where it publishes"
+                    message = f"`{name}` stops without <{parameter.tag}>, {what}"
+                    yield self.at(model, plugin.element, message, help=f"add <{parameter.tag}>…</{parameter.tag}>")
