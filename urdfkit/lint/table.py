@@ -179,6 +179,7 @@ AROUND: tuple[Row, ...] = (
     ("", "packaging.controller_of_other_ros", "ControllerOfOtherRos"),
     ("", "packaging.spawn_argument_misspelt", "SpawnArgumentMisspelt"),
     ("", "packaging.bridge_misspelt", "BridgeMisspelt"),
+    ("", "packaging.controller_contradicts_wheels", "ControllerContradictsWheels"),
 )
 """Rules on the robot that are asked where there are launch files or YAML around it."""
 

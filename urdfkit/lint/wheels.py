@@ -136,12 +136,13 @@ def _wheels(model: Model, plugin: Plugin, spec: PluginSpec, meaning: str) -> Ite
     joints = model.robot.joint_by_name
     for text, element in named:
         name = text if text in joints else nearest(text.strip("\"'"), joints)
-        wheel = _wheel(model, joints[name], element) if name is not None else None
+        wheel = wheel_of(model, joints[name], element) if name is not None else None
         if wheel is not None:
             yield wheel
 
 
-def _wheel(model: Model, joint: Joint, element: Element | None) -> Wheel | None:
+def wheel_of(model: Model, joint: Joint, element: Element | None) -> Wheel | None:
+    """Return the wheel that a joint turns, named by an element; None where it is not known where it is."""
     parent = model.frames.get(joint.parent or "")
     if parent is None:
         return None
@@ -167,4 +168,4 @@ def same_turn(first: Vector, second: Vector) -> float:
     )
 
 
-__all__ = ["Frame", "TwoSided", "Wheel", "drives", "mismatch", "same_turn", "written"]
+__all__ = ["Frame", "TwoSided", "Wheel", "drives", "mismatch", "same_turn", "wheel_of", "written"]

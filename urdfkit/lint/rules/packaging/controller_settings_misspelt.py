@@ -28,7 +28,8 @@ class ControllerSettingsMisspelt(RobotRule):
     ## What it does
     Looks in the YAML of the robot's package, and of those beside it that depend on it, where controllers have settings:
     for types that are nearly one of ros_controllers' or ros2_controllers', for sections of ROS 2 that are nearly called
-    like a controller, for keys that are nearly ``ros__parameters`` (with two underscores), and for tabs.
+    like a controller, for keys that are nearly ``ros__parameters`` (with two underscores), for parameters that
+    are nearly one that the controller reads, and for tabs.
 
     ## Why is this bad?
     "Loader for controller not found", or a controller that starts without its joints: what is under a key that nobody
@@ -80,6 +81,7 @@ class ControllerSettingsMisspelt(RobotRule):
                     message = f"there is no controller of type `{named.name}`; did you mean `{meant}`?"
                     yield self._at(source, named.start, named.name, message)
             yield from self._keys(source, text)
+            yield from self._parameters(source)
             if (tab := re.search(_TAB, text)) is not None:
                 yield self._at(source, tab.start(), tab[0], "YAML has no tabs: write blanks")
 
@@ -102,6 +104,14 @@ class ControllerSettingsMisspelt(RobotRule):
             meant = nearest(called, lost, likeness=0.85) if called not in (*declared, "controller_manager") else None
             if meant is not None:
                 yield self._at(source, start, name, f"no controller is called `{name}`; did you mean `{meant}`?")
+
+    def _parameters(self, source: Source) -> Iterator[Finding]:
+        from urdfkit.lint.controller_settings import misspelt
+        from urdfkit.lint.yaml_tree import span_of
+
+        for key, meant, controller in misspelt(source):
+            message = f"`{key.text}` of `{controller.name}` is read by nobody; did you mean `{meant}`?"
+            yield Finding(self.code, self.name, self.severity, message, span_of(source, key))
 
     def _at(self, source: Source, start: int, written: str, message: str) -> Finding:
         return Finding(self.code, self.name, self.severity, message, source.span(start, start + len(written)))
