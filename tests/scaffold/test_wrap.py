@@ -193,7 +193,7 @@ def test_what_a_mesh_needs_comes_along(export):
     (export / "meshes/a.obj").write_text("mtllib a.mtl\nv 0 0 0\n")
     (export / "meshes/a.mtl").write_text("newmtl m\nmap_Kd tex/a.png\n")
     (export / "meshes/tex").mkdir()
-    (export / "meshes/tex/a.png").write_bytes(b"png")
+    (export / "meshes/tex/a.png").write_bytes(b"\x89PNG\r\n\x1a\n")
     meshes = Meshes(export / "urdf/arm.urdf")
     meshes.uri("../meshes/a.obj", "arm")
     assert sorted(meshes.copies.values()) == ["meshes/a.mtl", "meshes/a.obj", "meshes/tex/a.png"]

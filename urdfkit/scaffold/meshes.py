@@ -11,6 +11,7 @@ from urllib.parse import unquote
 
 from urdfkit.description.packages import Packages
 from urdfkit.errors import ResourceError
+from urdfkit.scaffold.copying import FOLDER_NAMES, Surroundings, unlike
 from urdfkit.scaffold.names import ascii_letters
 
 URI = re.compile(r"""(<(?:mesh|texture)\b[^>]*?\bfilename\s*=\s*)(["'])(.*?)\2""", re.DOTALL)
@@ -25,7 +26,6 @@ _NEEDS = {
     ".gltf": re.compile(r'"uri"\s*:\s*"(?!data:)([^"]+)"'),
 }
 """What a file of that kind says it needs: libraries of materials, pictures, buffers."""
-_FOLDER_NAMES = ("meshes", "mesh", "textures", "materials")
 
 
 class Meshes:
@@ -44,6 +44,11 @@ class Meshes:
         """File → its path in the package, from ``meshes/`` on."""
         self.missing: list[str] = []
         """URIs that nothing was found for."""
+        self.refused: dict[str, str] = {}
+        """URI → why the file it leads to is not copied."""
+        self.left: dict[Path, str] = {}
+        """File that a mesh names → why it is not copied."""
+        self._surroundings = Surroundings(description, folders, self.packages)
 
     def uri(self, written: str, package: str) -> str:
         """Return the URI of a file in the new package; as it was where the file is not found.
@@ -53,13 +58,16 @@ class Meshes:
             package: the name of the new package; empty: relative to a folder beside ``meshes``.
         """
         uri = unescape(written)
-        source = self._find(uri)
+        if written in self.refused:
+            return written
+        source = self._chosen(uri, written)
         if source is None and "%" in uri:
             uri = unquote(uri)
-            source = self._find(uri)
+            source = self._chosen(uri, written)
         if source is None:
-            self.missing += [written] if written not in self.missing else []
+            self.missing += [written] if written not in (*self.missing, *self.refused) else []
             return written
+        self.refused.pop(written, None)
         if source not in self.copies:
             self._add(source, _place(uri))
         return f"package://{package}/{self.copies[source]}" if package else f"../{self.copies[source]}"
@@ -93,13 +101,36 @@ class Meshes:
             needed = (source.parent / name).resolve()
             about = PurePosixPath(place).parent / name
             if needed.is_file() and needed not in self.copies and ".." not in about.parts and not name.startswith("/"):
-                self._add(needed, str(about))
+                if not self._surroundings.hold(needed):
+                    self.left[needed] = "not near the robot"
+                elif reason := unlike(needed):
+                    self.left[needed] = reason
+                else:
+                    self._add(needed, str(about))
 
-    def _find(self, uri: str) -> Path | None:
+    def _reason(self, path: Path, uri: str = "") -> str:
+        """Return why a file is not copied, empty if it is."""
+        if not self._surroundings.hold(path, uri):
+            return f"leads to {path}, which is not near the robot: copy it there, or --meshes DIR if it is the robot's"
+        return unlike(path)
+
+    def _chosen(self, uri: str, written: str) -> Path | None:
+        """Return the first file that a URI may mean and that may be copied; note why others may not."""
+        for path in self._candidates(uri):
+            if path in self.copies:
+                return path
+            reason = self._reason(path, uri)
+            if not reason:
+                return path
+            self.refused.setdefault(written, reason)
+        return None
+
+    def _candidates(self, uri: str) -> Iterator[Path]:
+        """Yield the files that a URI may mean, the likeliest first."""
         try:
             path = self.packages.resolve(uri, self.description)
             if path.is_file():
-                return path.resolve()
+                yield path.resolve()
         except ResourceError:
             pass
         tail = _tail(uri)
@@ -108,12 +139,11 @@ class Meshes:
             # With and without the first part: the name of a package that is not there, or a folder of that name.
             for parts in (tail.parts, tail.parts[1:]):
                 if parts and (path := home.joinpath(*parts)).is_file():
-                    return path.resolve()
+                    yield path.resolve()
         for home in (*self.folders, self.description.resolve().parent, self.description.resolve().parent.parent):
             found = [path for path in _below(home) if _alike(path.name) == _alike(tail.name)]
             if len(found) == 1:
-                return found[0].resolve()
-        return None
+                yield found[0].resolve()
 
 
 def _alike(name: str) -> str:
@@ -148,7 +178,7 @@ def _place(uri: str) -> str:
         for part in _tail(uri).parts
         if part not in (".", "..")
     ]
-    named = [index for index, part in enumerate(parts[:-1]) if part.lower() in _FOLDER_NAMES]
+    named = [index for index, part in enumerate(parts[:-1]) if part.lower() in FOLDER_NAMES]
     return str(PurePosixPath("meshes", *(parts[named[-1] + 1 :] if named else parts[-1:])))
 
 

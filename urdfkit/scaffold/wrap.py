@@ -81,9 +81,7 @@ def wrap(
     content = rewritten(
         text.encode("utf-8", "surrogateescape"), meshes, f"{name}_description" if len(kinds) > 1 else ""
     )
-    if meshes.missing:
-        more = f" and {len(meshes.missing) - 1} more" if len(meshes.missing) > 1 else ""
-        raise ResourceError(f"{file}: no file for `{meshes.missing[0]}`{more}; nothing was written: --meshes DIR?")
+    _check(meshes, file, text)
     repository = is_fresh(folder) if repository is None else repository
     there = {path.name for path in folder.iterdir()} if folder.is_dir() else set()
     with made(folder), staging(folder) as stage:
@@ -94,7 +92,7 @@ def wrap(
         model.parent.mkdir(parents=True, exist_ok=True)
         model.write_bytes(content)
         meshes.copy(stage / f"{name}_description")
-        said = [*told(new), *mend(stage)]
+        said = [*told(new), *(f"not copied: {path}: {why}" for path, why in meshes.left.items()), *mend(stage)]
         robot = _loaded(model, stage, file)
         picture = _drawn(robot, stage / f"{name}_description", name)
         origin = f"imported from `{file.name}`"
@@ -117,6 +115,16 @@ def rewritten(content: bytes, meshes: Meshes, package: str) -> bytes:
     text = content.decode("utf-8", "surrogateescape")
     text = URI.sub(lambda match: f"{match[1]}{match[2]}{meshes.uri(match[3], package)}{match[2]}", text)
     return text.encode("utf-8", "surrogateescape")
+
+
+def _check(meshes: Meshes, file: Path, text: str) -> None:
+    """Raise with the place of a mesh that is not there or not to be copied."""
+    for uri, why in meshes.refused.items():
+        line = text.count("\n", 0, max(text.find(uri), 0)) + 1
+        raise ResourceError(f"{file}:{line}: the mesh `{uri}` {why}; nothing was written")
+    if meshes.missing:
+        more = f" and {len(meshes.missing) - 1} more" if len(meshes.missing) > 1 else ""
+        raise ResourceError(f"{file}: no file for `{meshes.missing[0]}`{more}; nothing was written: --meshes DIR?")
 
 
 def _render(stage: Path, kind: str, name: str, answers: Mapping[str, str]) -> None:
