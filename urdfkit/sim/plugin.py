@@ -189,6 +189,10 @@ class Sensor(ABC):
                 return self._ticks.after(step)
         return NEVER if self.topics else self._ticks.after(step)
 
+    def look_due(self, step: int) -> int:
+        """Return the first step from `step` on after which it wants to look, whether anybody listens or not."""
+        return self.due if type(self).catch_up is Sensor.catch_up else step
+
     def catch_up(self, state: State) -> None:
         """Measure what has fallen due."""
         if state.step < self.due:

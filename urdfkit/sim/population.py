@@ -14,6 +14,7 @@ from urdfkit.description.robot import Pose, Robot
 from urdfkit.description.world import World, WorldModel
 from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.scene import Scene, Shape
+from urdfkit.sim.agenda import Agenda
 from urdfkit.sim.arrivals import Arrival, arrival
 from urdfkit.sim.given import Named, nearest
 from urdfkit.sim.overlap import note_overlaps
@@ -35,6 +36,7 @@ class Population:
     """The world of a simulation, its robots and bodies."""
 
     _stage: Stage
+    _agenda: Agenda
     _setup: Setup
     _seed: int
     _package_path: tuple[str | Path, ...]
@@ -140,6 +142,7 @@ class Population:
             self._install(each)
             each.begin()
             each.publish_fixed()
+        self._agenda.stir()
         engine = self._stage.engine
         engine._evaluate()
         if self._stage.provider == "compiled":
@@ -226,17 +229,14 @@ class Population:
 
     # Inside
 
-    @property
-    def _active(self) -> list[SimulatedRobot]:
-        return [robot for robot in self._stage.everybody if robot.is_active]
-
     def pushes_on(self, robot: str, links: Sequence[str]) -> tuple[tuple[Array, Array, Array], ...]:
         """Return force [N], torque [N·m] and point of attack [m], in the world, of what pushes links of a robot."""
         return self._stage.pushes.on(self.robots[robot], links)
 
     def _install(self, robot: SimulatedRobot) -> None:
+        stir = robot.motors.stir = self._agenda.stir
         if robot is self._stage.everybody[0]:
-            robot.install(self._setup, seed=self._seed)
+            robot.install(self._setup, seed=self._seed, stir=stir)
             return
         if not robot.has_plugins:
             return
@@ -250,7 +250,7 @@ class Population:
             parameter_files=(),
             namespace=f"/{robot.name}",
         )
-        robot.install(setup, seed=seed)
+        robot.install(setup, seed=seed, stir=stir)
 
     def _free(self, name: str) -> str:
         taken = {*self._stage.robots, *self._stage.names}

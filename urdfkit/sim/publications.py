@@ -102,13 +102,14 @@ class JointStates(Publication):
 
     def message(self, state: State) -> Callable[[], Any]:
         """Return what builds the message of this moment, also later."""
-        t = state.t
-        positions = [state.position(name) for name in self._joints]
-        velocities = [state.velocity(name) for name in self._joints]
-        efforts = [state.effort(name) for name in self._joints] if self._efforts else []
-        return lambda: message_type(JOINT_STATE)(
-            header(t, ""), list(self._joints), np.array(positions), np.array(velocities), np.array(efforts)
-        )
+        t, tell = state.t, state.keep_joints(self._joints)
+
+        def build() -> Any:
+            positions, velocities, efforts = tell()
+            told = efforts if self._efforts else np.zeros(0)
+            return message_type(JOINT_STATE)(header(t, ""), list(self._joints), positions, velocities, told)
+
+        return build
 
 
 class Transforms(Publication):

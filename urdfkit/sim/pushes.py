@@ -49,13 +49,14 @@ class Push:
 
 
 class Pushes:
-    """What pushes at present."""
+    """What pushes at present.
+
+    Attributes:
+        acting: each push.
+    """
 
     def __init__(self) -> None:
-        self._pushes: list[Push] = []
-
-    def __bool__(self) -> bool:
-        return bool(self._pushes)
+        self.acting: list[Push] = []
 
     def add(
         self,
@@ -73,16 +74,16 @@ class Pushes:
             SimulationError: a number is not finite, or there are not three.
         """
         three = _three("force", force), _three("torque", torque), _three("point of attack", at)
-        self._pushes.append(Push(target, *three, step + steps))
+        self.acting.append(Push(target, *three, step + steps))
 
     def forget(self, wanted: Callable[[Target], bool]) -> None:
         """End the pushes on some targets."""
-        self._pushes = [push for push in self._pushes if not wanted(push.target)]
+        self.acting = [push for push in self.acting if not wanted(push.target)]
 
     def on(self, robot: SimulatedRobot, links: Sequence[str]) -> tuple[tuple[Array, Array, Array], ...]:
         """Return force [N], torque [N·m] and point of attack [m], in the world, of what pushes links of a robot."""
         found = []
-        for push in self._pushes:
+        for push in self.acting:
             if push.target[0] is robot and push.target[1] in links:
                 pose = robot.state.link_poses()[robot.kinematics.link_names.index(push.target[1])]
                 at = pose[:3] + np.array(rotate(pose[3:], push.at))
@@ -95,10 +96,10 @@ class Pushes:
         Raises:
             SimulationError: the simulation diverged.
         """
-        self._pushes = [push for push in self._pushes if push.until > engine.steps]
+        self.acting = [push for push in self.acting if push.until > engine.steps]
         touched: list[tuple[Any, Array]] = []
         loose: dict[str, Array] = {}
-        for push in self._pushes:
+        for push in self.acting:
             robot, name = push.target
             if robot is None:
                 loose[name] = loose.get(name, np.zeros(6)) + _on_body(engine.bodies[name], push, engine.dt)

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.bus import Bus, Subscription
 from urdfkit.description import Robot
 from urdfkit.kinematics import Kinematics
 from urdfkit.scene import Scene, scene_of
@@ -21,6 +20,7 @@ from urdfkit.sim.left_out import remark_left_out
 from urdfkit.sim.link_options import self_colliding, weightless_links
 from urdfkit.sim.loading import require_masses
 from urdfkit.sim.motors import Motors, Servos
+from urdfkit.sim.own_bus import OwnBus
 from urdfkit.sim.plugin import Sensor, Setup
 from urdfkit.sim.publications import Publication, Transforms, publish_fixed
 from urdfkit.sim.schedule import NEVER, Ticks
@@ -105,7 +105,7 @@ class SimulatedRobot:
         self.weightless = weightless_links(robot) if weightless is None else weightless
         self.plugins = Installed()
         self.controllers = Controllers([])
-        self._bus: _OwnBus | None = None
+        self._bus: OwnBus | None = None
         self._publications: list[Publication] = []
         self._drives: list[tuple[Any, Ticks, Ticks]] = []
         self._sensors: list[tuple[Sensor, bool]] = []
@@ -114,11 +114,6 @@ class SimulatedRobot:
     def has_plugins(self) -> bool:
         """Whether it is a robot rather than a thing with joints: it has plugins or sensors, or came as a robot."""
         return self._is_robot
-
-    @property
-    def is_active(self) -> bool:
-        """Whether something of it is due now and then."""
-        return self._setup is not None or bool(self.motors.has_goals)
 
     @property
     def shapes(self) -> tuple[Any, ...]:
@@ -151,20 +146,25 @@ class SimulatedRobot:
             self.motors = Motors(self.kinematics, *handles)
         self._approach = Ticks(APPROACH_RATE, engine.dt)
 
-    def install(self, setup: Setup, *, seed: int) -> None:
+    def install(self, setup: Setup, *, seed: int, stir: Callable[[], None]) -> None:
         """Set its plugins to work, and publish what nobody has to ask for.
+
+        Args:
+            setup: what they may use.
+            seed: of what is random.
+            stir: called when something of it may be due sooner than it has said.
 
         Raises:
             SimulationError: a parameter makes no sense, with its place.
         """
-        bus = self._bus = _OwnBus(setup.bus)
+        bus = self._bus = OwnBus(setup.bus, stir)
         setup = self._setup = replace(setup, bus=bus)
         self.plugins = install(self.robot, setup, seed=seed)
         self._drives = [(d, Ticks(d.write_rate, setup.dt), Ticks(d.read_rate, setup.dt)) for d in self.plugins.drives]
         for sensor in self.plugins.sensors:
             sensor.schedule(setup.dt, self.state.step)
         self._sensors = [(sensor, type(sensor).catch_up is Sensor.catch_up) for sensor in self.plugins.sensors]
-        self.controllers = Controllers([c.loop for c in self.plugins.controllers if c.loop is not None])
+        self.controllers = Controllers([c.loop for c in self.plugins.controllers if c.loop is not None], stir)
         for controller in self.plugins.controllers:
             controller.schedule(setup.dt)
             if controller.initial_positions:
@@ -201,6 +201,31 @@ class SimulatedRobot:
                 controller.write(self.state, self.motors)
         if self.motors.has_goals and self._approach.falls_on(step):
             self.motors.approach(self.state.position)
+
+    def write_due(self, step: int) -> int:
+        """Return the first step from `step` on before which it may have something to write."""
+        before = step - 1
+        nearest = self._approach.after(before) if self.motors.has_goals else NEVER
+        for drive, writes, _ in self._drives:
+            if not drive.resting:
+                nearest = min(nearest, writes.after(before))
+        for controller in self.plugins.controllers:
+            nearest = min(nearest, controller.after(before))
+        return nearest
+
+    def read_due(self, step: int) -> int:
+        """Return the first step from `step` on after which it has something to publish, heard by somebody or not."""
+        nearest = NEVER
+        for _, _, reads in self._drives:
+            nearest = min(nearest, reads.after(step - 1))
+        for controller in self.plugins.controllers:
+            nearest = min(nearest, controller.after(step - 1))
+        for sensor in self.plugins.sensors:
+            nearest = min(nearest, sensor.look_due(step))
+        for publications in (self._publications, *self.controllers.each_publications):
+            for publication in publications:
+                nearest = min(nearest, publication.due)
+        return nearest
 
     def next_stop(self, step: int) -> int:
         """Return the first step after `step` at which something of it is due; `NEVER` for what has no plugins."""
@@ -253,25 +278,6 @@ class SimulatedRobot:
         """Stop listening: it is removed from the world."""
         if self._bus is not None:
             self._bus.close()
-
-
-class _OwnBus(Bus):
-    """A bus as one robot's plugins see it: the same topics, and it knows what they listen to."""
-
-    def __init__(self, bus: Bus) -> None:
-        self._topics = bus._topics
-        self._subscriptions: list[Subscription] = []
-
-    def subscribe(self, name: str, type: str, callback: Callable[[Any], None]) -> Subscription:
-        """Call `callback` with every message published from now on."""
-        found = super().subscribe(name, type, callback)
-        self._subscriptions.append(found)
-        return found
-
-    def close(self) -> None:
-        """Stop listening to anything."""
-        for each in self._subscriptions:
-            each.close()
 
 
 def ground_height(ground: Ground | None) -> float | None:

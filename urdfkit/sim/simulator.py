@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import heapq
 import logging
 from collections.abc import Callable, Mapping, Sequence
 from math import isfinite
@@ -18,6 +17,7 @@ from urdfkit.description.world import Physics, World
 from urdfkit.errors import SimulationError
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.scene import Scene
+from urdfkit.sim.agenda import Agenda
 from urdfkit.sim.distro import Distro
 from urdfkit.sim.engine.engine import Provider
 from urdfkit.sim.given import number, three
@@ -25,8 +25,8 @@ from urdfkit.sim.loading import load_robot, require_sense, the_world
 from urdfkit.sim.overlap import note_overlaps
 from urdfkit.sim.plugin import Drive, Setup
 from urdfkit.sim.population import Population
-from urdfkit.sim.publications import Clock, Publication
-from urdfkit.sim.schedule import NEVER, Ticks
+from urdfkit.sim.publications import Clock
+from urdfkit.sim.schedule import Ticks
 from urdfkit.sim.simulated import SimulatedRobot
 from urdfkit.sim.spawn import Spawn
 from urdfkit.sim.stage import Stage
@@ -130,6 +130,7 @@ class Simulator(Population):
             first, found, dt=dt, provider=engine, note=self.note, package_path=package_path, sleep=sleep
         )
         self.state, self.motors = first.state, first.motors
+        self._agenda = Agenda(self._stage, self.state, dt)
         message_type(TWIST)  # loads the types now, or says that they are missing
         self._setup = Setup(
             self.bus, self.kinematics, self.name, found.name, dt, np.random.default_rng(seed), self.note, distro,
@@ -141,11 +142,9 @@ class Simulator(Population):
         self.controllers = first.controllers
         if controllers and not any(each.plugins.controllers for each in self.robots.values() if each.has_plugins):
             self.note(f"robot `{self.name}` has no plugin that runs controllers: {controllers[0]} configures nothing")
-        self._shared: tuple[Publication, ...] = (Clock(self.bus, dt), ModelStates(self.bus, dt, self))
-        self._calls: list[tuple[int, int, float, Callable[[], None]]] = []
-        self._call_number = 0
+        self._agenda.publications = Clock(self.bus, dt), ModelStates(self.bus, dt, self)
         self._stage.reset()
-        for each in self._active:
+        for each in self.robots.values():
             each.publish_fixed()
         listen(self)
         if engine == "compiled":
@@ -177,54 +176,26 @@ class Simulator(Population):
         """
         if not isinstance(n, int) or n < 0:
             raise SimulationError(f"`{n}` is no number of steps: a whole number, zero or more; `run` takes seconds")
-        end = self.state.step + n
-        while self.state.step < end:
-            active = self._write()  # 1 drives and controllers write targets
-            steps = min(self._next_stop(active), end) - self.state.step
-            self._stage.advance(steps)  # 2 the engine advances; 3 frames: computed when somebody asks
-            self._read(active)  # 4 sensors that are due measure; 5 joint states, transforms, clock
-
-    def _write(self) -> list[SimulatedRobot]:
-        step = self.state.step
-        while self._calls and self._calls[0][0] <= step:
-            due, number, period, call = heapq.heappop(self._calls)
-            call()
-            if period > 0:
-                again = max(step + 1, due + max(1, round(period / self.dt)))
-                heapq.heappush(self._calls, (again, number, period, call))
-        active = self._active
-        for robot in active:
-            robot.write(step)
-        return active
-
-    def _next_stop(self, active: Sequence[SimulatedRobot]) -> int:
-        step = self.state.step
-        nearest = max(step + 1, self._calls[0][0]) if self._calls else NEVER
-        for robot in active:
-            nearest = min(nearest, robot.next_stop(step))
-        for publication in self._shared:
-            if publication.due < nearest:
-                nearest = min(nearest, publication.next_stop(step))
-        return nearest
-
-    def _read(self, active: Sequence[SimulatedRobot]) -> None:
-        step = self.state.step
-        for robot in active:
-            robot.read(step)
-        for publication in self._shared:
-            if publication.due <= step:
-                publication.catch_up(self.state)
+        state, agenda, stage = self.state, self._agenda, self._stage
+        end = state.step + n
+        while (step := state.step) < end:
+            if step >= agenda.write_due:
+                agenda.write()  # 1 drives and controllers write targets
+            stop = end
+            if agenda.write_due < end or agenda.read_due < end:
+                stop = min(end, agenda.next_stop())
+            stage.advance(stop - step)  # 2 the engine advances; 3 frames: computed when somebody asks
+            if stop >= agenda.read_due:
+                agenda.read()  # 4 sensors that are due measure; 5 joint states, transforms, clock
 
     def reset(self) -> None:
         """Start again: robots, bodies and time; subscriptions and message counts stay, scheduled calls are dropped.
 
         What was spawned stays, where it was spawned; what was removed stays away.
         """
-        self._calls.clear()
         for robot in self.robots.values():
             robot.reset()
-        for publication in self._shared:
-            publication.reset()
+        self._agenda.reset()
         self._stage.reset()
 
     # Doing things at a time
@@ -250,9 +221,7 @@ class Simulator(Population):
     def _schedule(self, t: float, period: float, call: Callable[[], None]) -> None:
         if not isfinite(number(t, "the time of a call", "s")):
             raise SimulationError(f"nothing can be called at {t:g} s; it must be a finite number")
-        step = max(self.state.step, int(np.ceil(t / self.dt - 1e-6)))
-        self._call_number += 1
-        heapq.heappush(self._calls, (step, self._call_number, period, call))
+        self._agenda.schedule(max(self.state.step, int(np.ceil(t / self.dt - 1e-6))), period, call)
 
     # Commands and looks
 

@@ -43,7 +43,7 @@ class Stage(Assembly):
             SimulationError: the simulation diverged.
         """
         left = steps
-        while left > 0 and self.pushes:
+        while left > 0 and self.pushes.acting:
             self.pushes.step(self.engine)
             left -= 1
         if left:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -35,20 +36,21 @@ class Snapshot:
 
     Attributes:
         t: simulated time [s].
+        coordinates: everybody's, as the engine has them.
     """
 
     def __init__(self, kinematics: Kinematics, t: float, part: Part, base: Array | None) -> None:
         self._kinematics = kinematics
         self.t = t
         self._arrays, self._tree = part._arrays, part._tree
-        self._coordinates: Array = part._arrays["s"].copy()
+        self.coordinates: Array = part._arrays["s"].copy()
         self._base = base
         self._poses: Array | None = None
 
     @cached_property
     def q(self) -> Array:
         """Configuration; shape (nq,)."""
-        kept: Any = {name: self._arrays[name] for name in ("tree_body", "first_s")} | {"s": self._coordinates}
+        kept: Any = {name: self._arrays[name] for name in ("tree_body", "first_s")} | {"s": self.coordinates}
         return configuration(self._kinematics.model, kept, self._tree)
 
     def link_poses(self) -> Array:
@@ -96,6 +98,7 @@ class State:
         dof = int(arrays["tree_dof"][tree])
         self._at = {name: int(arrays["dof_s"][dof + k]) for name, k in self._index.items()}
         self._coordinates, self._velocities = numbers(arrays["s"]), numbers(self._part.v)
+        self._efforts, self._applied = numbers(self._part.effort), numbers(self._part.applied)
         self._root = int(arrays["tree_s"][tree])
 
     def advance(self, steps: int) -> None:
@@ -166,10 +169,12 @@ class State:
         Raises:
             UnknownNameError: no joint of that name moves in one degree of freedom.
         """
-        if joint not in self._index:
-            raise self._no_joint(joint)
-        index = self._index[joint]
-        return float(self._part.effort[index] + self._part.applied[index])
+        try:
+            index = self._index[joint]
+        except KeyError:
+            raise self._no_joint(joint) from None
+        found: float = self._efforts[index] + self._applied[index]
+        return found
 
     def _no_joint(self, joint: str) -> UnknownNameError:
         robot = self._kinematics.robot
@@ -196,6 +201,22 @@ class State:
     def base_velocity(self) -> tuple[float, ...]:
         """Velocity of the root link's origin [m/s] and its angular velocity [rad/s], along the world's axes."""
         return (0.0,) * 6 if self._base is not None else in_the_world(self.base_pose, self.base_twist)
+
+    def keep_joints(self, joints: Sequence[str]) -> Callable[[], tuple[Array, Array, Array]]:
+        """Return what tells positions, velocities and efforts of joints at this moment, also later; shapes (n,).
+
+        Args:
+            joints: names of joints that move in one degree of freedom.
+        """
+        coordinates, velocities = self.snapshot().coordinates, self._part.v.copy()
+        efforts = self._part.effort + self._part.applied
+        at, index = self._at, self._index
+
+        def build() -> tuple[Array, Array, Array]:
+            dofs = [index[name] for name in joints]
+            return coordinates[[at[name] for name in joints]], velocities[dofs], efforts[dofs]
+
+        return build
 
     def snapshot(self) -> Snapshot:
         """Return this moment, kept; the same object for everybody who asks before the next step."""

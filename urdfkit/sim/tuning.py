@@ -189,6 +189,7 @@ class Tuning:
         for robot in self._population.robots.values():
             for controller in robot.plugins.controllers:
                 controller.wake()
+        self._population._agenda.stir()
 
     def _followers(self) -> dict[str, list[Follower]]:
         found: dict[str, list[Follower]] = {}

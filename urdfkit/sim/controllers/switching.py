@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from urdfkit.errors import SimulationError, did_you_mean
@@ -19,13 +19,15 @@ class Controllers:
 
     Args:
         loops: the control loops, one per plugin.
+        stir: called when something of them may be due sooner than it was.
 
     Attributes:
         each_publications: per loop, what its loaded controllers publish while they run.
     """
 
-    def __init__(self, loops: Sequence[ControlLoop]) -> None:
+    def __init__(self, loops: Sequence[ControlLoop], stir: Callable[[], None] = lambda: None) -> None:
         self._loops = tuple(loops)
+        self._stir = stir
         self.each_publications: tuple[Sequence[Publication], ...] = tuple(loop.publications for loop in self._loops)
 
     @property
@@ -50,6 +52,7 @@ class Controllers:
             UrdfkitError: there is none of that name, or its parameters make no sense.
         """
         loop, own = self._find(name)
+        self._stir()
         if not loop.load(own):
             raise SimulationError(f"controller `{name}`: its type is not simulated")
 
@@ -60,6 +63,7 @@ class Controllers:
             SimulationError: there is none of that name, or it runs.
         """
         loop, own = self._find(name)
+        self._stir()
         loop.unload(own)
 
     def start(self, *names: str) -> None:
@@ -89,6 +93,7 @@ class Controllers:
             for name in names:
                 loop, own = self._find(name)
                 wanted.setdefault(self._loops.index(loop), (set(), set()))[side].add(own)
+        self._stir()
         for number, (starting, stopping) in wanted.items():
             self._loops[number].switch(start=starting, stop=stopping)
 

@@ -102,6 +102,10 @@ class GzAltimeter(OneTopic):
 
         self._height_noise, self._climb_noise = noise("vertical_position"), noise("vertical_velocity")
 
+    def look_due(self, step: int) -> int:
+        """Return the first step from `step` on after which it wants to look: at once for the first time."""
+        return step if self._start is None else super().look_due(step)
+
     def catch_up(self, state: State) -> None:
         """Measure what has fallen due; the first moment is the reference."""
         if self._start is None:

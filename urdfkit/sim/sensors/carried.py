@@ -115,6 +115,10 @@ class Carried(Sensor):
         due = super().next_stop(step)
         return due if not self.compares or due == NEVER or due - 1 <= step else due - 1
 
+    def look_due(self, step: int) -> int:
+        """Return the first step from `step` on after which it wants to look: where due, and perhaps one before."""
+        return max(step, self.due - 1) if self.compares else self.due
+
     def catch_up(self, state: State) -> None:
         """Measure what has fallen due, and remember this moment for the next."""
         super().catch_up(state)

@@ -113,6 +113,10 @@ class ForceTorque(Sensor):
         due = super().next_stop(step)
         return due if due == NEVER or due - 1 <= step else due - 1
 
+    def look_due(self, step: int) -> int:
+        """Return the first step from `step` on after which it wants to look: where it is due, and one before."""
+        return max(step, self.due - 1)
+
     def catch_up(self, state: State) -> None:
         """Measure what has fallen due, and remember this moment for the next."""
         super().catch_up(state)

@@ -87,6 +87,10 @@ class Imu(Carried):
     def _err(self, felt: Felt, ride: Ride) -> Felt:
         """Return a reading with the errors on it."""
 
+    def look_due(self, step: int) -> int:
+        """Return the first step from `step` on after which it wants to look; the first moment may be the reference."""
+        return step if self._reference is None and self._relative else super().look_due(step)
+
     def catch_up(self, state: State) -> None:
         """Measure what has fallen due, and remember this moment for the next."""
         if self._reference is None and self._relative:
