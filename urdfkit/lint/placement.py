@@ -123,7 +123,7 @@ def extent(link: Link, box_of: Callable[[Mesh], tuple[Vector, Vector] | None]) -
         for item in group:
             geometry = item.geometry
             pose = item.origin
-            if geometry is None:
+            if geometry is None or _is_impossible(geometry):
                 return None
             if isinstance(geometry, Mesh):
                 box = box_of(geometry)
@@ -144,6 +144,15 @@ def extent(link: Link, box_of: Callable[[Mesh], tuple[Vector, Vector] | None]) -
     a, b, c = (min(corner[0][i] for corner in corners) for i in range(3))
     d, e, f = (max(corner[1][i] for corner in corners) for i in range(3))
     return Extent((a, b, c), (d, e, f), tuple(shapes), tuple(volumes))
+
+
+def _is_impossible(shape: Geometry) -> bool:
+    """Whether a primitive has a size of less than nothing: that is what is wrong with it, not what is beside it."""
+    if isinstance(shape, Box):
+        return min(shape.size) < 0.0
+    if isinstance(shape, (Cylinder, Capsule)):
+        return min(shape.radius, shape.length) < 0.0
+    return isinstance(shape, Sphere) and shape.radius < 0.0
 
 
 def volume_of(shape: Geometry) -> float:

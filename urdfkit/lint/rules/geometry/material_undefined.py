@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.blamed import is_in_broken_file
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import RobotRule
 
@@ -85,6 +86,8 @@ class MaterialUndefined(RobotRule):
         for material in used:
             name = material.name
             if name is None or name in defined or _is_definition(material) or "$" in name:
+                continue
+            if is_in_broken_file(model, "material", name):
                 continue
             from urdfkit.errors import did_you_mean
 

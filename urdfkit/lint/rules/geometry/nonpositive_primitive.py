@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.numbers import numbers
+from urdfkit.lint.blamed import blamed, is_not_positive
 from urdfkit.lint.placement import shapes_of
 from urdfkit.lint.rule import RobotRule
 
@@ -10,6 +11,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from urdfkit.description.source import Position
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
@@ -53,7 +55,8 @@ class NonpositivePrimitive(RobotRule):
     name = "nonpositive-primitive"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each size that is not positive."""
+        """Yield a finding for each size that is not positive, one for a property or argument that several have."""
+        told: set[tuple[Position, str]] = set()
         for link in model.robot.links:
             for shape in shapes_of(link):
                 geometry = shape.element.find("geometry")
@@ -63,4 +66,10 @@ class NonpositivePrimitive(RobotRule):
                         values = numbers(text) or []
                         if any(value <= 0.0 for value in values) and not model.is_unresolved(element, attribute):
                             message = f'link `{link.name}`: {attribute}="{text}" of a {element.tag} has to be positive'
-                            yield self.at(model, element, message, attribute=attribute, link=link.name)
+                            place = blamed(model, element, attribute, is_not_positive)
+                            if place is None:
+                                yield self.at(model, element, message, attribute=attribute, link=link.name)
+                            elif place not in told:
+                                told.add(place)
+                                used = f"it is used at {model.shown(element.origin.position)}"
+                                yield self.at(model, place[0], message, attribute=place[1], link=link.name, help=used)

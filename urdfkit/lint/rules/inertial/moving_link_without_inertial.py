@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.masses import massless
+from urdfkit.description.numbers import number
 from urdfkit.lint.gazebo import is_simulated
 from urdfkit.lint.rule import RobotRule
 
@@ -105,9 +106,11 @@ class MovingLinkWithoutInertial(RobotRule):
             if inertial is not None and inertial.mass is not None and inertial.inertia is not None:
                 continue  # Both are there, but zero: that is said elsewhere.
             if inertial is not None and any(
-                model.is_unresolved(child, a) for child in inertial.element.children for a in child.attributes
+                model.is_unresolved(child, name) or (child.tag in ("mass", "inertia") and number(value) is None)
+                for child in inertial.element.children
+                for name, value in child.attributes.items()
             ):
-                continue  # They are there, but could not be computed.
+                continue  # They are there, but could not be computed, or read.
             yield self.at(
                 model,
                 link.element,

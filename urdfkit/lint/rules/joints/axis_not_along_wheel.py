@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.description.numbers import numbers
 from urdfkit.description.robot import Cylinder
 from urdfkit.lint.placement import rotation, shapes_of, turned, unit
 from urdfkit.lint.rule import RobotRule
@@ -76,6 +77,9 @@ class AxisNotAlongWheel(RobotRule):
             wheel = model.robot.link_by_name.get(joint.child or "")
             if joint.type != "continuous" or wheel is None or axis is None:
                 continue
+            written = joint.element.find("axis")
+            if written is not None and len(numbers(written.get("xyz") or "1 0 0") or ()) != 3:
+                continue  # It could not be read.
             discs = [
                 tuple(row[2] for row in rotation(shape.origin.rpy))
                 for shape in shapes_of(wheel)

@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.edits import nearest
 from urdfkit.lint.rule import FaultRule
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.faults import Fault
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model import Model
 
 
 class MacroArgsMismatch(FaultRule):
@@ -39,3 +48,32 @@ class MacroArgsMismatch(FaultRule):
     code = "X107"
     name = "macro-args-mismatch"
     kinds = ("macro-arguments", "undefined-block")
+
+    def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
+        """Yield the finding; one for a parameter that is written under another name."""
+        unknown, missing = self._of_call(fault, model)
+        if not unknown or not missing:
+            yield from super().check(fault, model)
+            return
+        meant = {name: nearest(name, missing) for name in unknown}
+        if len(unknown) == len(missing) == 1:
+            meant[unknown[0]] = missing[0]
+        if fault.attribute in meant and meant[fault.attribute] is not None:
+            macro, name = fault.name, meant[fault.attribute]
+            message = f"macro `{macro}` has no parameter `{fault.attribute}`, and needs `{name}`"
+            yield self.at(model, fault, message, attribute=fault.attribute, help=f"is `{name}` meant?")
+        elif fault.attribute is not None:
+            yield from super().check(fault, model)
+        elif lacking := [name for name in missing if name not in meant.values()]:
+            names = ", ".join(f"`{name}`" for name in lacking)
+            yield self.at(model, fault, f"macro `{fault.name}` needs {names}")
+
+    def _of_call(self, fault: Fault, model: Model) -> tuple[list[str], list[str]]:
+        """Return the parameters that the call of a fault gives too many, and those that it lacks."""
+        unknown: list[str] = []
+        missing: list[str] = []
+        for other in model.expanded.faults:
+            if (other.kind, other.position, other.expansions) == (fault.kind, fault.position, fault.expansions):
+                unknown += other.details.get("unknown", ())
+                missing += other.details.get("missing", ())
+        return unknown, missing

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 
+from urdfkit.lint.blamed import is_in_broken_file
 from urdfkit.lint.edits import nearest
 from urdfkit.lint.finding import Edit, Finding, Fix
 from urdfkit.lint.rule import FaultRule
@@ -60,6 +61,8 @@ class UnknownMacro(FaultRule):
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
         """Yield the finding; what is misspelt can be mended."""
+        if fault.kind == "undefined-macro" and is_in_broken_file(model, "macro", fault.name or ""):
+            return  # The file that is broken is a finding of its own.
         right = fault.name
         if fault.kind == "undefined-macro":
             right = fault.details.get("meant") or nearest(fault.name or "", fault.candidates, likeness=0.7)
