@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from urdfkit.description.element import Element
     from urdfkit.description.expanded import Expanded
     from urdfkit.description.robot import Joint, Link, Mesh, Robot, Vector
+    from urdfkit.lint.hidden import Hidden
     from urdfkit.lint.placement import Extent, Frame
     from urdfkit.lint.prefix import Signature
     from urdfkit.lint.syntax import Attribute, Tag
@@ -82,6 +83,13 @@ class Model:
             return True
         faults = (fault for fault in self.expanded.faults if "meant" not in fault.details)
         return any(fault.kind in _DROPPING and not fault.message.startswith("unbound prefix") for fault in faults)
+
+    @cached_property
+    def hidden(self) -> Hidden:
+        """What may be in what is missing: names that nothing has here; see `hidden.doubted`."""
+        from urdfkit.lint.hidden import Hidden
+
+        return Hidden(self)
 
     @cached_property
     def missing_file(self) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_value
+from urdfkit.lint.hidden import doubted
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -68,8 +69,6 @@ class Ros2ControlJointUndefined(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint that the block names and the robot lacks."""
         joints = model.robot.joint_by_name
-        if model.is_incomplete:
-            return
         for block in model.robot.ros2_control:
             for element in block.element.find_all("joint"):
                 name = element.get("name")
@@ -82,7 +81,7 @@ class Ros2ControlJointUndefined(RobotRule):
                         yield self.at(model, command, message, joint=name, severity="warning")
                     continue
                 near, hint = meant(name, joints)
-                yield self.at(
+                found = self.at(
                     model,
                     element,
                     f"<ros2_control> `{block.name}` has the joint `{name}`, which the robot does not have{hint}",
@@ -90,3 +89,4 @@ class Ros2ControlJointUndefined(RobotRule):
                     joint=name,
                     fix=new_value(model, element, "name", near, "unsafe", f"Write `{near}`") if near else None,
                 )
+                yield from doubted(model, name, near, found)

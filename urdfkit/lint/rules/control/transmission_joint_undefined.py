@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_value
+from urdfkit.lint.hidden import doubted
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -66,14 +67,12 @@ class TransmissionJointUndefined(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint that a transmission names and the robot lacks."""
         joints = model.robot.joint_by_name
-        if model.is_incomplete:
-            return
         for transmission in model.robot.transmissions:
             for part in transmission.joints:
                 if not part.name or part.name in joints or "$" in part.name:
                     continue
                 near, hint = meant(part.name, joints)
-                yield self.at(
+                found = self.at(
                     model,
                     part.element,
                     f"transmission `{transmission.name}` is for `{part.name}`, which is no joint{hint}",
@@ -81,3 +80,4 @@ class TransmissionJointUndefined(RobotRule):
                     joint=part.name,
                     fix=new_value(model, part.element, "name", near, "unsafe", f"Write `{near}`") if near else None,
                 )
+                yield from doubted(model, part.name, near, found)

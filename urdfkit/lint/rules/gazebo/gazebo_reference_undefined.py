@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_value
+from urdfkit.lint.hidden import doubted
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -54,14 +55,12 @@ class GazeboReferenceUndefined(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each block that refers to nothing."""
         robot = model.robot
-        if model.is_incomplete:
-            return
         for block in robot.gazebo:
             name = block.reference
             if not name or name in robot.link_by_name or name in robot.joint_by_name or "$" in name:
                 continue
             near, hint = meant(name, [*robot.link_by_name, *robot.joint_by_name])
-            yield self.at(
+            found = self.at(
                 model,
                 block.element,
                 f"`{name}` is neither a link nor a joint{hint}",
@@ -69,3 +68,4 @@ class GazeboReferenceUndefined(RobotRule):
                 help=None if near else "Gazebo drops the whole block",
                 fix=new_value(model, block.element, "reference", near, "unsafe", f"Write `{near}`") if near else None,
             )
+            yield from doubted(model, name, near, found)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.hidden import doubted
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -73,7 +74,7 @@ class PluginJointUndefined(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint name that is no joint."""
-        if not model.robot.gazebo or model.is_incomplete:
+        if not model.robot.gazebo:
             return
         from urdfkit.description.plugins import match
 
@@ -105,7 +106,7 @@ class PluginJointUndefined(RobotRule):
             if text in joints or "::" in text or "$" in text or model.is_unresolved(element):
                 continue
             message = f"<{parameter.tag}> names `{text}`, which is no joint"
-            fix = None
+            fix, near = None, None
             if text in model.robot.joint_by_name:
                 help = f"{_lost(model, text)} would make it, but lacks its `xacro:` prefix"
             else:
@@ -113,16 +114,18 @@ class PluginJointUndefined(RobotRule):
                 near, hint = meant(text.strip("\"'"), joints)
                 help = hint.removeprefix("; ") or f"joints: {', '.join(joints) or 'none'}"
                 fix = new_text(model, element, near, "unsafe", f"Write `{near}`") if near and single else None
-            yield self.at(model, element, message, joint=text, help=help, fix=fix)
+            found = self.at(model, element, message, joint=text, help=help, fix=fix)
+            yield from doubted(model, text, near, found) if text not in model.robot.joint_by_name else (found,)
         default = parameter.default
         if not written and default is not None and default not in joints:
-            yield self.at(
+            found = self.at(
                 model,
                 plugin.element,
                 f"<{parameter.tag}> is left out, and its default `{default}` is no joint",
                 joint=default,
                 help=f"add <{parameter.tag}>…</{parameter.tag}>{did_you_mean(default, joints)}",
             )
+            yield from doubted(model, default, None, found)
 
 
 def _lost(model: Model, joint: str) -> str:

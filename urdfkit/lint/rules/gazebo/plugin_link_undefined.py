@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_text
 from urdfkit.lint.gazebo import is_frame, references
+from urdfkit.lint.hidden import doubted
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -59,18 +60,17 @@ class PluginLinkUndefined(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each link that a plugin names and the robot lacks."""
-        if model.is_incomplete:
-            return
         for text, element, parameter, _ in references(model, ("link", "frame")):
             if parameter.names == "frame" and parameter.meaning != "base_frame":
                 continue
             if is_frame(text, model.robot):
                 continue
             near, hint = meant(text.strip("\"'"), model.robot.link_by_name)
-            yield self.at(
+            found = self.at(
                 model,
                 element,
                 f"<{parameter.tag}> names `{text}`, which is no link{hint}",
                 link=text,
                 fix=new_text(model, element, near, "unsafe", f"Write `{near}`") if near else None,
             )
+            yield from doubted(model, text, near, found)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_text
 from urdfkit.lint.gazebo import is_frame, references
+from urdfkit.lint.hidden import doubted
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -67,18 +68,17 @@ class SensorFrameUndefined(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each frame of a sensor that is no link."""
-        if model.is_incomplete:
-            return
         for text, element, tag in self._frames(model):
             if is_frame(text.strip().lstrip("/"), model.robot) or is_frame(text, model.robot):
                 continue
             near, hint = meant(text.strip("\"'"), model.robot.link_by_name)
-            yield self.at(
+            found = self.at(
                 model,
                 element,
                 f"<{tag}> names `{text}`, which is no link{hint}",
                 fix=new_text(model, element, near, "unsafe", f"Write `{near}`") if near else None,
             )
+            yield from doubted(model, text, near, found)
 
     def _frames(self, model: Model) -> Iterator[tuple[str, Element, str]]:
         for text, element, parameter, _ in references(model, ("frame",)):

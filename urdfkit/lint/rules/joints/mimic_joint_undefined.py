@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_value
+from urdfkit.lint.hidden import doubted
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -76,8 +77,6 @@ class MimicJointUndefined(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint that mimics nothing."""
-        if model.is_incomplete:
-            return
         for joint in model.robot.joints:
             mimic = joint.mimic
             if mimic is None:
@@ -99,7 +98,7 @@ class MimicJointUndefined(RobotRule):
                 yield self.at(model, mimic.element, message, attribute="joint", joint=joint.name)
                 continue
             near, hint = meant(mimic.joint, others)
-            yield self.at(
+            found = self.at(
                 model,
                 mimic.element,
                 f"joint `{joint.name}` mimics `{mimic.joint}`, which is no joint{hint}",
@@ -107,3 +106,4 @@ class MimicJointUndefined(RobotRule):
                 joint=joint.name,
                 fix=new_value(model, mimic.element, "joint", near, "unsafe", f"Write `{near}`") if near else None,
             )
+            yield from doubted(model, mimic.joint, near, found)

@@ -6,6 +6,7 @@ import re
 
 from urdfkit.lint.around import names_around
 from urdfkit.lint.finding import Finding
+from urdfkit.lint.hidden import doubted
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -56,11 +57,11 @@ class ControllerJointUndefined(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint of a controller that no description around can have."""
-        from urdfkit.errors import did_you_mean
         from urdfkit.lint.controllers import joints
+        from urdfkit.lint.edits import nearest
 
         known = model.robot.joint_by_name
-        if model.is_incomplete or not known:
+        if not known:
             return
         others: list[str] | None = None
         for source in model.around.values():
@@ -72,12 +73,14 @@ class ControllerJointUndefined(RobotRule):
                 others = names_around(model, "joint") if others is None else others
                 if any(re.fullmatch(pattern, named.name) for pattern in others):
                     continue
-                yield Finding(
+                near = nearest(named.name, known)
+                found = Finding(
                     self.code,
                     self.name,
                     self.severity,
                     f"a controller is for `{named.name}`, which is no joint of `{model.robot.name}`"
-                    f"{did_you_mean(named.name, known)}",
+                    f"{f'; did you mean `{near}`?' if near else ''}",
                     source.span(named.start, named.start + len(named.name)),
                     joint=named.name,
                 )
+                yield from doubted(model, named.name, near, found)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.queries import dangling
 from urdfkit.lint.edits import meant, new_value
+from urdfkit.lint.hidden import doubted
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -50,11 +51,9 @@ class ChildLinkUndefined(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint whose child is no link."""
-        if model.is_incomplete:
-            return
         for joint, name, element in dangling(model.robot, "child"):
             near, hint = meant(name, model.robot.link_by_name)
-            yield self.at(
+            found = self.at(
                 model,
                 element,
                 f"joint `{joint.name}` has the child `{name}`, which is no link{hint}",
@@ -62,3 +61,4 @@ class ChildLinkUndefined(RobotRule):
                 joint=joint.name,
                 fix=new_value(model, element, "link", near, "unsafe", f"Write `{near}`") if near else None,
             )
+            yield from doubted(model, name, near, found)

@@ -52,10 +52,11 @@ class MultipleRoots(RobotRule):
         """Yield a finding for each root but the one with the most links below it."""
         robot = model.robot
         roots = robot.roots()
-        if len(roots) < 2 or model.is_incomplete:
+        if len(roots) < 2:
             return
         missed = _missed(robot)
-        roots = [link for link in roots if link.name not in missed]
+        hidden = model.hidden
+        roots = [link for link in roots if link.name not in missed and not hidden.has_child(link.name)]
         if len(roots) < 2:
             return
         main = max(roots, key=lambda link: _links_below(robot, link.name))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.queries import dangling
 from urdfkit.lint.edits import meant, new_value
+from urdfkit.lint.hidden import doubted
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -51,11 +52,9 @@ class ParentLinkUndefined(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint whose parent is no link."""
-        if model.is_incomplete:
-            return
         for joint, name, element in dangling(model.robot, "parent"):
             near, hint = meant(name, model.robot.link_by_name)
-            yield self.at(
+            found = self.at(
                 model,
                 element,
                 f"joint `{joint.name}` has the parent `{name}`, which is no link{hint}",
@@ -63,3 +62,4 @@ class ParentLinkUndefined(RobotRule):
                 joint=joint.name,
                 fix=new_value(model, element, "link", near, "unsafe", f"Write `{near}`") if near else None,
             )
+            yield from doubted(model, name, near, found)
