@@ -35,6 +35,47 @@ def test_nested_messages_and_lists() -> None:
 
 
 @pytest.mark.parametrize(
+    ("written", "sec", "nanosec"),
+    [
+        ({"secs": 2, "nsecs": 5}, 2, 5),
+        ({"sec": 2, "nanosec": 5}, 2, 5),
+        ({"secs": 2}, 2, 0),
+        (2, 2, 0),
+        (2.5, 2, 500_000_000),
+        (0.3, 0, 300_000_000),
+        ({"sec": 1.25}, 1, 250_000_000),
+        (-0.5, -1, 500_000_000),
+        (1.9999999999, 2, 0),
+        ([2, 5], 2, 5),
+        (None, 0, 0),
+    ],
+)
+def test_times_as_in_ros_1_and_in_seconds(written: object, sec: int, nanosec: int) -> None:
+    trajectory = {"points": [{"time_from_start": written}], "header": {"seq": 7, "frame_id": "x"}}
+    message = from_fields("trajectory_msgs/JointTrajectory", trajectory)
+    duration = message.points[0].time_from_start
+    assert (duration.sec, duration.nanosec, message.header.frame_id) == (sec, nanosec, "x")
+
+
+@pytest.mark.parametrize(
+    ("written", "said"),
+    [
+        ({"secs": 2, "sec": 3}, "says the same twice"),
+        ({"sec": 2.5, "nanosec": 3}, "has parts of a second twice"),
+        ({"scs": 2}, "did you mean `sec`?"),
+        (-1, "`-1` is no builtin_interfaces/msg/Time"),
+        (1e10, "is no builtin_interfaces/msg/Time that can be: seconds, at most 2147483647"),
+        (True, "write its fields, sec, nanosec"),
+        ("2", "write its fields, sec, nanosec"),
+    ],
+)
+def test_times_that_are_none(written: object, said: str) -> None:
+    with pytest.raises(UsageError) as caught:
+        from_fields("std_msgs/Header", {"stamp": written})
+    assert said in str(caught.value)
+
+
+@pytest.mark.parametrize(
     ("fields", "said"),
     [
         ({"linear": {"w": 1}}, "no field `w` in geometry_msgs/msg/Vector3"),

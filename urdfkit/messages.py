@@ -120,7 +120,8 @@ def from_fields(type: str, fields: Any) -> Any:
 
     Args:
         type: its type.
-        fields: field → value, nested as the message is; None for none. A message may also be the list of its fields.
+        fields: field → value, nested as the message is; None for none. A message may also be the list of its fields,
+            a time or duration seconds, and both may have ``secs`` and ``nsecs``, and a header ``seq``, as in ROS 1.
 
     Raises:
         UsageError: no such type or field, or a value of the wrong kind.
@@ -130,6 +131,10 @@ def from_fields(type: str, fields: Any) -> Any:
     full = full_type_name(type)
     kind = message_type(full)
     layout = dict(_layouts()[full][1])
+    if full in _MOMENTS:
+        fields = _moment(full, fields)
+    elif full == "std_msgs/msg/Header" and isinstance(fields, dict):
+        fields = {name: value for name, value in fields.items() if name != "seq"}
     if isinstance(fields, list) and len(fields) == len(layout):
         fields = dict(zip(layout, fields, strict=True))
     if fields is not None and not isinstance(fields, dict):
@@ -141,6 +146,39 @@ def from_fields(type: str, fields: Any) -> Any:
             )
     given = fields or {}
     return kind(**{name: _value(full, name, description, given.get(name)) for name, description in layout.items()})
+
+
+_MOMENTS = ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration")
+
+
+def _moment(type: str, fields: Any) -> Any:
+    """Return the fields of a time or duration that may be seconds, or be written as in ROS 1.
+
+    Raises:
+        UsageError: a field is there twice, is no number, or more than the message can hold.
+    """
+    import math
+
+    from urdfkit.errors import UsageError
+
+    named = {"secs": "sec", "nsecs": "nanosec"}
+    if isinstance(fields, dict):
+        if len({named.get(name, name) for name in fields}) < len(fields):
+            raise UsageError(f"`{fields}` says the same twice: {type} has sec and nanosec")
+        fields = {named.get(name, name): value for name, value in fields.items()}
+        if not isinstance(fields.get("sec"), float):
+            return fields
+    seconds = fields.get("sec") if isinstance(fields, dict) else fields
+    if isinstance(seconds, bool) or not isinstance(seconds, int | float):
+        return fields
+    if not (-(2**31) if type.endswith("Duration") else 0) <= seconds < 2**31:
+        raise UsageError(f"`{seconds}` is no {type} that can be: seconds, at most {2**31 - 1}")
+    whole = math.floor(seconds)
+    rest = round((seconds - whole) * 1e9)
+    more = fields if isinstance(fields, dict) else {}
+    if rest and "nanosec" in more:
+        raise UsageError(f"`{fields}` has parts of a second twice: {type} has sec, a whole number, and nanosec")
+    return {**more, "sec": whole + rest // 10**9, **({"nanosec": rest % 10**9} if rest else {})}
 
 
 @cache
