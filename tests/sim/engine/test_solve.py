@@ -83,6 +83,25 @@ def test_a_known_load_is_shared_by_redundant_rows():
     assert x == pytest.approx(np.full(4, 0.005), rel=1e-6)
 
 
+@pytest.mark.parametrize("n", [1, 15, 16, 17, 33])
+@pytest.mark.parametrize("limited", [False, True])
+def test_rows_that_hold_are_one_linear_system(n, limited):
+    random = np.random.default_rng(n)
+    J = random.normal(size=(n, n + 5))
+    A, g = J @ J.T, random.normal(size=n)
+    low, high = np.full(n, -np.inf), np.full(n, np.inf)
+    softness = 1e-9 * np.diag(A)
+    expected = np.linalg.solve(A + np.diag(softness), -g)
+    if limited:
+        # Every fourth has half of what it would take.
+        high[::4] = 0.5 * np.abs(expected[::4])
+        low[::4] = -high[::4]
+    guesses, x = solved(A, g, low, high, np.zeros(n))
+    assert guesses > 0
+    assert violation(A, g, low, high, np.zeros(n), x) < 2.0 * (softness * np.abs(x)).max()
+    assert limited or x == pytest.approx(expected, rel=1e-9)
+
+
 def test_a_remembered_load_lets_nothing_creep():
     A, g = np.array([[0.5]]), np.array([-0.01])
     fresh = solved(A, g, np.zeros(1), np.full(1, np.inf), np.zeros(1))[1]

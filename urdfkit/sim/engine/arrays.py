@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
+from urdfkit.sim.engine.lanes import LANES
 from urdfkit.sim.engine.pairs import collide_pair as memory
 
 Size = tuple[str, ...]
@@ -114,6 +115,7 @@ FLOATS: dict[str, Size] = {
     "found_normal": ("24",),
     "found_gap": ("8",),
     "Y": ("y",),
+    "columns": ("y",),
     "row_bias": ("r",),
     "g": ("r",),
     "low": ("r",),
@@ -275,7 +277,9 @@ def allocate(sizes: Sequence[int], *, width: int) -> Arrays:
     def shape(size: Size) -> tuple[int, ...]:
         return tuple(number(one) for one in size)
 
-    float_starts = np.cumsum([0, *(int(np.prod(shape(size))) for size in FLOATS.values())])
+    # What is taken `LANES` at a time may be read and written beyond its end.
+    lanes: dict[Size, int] = {("r",): LANES, ("q",): LANES * counts["r"], ("y",): LANES * width}
+    float_starts = np.cumsum([0, *(int(np.prod(shape(size))) + lanes.get(size, 0) for size in FLOATS.values())])
     integer_starts = FIRST_INTEGER + np.cumsum([0, *(int(np.prod(shape(size))) for size in INTEGERS.values())])
     try:
         floats = np.zeros(int(float_starts[-1]))
@@ -292,6 +296,6 @@ def allocate(sizes: Sequence[int], *, width: int) -> Arrays:
     integers[HEAD + len(FLOATS) + 1 : FIRST_INTEGER] = integer_starts
     views: dict[str, NDArray[Any]] = {}
     for block, table, starts in ((floats, FLOATS, float_starts), (integers, INTEGERS, integer_starts)):
-        for (name, size), start, end in zip(table.items(), starts, starts[1:], strict=False):
-            views[name] = block[start:end].reshape(shape(size))
+        for (name, size), start in zip(table.items(), starts, strict=False):
+            views[name] = block[start : start + int(np.prod(shape(size)))].reshape(shape(size))
     return Arrays(floats, integers, views)

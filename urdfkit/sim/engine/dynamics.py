@@ -16,6 +16,7 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.lanes import LANES, put, sixteen
 from urdfkit.sim.engine.spatial import (
     IDENTITY,
     ZERO,
@@ -274,29 +275,31 @@ def solve_transposed(floats: Any, integers: Any, first: int, beyond: int, x: Any
 
 
 @inlined
-def solve_transposed_by_four(
-    floats: Any, integers: Any, first: int, beyond: int, x: Any, start: int, width: int
-) -> None:
-    """Do what `solve_transposed` does for four rows of x at once, `width` apart, none of which waits for another."""
+def solve_transposed_rows(floats: Any, integers: Any, first: int, beyond: int, x: Any, start: int) -> None:
+    """Do what `solve_transposed` does for `LANES` rows at once: their entries for a dof stand side by side.
+
+    Args:
+        floats: block of the arrays.
+        integers: block of the arrays.
+        first: dof of the tree.
+        beyond: its last dof, and one.
+        x: the rows.
+        start: where in x their entries for the first dof are; those for the next follow.
+    """
     dof_row = field(integers, integers, At.dof_row)
     dof_parent = field(integers, integers, At.dof_parent)
     L = field(floats, integers, At.L)
     inverse_diagonal = field(floats, integers, At.inverse_diagonal)
-    one, two, three = start + width, start + 2 * width, start + 3 * width
     for i in range(beyond - 1, first - 1, -1):
-        inverse = inverse_diagonal[i]
-        p, q, r, s = x[start + i] * inverse, x[one + i] * inverse, x[two + i] * inverse, x[three + i] * inverse
-        x[start + i], x[one + i], x[two + i], x[three + i] = p, q, r, s
-        if p != 0.0 or q != 0.0 or r != 0.0 or s != 0.0:
-            row = dof_row[i]
-            j = dof_parent[i]
-            while j >= 0:
-                entry = L[row + j]
-                x[start + j] -= entry * p
-                x[one + j] -= entry * q
-                x[two + j] -= entry * r
-                x[three + j] -= entry * s
-                j = dof_parent[j]
+        at = start + (i - first) * LANES
+        xi = inverse_diagonal[i] * sixteen(x, at)
+        put(x, at, xi)
+        row = dof_row[i]
+        j = dof_parent[i]
+        while j >= 0:
+            at = start + (j - first) * LANES
+            put(x, at, sixteen(x, at) - L[row + j] * xi)
+            j = dof_parent[j]
 
 
 @inlined

@@ -30,6 +30,7 @@ from urdfkit.sim.engine.guess import (
     revise_guess,
     turn_slips,
 )
+from urdfkit.sim.engine.lanes import LANES, padded, put, sixteen
 from urdfkit.sim.engine.linear import factor_and_solve
 from urdfkit.sim.engine.slide import CONTRADICTION, slide, slide_softly
 
@@ -109,6 +110,7 @@ def try_guess(floats: Any, integers: Any, rows: int, rest: Any, softness: float)
             return EXACTLY
         soft = max(softness, SLIDING_SOFTNESS)
         return -1 if slide_softly(floats, integers, rows, n, rest, soft) else 0
+    width = padded(n + 1)
     for a in range(n):
         i = index[a]
         total = -g[i] + softness * A[i * rows + i] * rest[i]
@@ -116,10 +118,14 @@ def try_guess(floats: Any, integers: Any, rows: int, rest: Any, softness: float)
             for j in range(rows):
                 if x[j] != 0.0:
                     total -= A[i * rows + j] * x[j]
-        y[a] = total
-        for b in range(a, n):
-            B[a * n + b] = A[i * rows + index[b]]
-        B[a * n + a] += softness * A[i * rows + i]
+        if n == rows:
+            for first in range(a & -LANES, width, LANES):
+                put(B, a * width + first, sixteen(A, a * rows + first))
+        else:
+            for b in range(a, n):
+                B[a * width + b] = A[i * rows + index[b]]
+        B[a * width + a] += softness * A[i * rows + i]
+        B[a * width + n] = total
     if not factor_and_solve(n, B, y):
         return 0
     for a in range(n):

@@ -19,6 +19,7 @@ KERNEL_MODULES = (
     "friction",
     "guess",
     "integrate",
+    "lanes",
     "limits",
     "linear",
     "rows",

@@ -6,8 +6,8 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
-from urdfkit.sim.engine.dynamics import solve_transposed, solve_transposed_by_four
-from urdfkit.sim.engine.linear import gram_row
+from urdfkit.sim.engine.dynamics import solve_transposed, solve_transposed_rows
+from urdfkit.sim.engine.lanes import LANES, put, sixteen
 
 
 @inlined
@@ -43,6 +43,50 @@ def row_product(floats: Any, integers: Any, i: int, j: int, width: int) -> float
 
 
 @inlined
+def column_of(k: int, dofs: int) -> int:
+    """Return where in ``columns`` the first entry of row k is, each of so many dofs; its next is `LANES` further."""
+    return (k & -LANES) * dofs + (k & (LANES - 1))
+
+
+@inlined
+def whiten_columns(floats: Any, integers: Any, rows: int, first: int, beyond: int, width: int) -> None:
+    """Do what `whiten` does for the rows of a single tree, `LANES` rows at once, see `column_of`.
+
+    What ``columns`` holds beside the last row is never looked at.
+    """
+    v = field(floats, integers, At.v_start)
+    u = field(floats, integers, At.u)
+    Y = field(floats, integers, At.Y)
+    columns = field(floats, integers, At.columns)
+    bias = field(floats, integers, At.row_bias)
+    g = field(floats, integers, At.g)
+    A = field(floats, integers, At.A)
+    n = beyond - first
+    for k in range(rows):
+        at = column_of(k, n)
+        for d in range(n):
+            columns[at + d * LANES] = Y[k * width + d]
+    for start in range(0, rows, LANES):
+        at = column_of(start, n)
+        free = sixteen(bias, start)
+        for d in range(n):
+            free = free + v[first + d] * sixteen(columns, at + d * LANES)
+        solve_transposed_rows(floats, integers, first, beyond, columns, at)
+        for d in range(n):
+            free = free + u[first + d] * sixteen(columns, at + d * LANES)
+        put(g, start, free)
+    for k in range(rows):
+        one = column_of(k, n)
+        for start in range(0, rows, LANES):
+            at = column_of(start, n)
+            products = columns[one] * sixteen(columns, at)
+            for d in range(1, n):
+                products = products + columns[one + d * LANES] * sixteen(columns, at + d * LANES)
+            # What this writes beyond the row is the next one's, which comes later.
+            put(A, k * rows + start, products)
+
+
+@inlined
 def whiten(floats: Any, integers: Any, rows: int, single: int, width: int, alone: bool) -> None:
     """Turn rows J into Y = J·L⁻¹, their biases into velocities g with no impulse, and get A = J·M⁻¹·Jᵀ.
 
@@ -62,26 +106,7 @@ def whiten(floats: Any, integers: Any, rows: int, single: int, width: int, alone
         first, beyond = tree_dof[single], tree_dof[single + 1]
         if alone:
             first, beyond = 0, width
-        for k in range(rows):
-            start = k * width - first
-            free = bias[k]
-            for d in range(first, beyond):
-                free += Y[start + d] * v[d]
-            g[k] = free
-        k = 0
-        while k + 4 <= rows:
-            solve_transposed_by_four(floats, integers, first, beyond, Y, k * width - first, width)
-            k += 4
-        while k < rows:
-            solve_transposed(floats, integers, first, beyond, Y, k * width - first)
-            k += 1
-        for k in range(rows):
-            start = k * width - first
-            free = g[k]
-            for d in range(first, beyond):
-                free += Y[start + d] * u[d]
-            g[k] = free
-            gram_row(rows, k, beyond - first, width, Y, A)
+        whiten_columns(floats, integers, rows, first, beyond, width)
         return
     for k in range(rows):
         free = bias[k]
@@ -118,10 +143,15 @@ def push(floats: Any, integers: Any, rows: int, single: int, width: int, alone: 
         first, beyond = tree_dof[single], tree_dof[single + 1]
         if alone:
             first, beyond = 0, width
-        for k in range(rows):
-            xk = x[k]
-            for d in range(beyond - first):
-                u[first + d] += Y[k * width + d] * xk
+        columns, n = field(floats, integers, At.columns), beyond - first
+        for start in range(0, rows, LANES):
+            many = min(LANES, rows - start)
+            for d in range(n):
+                at = column_of(start, n) + d * LANES
+                total = u[first + d]
+                for k in range(many):
+                    total += columns[at + k] * x[start + k]
+                u[first + d] = total
         return
     for k in range(rows):
         xk = x[k]

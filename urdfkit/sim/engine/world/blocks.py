@@ -11,8 +11,8 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.lanes import put, six
 from urdfkit.sim.engine.world.products import load_six, times_six
-from urdfkit.sim.engine.world.six import put, six
 
 MOST_TREES = 62
 """Most trees of an island: as many as a number has bits."""

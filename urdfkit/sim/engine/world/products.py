@@ -10,7 +10,7 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import WIDTH, At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
-from urdfkit.sim.engine.world.six import put, six
+from urdfkit.sim.engine.lanes import put, six
 
 
 @inlined
