@@ -85,3 +85,27 @@ def test_numbers_that_cannot_be_read_are_no_other_defect(tmp_path):
 <joint name="j" type="continuous"><parent link="base"/><child link="w"/><axis xyz="0, 1, 0"/></joint>
 <gazebo><plugin name="p" filename="libgazebo_ros_joint_state_publisher.so"/></gazebo>"""
     assert [(c, line) for c, line, _ in found(tmp_path, body) if c != "G610"] == [("E010", 4), ("E010", 5)]
+
+
+def test_a_property_that_is_nearly_a_number_is_told_where_it_is_written(tmp_path):
+    body = """<xacro:property name="track" value="O.4"/>
+<link name="base"/><link name="a"/><link name="b"/>
+<joint name="j" type="fixed"><parent link="base"/><child link="a"/><origin xyz="0 ${track/2} 0"/></joint>
+<joint name="k" type="fixed"><parent link="base"/><child link="b"/><origin xyz="0 ${-track/2} 0"/></joint>"""
+    assert found(tmp_path, body) == [("X124", 2, "`O.4` is reckoned with and is no number")]
+    told = found(tmp_path, body.replace("${track/2}", "${track}").replace("${-track/2}", "${track}"))
+    assert [(code, line) for code, line, _ in told] == [("E010", 2)]
+
+
+def test_what_fails_for_another_reason_is_told_where_it_fails(tmp_path):
+    body = f'<xacro:property name="side" value="left"/>\n{BALL.format("base", "${side / 2}")}'
+    assert [(code, line) for code, line, _ in found(tmp_path, body) if code != "G610"] == [("X124", 3)]
+
+
+def test_of_properties_below_zero_the_one_that_is_a_size_is_blamed(tmp_path):
+    body = """<xacro:property name="radius" value="-0.05"/><xacro:property name="wheel_z" value="-0.01"/>
+<xacro:macro name="caster" params="radius z">
+<xacro:property name="half" value="${(radius - z) / 2}"/>
+<link name="c"><collision><geometry><sphere radius="${half}"/></geometry></collision></link></xacro:macro>
+<xacro:caster radius="${radius}" z="${wheel_z}"/>"""
+    assert [(code, line) for code, line, _ in found(tmp_path, body)] == [("G611", 2)]

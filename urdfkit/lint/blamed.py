@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 _EXPRESSION = r"\$\{([^{}]*)\}"
 _NAME = r"(?<![\w.'\"])[A-Za-z_]\w*(?!\w|\s*\()"
+_SIZE = r"(?i)radius|diameter|length|width|height|depth|size|thick"
 _MAX_STEPS = 8
 
 
@@ -68,16 +69,19 @@ def culprit(
     if steps > _MAX_STEPS:
         return None
     names = {name for inside in re.findall(_EXPRESSION, text) for name in re.findall(_NAME, inside)}
-    found: set[Place] = set()
+    found: dict[Place, str] = {}
     for name in names:
         value, place, outer = _value(model, name, calls)
         if place is None:
             continue
         if "${" in value:
             deeper = culprit(model, value, outer, is_wrong, steps + 1)
-            found |= {deeper} if deeper is not None else set()
+            if deeper is not None:
+                found[deeper] = name
         elif is_wrong(value):
-            found.add(place)
+            found[place] = name
+    if len(found) > 1 and is_wrong is is_not_positive:  # A place may well be below zero.
+        found = {place: name for place, name in found.items() if re.search(_SIZE, name)}
     return next(iter(found)) if len(found) == 1 else None
 
 
@@ -91,7 +95,10 @@ def _value(model: Model, name: str, calls: Sequence[Expansion]) -> tuple[str, Pl
     position = model.expanded.properties.get(name)
     tag = model.tag(position) if position is not None else None
     value = tag.attributes.get("value") if tag is not None else None
-    return (value.value, (position, "value"), ()) if value is not None and position is not None else ("", None, ())
+    if tag is None or value is None or position is None:
+        return "", None, ()
+    is_local = any(above.name in ("xacro:macro", "macro") for above in tag.ancestors())
+    return value.value, (position, "value"), calls if is_local else ()
 
 
 def is_not_positive(text: str) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from urdfkit.description.numbers import number
+from urdfkit.lint.blamed import blamed, is_no_number
 from urdfkit.lint.expressions import is_unexpanded
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import RobotRule
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.description.robot import Problem
+    from urdfkit.lint.blamed import Place
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
@@ -64,13 +66,21 @@ class BadNumber(RobotRule):
     fix = "safe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each number the reader could not read."""
+        """Yield a finding for each number the reader could not read, one for a property that several use."""
+        told: set[Place] = set()
         for problem in model.robot.problems:
             if problem.kind != "bad-number" or model.is_unresolved(problem.element, problem.attribute):
                 continue
             written = problem.element.get(problem.attribute) if problem.attribute else problem.element.text
             if is_unexpanded(written or ""):
                 continue  # X110 says why.
+            place = blamed(model, problem.element, problem.attribute, is_no_number) if problem.attribute else None
+            if place is not None:
+                if place not in told:
+                    told.add(place)
+                    used = f"it is used at {model.shown(problem.element.origin.position)}"
+                    yield self.at(model, place[0], problem.message, attribute=place[1], help=used)
+                continue
             fix = self._without_commas(problem, model)
             yield self.at(
                 model,

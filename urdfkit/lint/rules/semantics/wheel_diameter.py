@@ -104,7 +104,7 @@ class WheelDiameter(RobotRule):
         if not model.robot.gazebo:
             return
         for drive in drives(model):
-            radii = [radius for wheel in (*drive.left, *drive.right) for radius in wheel.radii]
+            radii = [radius for wheel in (*drive.left, *drive.right) for radius in wheel.radii if radius > 0.0]
             for meaning, factor in (("wheel_diameter", 2.0), ("wheel_radius", 1.0)):
                 value = written(model, drive, meaning)
                 if value is None or not radii:
