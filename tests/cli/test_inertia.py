@@ -134,6 +134,26 @@ def test_bytes_that_are_not_touched_stay(write):
     assert after.count(b"\r\n") >= content.count(b"\r\n")
 
 
+@pytest.mark.parametrize("end", [b"\r\n", b"\r"])
+@pytest.mark.parametrize(
+    "link",
+    [
+        '<link name="a">\n  {}\n</link>',
+        '<link name="a">\n  <inertial>\n    <mass value="1"/>\n  </inertial>\n  {}\n</link>',
+    ],
+)
+def test_lines_that_are_put_in_end_as_the_others(write, link, end):
+    shape = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
+    path = write(link.format(shape))
+    assert main(["inertia", str(path), "a", "--mass", "1", "--write"]) == 0
+    mended = path.read_bytes()
+    path = write(link.format(shape))
+    path.write_bytes(path.read_bytes().replace(b"\n", end))
+    assert main(["inertia", str(path), "a", "--mass", "1", "--write"]) == 0
+    assert b"<inertia " in mended
+    assert path.read_bytes() == mended.replace(b"\n", end)
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

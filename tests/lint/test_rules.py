@@ -71,6 +71,20 @@ def test_fixes_give_the_fixed_file_and_do_nothing_more(path):
     assert fix([Entry(path)], Options(target=target(rule)), within=[path.parent], unsafe=True).changes == ()
 
 
+@pytest.mark.parametrize("end", ["\r\n", "\r"], ids=["CRLF", "CR"])
+@pytest.mark.parametrize("path", [one for one in files("fixed") if one.values[0].suffix in (".urdf", ".xacro")])
+def test_fixes_keep_to_the_line_ends_of_their_file(path, end, tmp_path, monkeypatch):
+    folder = tmp_path / path.parent.name
+    shutil.copytree(path.parent, folder)
+    monkeypatch.chdir(folder)
+    bad, rule = Path(path.name.replace("fixed", "bad")), BY_NAME[path.parent.name]
+    before = bad.read_bytes()
+    bad.write_bytes(before.replace(b"\n", end.encode()))
+    options = Options(select=(rule.code,), target=target(rule))
+    fixed = fix([Entry(bad)], options, within=[folder], unsafe=rule.fix == "unsafe")
+    assert [change.after for change in fixed.changes] == [path.read_bytes().replace(b"\n", end.encode())]
+
+
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
 def test_each_rule_has_its_files(rule: type[Rule]):
     kinds = {path.stem for path in (HERE / rule.name).iterdir() if path.is_file()}

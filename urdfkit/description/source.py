@@ -116,8 +116,13 @@ class Source:
 
     @cached_property
     def line_starts(self) -> list[int]:
-        """Offset of the first character of each line."""
+        """Offset of the first character of each line; a line ends as XML has it, also by a carriage return alone."""
         starts = [0]
+        if "\r" in self.text:
+            import re
+
+            starts += [end.end() for end in re.finditer("\r\n?|\n", self.text)]
+            return starts
         find = self.text.find
         at = find("\n")
         while at != -1:
@@ -132,6 +137,16 @@ class Source:
         start = self.line_starts[number - 1]
         end = self.line_starts[number] if number < len(self.line_starts) else len(self.text)
         return self.text[start:end].rstrip("\r\n")
+
+    @cached_property
+    def line_end(self) -> str:
+        """How the first line ends, as those that are put in have to."""
+        first = self.text[: self.line_starts[1]] if len(self.line_starts) > 1 else "\n"
+        return "\r\n" if first.endswith("\r\n") else first[-1]
+
+    def line_before(self, offset: int) -> str:
+        """Return what stands on the line of an offset before it."""
+        return self.text[self.line_starts[self.position(offset).line - 1] : offset]
 
     def offset(self, line: int, column: int) -> int:
         """Return the offset of a position, clamped to the text."""

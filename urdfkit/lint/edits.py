@@ -100,8 +100,8 @@ def removal(document: Document, tag: Tag) -> Edit:
     text, start, end = document.source.text, tag.start, tag.close_end
     before = re.search(r"[ \t]*\Z", text[:start])
     line = start - len(before[0]) if before else start
-    if line == 0 or text[line - 1] == "\n":
-        after = re.compile(r"[ \t]*\r?\n").match(text, end)
+    if line == 0 or text[line - 1] in "\r\n":
+        after = re.compile(r"[ \t]*(?:\r\n?|\n)").match(text, end)
         if after:
             start, end = line, after.end()
     return Edit(document.source.span(start, end), "")
@@ -124,9 +124,8 @@ def more_children(model: Model, element: Element, written: str, safety: Safety, 
         return None
     source = model.document(element.origin.position.file).source
     last = tag.children[-1]
-    line = source.text.rfind("\n", 0, last.start) + 1
-    indent = source.text[line : last.start]
-    text = f"\n{indent}{written}" if not indent.strip() else written
+    indent = source.line_before(last.start)
+    text = f"{source.line_end}{indent}{written}" if not indent.strip() else written
     return Fix(safety, title, (Edit(source.span(last.close_end, last.close_end), text),))
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from urdfkit.description.element import Element
     from urdfkit.description.robot import Geometry, Link, Pose, Vector
-    from urdfkit.description.source import Position
+    from urdfkit.description.source import Position, Source
     from urdfkit.lint.model import Model
     from urdfkit.lint.solids import Moments
     from urdfkit.lint.syntax import Tag
@@ -207,9 +207,8 @@ def _element(tag: str, attributes: dict[str, str]) -> str:
     return f"<{tag} {' '.join(f'{name}={chr(34)}{text}{chr(34)}' for name, text in attributes.items())}/>"
 
 
-def _indent(text: str, start: int) -> str:
-    line = text.rfind("\n", 0, start) + 1
-    before = text[line:start]
+def _indent(source: Source, start: int) -> str:
+    before = source.line_before(start)
     return before if not before.strip() else ""
 
 
@@ -220,23 +219,23 @@ def _inserted(model: Model, link: Link, inertial: Element, elements: list[str]) 
         raise UrdfkitError(f"<inertial> of link `{link.name}` is empty: write it out first", position=_at(inertial))
     if tag.children:
         place = tag.children[-1].close_end
-        indent = _indent(source.text, tag.children[-1].start)
+        indent = _indent(source, tag.children[-1].start)
     else:
-        place, indent = tag.end, f"{_indent(source.text, tag.start)}  "
-    return Edit(source.span(place, place), "".join(f"\n{indent}{element}" for element in elements))
+        place, indent = tag.end, f"{_indent(source, tag.start)}  "
+    return Edit(source.span(place, place), "".join(f"{source.line_end}{indent}{element}" for element in elements))
 
 
 def _new_block(model: Model, link: Link, texts: dict[str, dict[str, str]]) -> Edit:
     tag = _alone(model, link, link.element)
     source = model.document(link.element.origin.position.file).source
-    outer = _indent(source.text, tag.start)
+    outer = _indent(source, tag.start)
     inner = f"{outer}  "
-    if tag.children and "\n" in source.text[tag.end : tag.children[0].start]:
-        inner = _indent(source.text, tag.children[0].start)
+    if tag.children and not source.line_before(tag.children[0].start).strip():
+        inner = _indent(source, tag.children[0].start)
     step = inner.removeprefix(outer) or "  "
     lines = [f"{inner}<inertial>", *(f"{inner}{step}{_element(t, a)}" for t, a in texts.items()), f"{inner}</inertial>"]
-    block = "\n" + "\n".join(lines)
+    block = "".join(f"{source.line_end}{line}" for line in lines)
     if tag.close is None:  # <link name="…"/>
         end = len(source.text[: tag.end - 2].rstrip())
-        return Edit(source.span(end, tag.end), f">{block}\n{outer}</link>")
+        return Edit(source.span(end, tag.end), f">{block}{source.line_end}{outer}</link>")
     return Edit(source.span(tag.end, tag.end), block)

@@ -70,4 +70,4 @@ def _closed(document: Document, end: int) -> Fix | None:
     if root is None or root.empty or any(not tag.empty and tag.close is None for tag in root.walk() if tag is not root):
         return None
     there = document.source.span(end, end)
-    return Fix("unsafe", f"Close <{root.name}>", (Edit(there, f"\n</{root.name}>"),))
+    return Fix("unsafe", f"Close <{root.name}>", (Edit(there, f"{document.source.line_end}</{root.name}>"),))

@@ -76,7 +76,7 @@ def _in_python(source: Source) -> tuple[int, int, str] | None:
         try:
             ast.parse(source.text)
         except SyntaxError as error:
-            last = source.text.count("\n") + 1
+            last = len(source.line_starts)
             line = min(error.lineno or 1, last)
             return line, min(error.offset or 1, len(source.line(line)) + 1), f"this is no Python: {error.msg}"
         except (ValueError, RecursionError, MemoryError):

@@ -90,9 +90,9 @@ def _later_include(fault: Fault, model: Model) -> Fix | None:
     include, source = includes[0], document.source
     if include.parent is not definition.parent or include.start > definition.start:
         return None
-    line = source.text[source.text.rfind("\n", 0, definition.start) + 1 : definition.start]
+    line = source.line_before(definition.start)
     moved = source.text[include.start : include.close_end]
-    text = f"\n{line}{moved}" if not line.strip() else moved
+    text = f"{source.line_end}{line}{moved}" if not line.strip() else moved
     there = source.span(definition.close_end, definition.close_end)
     title = f"Include {PurePosixPath(used).name} after what it uses is defined"
     return Fix("unsafe", title, (removal(document, include), Edit(there, text)))
@@ -114,9 +114,9 @@ def _earlier_definition(fault: Fault, model: Model) -> Fix | None:
         return None
     source = document.source
     moved = source.text[definition.start : definition.close_end]
-    line = source.text[source.text.rfind("\n", 0, first.start) + 1 : first.start]
+    line = source.line_before(first.start)
     there = source.span(first.start, first.start)
-    text = f"{moved}\n{line}" if not line.strip() else moved
+    text = f"{moved}{source.line_end}{line}" if not line.strip() else moved
     return Fix(
         "unsafe", f"Define `{fault.name}` above its first use", (Edit(there, text), removal(document, definition))
     )

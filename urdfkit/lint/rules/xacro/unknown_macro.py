@@ -108,5 +108,5 @@ def _included(file: str, fault: Fault, model: Model) -> Fix | None:
     if root is None or root.close is None:
         return None
     source = model.document(entry).source
-    text = f'\n  <xacro:include filename="{file}"/>'
+    text = f'{source.line_end}  <xacro:include filename="{file}"/>'
     return Fix("unsafe", f"Include {file}", (Edit(source.span(root.end, root.end), text),))
