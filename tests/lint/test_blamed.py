@@ -109,3 +109,9 @@ def test_of_properties_below_zero_the_one_that_is_a_size_is_blamed(tmp_path):
 <link name="c"><collision><geometry><sphere radius="${half}"/></geometry></collision></link></xacro:macro>
 <xacro:caster radius="${radius}" z="${wheel_z}"/>"""
     assert [(code, line) for code, line, _ in found(tmp_path, body)] == [("G611", 2)]
+
+
+def test_a_child_with_letters_swapped_is_one_finding_with_a_hint(tmp_path):
+    joint = '<joint name="j" type="fixed"><parent link="base"/><child link="amr"/></joint>'
+    told = found(tmp_path, f'<link name="base"/><link name="arm"/>\n{joint}')
+    assert told == [("T202", 3, "joint `j` has the child `amr`, which is no link; did you mean `arm`?")]

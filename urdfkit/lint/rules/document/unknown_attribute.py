@@ -15,6 +15,19 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 _KEYS = {tag: frozenset(names) for tag, names in URDF_ATTRIBUTES.items()}
+_CALLED = {
+    ("limit", "min"): "lower",
+    ("limit", "max"): "upper",
+    ("cylinder", "height"): "length",
+    ("parent", "name"): "link",
+    ("child", "name"): "link",
+    ("mesh", "file"): "filename",
+    ("mesh", "uri"): "filename",
+    ("mass", "mass"): "value",
+    ("mimic", "name"): "joint",
+}
+"""What is called so elsewhere, in SDFormat mostly, and how URDF calls it."""
+
 _ALL = frozenset(name for names in URDF_ATTRIBUTES.values() for name in names)
 
 
@@ -73,7 +86,7 @@ class UnknownAttribute(RobotRule):
     def _look(self, model: Model, element: Element, known: tuple[str, ...]) -> Iterator[Finding]:
         for attribute in element.attributes:
             if attribute not in known and ":" not in attribute and attribute != "xmlns":
-                meant = nearest(attribute, known)
+                meant = _CALLED.get((element.tag, attribute)) or nearest(attribute, known)
                 if meant is None or meant in element.attributes:
                     meant, fix = None, None
                     if attribute in _ALL:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from urdfkit.description.queries import dangling
-from urdfkit.lint.edits import meant, new_value
+from urdfkit.lint.edits import new_value
 from urdfkit.lint.hidden import doubted
+from urdfkit.lint.orphans import meant_child
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -52,7 +53,7 @@ class ChildLinkUndefined(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint whose child is no link."""
         for joint, name, element in dangling(model.robot, "child"):
-            near, hint = meant(name, model.robot.link_by_name)
+            near, hint = meant_child(model.robot, name)
             found = self.at(
                 model,
                 element,

@@ -86,9 +86,9 @@ def _links_below(robot: Robot, name: str) -> int:
 def _missed(robot: Robot) -> set[str]:
     """Return the links that joints must have meant whose child is none."""
     from urdfkit.description.queries import dangling
-    from urdfkit.lint.edits import meant
+    from urdfkit.lint.orphans import meant_child
 
-    return {near for _, name, _ in dangling(robot, "child") if (near := meant(name, robot.link_by_name)[0]) is not None}
+    return {near for _, name, _ in dangling(robot, "child") if (near := meant_child(robot, name)[0]) is not None}
 
 
 def _remedy(robot: Robot, orphan: str, root: str) -> str:
