@@ -99,7 +99,11 @@ class Extent:
 
     def radius(self, point: Vector) -> float:
         """Return how far the farthest point of a shape is from `point` [m]."""
-        return max(_farthest(shape, pose, point) for shape, pose in self.shapes)
+        return max(self.reaches(point))
+
+    def reaches(self, point: Vector) -> list[float]:
+        """Return how far the farthest point of each shape is from `point` [m]."""
+        return [_farthest(shape, pose, point) for shape, pose in self.shapes]
 
     def outside(self, point: Vector) -> float:
         """Return how far `point` is outside of the box [m]; 0 inside."""

@@ -115,6 +115,7 @@ ROBOT: tuple[Row, ...] = (
     ("mesh", "geometry.mesh_package_unknown", "MeshPackageUnknown"),
     ("mesh", "geometry.mesh_absolute_path", "MeshAbsolutePath"),
     ("mesh", "geometry.mesh_scale_suspect", "MeshScaleSuspect"),
+    ("inertia", "geometry.shapes_apart", "ShapesApart"),
     ("mesh", "geometry.mesh_format_unsupported", "MeshFormatUnsupported"),
     ("mesh", "geometry.mesh_corrupt", "MeshCorrupt"),
     ("mesh", "geometry.collada_up_axis", "ColladaUpAxis"),

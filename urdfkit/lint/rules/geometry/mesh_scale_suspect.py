@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from math import sqrt
+from math import dist, sqrt
 
 from urdfkit.description.robot import Mesh
 from urdfkit.lint.edits import more_attributes, new_value
 from urdfkit.lint.meshes import meshes
-from urdfkit.lint.placement import shapes_of
+from urdfkit.lint.placement import box_around, shapes_of
 from urdfkit.lint.principal import principal_moments
 from urdfkit.lint.rule import RobotRule
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-FAR = 100.0
+FAR = 50.0
 """Parts of one robot may well be of such different sizes."""
 
 HUGE = 50.0
@@ -99,6 +99,8 @@ class MeshScaleSuspect(RobotRule):
                 continue
             beside = "" if is_alone else f" in a robot of parts of about {middle:.2g} m"
             factor, what = (0.001, "large") if size > middle else (1000.0, "small")
+            if what == "large" and set(mesh.scale) == {100.0}:
+                factor = 0.01
             scale = " ".join(f"{part * factor:g}" for part in mesh.scale)
             fix = (
                 new_value(model, element, "scale", scale, "unsafe", f"Scale by {scale}")
@@ -111,7 +113,7 @@ class MeshScaleSuspect(RobotRule):
                 f"the mesh of link `{link.name}` is {size:.3g} m across{beside}",
                 attribute="scale",
                 link=link.name,
-                help=f'too {what} by 1000? URDF means metres: scale="{scale}"',
+                help=f'too {what} by {max(factor, 1.0 / factor):g}? URDF means metres: scale="{scale}"',
                 fix=fix,
             )
 
@@ -130,8 +132,12 @@ def _lengths(model: Model) -> list[float]:
     """Return how far joints are from each other, and how large the links without meshes are [m]."""
     sizes = [sum(part * part for part in joint.origin.xyz) ** 0.5 for joint in model.robot.joints]
     for link in model.robot.links:
-        if all(not isinstance(shape.geometry, Mesh) for shape in shapes_of(link)) and link.name in model.extents:
+        plain = [shape for shape in shapes_of(link) if not isinstance(shape.geometry, Mesh)]
+        if link.name in model.extents and len(plain) == len(shapes_of(link)):
             sizes.append(model.extents[link.name].diagonal)
+        elif plain:  # What stands beside a mesh is about as large as that.
+            corners = (box_around(shape.geometry, shape.origin) for shape in plain if shape.geometry is not None)
+            sizes += [dist(low, high) for low, high in corners]
     return sizes
 
 

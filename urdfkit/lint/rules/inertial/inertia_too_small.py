@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 from urdfkit.description.robot import Mesh
+from urdfkit.lint.apart import apart
 from urdfkit.lint.placement import shapes_of
 from urdfkit.lint.principal import principal_moments
 from urdfkit.lint.rule import RobotRule
@@ -88,7 +89,7 @@ class InertiaTooSmall(RobotRule):
                 continue  # It is the scale of the mesh that is wrong.
             for moments, element in principal_moments(link):
                 gyration = sqrt(max(moments[2], 0.0) / mass)
-                if 0.0 < gyration < SMALL * reach:
+                if 0.0 < gyration < SMALL * reach and not apart(model, link)[0]:
                     yield self.at(
                         model,
                         element,
