@@ -87,6 +87,66 @@ def test_what_skids_turns_with_a_mast_and_an_arm_on_it(robot_template, tmp_path)
     assert errors(robot, 0.0, 0.5)[1] < 0.05
 
 
+@pytest.mark.parametrize(
+    ("sizes", "w"), [({}, 0.5), ({}, -0.6), ({"wheel_base": "0.5"}, 0.4), ({"base_width": "0.5"}, 0.25)]
+)
+def test_the_odometry_of_a_car_turns_too_much_by_no_more_than_the_docs_say(robot_template, tmp_path, sizes, w):
+    answers = robot_template.answers({"name": "scout", "drive": "ackermann", **sizes})
+    simulator = Simulator(made(robot_template, answers, tmp_path), note=lambda _: None)
+
+    def headings():
+        (_, (_, _, z, cos)), base = simulator.odometry()["odom"], simulator.link_poses()[0]
+        return 2 * math.atan2(z, cos), 2 * math.atan2(base[5], base[6])
+
+    while simulator.t < 0.5:
+        simulator.command((simulator.t, 0, 0), (0, 0, 2 * w * simulator.t))
+        simulator.step()
+    simulator.command((0.5, 0, 0), (0, 0, w))
+    simulator.run(0.5)
+    before = headings()
+    simulator.run(2.0)
+    told, turned = (math.remainder(b - a, 2 * math.pi) for a, b in zip(before, headings(), strict=True))
+    assert turned == pytest.approx(2 * w, rel=0.01)
+    half, radius = float(answers["wheel_separation"]) / 2, 0.5 / abs(w)
+    bound = half**2 / (radius**2 - half**2)
+    assert 0.5 * bound < told / turned - 1 < 1.02 * bound + 0.002
+
+
+def test_the_tightest_circle_of_a_car_is_the_one_that_the_docs_say(robot_template, tmp_path):
+    answers = robot_template.answers({"name": "scout", "drive": "ackermann", "wheel_base": "0.5"})
+    robot = made(robot_template, answers, tmp_path)
+    assert errors(robot, 0.5, 0.5 / (1.8 * 0.5))[1] < 0.01
+    assert errors(robot, 0.5, 0.5 / (1.5 * 0.5))[1] == pytest.approx(1 - 1.5 / 1.77, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("sizes", "most"),
+    [
+        ({}, 5.936),
+        (
+            {"base_length": "0.1", "base_width": "0.08", "base_height": "0.03", "mass": "0.3", "wheel_radius": "0.02"},
+            2.804,
+        ),
+        ({"sensor": "lidar3d camera", "wheel_torque": "0.3"}, 3.52),
+    ],
+)
+def test_the_highest_speed_is_one_that_it_reaches_by_itself(robot_template, tmp_path, sizes, most):
+    """At 10 m/s the default size ended 24 m from where it should be, having turned by 2.4 rad."""
+    given = {"name": "scout", "drive": "diff", **sizes}
+    with pytest.raises(UsageError, match=f"veer off before it is that fast: less --max-speed.*at most {most:.2g}"):
+        robot_template.answers(given | {"max_speed": str(most * 1.02)})
+    robot = made(robot_template, robot_template.answers(given | {"max_speed": str(most * 0.999)}), tmp_path)
+    simulator = Simulator(robot, note=lambda _: None)
+    simulator.command((most * 0.999, 0, 0), (0, 0, 0.1))
+    simulator.run(6.0)
+    before = simulator.link_poses()[0]
+    simulator.run(0.5)
+    after = simulator.link_poses()[0]
+    assert math.dist(after[:2], before[:2]) == pytest.approx(most * 0.999 * 0.5, rel=0.01)
+    turned = 2 * math.atan2(after[5], after[6]) - 2 * math.atan2(before[5], before[6])
+    assert math.remainder(turned, 2 * math.pi) == pytest.approx(0.05, rel=0.02)
+
+
 def test_axles_too_near_to_each_other_are_refused(robot_template):
     given = {"name": "scout", "drive": "skid", "wheel_separation": "2"}
     assert robot_template.answers(given)["wheel_base"] == "1.1"
