@@ -57,3 +57,13 @@ def test_a_message_replaces_an_offer() -> None:
     bus.publish("a", "T", "new")
     assert bus.latest("a") == "new"
     assert bus.latest("never heard of") is None
+
+
+def test_types_may_be_named_as_in_ros_1() -> None:
+    bus, heard = Bus(), []
+    topic = bus.advertise("/odom", "nav_msgs/msg/Odometry")
+    bus.subscribe("/odom", "nav_msgs/Odometry", heard.append)
+    bus.publish("/odom", "nav_msgs/Odometry", 1)
+    assert heard == [1]
+    assert bus.advertise("/new", "std_msgs/Bool").type == "std_msgs/msg/Bool"
+    assert topic.type == "nav_msgs/msg/Odometry"

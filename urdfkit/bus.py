@@ -77,10 +77,14 @@ class Bus:
     def advertise(self, name: str, type: str) -> Topic:
         """Declare a topic and return it; publishing or subscribing does so too.
 
+        Args:
+            name: of the topic.
+            type: of its messages, ``nav_msgs/msg/Odometry`` or, as in ROS 1, ``nav_msgs/Odometry``.
+
         Raises:
             UsageError: the topic exists with another type.
         """
-        name = absolute(name)
+        name, type = absolute(name), type if type.count("/") > 1 else type.replace("/", "/msg/")
         topic = self._topics.get(name)
         if topic is None:
             topic = self._topics[name] = Topic(name, type)
