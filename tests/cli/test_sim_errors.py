@@ -186,6 +186,32 @@ def test_plugins_without_a_file_name_are_noted(tmp_path: Path, capsys: Capture) 
     assert "plugin `lost` has no filename, so nothing runs it" in capsys.readouterr().err
 
 
+def test_unknown_plugins_of_models_are_told_once(tmp_path: Path, capsys: Capture) -> None:
+    link = '<link name="{}"><inertial><mass>1</mass></inertial></link>'
+    path = tmp_path / "w.sdf"
+    path.write_text(
+        '<sdf version="1.9"><world name="w"><model name="door">\n'
+        '<plugin filename="libgazebo_ros_doorr.so" name="d"/>\n'
+        '<plugin filename="libgazebo_ros_diff_drve.so" name="e"/>\n'
+        '<plugin filename="libmy_stuff.so" name="f"/>\n'
+        f"{link.format('a')}{link.format('b')}"
+        '<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>'
+        '<joint name="f" type="fixed"><parent>world</parent><child>a</child></joint></model></world></sdf>'
+    )
+    assert main(["sim", "run", "simpleton", "--for", "0.1", "--world", str(path)]) == 0
+    lines = capsys.readouterr().err.splitlines()
+    for filename, said in (
+        ("doorr", "w.sdf:2:1: unknown plugin `libgazebo_ros_doorr.so` in model `door` is left out"),
+        (
+            "diff_drve",
+            "`libgazebo_ros_diff_drve.so` in model `door` is left out; did you mean `gazebo_ros_diff_drive`?",
+        ),
+        ("my_stuff", "w.sdf:4:1: unknown plugin `libmy_stuff.so` in model `door` is left out"),
+    ):
+        (line,) = [line for line in lines if filename in line]
+        assert line.endswith(said)
+
+
 def test_unknown_plugins_of_a_world_are_noted_and_the_rest_runs(tmp_path: Path, capsys: Capture) -> None:
     path = tmp_path / "w.sdf"
     path.write_text(

@@ -12,6 +12,7 @@ from urdfkit import registry
 from urdfkit.description.plugins import PluginSpec, match
 from urdfkit.description.plugins.lookup import stem
 from urdfkit.description.plugins.sensors import BARE
+from urdfkit.description.plugins.unknown import unknown
 from urdfkit.description.robot import Plugin, Robot, SensorTag
 from urdfkit.description.world.systems import NEEDLESS
 from urdfkit.errors import SimulationError, UsageError
@@ -20,7 +21,7 @@ from urdfkit.sim.controllers.joint_state import JointStatePublisher
 from urdfkit.sim.drives import DRIVES
 from urdfkit.sim.plugin import Controller, Drive, Sensor, Setup
 from urdfkit.sim.publications import JointStates, all_joint_states, joint_states
-from urdfkit.sim.remarks import SharedTopics, misspelt, not_read, strange, unknown
+from urdfkit.sim.remarks import SharedTopics, misspelt, not_read, strange
 from urdfkit.sim.sensors import SENSORS
 
 
@@ -79,9 +80,11 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
             if isinstance(made, Sensor):
                 told = (topic.name for topic in made.topics if not topic.type.endswith("/CameraInfo"))
                 shared.add(made.name or plugin.name or "", plugin.element, told)
-        elif stem(plugin.filename or "") not in NEEDLESS:
-            tables = [table for classes, _ in rooms for made in classes for table in made.specs]
-            setup.note(unknown(plugin, sensor, tables))
+        elif stem(plugin.filename or "") not in NEEDLESS and not _noted_on_reading(plugin, setup):
+            brought = [
+                name for classes, _ in rooms for made in classes for table in made.specs for name in table.filenames
+            ]
+            setup.note(unknown(plugin, None if sensor is None else sensor.name or "", [*NEEDLESS, *brought]))
     if robot.ros2_control and not any(controller.kind == "ros2_control" for controller in installed.controllers):
         for block in robot.ros2_control:
             setup.note(
@@ -91,6 +94,12 @@ def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
     if not installed.joint_states and not _publishes_joint_states(installed):
         installed.joint_states.append(all_joint_states(setup))
     return installed
+
+
+def _noted_on_reading(plugin: Plugin, setup: Setup) -> bool:
+    """Whether nobody knew the plugin when its model was read from the world's file."""
+    notes = () if setup.surroundings is None else setup.surroundings.world.notes
+    return any(note.startswith(f"{plugin.element.origin.position}: unknown plugin") for note in notes)
 
 
 def _publishes_joint_states(installed: Installed) -> bool:

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
-from difflib import get_close_matches
 
 from urdfkit.description.element import Element
 from urdfkit.description.gazebo_materials import unknown_materials
-from urdfkit.description.plugins import ALL_SPECS, PluginSpec
+from urdfkit.description.plugins import PluginSpec
 from urdfkit.description.plugins.elements import strangers
-from urdfkit.description.plugins.lookup import stem
 from urdfkit.description.plugins.sensors import INSTEAD, SENSOR_TYPES
 from urdfkit.description.plugins.unread import unread
 from urdfkit.description.robot import Plugin, Robot, SensorTag
 from urdfkit.errors import did_you_mean
-
-_SHARED = re.compile(r"^(gazebo_ros_|gazebo_|gz-sim-|ignition-gazebo-|gz_|hector_gazebo_)|(-system|_plugin)$")
-"""How names of plugins begin and end."""
 
 
 def misspelt(robot: Robot) -> Iterator[str]:
@@ -54,29 +48,6 @@ def strange(sensor: SensorTag, *, simulated: bool) -> str:
     return f"{place}: sensors of type `{kind}` are not simulated yet; {left_out}"
 
 
-def unknown(plugin: Plugin, sensor: SensorTag | None, tables: list[PluginSpec]) -> str:
-    """Return what to say of a plugin that nothing here simulates: its place, and the nearest that something does.
-
-    Args:
-        plugin: as written.
-        sensor: the ``<sensor>`` it stands in, if it does.
-        tables: of plugins that others bring.
-    """
-    place = plugin.element.origin.position
-    left_out = "" if sensor is None else f"; sensor `{sensor.name or 'sensor'}` is left out"
-    if plugin.filename is None:
-        return f"{place}: plugin `{plugin.name or ''}` has no filename, so nothing runs it{left_out}"
-    name = stem(plugin.filename)
-    # What most of them share says nothing about which one was meant.
-    known = [other for spec in (*ALL_SPECS, *tables) for other in spec.filenames]
-    hint = did_you_mean(_essence(name), map(_essence, known))
-    if not hint:
-        return f"plugin {plugin.filename}: not simulated yet{left_out}"
-    meant = [other for other in known if _essence(other) == hint.split("`")[1]]
-    near = get_close_matches(name, meant, n=1, cutoff=0.0)[0]
-    return f"{place}: no plugin `{plugin.filename}`; did you mean `{plugin.filename.replace(name, near)}`?{left_out}"
-
-
 class SharedTopics:
     """Remarks on sensors that publish on one topic.
 
@@ -103,7 +74,3 @@ def _ignored(element: Element, what: str, meant: str | None) -> str:
 
 def _hint(meant: str | None) -> str:
     return "" if meant is None else f"; did you mean `{meant}`?"
-
-
-def _essence(name: str) -> str:
-    return _SHARED.sub("", name)

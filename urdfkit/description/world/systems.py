@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from urdfkit.description.plugins.lookup import ALL_SPECS, match, stem
+from urdfkit.description.plugins.lookup import match, stem
+from urdfkit.description.plugins.unknown import nearest
 from urdfkit.description.robot import Plugin
 from urdfkit.description.world.context import Context
 from urdfkit.description.world.model import WorldModel
 from urdfkit.description.world.shape import plugins_of
 from urdfkit.description.world.world import World
-from urdfkit.errors import did_you_mean
 
 NEEDLESS = frozenset(
     {
@@ -47,12 +47,12 @@ def remark_plugins(context: Context, world: World) -> None:
         context: of the world's file.
         world: what was read.
     """
-    known = [name for spec in ALL_SPECS for name in spec.filenames]
     for plugin, owner in _plugins(world):
         name = stem(plugin.filename or "").replace("ignition-gazebo", "gz-sim")
         if name in NEEDLESS or match(plugin) is not None:
             continue
-        hint = did_you_mean(name, [*known, *NEEDLESS]) if name else ""
+        near = nearest(name, NEEDLESS)
+        hint = f"; did you mean `{near}`?" if near else ""
         context.note(
             plugin.element, f"unknown plugin `{plugin.filename or plugin.name or ''}` in {owner} is left out{hint}"
         )
