@@ -113,6 +113,51 @@ def test_json_has_the_contracts_keys_and_kinds(capsys: Capture) -> None:
     assert report["topics"]["/simpleton/cmd_vel"] == {"type": "geometry_msgs/Twist", "count": 1}
 
 
+SEVERAL = """<robot name="several"><link name="world"/>
+<link name="a"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+<link name="b"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+<joint name="pl" type="planar"><parent link="world"/><child link="a"/><origin xyz="5 0 1"/></joint>
+<joint name="fl" type="floating"><parent link="world"/><child link="b"/><origin xyz="0 2 1"/></joint></robot>"""
+
+
+def test_planar_and_floating_joints_are_told(tmp_path: Path, capsys: Capture) -> None:
+    path = tmp_path / "several.urdf"
+    path.write_text(SEVERAL)
+    start = "pl/theta=1.5:0.2,pl/x=1:2,pl/y=0:-1,fl/trans_z=3:0.5"
+    free = ("--world", "void", "--gravity", "0,0,0", "--for", "1")
+    report = run(capsys, str(path), *free, "--initial-joints", start)
+    planar, floating = report["joints"]["pl"], report["joints"]["fl"]
+    # Free motion: straight and even along the joint's own axes, however the link turns.
+    assert planar["position"] == pytest.approx([3, -1, 0], abs=1e-3)
+    assert planar["linear_velocity"] == pytest.approx([2, -1, 0], abs=1e-3)
+    assert planar["angular_velocity"] == pytest.approx([0, 0, 0.2])
+    assert 2 * np.arctan2(planar["quaternion"][2], planar["quaternion"][3]) == pytest.approx(1.7)
+    assert floating["position"] == pytest.approx([0, 0, 3.5])
+    assert floating["linear_velocity"] == pytest.approx([0, 0, 0.5])
+    assert main(["sim", "run", str(path), *free, "--initial-joints", start]) == 0
+    out = capsys.readouterr().out
+    assert "joint pl: x 3.0000 y -1.0000 z 0.0000 m, roll 0.0000 pitch 0.0000 yaw 1.7000 rad, moving at 2.0000" in out
+    assert "joint fl: x 0.0000 y 0.0000 z 3.5000 m" in out
+
+
+@pytest.mark.parametrize(
+    ("start", "said"),
+    [
+        ("pl=1", "joint `pl` is planar and has more than one position: `pl/x`, `pl/y`, `pl/theta`"),
+        ("fl/x=1", "no movable joint `fl/x` in robot `several`; did you mean `fl/trans_x`?"),
+        ("fl/rot_x=0:1", "`fl/rot_x` is one number of a quaternion: it has no velocity of its own"),
+        ("pl/thet=1", "did you mean `pl/theta`?"),
+    ],
+)
+def test_starts_of_planar_and_floating_joints_that_make_no_sense(
+    tmp_path: Path, capsys: Capture, start: str, said: str
+) -> None:
+    path = tmp_path / "several.urdf"
+    path.write_text(SEVERAL)
+    assert main(["sim", "run", str(path), "--world", "void", "--for", "0.1", "--initial-joints", start]) == 2
+    assert said in capsys.readouterr().err
+
+
 def test_the_summary_for_people(capsys: Capture) -> None:
     assert main(["sim", "run", "simpleton", "--for", "1"]) == 0
     out, err = capsys.readouterr()

@@ -161,6 +161,22 @@ def test_odometry_is_what_the_wheels_roll(make: Make) -> None:
     assert frames[-1].transform.translation.x == last.pose.pose.position.x
 
 
+def test_looking_at_the_odometry_changes_nothing(make: Make) -> None:
+    def drive(looking: bool) -> tuple[bytes, Any]:
+        simulator = make(1, "cmd_vel_timeout: 100.0")
+        simulator.command((0.4, 0, 0), (0, 0, 0.7))
+        for _ in range(137):
+            simulator.step(7)
+            if looking:
+                position, _ = simulator.odometry()["odom"]
+        message = simulator.bus.latest("/rover/base/odom")
+        if looking:
+            assert position == pytest.approx((message.pose.pose.position.x, message.pose.pose.position.y, 0), abs=0.01)
+        return simulator.state.q.tobytes(), message.pose.pose
+
+    assert drive(True) == drive(False)
+
+
 def test_open_loop_odometry_is_what_was_commanded(make: Make) -> None:
     simulator = make(2, "open_loop: true\ncmd_vel_timeout: 0.0", **LIFTED)
     simulator.command((0.5, 0, 0), (0, 0, 0))

@@ -136,6 +136,9 @@ def at(simulator: Any) -> tuple[float, float, float]:
 
 def reckoned(simulator: Any) -> tuple[float, float, float]:
     pose = simulator.bus.latest("/base/odometry").pose.pose
+    ((told, turn),) = simulator.odometry().values()  # of now; published has been a little earlier
+    assert told == pytest.approx((pose.position.x, pose.position.y, 0.0), abs=0.02)
+    assert abs(turn[2] * pose.orientation.w - turn[3] * pose.orientation.z) < 0.02
     return pose.position.x, pose.position.y, 2 * math.atan2(pose.orientation.z, pose.orientation.w)
 
 

@@ -21,7 +21,7 @@ from urdfkit.errors import KinematicsError, did_you_mean
 from urdfkit.kinematics.build import build_model, pin
 from urdfkit.kinematics.limits import JointLimitError, position_limits
 from urdfkit.kinematics.mimic import Coupling, couplings
-from urdfkit.kinematics.variables import PARTS, Array, finite, index_variables, unit_pose
+from urdfkit.kinematics.variables import PARTS, Array, finite, index_variables, rates, unit_pose
 
 
 class Kinematics:
@@ -43,6 +43,7 @@ class Kinematics:
         couplings: mimic joint → its `Coupling`.
         joint_names: joints that move on their own in one degree of freedom, in the order of q.
         mimic_names: joints that follow another one, in the order of q.
+        several_names: planar and floating joints, in the order of q.
         variable_names: what `configuration` takes: `joint_names` and the variables of planar and floating joints.
         link_names: all links in document order.
     """
@@ -61,6 +62,7 @@ class Kinematics:
         single = [name for name in self._joint_ids if name in self._variables]
         self.joint_names: tuple[str, ...] = tuple(name for name in single if name not in self.couplings)
         self.mimic_names: tuple[str, ...] = tuple(name for name in single if name in self.couplings)
+        self.several_names: tuple[str, ...] = tuple(name for name in self._joint_ids if name not in self._variables)
         self.variable_names: tuple[str, ...] = tuple(name for name in self._variables if name not in self.couplings)
         self._frames = {name: int(self.model.getFrameId(name, pin.BODY)) for name in self.link_names}
 
@@ -124,22 +126,36 @@ class Kinematics:
         """Return joint name → velocity [rad/s] or [m/s] of the joints of one degree of freedom, mimics included."""
         return {name: float(v[self.velocity_index(name)]) for name in self._joint_ids if name in self._variables}
 
-    def velocity(self, velocities: Mapping[str, float] | None = None, *, base: Array | None = None) -> Array:
-        """Return v for these joint velocities, the others at zero, mimic joints following; shape (nv,).
+    def velocity(
+        self, velocities: Mapping[str, float] | None = None, *, base: Array | None = None, q: Array | None = None
+    ) -> Array:
+        """Return v for these velocities, the others at zero, mimic joints following; shape (nv,).
 
         Args:
-            velocities: joint name → velocity [rad/s] or [m/s], joints of one degree of freedom.
+            velocities: joint or variable name → velocity [rad/s] or [m/s]; the numbers of a quaternion have none.
             base: twist of a floating root link in its own axes, linear first; zero when None.
+            q: says how planar and floating joints are turned; as in `neutral` when None.
 
         Raises:
-            KinematicsError: an unknown name, a mimic joint, a velocity that is no finite number.
+            KinematicsError: an unknown name, a mimic joint, a velocity that is no finite number or none at all.
         """
         u = np.zeros(len(self.independent))
         column = {int(i): k for k, i in enumerate(self.independent)}
+        along: dict[str, dict[str, float]] = {}
         for name, value in (velocities or {}).items():
-            if self._own(name) not in self._joint_ids:
-                raise KinematicsError(f"`{name}` is one variable of several; only joints of one degree of freedom")
-            u[column[self.velocity_index(name)]] = finite(name, value, quantity="velocity")
+            value = finite(name, value, quantity="velocity")
+            if self._own(name) in self._joint_ids:
+                u[column[self.velocity_index(name)]] = value
+            else:
+                joint, _, part = name.rpartition("/")
+                if part.startswith("rot_"):
+                    raise KinematicsError(f"`{name}` is one number of a quaternion: it has no velocity of its own")
+                along.setdefault(joint, {})[part] = value
+        q = self.neutral() if q is None else q
+        for joint, parts in along.items():
+            found = rates(self.robot.joint_by_name[joint].type or "", q[self.configuration_index(joint) :], parts)
+            first = column[self.velocity_index(joint)]
+            u[first : first + len(found)] = found
         if base is not None:
             self._require_floating()
             u[:6] = base
@@ -252,11 +268,18 @@ class Kinematics:
     def _unknown(self, name: str) -> str:
         joint = self.robot.joint_by_name.get(name)
         if joint is None:
-            return f"no movable joint `{name}` in robot `{self.robot.name}`{did_you_mean(name, self.variable_names)}"
+            return f"no movable joint `{name}` in robot `{self.robot.name}`{self._nearest(name)}"
         if joint.type in PARTS:
             parts = ", ".join(f"`{name}/{part}`" for part in PARTS[joint.type])
             return f"joint `{name}` is {joint.type} and has more than one position: {parts}"
         return f"joint `{name}` is {joint.type or 'without a type'}: it does not move"
+
+    def _nearest(self, name: str) -> str:
+        """Return a hint; `JOINT/x` of a floating joint is meant for `JOINT/trans_x`."""
+        joint, _, part = name.rpartition("/")
+        if (moved := f"{joint}/trans_{part}") in self._variables:
+            return f"; did you mean `{moved}`?"
+        return did_you_mean(name, self.variable_names)
 
     def _require_floating(self) -> None:
         if not self.floating_base:

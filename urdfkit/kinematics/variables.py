@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import pinocchio as pin
 from numpy.typing import NDArray
 
 from urdfkit.description.robot import Robot
@@ -69,6 +70,22 @@ def index_variables(robot: Robot, model: Any, joint_ids: Mapping[str, int]) -> d
         for k, part in enumerate(PARTS[kind]):
             found[f"{name}/{part}"] = Variable(name, start + k, part == "theta", float(part == "rot_w"))
     return found
+
+
+def rates(joint_type: str, q: Array, along: Mapping[str, float]) -> Array:
+    """Return a planar or floating joint's part of v, in the child's axes, of what its variables change by.
+
+    Args:
+        joint_type: ``planar`` or ``floating``.
+        q: the joint's part of the configuration.
+        along: last part of a variable's name → rate [m/s] or [rad/s]; those left out do not change.
+    """
+    if joint_type == "planar":
+        c, s = q[2], q[3]
+        x, y = along.get("x", 0.0), along.get("y", 0.0)
+        return np.array([c * x + s * y, c * y - s * x, along.get("theta", 0.0)])
+    linear = np.array([along.get(part, 0.0) for part in PARTS["floating"][:3]])
+    return np.concatenate([pin.Quaternion(q[3:7].copy()).matrix().T @ linear, np.zeros(3)])
 
 
 def finite(name: str, value: float, *, quantity: str = "position") -> float:

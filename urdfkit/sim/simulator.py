@@ -265,10 +265,10 @@ class Simulator(Population):
         return self.state.link_poses()
 
     def odometry(self) -> Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]]:
-        """Return odometry frame → position [m] and quaternion x y z w at which the drives believe the robot to be."""
+        """Return odometry frame → position [m] and quaternion x y z w where drives and controllers have the robot."""
         found: dict[str, tuple[tuple[float, ...], tuple[float, ...]]] = {}
-        for drive in self._drives:
-            for frame, pose in drive.estimate(self.state).items():
+        for estimate in (*(drive.estimate for drive in self._drives), self.controllers.odometry):
+            for frame, pose in estimate(self.state).items():
                 found.setdefault(frame, pose)
         return found
 

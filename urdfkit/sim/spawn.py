@@ -70,7 +70,7 @@ class Spawn:
         upright = np.array([0.0, 0.0, 0.0, *quaternion])
         if kinematics.floating_base:
             return lowest_point(scene, kinematics.link_poses(kinematics.configuration(self.joints, base=upright)))
-        from urdfkit.sim.state import link_poses
+        from urdfkit.sim.mechanics import link_poses
 
         return lowest_point(scene, link_poses(kinematics, kinematics.configuration(self.joints), upright))
 
@@ -88,4 +88,4 @@ class Spawn:
             raise SimulationError("a robot with a fixed base cannot start with a velocity of its root link")
         inverse = np.array([-pose[3], -pose[4], -pose[5], pose[6]])
         twist = np.array([*rotate(inverse, self.twist[:3]), *rotate(inverse, self.twist[3:])])
-        return q, kinematics.velocity(self.velocities, base=twist if floats else None)
+        return q, kinematics.velocity(self.velocities, base=twist if floats else None, q=q)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from urdfkit.errors import UnknownNameError, did_you_mean
 from urdfkit.kinematics import Kinematics
 from urdfkit.sim.engine.state import configuration
+from urdfkit.sim.mechanics import energy_of, in_the_world, link_poses, pose_and_twist
 from urdfkit.sim.rotation import product, rotate
 from urdfkit.sim.views import numbers
 
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
     from urdfkit.sim.engine.part import Part
 
 Array = NDArray[np.float64]
-NONE = np.zeros(0), np.zeros((0, 3))
-"""No weightless bodies."""
 Placement = tuple[tuple[float, float, float], tuple[float, float, float, float]]
 
 
@@ -176,6 +175,27 @@ class State:
         found: float = self._efforts[index] + self._applied[index]
         return found
 
+    def several(self, joint: str) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Return where a planar or floating joint is and how it moves, both in the frame the joint has in its parent.
+
+        Returns:
+            x y z [m] and quaternion x y z w of the child link; its velocity [m/s] and angular velocity [rad/s].
+
+        Raises:
+            UnknownNameError: no planar or floating joint of that name.
+        """
+        kinematics = self._kinematics
+        if joint not in kinematics.several_names:
+            raise UnknownNameError(
+                f"no planar or floating joint `{joint}` in robot `{kinematics.robot.name}`"
+                f"{did_you_mean(str(joint), kinematics.several_names)}"
+            )
+        return pose_and_twist(
+            kinematics.robot.joint_by_name[joint].type or "",
+            self.q[kinematics.configuration_index(joint) :].tolist(),
+            self.v[kinematics.velocity_index(joint) :].tolist(),
+        )
+
     def _no_joint(self, joint: str) -> UnknownNameError:
         robot = self._kinematics.robot
         if joint in robot.joint_by_name:
@@ -227,63 +247,3 @@ class State:
     def link_poses(self) -> Array:
         """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7)."""
         return self.snapshot().link_poses()
-
-
-def link_poses(kinematics: Kinematics, q: Array, base: Array | None) -> Array:
-    """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7).
-
-    Args:
-        kinematics: the robot's model.
-        q: configuration; shape (nq,).
-        base: pose of the root link of a robot that is bolted down; None for one that floats.
-    """
-    poses = kinematics.link_poses(q)
-    if base is not None:
-        for row in poses:
-            row[:3] = base[:3] + rotate(base[3:], row[:3])
-            row[3:] = product(base[3:], row[3:])
-    return poses
-
-
-def in_the_world(pose: tuple[float, ...], twist: tuple[float, ...]) -> tuple[float, ...]:
-    """Return a velocity [m/s, rad/s] along the world's axes that a twist along a link's own axes is.
-
-    Args:
-        pose: of the link, x y z [m] and quaternion x y z w.
-        twist: linear first.
-    """
-    return (*rotate(pose[3:], twist[:3]), *rotate(pose[3:], twist[3:]))
-
-
-def energy_of(
-    kinematics: Kinematics,
-    q: Array,
-    v: Array,
-    base: Array | None,
-    gravity: Array,
-    weightless: tuple[Array, Array] = NONE,
-) -> tuple[float, float]:
-    """Return kinetic and potential energy of a robot [J], the latter zero at the world's origin.
-
-    Args:
-        kinematics: the robot's model.
-        q: configuration; shape (nq,).
-        v: velocity; shape (nv,).
-        base: pose of the root link of a robot that is bolted down; None for one that floats.
-        gravity: [m/s²]; shape (3,).
-        weightless: see `Part.weightless`.
-    """
-    import pinocchio
-
-    pin: Any = pinocchio
-    model, data = kinematics.model, kinematics.data
-    kinetic = pin.computeKineticEnergy(model, data, q, v)
-    centre = pin.centerOfMass(model, data, q)
-    mass = data.mass[0]
-    moment = mass * centre
-    for k, (light, at) in enumerate(zip(*weightless, strict=True), 1):
-        moment = moment - light * data.oMi[k].act(at)
-        mass -= light
-    if base is not None:
-        moment = mass * base[:3] + rotate(base[3:], moment)
-    return float(kinetic), float(-gravity @ moment)

@@ -26,7 +26,8 @@ class Effort:
 def as_json(simulator: Simulator, spent: Effort) -> dict[str, Any]:
     """Return the report as JSON values.
 
-    ``odometry`` is keyed by odometry frame; ``real_time_factor`` is simulated seconds per CPU second.
+    Planar and floating joints tell what the base tells, in the frame that they have in their parent; ``odometry`` is
+    keyed by odometry frame; ``real_time_factor`` is simulated seconds per CPU second.
     """
     state = simulator.state
     pose, velocity = state.base_pose, state.base_velocity
@@ -51,7 +52,8 @@ def as_json(simulator: Simulator, spent: Effort) -> dict[str, Any]:
         "joints": {
             name: {"position": state.position(name), "velocity": state.velocity(name), "effort": state.effort(name)}
             for name in joints
-        },
+        }
+        | {name: _several(simulator, name) for name in simulator.kinematics.several_names},
         "odometry": {
             frame: {"position": list(position), "quaternion": list(quaternion)}
             for frame, (position, quaternion) in simulator.odometry().items()
@@ -97,9 +99,23 @@ def as_text(simulator: Simulator, spent: Effort) -> str:
         lines.append(f"joint {name}: {state.position(name):.4f} {unit}, {state.velocity(name):.4f} {unit}/s")
     if len(joints) > SHOWN:
         lines.append(f"and {len(joints) - SHOWN} more joints (--json shows all)")
+    for name in simulator.kinematics.several_names:
+        pose, twist = state.several(name)
+        speed, turning = (" ".join(f"{number + 0.0:.4f}" for number in part) for part in (twist[:3], twist[3:]))
+        lines.append(_line(f"joint {name}", pose[:3], pose[3:]) + f", moving at {speed} m/s, {turning} rad/s")
     touching = {contact.a for contact in state.contacts}
     lines.append(f"on the ground: {', '.join(sorted(touching)) or 'nothing'}")
     return "\n".join(lines)
+
+
+def _several(simulator: Simulator, joint: str) -> dict[str, Any]:
+    pose, twist = simulator.state.several(joint)
+    return {
+        "position": list(pose[:3]),
+        "quaternion": list(pose[3:]),
+        "linear_velocity": list(twist[:3]),
+        "angular_velocity": list(twist[3:]),
+    }
 
 
 def _line(what: str, position: tuple[float, ...], quaternion: tuple[float, ...]) -> str:

@@ -107,7 +107,9 @@ class DiffDriveController(Law):
 
     def _publish(self) -> None:
         read, ros1 = self.settings, self._ros1
-        Reckoning(self, self._reckon, self._rate, prefixed=not ros1, covariance=None if ros1 else (0.0,) * 6)
+        self.reckoning = Reckoning(
+            self, self._reckon, self._rate, prefixed=not ros1, covariance=None if ros1 else (0.0,) * 6
+        )
         self._granted = None
         if read.flag("publish_cmd" if ros1 else "publish_limited_velocity", False):
             self._granted = self.hardware.setup.bus.advertise(self.topic("cmd_vel_out"), TWIST_STAMPED)

@@ -55,7 +55,7 @@ class FourWheelSteeringController(Law):
         self._limiters = (limits_of_ros_1(read.group("linear/x")), limits_of_ros_1(read.group("angular/z")))
         self._reference = Reference(self, read.number("cmd_vel_timeout", TIMEOUT))
         self._rate = read.number("publish_rate", RATE)
-        Reckoning(self, self._reckon, self._rate)
+        self.reckoning = Reckoning(self, self._reckon, self._rate)
 
     def _pair(self, name: str, interface: str) -> tuple[Output, Output]:
         found = self.settings.texts(name)

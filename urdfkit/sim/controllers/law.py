@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from urdfkit.bus import Topic
     from urdfkit.description.control import Settings
     from urdfkit.sim.controllers.joint import Follower
+    from urdfkit.sim.controllers.reckoning import Reckoning
     from urdfkit.sim.motors import Motors
     from urdfkit.sim.plugin import Setup
     from urdfkit.sim.state import State
@@ -84,6 +85,7 @@ class Law(ABC):
         outputs: what it commands; nobody else may while it runs.
         publications: what it publishes while it runs.
         commands: topics of type Twist or TwistStamped it listens to.
+        reckoning: where it believes the robot to be; None where it has no idea.
         running: whether it is at work.
     """
 
@@ -97,6 +99,7 @@ class Law(ABC):
         self.outputs: tuple[Output, ...] = ()
         self.publications: list[Publication] = []
         self.commands: dict[str, str] = {}
+        self.reckoning: Reckoning | None = None
         self.running = False
         self.configure()
 

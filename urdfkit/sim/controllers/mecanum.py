@@ -54,7 +54,7 @@ class MecanumController(Law):
         self._limiters = tuple(limits_of_ros_2(read.group(name)) for name in ("linear/x", "linear/y", "angular/z"))
         self._reference = Reference(self, read.number("reference_timeout", 0.0))
         self._rate = 1.0 / self.hardware.period
-        Reckoning(
+        self.reckoning = Reckoning(
             self, self._reckon, self._rate, topic="odometry", transforms="tf_odometry", prefixed=True,
             covariance=COVARIANCE,
         )  # fmt: skip

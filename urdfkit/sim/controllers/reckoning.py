@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from math import cos, sin
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +26,7 @@ class Reckoning:
 
     Args:
         law: the controller; its ``pose_covariance_diagonal``, ``odom_frame_id`` and so on are read.
-        measure: says where the robot is now.
+        measure: says where the robot is now: a method of the controller, which takes note of how far the wheels came.
         rate: [Hz].
         topic: of the odometry, below the controller's name.
         transforms: topic of the transform; below the controller's name where it is not absolute.
@@ -34,6 +35,9 @@ class Reckoning:
 
     Raises:
         DescriptionError: a parameter is missing or makes no sense, with its place.
+
+    Attributes:
+        frame: of the odometry.
     """
 
     def __init__(
@@ -49,14 +53,25 @@ class Reckoning:
     ) -> None:
         read, bus = law.settings, law.hardware.setup.bus
         prefix = _prefix(law) if prefixed else ""
-        self._frame = prefix + read.text("odom_frame_id", "odom")
+        self.frame = prefix + read.text("odom_frame_id", "odom")
         self._child = prefix + read.text("base_frame_id", "base_link")
         self._covariances = tuple(_covariance(law, name, covariance) for name in ("pose", "twist"))
-        self._measure = measure
+        self._law, self._measure = law, measure
         law.report(bus.advertise(law.topic(topic), ODOMETRY), rate, self._message)
         if read.flag("enable_odom_tf", True):
             place = transforms if transforms.startswith("/") else law.topic(transforms)
             law.report(bus.advertise(place, TF), rate, self._transform)
+
+    def estimate(self, state: State) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
+        """Return position [m] and quaternion x y z w at which the controller believes the robot to be now.
+
+        What it goes by stays as it is: a copy of it looks.
+        """
+        law: Any = copy(self._law)
+        if hasattr(law, "_odometry"):
+            law._odometry = copy(law._odometry)
+        (x, y, heading), _ = getattr(law, self._measure.__name__)(state)
+        return (x, y, 0.0), (0.0, 0.0, sin(heading / 2), cos(heading / 2))
 
     def _message(self, state: State) -> Callable[[], Any]:
         t, ((x, y, heading), (vx, vy, w)) = state.t, self._measure(state)
@@ -68,7 +83,7 @@ class Reckoning:
             )
             of_pose, of_twist = (np.diag(diagonal).ravel() for diagonal in self._covariances)
             return message_type(ODOMETRY)(
-                header(t, self._frame),
+                header(t, self.frame),
                 self._child,
                 message_type("geometry_msgs/msg/PoseWithCovariance")(pose, of_pose),
                 message_type("geometry_msgs/msg/TwistWithCovariance")(twist((vx, vy, 0), (0, 0, w)), of_twist),
@@ -79,7 +94,7 @@ class Reckoning:
     def _transform(self, state: State) -> Callable[[], Any]:
         t, ((x, y, heading), _) = state.t, self._measure(state)
         quaternion = (0.0, 0.0, sin(heading / 2), cos(heading / 2))
-        return lambda: message_type(TF)([transform(t, self._frame, self._child, (x, y, 0.0), quaternion)])
+        return lambda: message_type(TF)([transform(t, self.frame, self._child, (x, y, 0.0), quaternion)])
 
 
 def _prefix(law: Law) -> str:

@@ -75,7 +75,7 @@ class SteeringController(Law):
         self._limiters = (limits_of_ros_1(read.group("linear/x")), limits_of_ros_1(read.group("angular/z")))
         self._reference = Reference(self, read.number("cmd_vel_timeout", TIMEOUT))
         self._rate = read.number("publish_rate", RATE)
-        Reckoning(self, self._reckon, self._rate)
+        self.reckoning = Reckoning(self, self._reckon, self._rate)
 
     def _configure_ros_2(self) -> None:
         read = self.settings
@@ -100,7 +100,9 @@ class SteeringController(Law):
             self.note("`reduce_wheel_speed_until_steering_reached` is not simulated: wheels turn as they are told")
         self._reference = Reference(self, read.number("reference_timeout", 1.0))
         self._rate = 1.0 / self.hardware.period
-        Reckoning(self, self._reckon, self._rate, topic="odometry", transforms="tf_odometry", covariance=COVARIANCE)
+        self.reckoning = Reckoning(
+            self, self._reckon, self._rate, topic="odometry", transforms="tf_odometry", covariance=COVARIANCE
+        )
 
     def _joints(self, names: tuple[str, ...], count: int, interface: str) -> tuple[Output, ...]:
         found = self.settings.texts(self._first(*names) or names[0])

@@ -10,6 +10,7 @@ from urdfkit.errors import SimulationError, did_you_mean
 if TYPE_CHECKING:
     from urdfkit.sim.controllers.loop import ControllerStatus, ControlLoop
     from urdfkit.sim.publications import Publication
+    from urdfkit.sim.state import State
 
 
 class Controllers:
@@ -40,6 +41,11 @@ class Controllers:
         """Topic → type, of the velocity commands that running controllers listen to."""
         laws = [law for loop in self._loops for law in loop.laws.values() if law.running]
         return {topic: kind for law in laws for topic, kind in law.commands.items()}
+
+    def odometry(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
+        """Return odometry frame → position [m] and quaternion x y z w at which running controllers have the robot."""
+        laws = [law for loop in self._loops for law in loop.laws.values() if law.running]
+        return {law.reckoning.frame: law.reckoning.estimate(state) for law in laws if law.reckoning is not None}
 
     def list(self) -> tuple[ControllerStatus, ...]:
         """Return every controller that is configured, loaded or not."""

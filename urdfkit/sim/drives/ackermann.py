@@ -17,11 +17,11 @@ from urdfkit.sim.drives.odometer import from_world, odometer
 from urdfkit.sim.drives.pid import Pid
 from urdfkit.sim.drives.steering import put
 from urdfkit.sim.drives.wheels import Wheels
+from urdfkit.sim.mechanics import in_the_world
 from urdfkit.sim.motors import effort_limit
 from urdfkit.sim.parameters import Parameters
 from urdfkit.sim.plugin import Drive, Setup
 from urdfkit.sim.schedule import Ticks
-from urdfkit.sim.state import in_the_world
 from urdfkit.sim.topics import Topics
 
 if TYPE_CHECKING:
