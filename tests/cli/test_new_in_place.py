@@ -329,3 +329,24 @@ def test_a_package_that_an_edited_file_names_is_kept_whole(place, capsys):
     assert "picker_control/package.xml: kept: picker_gazebo/launch/picker.launch names it" in lines_of(capsys)
     assert (place / "picker_control/config/controllers.yaml").is_file()
     assert main(["lint", "picker_description", "-q"]) == 0
+
+
+def test_what_speaks_to_the_other_gazebo_is_told(place, capsys):
+    """A camera that `new sensor` had written for the new Gazebo was dead in Gazebo Classic, and nobody said so."""
+    assert main(["new", "robot", "scout", "--no-picture", "--yes", "-q"]) == 0
+    assert main(["new", "sensor", "camera", "--into", "scout_description", "-q"]) == 0
+    capsys.readouterr()
+    assert main(["new", "robot", "--update", "--mass", "6", "--yes", "-q"]) == 0
+    assert "stays" not in capsys.readouterr().err
+    assert main(["new", "robot", "--update", "--ros", "noetic", "--yes", "-q"]) == 0
+    said = capsys.readouterr().err
+    assert "urdfkit: scout_description/urdf/camera_sensor.xacro stays, and its sensor publishes nothing in Gaz" in said
+    assert "urdfkit: scout_gazebo/config/bridge.yaml stays, and nothing reads it" in said
+    assert said.count("stays") == 2
+    (place / "scout_gazebo/config/bridge.yaml").unlink()
+    assert main(["new", "sensor", "camera", "--into", "scout_description", "--name", "other", "-q"]) == 0
+    assert "libgazebo_ros_camera.so" in (place / "scout_description/urdf/camera_sensor.xacro").read_text()
+    capsys.readouterr()
+    assert main(["new", "robot", "--update", "--ros", "jazzy", "--yes", "-q"]) == 0
+    said = capsys.readouterr().err
+    assert "are of Gazebo Classic: the new Gazebo passes over them" in said

@@ -27,6 +27,7 @@ from urdfkit.scaffold import (
     template_names,
     updating,
 )
+from urdfkit.scaffold.leftover import left_behind
 
 _WORDS = {
     "add": "new",
@@ -65,7 +66,7 @@ def run(
     recipe, into = find_recipe(template, folder)
     made = read_made(recipe)
     template = placed(template, into) if template else _made_by(made.kind, made.source, own, into)
-    answers = template.answers(read_recipe(template, recipe, given))
+    before, answers = (template.answers(read_recipe(template, recipe, each)) for each in ({}, given))
     answers |= computed(template.name, answers)
     answers |= {"into": into.as_posix()} | ({"year": made.year} if made.year else {})
     finish = drawn if answers.get("picture") == "yes" else None
@@ -90,6 +91,9 @@ def run(
             raise ResourceError(f"nothing was changed: {update.refused} by {beside} beside it; then the same again")
         update.apply()
         _tell(_left(update))
+    if answers.get("sim") != before.get("sim"):
+        tops = {Path(path).parts[0] for path in made.digests if len(Path(path).parts) > 1}
+        _tell(left_behind(into, tops, answers.get("sim", "")))
     return 0
 
 

@@ -19,7 +19,7 @@ from urdfkit.scaffold.insertion import insert_before_end, xacro_prefix
 from urdfkit.scaffold.manifest import bridges, package_of, with_dependency, with_installed
 from urdfkit.scaffold.mounting import exact, mount, parent_link, written
 from urdfkit.scaffold.names import free
-from urdfkit.scaffold.sensor_macro import KINDS, bridge_entries, sensor_macro, topic_of
+from urdfkit.scaffold.sensor_macro import GENERATIONS, KINDS, bridge_entries, sensor_macro, topic_of
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _BARE = "urdfkit_parent"
@@ -194,10 +194,17 @@ def _namespace(robot: Robot) -> str:
 
 
 def _macro_file(home: Path, macro: str, kind: str) -> Iterator[Alteration]:
-    """Yield the file of the macro where it is not there; one that a person has changed since is used as it is."""
+    """Yield the file of the macro where it is not there, or as it was written for another Gazebo.
+
+    One that a person has changed since is used as it is.
+    """
     if not home.exists():
         yield Alteration(home, None, macro.encode("utf-8"))
-    elif f'name="{kind}_sensor"'.encode() not in _read(home):
+        return
+    there = _read(home)
+    if there in {sensor_macro(kind, other).encode("utf-8") for other in GENERATIONS} - {macro.encode("utf-8")}:
+        yield Alteration(home, there, macro.encode("utf-8"))
+    elif f'name="{kind}_sensor"'.encode() not in there:
         raise ResourceError(f"{home} is already there and has no macro `{kind}_sensor`; nothing was changed")
 
 
