@@ -115,3 +115,22 @@ def test_a_child_with_letters_swapped_is_one_finding_with_a_hint(tmp_path):
     joint = '<joint name="j" type="fixed"><parent link="base"/><child link="amr"/></joint>'
     told = found(tmp_path, f'<link name="base"/><link name="arm"/>\n{joint}')
     assert told == [("T202", 3, "joint `j` has the child `amr`, which is no link; did you mean `arm`?")]
+
+
+BOX = """<link name="{0}"><visual><geometry><box size="{1} {1} {1}"/></geometry></visual>
+<collision><geometry><box size="{1} {1} {1}"/></geometry></collision>
+<xacro:weight side="{2}"/></link>
+"""
+WEIGHED = """<xacro:macro name="weight" params="side"><inertial><mass value="1"/>
+<inertia ixx="${side*side/6}" ixy="0" ixz="0" iyy="${side*side/6}" iyz="0" izz="${side*side/6}"/></inertial>
+</xacro:macro>
+"""
+JOINT = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>'
+
+
+@pytest.mark.parametrize(("given", "code"), [("1", "I507"), ("0.004", "I508")])
+def test_an_inertia_is_told_at_the_call_where_other_calls_are_right(tmp_path, given, code):
+    body = WEIGHED + BOX.format("a", "0.1", given) + BOX.format("b", "0.2", "0.2") + JOINT
+    assert [(c, line) for c, line, _ in found(tmp_path, body)] == [(code, 7)]
+    body = WEIGHED + BOX.format("a", "0.1", given)
+    assert [(c, line) for c, line, _ in found(tmp_path, body)] == [(code, 3)]

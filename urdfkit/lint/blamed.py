@@ -8,7 +8,7 @@ from urdfkit.description.numbers import number
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from urdfkit.description.element import Element
     from urdfkit.description.source import Expansion, Position
@@ -52,6 +52,22 @@ def blamed(model: Model, element: Element, attribute: str, is_wrong: Callable[[s
     tag = model.tag(element.origin.position)
     written = tag.attributes.get(attribute) if tag is not None else None
     return culprit(model, written.value, element.origin.expansions, is_wrong) if written is not None else None
+
+
+def call_of(element: Element, right: Iterable[Element]) -> Position | None:
+    """Return the call of a macro that makes an element wrong, where other calls make it right; None where none does.
+
+    Args:
+        element: what is wrong, after expansion.
+        right: such elements that are right.
+    """
+    others = [one.origin for one in right if one.origin.position == element.origin.position]
+    if not others:
+        return None
+    return next(
+        (call.position for call in element.origin.expansions if not any(call in other.expansions for other in others)),
+        None,
+    )
 
 
 def culprit(

@@ -6,7 +6,7 @@ from math import sqrt
 
 from urdfkit.lint.principal import is_identity
 from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.tensor import computed
+from urdfkit.lint.tensor import computed, tensor_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -15,12 +15,16 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
+LEAST, MOST = 0.1, 25.0
+"""[kg·m²]: what the largest moment of the link's shapes, filled evenly, may be for an identity to be meant."""
+
 
 class InertiaIdentity(RobotRule):
     """The inertia of a link is the identity, which stands for "not computed yet".
 
     ## What it does
-    Looks for ixx = iyy = izz = 1 without products of inertia, unless the link's shapes are large enough for it.
+    Looks for ixx = iyy = izz = 1 without products of inertia, unless the link's shapes are large enough for it
+    and, filled evenly with its mass, have a largest moment between 0.1 and 25 kg·m².
 
     ## Why is this bad?
     One kilogram times square metre is the inertia of a fridge. Wheels and fingers with it do not get moving.
@@ -71,7 +75,9 @@ class InertiaIdentity(RobotRule):
                     continue
                 extent = model.extents.get(link.name)
                 if extent is not None and sqrt(1.0 / mass) < extent.radius(link.inertial.origin.xyz):
-                    continue
+                    values = tensor_of(link, extent, mass)
+                    if values is None or LEAST <= max(values) <= MOST:
+                        continue
                 if extent is None and not link.visuals and not link.collisions:
                     continue  # Nothing says how large the link is.
                 yield self.at(

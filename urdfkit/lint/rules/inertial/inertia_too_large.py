@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import sqrt
 
+from urdfkit.lint.blamed import call_of
 from urdfkit.lint.principal import is_identity, principal_moments
 from urdfkit.lint.rule import RobotRule
 from urdfkit.lint.tensor import computed
@@ -12,6 +13,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from urdfkit.description.element import Element
+    from urdfkit.description.robot import Link
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
@@ -71,6 +74,8 @@ class InertiaTooLarge(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each tensor that is too large for the shapes."""
+        right: list[Element] = []
+        wrong: list[tuple[Link, Element, str]] = []
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None
             if link.inertial is None or mass is None or mass <= 0.0:
@@ -83,12 +88,17 @@ class InertiaTooLarge(RobotRule):
             for moments, element in principal_moments(link):
                 gyration = sqrt(max(moments[2], 0.0) / mass)
                 if gyration > margin * reach and not is_identity(element):
-                    yield self.at(
-                        model,
-                        element,
+                    message = (
                         f"inertia of link `{link.name}` is too large: radius of gyration {gyration:.3g} m, "
-                        f"but its shapes reach {reach:.3g} m from the centre of mass",
-                        link=link.name,
-                        help="compute it from shape and mass",
-                        fix=computed(model, link, element),
+                        f"but its shapes reach {reach:.3g} m from the centre of mass"
                     )
+                    wrong.append((link, element, message))
+                else:
+                    right.append(element)
+        for link, element, message in wrong:
+            call = call_of(element, right) if element.origin.expansions else None
+            help = "compute it from shape and mass"
+            if call is not None:
+                help = "other calls of the macro are right: look at the arguments of this one"
+            fix = computed(model, link, element)
+            yield self.at(model, call or element, message, link=link.name, help=help, fix=fix)

@@ -6,6 +6,7 @@ from math import sqrt
 
 from urdfkit.description.robot import Mesh
 from urdfkit.lint.apart import apart
+from urdfkit.lint.blamed import call_of
 from urdfkit.lint.placement import shapes_of
 from urdfkit.lint.principal import principal_moments
 from urdfkit.lint.rule import RobotRule
@@ -15,6 +16,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from urdfkit.description.element import Element
+    from urdfkit.description.robot import Link
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
@@ -75,6 +78,8 @@ class InertiaTooSmall(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each tensor that is too small for the shapes."""
+        right: list[Element] = []
+        wrong: list[tuple[Link, Element, str]] = []
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None
             if link.inertial is None or mass is None or mass <= 0.0:
@@ -90,12 +95,17 @@ class InertiaTooSmall(RobotRule):
             for moments, element in principal_moments(link):
                 gyration = sqrt(max(moments[2], 0.0) / mass)
                 if 0.0 < gyration < SMALL * reach and not apart(model, link)[0]:
-                    yield self.at(
-                        model,
-                        element,
+                    message = (
                         f"inertia of link `{link.name}` is very small: radius of gyration {gyration:.3g} m, "
-                        f"its shapes reach {reach:.3g} m from the centre of mass",
-                        link=link.name,
-                        help="compute it from shape and mass",
-                        fix=computed(model, link, element),
+                        f"its shapes reach {reach:.3g} m from the centre of mass"
                     )
+                    wrong.append((link, element, message))
+                else:
+                    right.append(element)
+        for link, element, message in wrong:
+            call = call_of(element, right) if element.origin.expansions else None
+            help = "compute it from shape and mass"
+            if call is not None:
+                help = "other calls of the macro are right: look at the arguments of this one"
+            fix = computed(model, link, element)
+            yield self.at(model, call or element, message, link=link.name, help=help, fix=fix)
