@@ -268,7 +268,8 @@ class _Run:
             return 2 if refused else 0
         if refused and not whole.files and arguments.format == "text":
             return 2  # nothing was linted
-        show(outcome, form=arguments.format, statistics=arguments.statistics, color=arguments.color)
+        if not refused or outcome.findings or arguments.format != "text":  # "All checks passed" would not be true
+            show(outcome, form=arguments.format, statistics=arguments.statistics, color=arguments.color)
         if refused:
             return 2
         return 1 if any(finding.severity != "info" for finding in outcome.findings) else 0

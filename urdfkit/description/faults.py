@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     FaultKind = Literal[
         "xml",
+        "encoding",
         "undefined-property",
         "undefined-macro",
         "undefined-arg",

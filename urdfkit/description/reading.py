@@ -62,7 +62,7 @@ def read_source(path: Path, *, shown_as: str | None = None, texts: Mapping[str, 
     """
     shown = shown_as or str(path)
     if texts and (text := texts.get(str(absolute(path)))) is not None:
-        return Source(shown, text)
+        return Source(shown, text, getattr(text, "flaw", None))
     try:
         content = content_of(path, MAX_BYTES + 1)
     except OSError as error:

@@ -88,10 +88,12 @@ class Source:
     Attributes:
         file: the path as shown to the user.
         text: the decoded content, with its line ends as they are.
+        flaw: what of the bytes is no UTF-8, and its offset in the text; None where all of them are.
     """
 
     file: str
     text: str = field(repr=False)
+    flaw: tuple[int, str] | None = None
 
     @classmethod
     def read(cls, path: Path, *, shown_as: str | None = None) -> Source:
@@ -111,8 +113,14 @@ class Source:
     @classmethod
     def decode(cls, file: str, content: bytes) -> Source:
         """Decode UTF-8 (with or without byte order mark) or UTF-16 (with one); undecodable bytes become U+FFFD."""
-        encoding = "utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
-        return cls(file, content.decode(encoding, errors="replace"))
+        if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+            return cls(file, content.decode("utf-16", errors="replace"), (0, "UTF-16"))
+        try:
+            return cls(file, content.decode("utf-8-sig"))
+        except UnicodeDecodeError as error:
+            before = error.object[: error.start].decode("utf-8", errors="replace")
+            flaw = len(before), f"byte 0x{error.object[error.start]:02X}"
+            return cls(file, content.decode("utf-8-sig", errors="replace"), flaw)
 
     @cached_property
     def line_starts(self) -> list[int]:
@@ -177,3 +185,9 @@ class Source:
         from urdfkit.description.tags import element_span
 
         return element_span(self, position)
+
+
+class Overlay(str):
+    """A text to take instead of that on disk, which is to be written with the same flaw; see `Source`."""
+
+    flaw: tuple[int, str] | None = None

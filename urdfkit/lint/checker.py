@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.cache import Cache
     from urdfkit.lint.suppress import Suppression
 
-_EVERYWHERE = ("xml", "misspelt-directive", "directive-attribute", "too-large", "too-many")
+_EVERYWHERE = ("xml", "encoding", "misspelt-directive", "directive-attribute", "too-large", "too-many")
 """Kinds of faults that count in a file which others include, too: the rest may be due to what only those define."""
 
 
@@ -191,10 +191,11 @@ class Checker:
                 yield from self._ask(rule, file, model.document(file), model)
 
     def _ask_fault_rules(self, model: Model, entry: Entry) -> Iterator[Finding]:
-        if not model.expanded.faults:
+        faults = (*model.misread, *model.expanded.faults)
+        if not faults:
             return
         rules = [rule() for rule in (*fault_rules(), *(rule for rule in self.foreign if issubclass(rule, FaultRule)))]
-        for fault in model.expanded.faults:
+        for fault in faults:
             if entry.is_library and fault.kind not in _EVERYWHERE:
                 continue
             for rule in rules:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from urdfkit.description.source import Overlay
 from urdfkit.errors import ResourceError
 from urdfkit.lint.caused import Written, left_over, new_findings
 from urdfkit.lint.engine import Options, Outcome, run
@@ -173,6 +174,16 @@ class _Text:
         """Return the bytes of a text that was made from `text` by edits."""
         return self.mark + text.encode(self.codec, errors="surrogateescape")
 
+    def overlay(self, text: str) -> str:
+        """Return a text that was made from `text` by edits as the linter sees it once it is written."""
+        seen = Overlay(_SURROGATE.sub("\ufffd", text))
+        stray = _SURROGATE.search(text)
+        if self.codec != "utf-8":
+            seen.flaw = 0, "UTF-16"
+        elif stray is not None:
+            seen.flaw = stray.start(), f"byte 0x{ord(stray[0]) - 0xDC00:02X}"
+        return seen
+
     def agrees_with(self, source: Source) -> bool:
         """Return whether offsets into the text that was linted hold in this one."""
         return len(self.text) == len(source.text) and all(
@@ -219,7 +230,7 @@ class _Fixer:
 
     def _lint(self, texts: dict[Path, str]) -> Outcome:
         # Lone surrogates stand for bytes that are no UTF-8; the linter saw U+FFFD there.
-        overlay = {str(path): _SURROGATE.sub("\ufffd", text) for path, text in texts.items()}
+        overlay = {str(path): self.originals[path].overlay(text) for path, text in texts.items()}
         return run(self.entries, Options(**{**self.options.__dict__, "texts": overlay}), keep_going=True)
 
     def _attempt(self, findings: Sequence[Finding], outcome: Outcome) -> tuple[dict[Path, str], Outcome] | None:

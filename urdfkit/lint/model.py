@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from urdfkit.description.element import Element
     from urdfkit.description.expanded import Expanded
+    from urdfkit.description.faults import Fault
     from urdfkit.description.robot import Joint, Link, Mesh, Robot, Vector
     from urdfkit.lint.hidden import Hidden
     from urdfkit.lint.placement import Extent, Frame
@@ -83,6 +84,29 @@ class Model:
             return True
         faults = (fault for fault in self.expanded.faults if "meant" not in fault.details)
         return any(fault.kind in _DROPPING and not fault.message.startswith("unbound prefix") for fault in faults)
+
+    @cached_property
+    def misread(self) -> tuple[Fault, ...]:
+        """What of the files is no UTF-8, a fault for each that is XML for the rest."""
+        broken = {fault.position.file for fault in self.expanded.faults if fault.kind == "xml"}
+        sources = [one for one in self.expanded.sources.values() if one.flaw is not None and one.file not in broken]
+        if not sources:
+            return ()
+        from urdfkit.description.faults import Fault
+
+        is_xacro = self.expanded.path.suffix == ".xacro" or any(
+            "xmlns:xacro" in source.text for source in self.expanded.sources.values()
+        )
+        found = []
+        for source in sources:
+            at, what = source.flaw or (0, "")
+            message, refuses = f"{what} is no UTF-8", "xacro refuses" if is_xacro else "what reads it as text refuses"
+            if what == "UTF-16":
+                message, refuses = "the file is in UTF-16", "xacro refuses" if is_xacro else "urdfdom refuses"
+            fatal = is_xacro or what == "UTF-16"
+            facts = {"severity": "error" if fatal else "warning"}
+            found.append(Fault("encoding", f"{message}: {refuses} the file", source.position(at), details=facts))
+        return tuple(found)
 
     @cached_property
     def hidden(self) -> Hidden:

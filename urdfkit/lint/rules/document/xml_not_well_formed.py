@@ -21,7 +21,9 @@ class XmlNotWellFormed(FaultRule):
     ## What it does
     Reports the place where a file, or a file it includes, stops being XML: a tag that is not closed, an attribute
     without quotes, a stray ``<`` or ``&``, something before ``<?xml``. Entity declarations and external entities are
-    reported too: they can grow without end or read other files.
+    reported too: they can grow without end or read other files. So are bytes that are no UTF-8 (Latin-1,
+    UTF-16), even in comments and whatever ``<?xml encoding=…?>`` says; where only urdfdom reads the file, which takes
+    bytes as they are, that is a warning.
 
     ## Why is this bad?
     Nothing that reads the description gets any further; xacro names the line, but not the file that was included.
@@ -47,14 +49,18 @@ class XmlNotWellFormed(FaultRule):
     code = "E001"
     name = "xml-not-well-formed"
     fix = "unsafe"
-    kinds = ("xml",)
+    kinds = ("xml", "encoding")
 
     def claims(self, fault: Fault) -> bool:
         """Return whether the fault is about XML as such, not about an unbound prefix."""
-        return fault.kind == "xml" and "unbound prefix" not in fault.message
+        return fault.kind in self.kinds and "unbound prefix" not in fault.message
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
         """Yield the finding; a file that ends too early is pointed at where what is written ends."""
+        if fault.kind == "encoding":
+            severity, help = fault.details["severity"], "save it as UTF-8"
+            yield self.at(model, fault.position, fault.message, help=help, severity=severity)
+            return
         if not fault.message.startswith("the file ends too early"):
             yield from super().check(fault, model)
             return

@@ -47,7 +47,7 @@ class InvalidNameCharacters(RobotRule):
         """Yield a finding for each name with such a character."""
         for part in model.parts:
             name = part.name
-            if "$" in name or model.is_unresolved(part.element, "name"):
+            if "$" in name or model.is_unresolved(part.element, "name") or ("\ufffd" in name and model.misread):
                 continue
             wrong = re.search(r"^/|[^!-~]|[\"'`<>&]", name)
             if wrong is not None:
