@@ -92,6 +92,18 @@ def test_a_link_without_inertial_gets_one(write, body, capsys):
     assert inertial.mass == pytest.approx(2.0)
 
 
+def test_what_is_right_already_is_not_written(write, capsys):
+    path = write(BAD)
+    assert main(["inertia", str(path), "a", "--write"]) == 0
+    mended = path.read_bytes()
+    capsys.readouterr()
+    main(["inertia", str(path), "a", "--write"])
+    said = capsys.readouterr()
+    assert "wrote" not in said.err
+    assert "note: not written: it says so already" in said.out
+    assert path.read_bytes() == mended
+
+
 def test_without_a_link_what_is_wrong_is_written_and_the_rest_let_be(write):
     right = link(
         '<inertial><origin xyz="0 0 0.05"/><mass value="3"/>'

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -154,7 +156,7 @@ def test_unsafe_fixes_are_applied_on_request_only(write):
     assert mend(path).changes == ()
     (change,) = mend(path, unsafe=True).changes
     assert b'lower="-1" upper="1.5"' in change.after
-    assert change.diff().splitlines()[:2] == ["--- r.xacro", "+++ r.xacro"]
+    assert change.diff().splitlines()[:2] == ["--- a/r.xacro", "+++ b/r.xacro"]
     assert sum(line.startswith("+") for line in change.diff().splitlines()) == 2
 
 
@@ -271,3 +273,18 @@ def test_what_names_the_names_that_a_fix_took_away_is_caused_by_it(write, monkey
     assert fixed.changes == ()
     (note,) = fixed.notes
     assert "was not fixed: that would have caused T202 at r.urdf:13, " in note
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="no git")
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_git_applies_what_is_shown(write, end):
+    path = write("urdf/r.xacro", BAD.replace("\n", end).encode())
+    (change,) = mend(path).changes
+    Path("mend.diff").write_bytes(change.diff().encode())
+    subprocess.run(["git", "apply", "mend.diff"], check=True)
+    assert path.read_bytes() == GOOD.replace("\n", end).encode()
+
+
+def test_a_file_whose_lines_end_by_carriage_returns_is_one_line_of_a_diff(write):
+    (change,) = mend(write("r.xacro", BAD.replace("\n", "\r").encode())).changes
+    assert [line[:1] for line in change.diff().split("\n")] == ["-", "+", "@", "-", "\\", "+", "\\", ""]

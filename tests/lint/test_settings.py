@@ -69,6 +69,10 @@ def test_the_nearest_file_counts_and_the_repository_is_the_end(tmp_path):
         ("[lint]\npackage-path = ['nowhere']\n", "no folder"),
         ("lint = 3\n", "`lint` is a table, not 3"),
         ("[lint\n", "is no TOML"),
+        ("[lint]\nselect = ['E0O1']\n", "`lint.select` E0O1: there is no such rule; did you mean `E0"),
+        ("[lint]\nignore = ['Q']\n", "`lint.ignore` Q: there is no such rule"),
+        ("[lint.per-file-ignores]\na = ['E', 'Q7']\n", "`lint.per-file-ignores.a` Q7: there is no such rule"),
+        ("[lint]\ntarget = 'gzz'\n", "`lint.target` gzz is not known; did you mean `gz"),
     ],
 )
 def test_what_is_not_known_is_said_in_one_line(tmp_path, text, message):

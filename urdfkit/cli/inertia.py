@@ -226,9 +226,9 @@ def _write(
             row["notes"].append(f"not written: {error}")
             continue
         wanted += made
-        row["written"] = sorted({f"{edit.span.file}:{edit.span.line}" for edit in made}) or [
-            f"{row['file']}:{row['line']}"
-        ]
+        if not made:
+            row["notes"].append("not written: it says so already, to the six digits that are written")
+        row["written"] = sorted({f"{edit.span.file}:{edit.span.line}" for edit in made})
     changed = changes(wanted, model.expanded.sources, within=may_be_changed([entry.path]))
     texts = {str(change.path): change.text for change in changed}
     again = model_of(entry.path, Options(**{**options.__dict__, "texts": texts}))

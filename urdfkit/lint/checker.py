@@ -258,6 +258,11 @@ def codes() -> tuple[str, ...]:
     return tuple(rule.code for rule in RULES)
 
 
+def every_code() -> tuple[str, ...]:
+    """Return the codes of all our rules and of those that others brought."""
+    return (*codes(), *(rule.code for rule in _third_party()))
+
+
 def _third_party() -> tuple[type[Rule], ...]:
     from urdfkit.registry import load
 

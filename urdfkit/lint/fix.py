@@ -62,11 +62,13 @@ class Change:
         return _SURROGATE.sub("\ufffd", _Text(self.after).text)
 
     def diff(self) -> str:
-        """Return the change as a unified diff."""
+        """Return the change as a unified diff, for ``git apply`` and ``patch -p1``."""
         from difflib import unified_diff
 
-        old, new = (_Text(content).text.splitlines(keepends=True) for content in (self.before, self.after))
-        lines = unified_diff(old, new, self.shown, self.shown)
+        old, new = (re.findall(r"[^\n]*\n|[^\n]+", _Text(content).text) for content in (self.before, self.after))
+        # As git has it: `git apply` takes it, and `patch -p1`.
+        names = (self.shown, self.shown) if self.shown.startswith("/") else (f"a/{self.shown}", f"b/{self.shown}")
+        lines = unified_diff(old, new, *names)
         return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)
 
 

@@ -22,7 +22,7 @@ def selection(
     Raises:
         UsageError: one of them is no code, nor the beginning of one.
     """
-    chosen, left_out = _checked("--select", select, codes), _checked("--ignore", ignore, codes)
+    chosen, left_out = checked("--select", select, codes), checked("--ignore", ignore, codes)
 
     def wanted(code: str) -> bool:
         for_it = max((len(prefix) for prefix in chosen if code.startswith(prefix)), default=0 if chosen else 0.5)
@@ -32,7 +32,17 @@ def selection(
     return wanted
 
 
-def _checked(option: str, prefixes: Iterable[str], codes: Callable[[], tuple[str, ...]]) -> tuple[str, ...]:
+def checked(option: str, prefixes: Iterable[str], codes: Callable[[], tuple[str, ...]]) -> tuple[str, ...]:
+    """Return codes, or beginnings of codes, one by one, in capitals.
+
+    Args:
+        option: what gave them.
+        prefixes: the codes, several of which may stand in one text, with commas between.
+        codes: the codes there are.
+
+    Raises:
+        UsageError: one of them is no code, nor the beginning of one.
+    """
     wanted = tuple(word.strip().upper() for prefix in prefixes for word in prefix.split(",") if word.strip())
     for prefix in wanted:
         if not any(code.startswith(prefix) for code in codes()):

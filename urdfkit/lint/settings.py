@@ -116,7 +116,28 @@ def read(file: Path) -> Settings:
         _, taken = _KEYS[key]
         name = {"per-file-ignores": "per_file"}.get(key, key.replace("-", "_"))
         values[name] = taken(file, f"lint.{key}", value)
-    return Settings(**values)
+    settings = Settings(**values)
+    _check_words(settings)
+    return settings
+
+
+def _check_words(settings: Settings) -> None:
+    """Refuse codes and targets that there are not.
+
+    Raises:
+        UsageError: there is one; it names the file, not an option.
+    """
+    from urdfkit.lint.checker import every_code
+    from urdfkit.lint.select import checked
+    from urdfkit.lint.target import known_target
+
+    of = f"{settings.file}: `lint."
+    checked(f"{of}select`", settings.select, every_code)
+    checked(f"{of}ignore`", settings.ignore, every_code)
+    for pattern, codes in settings.per_file.items():
+        checked(f"{of}per-file-ignores.{pattern}`", codes, every_code)
+    if settings.target is not None and settings.target.lower() != "any":
+        known_target(settings.target, f"{of}target`")
 
 
 def _check(file: Path, prefix: str, table: Any, known: Mapping[str, type]) -> None:

@@ -91,11 +91,15 @@ def guess(path: Path) -> Guess:
     return Guess(None, "is for ROS 1 and ROS 2" if len(versions | others) > 1 else "names no build tool", manifest)
 
 
-def known_target(name: str | None) -> str | None:
+def known_target(name: str | None, option: str = "--target") -> str | None:
     """Return the name of a target, which may name a release: ``ros2`` or ``ros2-jazzy``; a release alone will do.
 
     Case does not count, nor what stands between the two, and other names of the same are known: ``Ignition``,
     ``gazebo11``, ``ros_noetic``.
+
+    Args:
+        name: as the user gave it; None for none.
+        option: what gave it.
 
     Raises:
         UsageError: there is none of that name, or several.
@@ -110,18 +114,18 @@ def known_target(name: str | None) -> str | None:
     from urdfkit.errors import UsageError, did_you_mean
 
     if written in _SEVERAL:
-        raise UsageError(f"--target {name} is not known: {_SEVERAL[written]}?")
+        raise UsageError(f"{option} {name} is not known: {_SEVERAL[written]}?")
     releases = {one: known for known, distros in DISTROS.items() for one in distros}
     if distro and family in DISTROS and ("-" in written or distro.isdecimal()):
         others = {} if distro.isdecimal() else releases
         hint = did_you_mean(distro, DISTROS[family]) or did_you_mean(distro, others)
         near = hint.partition("`")[2].partition("`")[0]
         said = f"; did you mean `{releases[near]}-{near}`?" if near else f"; {family} has {', '.join(DISTROS[family])}"
-        raise UsageError(f"--target {name} is not known{said}")
+        raise UsageError(f"{option} {name} is not known{said}")
     names = (one for one in releases if not one.isdecimal())
     hint = did_you_mean(written, (*TARGETS, *names, *(f"{known}-{one}" for one, known in releases.items())))
     families = f"; one of {', '.join(TARGETS)}"
-    raise UsageError(f"--target {name} is not known{hint or families}")
+    raise UsageError(f"{option} {name} is not known{hint or families}")
 
 
 def _split(written: str) -> tuple[str, str]:
