@@ -119,10 +119,23 @@ def test_the_json_is_of_the_documented_shape(capsys: Capture) -> None:
     validate(report)
     (scene,) = report["scenes"]
     assert scene["engines"]["urdfkit"]["right"]
+    assert scene["engines"]["Simulator"]["right"]
     assert scene["engines"]["mujoco"]["settings"].split()[0] in ("implicitfast", "Euler", "discrete")
     assert scene["ratios"]["mujoco"]["target"] == 3.0
     assert report["scaling"] is None
     assert report["memory"] is None
+
+
+def test_a_whole_simulator_is_held_against_the_peers_too() -> None:
+    report = example()
+    ours, *theirs = report.scenes[0].speeds
+    whole = Speed("Simulator", "", (FINE,), None, (300e3, 320e3), (490e3, 500e3))
+    text = table(replace(report, scenes=[Compared(SCENES[0], (ours, whole, *theirs))]), width=None)
+    (line,) = [line for line in text.splitlines() if "in a Simulator" in line]
+    assert line.split()[3:7] == ["310k", "495k", "1.31", "1.02"]
+    assert "a Simulator has 1.55 and 4.95 times its speed" in text
+    wrong = replace(whole, checks=(OFF,))
+    assert not replace(report, scenes=[Compared(SCENES[0], (ours, wrong, *theirs))]).right
 
 
 def test_the_json_of_every_part_is_of_the_documented_shape() -> None:

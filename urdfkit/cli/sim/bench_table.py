@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import textwrap
+from statistics import median
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.parser import columns
@@ -13,7 +14,7 @@ from urdfkit.sim.bench.report import as_json
 if TYPE_CHECKING:
     from urdfkit.sim.bench.report import Report
 
-LABELS = {"urdfkit": "urdfkit", "mujoco": "MuJoCo", "pybullet": "PyBullet"}
+LABELS = {"urdfkit": "urdfkit", "Simulator": "in a Simulator", "mujoco": "MuJoCo", "pybullet": "PyBullet"}
 GREEN, RED, BOLD = "\x1b[32m", "\x1b[31m", "\x1b[1m"
 RESET = "\x1b[0m"
 NUMBERS = 54
@@ -73,7 +74,8 @@ class _Table:
                 line += "  " + "".join(pair)
                 if ratio["target"] is not None:
                     remarks.insert(0, f"target {ratio['target']:g}")
-                remarks.insert(0, speed["settings"])
+                remarks.insert(0, speed["settings"] or "ours: without topics and plugins")
+                remarks += _beside_a_simulator(scene["engines"], engine)
             found += self._with_remarks(line, "; ".join(remarks), met=None if speed["right"] else False)
             if faster := speed["faster_but_wrong"]:
                 text = f"faster but wrong: {faster['settings']} at {_rate(faster['steps_per_cpu_second'])}"
@@ -112,6 +114,16 @@ class _Table:
 
     def _styled(self, text: str, style: str) -> str:
         return f"{style}{text}{RESET}" if self._colored else text
+
+
+def _beside_a_simulator(engines: dict[str, Any], peer: str) -> list[str]:
+    """Return how many times the speed of a peer a whole `Simulator` has, with one step and with many a call."""
+    whole = engines.get("Simulator")
+    if whole is None or peer == "Simulator":
+        return []
+    pairs = [zip(whole["rounds"][way], engines[peer]["rounds"][way], strict=True) for way in ("single", "many")]
+    single, many = (median(ours / theirs for ours, theirs in pair) for pair in pairs)
+    return [f"a Simulator has {single:.2f} and {many:.2f} times its speed"]
 
 
 def _rate(steps: float) -> str:

@@ -8,13 +8,15 @@ from functools import partial
 from statistics import median
 
 from urdfkit.sim.bench.check import Check
+from urdfkit.sim.bench.in_simulator import InSimulator, fits
 from urdfkit.sim.bench.in_urdfkit import InUrdfkit
 from urdfkit.sim.bench.peer import GLANCE, Choice, Peer, Trial, choose, rate
 from urdfkit.sim.bench.running import Running
 from urdfkit.sim.bench.scene import Scene
 from urdfkit.sim.bench.scenes import robots
 
-OURS = "urdfkit"
+OURS, WHOLE = "urdfkit", "Simulator"
+"""Our engine by itself, and in a `Simulator` that also publishes what a robot's topics tell."""
 COUNTS = (2, 10, 50)
 """Robots in one world, for the cost of each."""
 SCALING = 1.3
@@ -107,6 +109,8 @@ class Comparison:
     def compare(self, scene: Scene) -> Compared:
         """Measure our engine and the peers, each at its best settings, on a scene."""
         runnings: dict[str, Running] = {OURS: InUrdfkit(scene)}
+        if fits(scene):
+            runnings[WHOLE] = InSimulator(scene)
         for peer in self._peers:
             choice = self._choice(peer, scene)
             runnings[peer.name] = peer.build(scene)(choice.best.settings)
