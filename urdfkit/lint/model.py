@@ -141,7 +141,8 @@ class Model:
     def around(self) -> dict[str, Source]:
         """The launch files and YAML of the package and of those beside it, as the user is shown.
 
-        Those are the packages that depend on it, and those whose settings a plugin of the robot reads.
+        Those are the packages that depend on it, and those whose settings a plugin of the robot reads. The package.xml
+        is one of them where it is no XML.
         """
         from urdfkit.description.reading import read_source, shown_path
 
@@ -150,6 +151,8 @@ class Model:
         files = packages.around(self.package) if self.package is not None else []
         for package in self._configured() if self.package is not None else ():
             files = [*files, *(file for file in packages.around(package) if file not in files)]
+        if self.package is not None and _is_broken(self.package / "package.xml", self.texts):
+            files = [*files, self.package / "package.xml"]
         for file in files:
             try:
                 found[shown_path(file)] = read_source(file, shown_as=shown_path(file), texts=self.texts)
@@ -281,3 +284,17 @@ class Model:
     def shown(self, position: Position) -> str:
         """Return a place as the user is shown it, without the column."""
         return f"{position.file}:{position.line}"
+
+
+def _is_broken(manifest: Path, texts: Mapping[str, str]) -> bool:
+    """Whether a package.xml is no XML. It is there: it is what makes a folder a package."""
+    from xml.parsers import expat
+
+    text = texts.get(str(manifest))
+    try:
+        expat.ParserCreate().Parse(manifest.read_bytes() if text is None else text.encode(), True)
+    except OSError:
+        return False
+    except expat.ExpatError:
+        return True
+    return False

@@ -14,14 +14,15 @@ if TYPE_CHECKING:
 
 
 class LaunchNotWellFormed(RobotRule):
-    """A launch file cannot be read.
+    """A launch file, or the package.xml, cannot be read.
 
     ## What it does
     Reads the launch files in XML and Python of the robot's package, and of those beside it that depend on it, without
-    running anything.
+    running anything; also its package.xml.
 
     ## Why is this bad?
-    "Invalid roslaunch XML syntax", or a SyntaxError: nothing is launched.
+    "Invalid roslaunch XML syntax", or a SyntaxError: nothing is launched. A package whose package.xml is no XML
+    is built by no tool.
 
     ## Example
     ```xml
@@ -42,10 +43,10 @@ class LaunchNotWellFormed(RobotRule):
     name = "launch-not-well-formed"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each launch file that is no XML, or no Python, where reading it ends."""
+        """Yield a finding for each launch file or package.xml that is no XML, or no Python, where reading it ends."""
         for source in model.around.values():
             wrong = None
-            if source.file.endswith((".launch", ".launch.xml")):
+            if source.file.endswith((".launch", ".launch.xml", "package.xml")):
                 wrong = _in_xml(source)
             elif source.file.endswith(".launch.py"):
                 wrong = _in_python(source)
