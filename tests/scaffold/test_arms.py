@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import re
 import tempfile
 from pathlib import Path
 
@@ -150,3 +151,16 @@ def test_every_size_that_is_accepted_stands_stretched_out(robot_template, tell, 
 def test_refuses_what_would_not_work(robot_template, given, message):
     with pytest.raises(UsageError, match=message):
         robot_template.answers({"name": "scout", **given})
+
+
+@pytest.mark.parametrize("gripper", ["yes", "no"])
+def test_without_ros_the_readme_says_what_moves_it(robot_template, tmp_path, gripper):
+    """Every topic of the table is heard, and every joint has one."""
+    given = {"name": "scout", "ros": "none", "arm": "5", "gripper": gripper}
+    create(robot_template, robot_template.answers(given) | {"year": "2026", "into": "."}, tmp_path)
+    text = (tmp_path / "scout_description/README.md").read_text()
+    told = re.findall(r"^\| `(/.*?)`", text, re.MULTILINE)
+    joints = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_pitch", "wrist_roll"]
+    assert told == [*(f"/arm/{joint}" for joint in joints), *(["/gripper"] if gripper == "yes" else [])]
+    simulator = Simulator(load(tmp_path / "scout_description/urdf/scout.urdf.xacro"), note=lambda _: None)
+    assert set(told) <= {topic.name for topic in simulator.bus.topics if topic.subscribers}
