@@ -324,3 +324,8 @@ def test_light_imports():
         )
         assert Path(folder, "scout_gazebo").is_dir()
     assert not {"numpy", "pinocchio", "trimesh", "meshcat"} & set(done.stdout.split())
+
+
+def test_joints_of_an_arm_are_given_with_the_arm(capsys):
+    assert main(["new", "robot", "scout", "--dof", "5"]) == 2
+    assert "did you mean `--arm`?" in capsys.readouterr().err

@@ -131,6 +131,7 @@ def test_a_urdf_without_xacro_gets_plain_elements(place):
         (["--finger-travel", "0.01"], "--finger-travel is for --gripper"),
         (["6"], "did you mean `--dof 6`?"),
         (["--joints", "6"], "did you mean `--dof`?"),
+        (["--arm", "6"], "did you mean `--dof`?"),
     ],
 )
 def test_what_cannot_be_is_refused_and_nothing_changed(simpleton, capsys, options, says):

@@ -471,3 +471,20 @@ def test_gains_of_a_joint_carry_its_weight(place):
     assert upper.d == pytest.approx(1.8 * (upper.p * inertia) ** 0.5)
     assert lower.p == pytest.approx(0.3 * 9.81 * 0.2 / 0.01)
     assert (slide.clamp, slide.p) == (pytest.approx(0.3 * 9.81), pytest.approx(0.3 * 9.81 / 0.001))
+
+
+def test_a_file_in_no_package_gets_its_controllers_beside_it(place, monkeypatch, capsys):
+    folder = robot(place, part("shoulder", "base"))
+    (place / "loose").mkdir()
+    file = next(folder.rglob("*.xacro")).rename(place / "loose/rover.urdf.xacro")
+    shutil.rmtree(folder)
+    before = set(place.iterdir())
+    monkeypatch.chdir(place / "loose")
+    assert main(["new", "controllers", "--into", file.name, "-q"]) == 0
+    assert set(place.iterdir()) == before
+    assert sorted(path.name for path in (place / "loose").iterdir()) == [
+        "control.xacro", "rover.urdf.xacro", "rover_control"
+    ]  # fmt: skip
+    assert clean(place / "loose") == []
+    states = Simulator(load(file), note=lambda _: None).controllers.list()
+    assert [state.name for state in states if "trajectory" in state.type.lower()]

@@ -115,3 +115,15 @@ def test_flags():
     assert [flag.accept(text) for text in ("yes", "Y", "true", "no", "n", "False")] == ["yes"] * 3 + ["no"] * 3
     with pytest.raises(UsageError, match="--gripper `maybe` is neither yes nor no"):
         flag.accept("maybe")
+
+
+@pytest.mark.parametrize(
+    "typed", ["rclcpp std_msgs", "rclcpp,std_msgs", "rclcpp, std_msgs,", "rclcpp  std_msgs rclcpp"]
+)
+def test_packages(typed):
+    assert Question("depends", "Depends", "packages").accept(typed) == "rclcpp std_msgs"
+
+
+def test_a_blank_in_a_package_between_commas_is_refused():
+    with pytest.raises(UsageError, match=r"`bad dep` is no ROS package name.*did you mean `bad_dep`"):
+        Question("depends", "Depends", "packages").accept("rclcpp,bad dep")

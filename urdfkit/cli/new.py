@@ -105,7 +105,7 @@ def _written(arguments: argparse.Namespace) -> tuple[int, Path | None]:
             )
             raise UsageError(f"--{option} is not available yet; there is: {there}")
     given = {
-        question.name: " ".join(value) if isinstance(value, list) else value
+        question.name: _joined(question, value) if isinstance(value, list) else value
         for question in template.questions
         if (value := getattr(arguments, question.name)) is not None
     }
@@ -129,6 +129,11 @@ def _written(arguments: argparse.Namespace) -> tuple[int, Path | None]:
     teleop = template.teleop and arguments.teleop
     _tell(template, answers, files, into.resolve(), quiet=arguments.quiet or bool(teleop))
     return 0, into / fill(template.teleop, answers, where="teleop") if teleop else None
+
+
+def _joined(question: Question, given: list[str]) -> str:
+    """Return what an option was given each time as one answer."""
+    return " ".join(question.accept(value) if question.kind == "packages" else value for value in given)
 
 
 def _asked(template: Template, given: dict[str, str], *, preview: bool) -> dict[str, str]:

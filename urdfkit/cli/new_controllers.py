@@ -35,7 +35,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "  urdfkit new controllers --into arm_description --name arm_control"
     )
     add_description(parser)
-    parser.add_argument("--name", help="of the new package beside the description's (default: ROBOT_control)")
+    parser.add_argument(
+        "--name", help="of the new package, beside the description's or the file (default: ROBOT_control)"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -67,7 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
     if there.loop is not None and generation != "classic":
         return _added(model, robot, made, arguments, there, name, generation)
     package = check_package_name(arguments.name or f"{name}_control")
-    folder = (own or model.path.parent).parent
+    folder = own.parent if own is not None else model.path.parent
     if (folder / package).exists():
         raise ResourceError(f"{folder / package} is already there; nothing is overwritten: another --name")
     namespace = (there.loop_says("robotNamespace") or robot.name or name) if there.loop is not None else name

@@ -17,6 +17,7 @@ _CALLED = {
     "--frequency": "--update-rate",
     "--joints": "--dof",
     "--axes": "--dof",
+    "--arm": "--dof",
     "--link": "--parent",
     "--position": "--xyz",
     "--pose": "--xyz",
@@ -47,8 +48,9 @@ class Kind(Parser):
 def _meant(kind: argparse.ArgumentParser, words: list[str], unknown: str) -> str:
     """Return what to say of a word that is no option: whose it is, or that it stands by itself."""
     options = kind._option_string_actions
-    if (called := _CALLED.get(unknown)) in options:
-        return f"; did you mean `{called}`?"
+    for called in (_CALLED.get(unknown), "--arm" if _CALLED.get(unknown, unknown) == "--dof" else None):
+        if called in options:
+            return f"; did you mean `{called}`?"
     is_added = kind.get_default("thing") is None  # to a description that is there
     own = next((each for each in kind._actions if not each.option_strings and each.metavar), None)
     if own is not None and unknown in (("--kind", "--type", "--sensor") if is_added else ("--name",)):

@@ -115,7 +115,9 @@ class Question:
         if self.kind == "choices":
             return self._several(answer.replace(",", " ").split())
         if self.kind == "packages":
-            return " ".join(dict.fromkeys(check_package_name(name) for name in answer.replace(",", " ").split()))
+            # With commas it is they that part names, and a blank is in one.
+            names = [name.strip() for name in answer.split(",")] if "," in answer else answer.split()
+            return " ".join(dict.fromkeys(check_package_name(name) for name in names if name))
         if self.kind == "choice":
             return self._choice(answer)
         if self.kind == "flag":
