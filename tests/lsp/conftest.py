@@ -32,6 +32,7 @@ class Client:
         self._number = 0
         self._versions: dict[str, int] = {}
         self.diagnostics: dict[str, list[dict[str, Any]]] = {}
+        self.looked_at: dict[str, int | None] = {}
         self.capabilities = self.ask("initialize", {"processId": None, "rootUri": folder.as_uri(), "capabilities": {}})[
             "capabilities"
         ]
@@ -55,6 +56,7 @@ class Client:
         message = json.loads(self.process.stdout.read(length))
         if message.get("method") == "textDocument/publishDiagnostics":
             self.diagnostics[message["params"]["uri"]] = message["params"]["diagnostics"]
+            self.looked_at[message["params"]["uri"]] = message["params"].get("version")
         return message
 
     def tell(self, method: str, params: dict[str, Any]) -> None:

@@ -348,3 +348,81 @@ def test_places_that_are_not_there_are_answered(cart, line, column):
     at = {"textDocument": {"uri": cart.uri("cart.urdf.xacro")}, "position": {"line": line, "character": column}}
     for name, more in REQUESTS.items():
         cart.ask(f"textDocument/{name}", {**at, **more})
+
+
+def test_findings_tell_the_version_that_they_were_found_in(cart):
+    cart.change("cart.urdf.xacro", ROBOT.replace('<link name="mast"/>', '<link nam="mast"/>'))
+    assert cart.published("cart.urdf.xacro")
+    assert cart.looked_at[cart.uri("cart.urdf.xacro")] == cart._versions["cart.urdf.xacro"] > 1
+
+
+@pytest.mark.parametrize(
+    ("typed", "label"),
+    [
+        ('<link name="x"><visual></', "visual>"),
+        ('<link name="x"><visual/></', "link>"),
+        ('<link name="x"><visual></visual></li', "link>"),
+        ("<link name='x'/></", "robot>"),
+        ("<xacro:if value='1'></", "xacro:if>"),
+    ],
+)
+def test_end_tags_are_completed(cart, typed, label):
+    text = ROBOT.replace("  <gazebo reference", f"{typed}\n  <gazebo reference", 1)
+    assert labels(cart, text, f"{typed}|\n  <gazebo") == [label]
+    assert labels(cart, text.replace(f"{typed}\n", f"{typed}>"), f"{typed}|>") == [label[:-1]]
+
+
+def test_packages_are_completed(cart):
+    for scheme, some in (("package://", "p/"), ("package://p/", "wheel.stl")):
+        (cart.folder / "wheel.stl").write_bytes(b"")
+        mesh = f'<link name="x"><visual><geometry><mesh filename="{scheme}"/></geometry></visual></link>'
+        text = ROBOT.replace("  <gazebo reference", f"{mesh}\n  <gazebo reference", 1)
+        assert some in labels(cart, text, f'"{scheme}|"')
+
+
+def test_hover_shows_the_head_of_a_macro(cart):
+    (shown,) = [cart.ask("textDocument/hover", cart.at("cart.urdf.xacro", ROBOT, "<xacro:whe|el side"))["contents"]]
+    assert "**macro `wheel`**, wheel.xacro:3" in shown["value"]
+    assert '`params="side y:=0"`' in shown["value"]
+    assert "needs `side`" in shown["value"]
+
+
+@pytest.mark.parametrize("mark", ['"0 ${|y} 0"', 'params="side |y:=0"'])
+def test_references_of_a_parameter_are_its_declaration_its_uses_and_what_calls_give(cart, mark):
+    at = cart.at("wheel.xacro", WHEEL, mark)
+    for own in (True, False):
+        found = places(cart.ask("textDocument/references", {**at, "context": {"includeDeclaration": own}}))
+        assert found == [
+            ("cart.urdf.xacro", line_of(ROBOT, '<xacro:wheel side="left"')),
+            ("cart.urdf.xacro", line_of(ROBOT, '<xacro:wheel side="right"')),
+            *([("wheel.xacro", line_of(WHEEL, "<xacro:macro"))] if own else []),
+            ("wheel.xacro", line_of(WHEEL, '"0 ${y} 0"')),
+        ]
+
+
+SETTINGS = """mast_controller:
+  type: effort_controllers/JointPositionController
+  joint: mast_joint
+  base_frame_id: base  # mast_joint
+base_controller:
+  type: diff_drive_controller/DiffDriveController
+  left_wheel: ['left_joint']
+"""
+
+
+def test_renaming_goes_through_the_settings_around(cart):
+    (cart.folder / "control.yaml").write_text(SETTINGS)
+    try:
+        cart.tell("workspace/didChangeWatchedFiles", {"changes": []})
+        for mark, name, words in (
+            ('name="mast|_joint"', "pole", ("joint: mast_joint", "joint: pole")),
+            ('<link name="ba|se"/>', "body", ("id: base", "id: body")),
+        ):
+            at = cart.at("cart.urdf.xacro", ROBOT, mark)
+            changes = cart.ask("textDocument/rename", {**at, "newName": name})["changes"]
+            assert applied(SETTINGS, changes[cart.uri("control.yaml")]) == SETTINGS.replace(*words)
+            found = places(cart.ask("textDocument/references", {**at, "context": {"includeDeclaration": True}}))
+            assert ("control.yaml", line_of(SETTINGS, words[0])) in found
+    finally:
+        (cart.folder / "control.yaml").unlink()
+        cart.tell("workspace/didChangeWatchedFiles", {"changes": []})

@@ -105,11 +105,13 @@ class Session:
         gc.collect()
 
     def _show(self, uri: str, diagnostics: list[types.Diagnostic]) -> None:
-        if diagnostics or uri in self._published:
-            self._published.add(uri)
-            self.server.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, diagnostics))
-        elif path_of(uri) is not None and str(path_of(uri)) in self.project.texts:
-            self.server.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
+        is_open = path_of(uri) is not None and str(path_of(uri)) in self.project.texts
+        if diagnostics or uri in self._published or is_open:
+            document = self.server.workspace.text_documents.get(uri)
+            version = document.version if document is not None else None
+            if diagnostics:
+                self._published.add(uri)
+            self.server.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, diagnostics, version))
 
     def _source(self, file: Path) -> Source:
         return read_source(file, shown_as=shown_path(file), texts=self.project.texts)

@@ -61,6 +61,9 @@ def fits(model: Model, cursor: Cursor) -> list[Fit]:
         return [Fit(name, "name", detail, typed) for name, detail in _properties(model, cursor)]
     if (arg := re.search(r"\$\(arg\s+([\w-]*)\Z", tail)) is not None:
         return [Fit(name, "name", "argument", len(arg[1])) for name in _arguments(model)]
+    if (end := re.fullmatch(r"</([^<>\s]*)", tail)) is not None:
+        closes = "" if cursor.document.source.text[cursor.offset : cursor.offset + 1] == ">" else ">"
+        return [Fit(f"{name}{closes}", "element", "end tag", len(end[1])) for name in _open_at(text[:opened])]
     start = re.match(_OPEN, tail)
     if start is None:
         return list(_in_text(model, cursor, tail))
@@ -95,6 +98,18 @@ def _around(cursor: Cursor) -> Tag | None:
     while tag is not None and tag.start >= start:
         tag = tag.parent
     return tag
+
+
+def _open_at(text: str) -> Iterator[str]:
+    """Yield the name of the element that is open where a text ends, if any."""
+    from urdfkit.description.source import Source
+    from urdfkit.lint.syntax import Document
+
+    found, tags = "", Document(Source("", text)).roots
+    while tags and not tags[-1].empty and tags[-1].close is None and tags[-1].close_end == len(text):
+        found, tags = tags[-1].name, tags[-1].children
+    if found:
+        yield found
 
 
 def _elements(model: Model, cursor: Cursor, typed: int) -> Iterator[Fit]:
@@ -168,6 +183,9 @@ def _values(model: Model, cursor: Cursor, tag: str, attribute: str, typed: str) 
 def _files(model: Model, cursor: Cursor, typed: str, suffixes: tuple[str, ...]) -> Iterator[Fit]:
     from urdfkit.errors import ResourceError
 
+    if (scheme := re.fullmatch(r"(?:package|model)://([^/]*)", typed)) is not None:
+        yield from (Fit(f"{name}/", "file", "package", len(scheme[1])) for name in _packages(model))
+        return
     folder, _, last = typed.rpartition("/")
     here = Path(cursor.document.source.file).absolute().parent
     try:
@@ -181,6 +199,13 @@ def _files(model: Model, cursor: Cursor, typed: str, suffixes: tuple[str, ...]) 
     for child in children:
         if not child.name.startswith(".") and (child.is_dir() or child.suffix.lower() in suffixes):
             yield Fit(child.name + ("/" if child.is_dir() else ""), "file", "", len(last))
+
+
+def _packages(model: Model) -> list[str]:
+    """Return the names of the package and of those beside it."""
+    from urdfkit.description.surroundings import neighbours
+
+    return sorted(neighbours(model.package)) if model.package is not None else []
 
 
 def _in_text(model: Model, cursor: Cursor, tail: str) -> Iterator[Fit]:

@@ -29,7 +29,7 @@ def hover(
         findings: of the file.
         probe: returns what a text comes out as where it is put at an offset, for each expansion.
     """
-    pieces = [*_value(model, cursor, probe), *_parameter(cursor), *_masses(model, cursor)]
+    pieces = [*_value(model, cursor, probe), *_macro(model, cursor), *_parameter(cursor), *_masses(model, cursor)]
     return [*pieces, *_rules(cursor, findings)]
 
 
@@ -88,6 +88,23 @@ def described(parameter: Parameter) -> str:
     rest = "has to be written" if default is None else f"default `{default}`" if default else "default empty"
     names = f"; names a {parameter.names}" if parameter.names else ""
     return f"{meaning}{unit}, {rest}{names}"
+
+
+def _macro(model: Model, cursor: Cursor) -> list[str]:
+    """Return the head of the macro that is called under the cursor, and where it is."""
+    tag = cursor.tag
+    called = [one for one in at(model, cursor) if one.kind == "macro"] if tag is not None and cursor.in_name else []
+    macro = model.expanded.macros.get(called[0].name) if called else None
+    if macro is None:
+        return []
+    head = model.tag(macro.position)
+    params = head.attributes.get("params") if head is not None else None
+    needed = " ".join(f"`{name}`" for name in macro.parameters if name not in macro.defaults and name[:1] != "*")
+    lines = [f"**macro `{macro.name}`**, {model.shown(macro.position)}"]
+    if params is not None and params.value.strip():
+        lines.append(f'`params="{" ".join(params.value.split())}"`')
+    lines.append(f"needs {needed}" if needed else "needs nothing")
+    return ["  \n".join(lines)]
 
 
 def _masses(model: Model, cursor: Cursor) -> list[str]:

@@ -6,17 +6,18 @@ import re
 from pathlib import Path
 
 from urdfkit.errors import UsageError
-from urdfkit.lint.editor.symbols import EXPANDED, of_model, parameters_around
+from urdfkit.lint.editor.symbols import EXPANDED, in_settings, of_model, parameters_around
 from urdfkit.lint.finding import Edit
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from urdfkit.description.source import Source, Span
     from urdfkit.lint.editor.cursor import Cursor
     from urdfkit.lint.editor.symbols import Occurrence
     from urdfkit.lint.model import Model
+    from urdfkit.lint.syntax import Tag
 
 
 def at(model: Model, cursor: Cursor) -> list[Occurrence]:
@@ -72,12 +73,51 @@ def file_at(model: Model, cursor: Cursor) -> Path | None:
 def references(models: Sequence[Model], cursor: Cursor, *, with_definition: bool = True) -> list[Span]:
     """Return every place that names what is under the cursor, in all models that its file is part of."""
     found: dict[Span, None] = {}
+    if (parameter := _parameter_at(cursor)) is not None:
+        return sorted(_of_parameter(models, cursor, *parameter, with_definition=with_definition))
     for model in models:
         wanted = {(one.kind, one.name) for one in at(model, cursor)}
-        for other in of_model(model):
+        for other in (*of_model(model), *in_settings(model)):
             if (other.kind, other.name) in wanted and (with_definition or not other.defines):
                 found[other.span] = None
     return sorted(found)
+
+
+def _parameter_at(cursor: Cursor) -> tuple[str, Tag] | None:
+    """Return the parameter under the cursor and its macro: where it is declared, or used in an expression."""
+    attribute, word = cursor.attribute, cursor.word[0]
+    if attribute is None or not word or not (cursor.expression or attribute.name == "params"):
+        return None
+    name = word.lstrip("*") if cursor.expression is None else word.partition(".")[0]
+    for tag in [cursor.tag, *cursor.tag.ancestors()] if cursor.tag is not None else []:
+        if tag.name.removeprefix("xacro:") == "macro" and name in parameters_around(tag):
+            return name, tag
+    return None
+
+
+def _of_parameter(
+    models: Sequence[Model], cursor: Cursor, name: str, macro: Tag, *, with_definition: bool
+) -> Iterator[Span]:
+    """Yield where a parameter is used in its macro, where calls give it, and where it is declared."""
+    source = cursor.document.source
+    if with_definition:
+        yield source.span(*parameters_around(macro)[name])
+    called = macro.attributes["name"].value.removeprefix("xacro:") if "name" in macro.attributes else ""
+    found: dict[Span, None] = {}
+    for model in models:
+        for one in of_model(model):
+            start = source.offset(one.span.line, one.span.column)
+            if (one.kind, one.name, one.span.file) == ("property", name, source.file):
+                if macro.end <= start < macro.close_end:
+                    found[one.span] = None
+            elif (one.kind, one.name, one.defines) == ("macro", called, False):
+                document = model.document(one.span.file)
+                at = document.source.offset(one.span.line, one.span.column)
+                tag = document.tag_at(one.span.line, one.span.column - (at - document.source.text.rfind("<", 0, at)))
+                given = tag.attributes.get(name) if tag is not None else None
+                if given is not None:
+                    found[document.source.span(given.start, given.start + len(name))] = None
+    yield from found
 
 
 def renamable(model: Model, cursor: Cursor) -> Occurrence | None:
@@ -106,7 +146,7 @@ def rename(models: Sequence[Model], cursor: Cursor, name: str) -> list[Edit]:
             raise UsageError(f"there is a {one.kind} `{name}` already")
         if one.kind == "property" and _is_parameter(model, one.name):
             raise UsageError(f"`{one.name}` is the parameter of a macro too: rename it by hand")
-        same = [other for other in every if (other.kind, other.name) == (one.kind, one.name)]
+        same = [other for other in (*every, *in_settings(model)) if (other.kind, other.name) == (one.kind, one.name)]
         if not any(other.defines for other in same):
             raise UsageError(f"{one.kind} `{one.name}` is defined nowhere in these files")
         for other in same:

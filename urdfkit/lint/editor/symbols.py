@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.description.element import Element
+    from urdfkit.description.source import Source
     from urdfkit.lint.model import Model
     from urdfkit.lint.syntax import Document, Tag
 
@@ -59,6 +60,24 @@ def of_model(model: Model) -> list[Occurrence]:
     for file in model.expanded.sources:
         found.update(dict.fromkeys(_written(model.document(file), macros)))
     return list(found)
+
+
+def in_settings(model: Model) -> Iterator[Occurrence]:
+    """Yield the links and joints that the YAML of the package, and of those around it, names."""
+    from urdfkit.lint.controllers import joints
+    from urdfkit.lint.launch import uncommented
+
+    def occurrence(source: Source, kind: str, written: str, start: int) -> Occurrence:
+        name = written.rpartition("/")[2]
+        start += len(written) - len(name)
+        return Occurrence(kind, name, source.span(start, start + len(name)), False, name)
+
+    for source in model.around.values():
+        if source.file.endswith((".yaml", ".yml")):
+            for named in joints(source):
+                yield occurrence(source, "joint", named.name, named.start)
+            for at in re.finditer(_FRAME, uncommented(source)):
+                yield occurrence(source, "link", at[2], at.start(2))
 
 
 def _expanded(model: Model) -> Iterator[Occurrence]:
@@ -149,6 +168,9 @@ def _written(document: Document, macros: set[str]) -> Iterator[Occurrence]:
             if word[0] not in _PYTHON:
                 yield occurrence("property", word[0], found.start(group) + word.start())
 
+
+_FRAME = r"(?m)^[ \t]*\w*(?:frame|frame_id|link|links)[ \t]*:[ \t]*[\"']?([\w./-]*/)?([\w.-]+)[\"']?[ \t]*\r?$"
+"""Settings that are a frame."""
 
 _URDF = frozenset(("link", "joint", "material", "origin", "visual", "collision", "inertial", "gazebo", "transmission"))
 _PYTHON = frozenset(
