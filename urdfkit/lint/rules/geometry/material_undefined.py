@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.blamed import is_in_broken_file
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import RobotRule
 
@@ -87,6 +86,8 @@ class MaterialUndefined(RobotRule):
             name = material.name
             if name is None or name in defined or _is_definition(material) or "$" in name:
                 continue
+            from urdfkit.lint.blamed import is_in_broken_file
+
             if is_in_broken_file(model, "material", name):
                 continue
             from urdfkit.errors import did_you_mean

@@ -66,11 +66,12 @@ class ShapesApart(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each shape that is elsewhere, or far larger, than the rest of its link."""
-        from urdfkit.lint.apart import TIMES, apart
-
         for link in model.robot.links:
-            if len(link.visuals) + len(link.collisions) < 2:
+            extent = model.extents.get(link.name)
+            if extent is None or all(shape == extent.shapes[0] for shape in extent.shapes):
                 continue
+            from urdfkit.lint.apart import TIMES, apart
+
             shapes, far, near = apart(model, link)
             for shape in shapes:
                 box = model.box_of(shape.geometry) if isinstance(shape.geometry, Mesh) else None

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from math import sqrt
 
-from urdfkit.lint.blamed import call_of
 from urdfkit.lint.principal import is_identity, principal_moments
 from urdfkit.lint.rule import RobotRule
 from urdfkit.lint.tensor import computed
@@ -96,6 +95,8 @@ class InertiaTooLarge(RobotRule):
                 else:
                     right.append(element)
         for link, element, message in wrong:
+            from urdfkit.lint.blamed import call_of
+
             call = call_of(element, right) if element.origin.expansions else None
             help = "compute it from shape and mass"
             if call is not None:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from math import sqrt
 
 from urdfkit.description.robot import Mesh
-from urdfkit.lint.apart import apart
-from urdfkit.lint.blamed import call_of
 from urdfkit.lint.placement import shapes_of
 from urdfkit.lint.principal import principal_moments
 from urdfkit.lint.rule import RobotRule
@@ -94,7 +92,7 @@ class InertiaTooSmall(RobotRule):
                 continue  # It is the scale of the mesh that is wrong.
             for moments, element in principal_moments(link):
                 gyration = sqrt(max(moments[2], 0.0) / mass)
-                if 0.0 < gyration < SMALL * reach and not apart(model, link)[0]:
+                if 0.0 < gyration < SMALL * reach and not _is_apart(model, link):
                     message = (
                         f"inertia of link `{link.name}` is very small: radius of gyration {gyration:.3g} m, "
                         f"its shapes reach {reach:.3g} m from the centre of mass"
@@ -103,9 +101,18 @@ class InertiaTooSmall(RobotRule):
                 else:
                     right.append(element)
         for link, element, message in wrong:
+            from urdfkit.lint.blamed import call_of
+
             call = call_of(element, right) if element.origin.expansions else None
             help = "compute it from shape and mass"
             if call is not None:
                 help = "other calls of the macro are right: look at the arguments of this one"
             fix = computed(model, link, element)
             yield self.at(model, call or element, message, link=link.name, help=help, fix=fix)
+
+
+def _is_apart(model: Model, link: Link) -> bool:
+    """Whether one of the shapes is to blame, not the inertia."""
+    from urdfkit.lint.apart import apart
+
+    return bool(apart(model, link)[0])
