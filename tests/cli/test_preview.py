@@ -134,6 +134,16 @@ def test_who_does_not_know_may_ask(terminal):
     asking.until("--ros `quit` is not available.*; Ctrl-C ends, and writes nothing")
 
 
+def test_answers_can_be_edited_and_earlier_ones_called_back(terminal):
+    pytest.importorskip("readline")
+    asking = terminal("new", "robot", "rover", "--no-preview")
+    asking.until("ROS distribution")
+    asking.type("nobbtic\x1b[D\x1b[D\x1b[D\x7f\x7fe")  # three to the left, two away
+    asking.until("Drive|Simulator")
+    asking.type("\x1b[A")  # what was typed before: no drive and no simulator
+    asking.until("`noetic` is not available")
+
+
 def test_what_does_not_go_with_earlier_answers_is_asked_again_where_something_else_would(terminal):
     sizes = ("--base-length", "0.1", "--base-width", "0.1", "--base-height", "0.05", "--mass", "0.2")
     asking = terminal("new", "robot", "rover", "--no-preview", "--ros", "none", "--drive", "none", *sizes)

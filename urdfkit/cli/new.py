@@ -188,16 +188,37 @@ def _answered(question: Question, default: str | None) -> str:
     among = ("yes", "no") if question.kind == "flag" else question.choices
     choices = f" ({', '.join(among)})" if len(among) > 1 else ""
     offered = f" = {default}" if default else ", several with commas, Enter for none" if question.several else ""
-    print(f"{question.prompt}{choices}{unit}{offered}: ", end="", file=sys.stderr, flush=True)
+    prompt = f"{question.prompt}{choices}{unit}{offered}: "
     try:
-        line = sys.stdin.readline()
+        return _line(prompt).strip()
+    except EOFError:
+        print(file=sys.stderr)
+        raise UrdfkitError("no more answers: nothing was written") from None
     except (KeyboardInterrupt, SystemExit):  # the shell's prompt comes next, on a line of its own
         print(file=sys.stderr)
         raise
+
+
+def _line(prompt: str) -> str:
+    """Ask, and return what is typed; on a terminal it can be edited, and earlier answers are above it.
+
+    Raises:
+        EOFError: there is no more.
+    """
+    if sys.stdout.isatty():
+        try:
+            import readline
+        except ImportError:  # Python was built without it
+            pass
+        else:
+            if "libedit" not in (readline.__doc__ or ""):
+                readline.parse_and_bind("set enable-bracketed-paste off")
+        return input(prompt)
+    print(prompt, end="", file=sys.stderr, flush=True)
+    line = sys.stdin.readline()
     if not line:
-        print(file=sys.stderr)
-        raise UrdfkitError("no more answers: nothing was written")
-    return line.strip()
+        raise EOFError
+    return line
 
 
 def _tell(template: Template, answers: dict[str, str], files: list[Path], into: Path, *, quiet: bool) -> None:
