@@ -350,3 +350,20 @@ def test_what_speaks_to_the_other_gazebo_is_told(place, capsys):
     assert main(["new", "robot", "--update", "--ros", "jazzy", "--yes", "-q"]) == 0
     said = capsys.readouterr().err
     assert "are of Gazebo Classic: the new Gazebo passes over them" in said
+
+
+def test_joints_that_edited_settings_do_not_know_are_told(place, capsys):
+    """The model had six joints and a gripper, the controllers four and none, and nobody said so."""
+    assert main(["new", "robot", "rover", "--arm", "4", "--no-picture", "--yes", "-q"]) == 0
+    settings = place / "rover_control/config/controllers.yaml"
+    settings.write_text(settings.read_text() + "# mine, for wrist_roll_joint\n")
+    capsys.readouterr()
+    assert main(["new", "robot", "--update", "--arm", "6", "--gripper", "--yes", "-q"]) == 0
+    said = capsys.readouterr().err
+    assert (
+        "left to merge: rover_control/config/controllers.yaml.new into your controllers.yaml; until then "
+        "no controller of it moves `forearm_roll_joint`, `wrist_roll_joint`, `left_finger_joint`\n"
+    ) in said
+    assert "K960 no controller `gripper_controller` has settings" in said
+    settings.with_name("controllers.yaml.new").replace(settings)
+    assert main(["lint", ".", "-q"]) == 0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import difflib
 import os
+import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
@@ -37,6 +38,8 @@ _WORDS = {
     "keep": "left as you have it",
     "needed": "kept: {because} names it",
 }
+_JOINT = re.compile(r"\b\w+_joint\b")
+"""What joints are called in the templates."""
 _COLOURS = {"+": "32", "-": "31", "@": "36"}
 
 
@@ -110,8 +113,25 @@ def _left(update: Update) -> Iterator[str]:
     """Yield what an update leaves to the user, a line each."""
     for change in update.beside:
         unused = "; until then nothing uses what is new" if update.unused and change.path.suffix == ".xacro" else ""
+        joints = _new_joints(change) if change.path.suffix in (".yaml", ".yml") else []
+        if joints:
+            unused = f"; until then no controller of it moves {', '.join(f'`{joint}`' for joint in joints)}"
         yield f"left to merge: {(change.at or change.path).as_posix()} into your {change.path.name}{unused}"
     yield from (f"the linter would say: {line}" for line in update.warned)
+
+
+def _new_joints(change: Change) -> list[str]:
+    """Return the joints that settings of controllers would be for, and those that are there are not."""
+    named = (
+        [
+            word
+            for line in text.decode("utf-8", "replace").splitlines()
+            for word in _JOINT.findall(line.partition("#")[0])
+        ]
+        for text in (change.before, change.after)
+    )
+    before, after = named
+    return [joint for joint in dict.fromkeys(after) if joint not in before]
 
 
 def findings(folder: Path, *, beside: Path | None = None) -> list[Fault]:
