@@ -81,14 +81,13 @@ class Agenda:
             if publication.due <= step:
                 publication.catch_up(self._state)
         self._foresee_writing(step)
-        self.read_due = min(
-            [robot.read_due(step + 1) for robot in self._stage.everybody]
-            + [publication.due for publication in self.publications]
-        )
+        self.read_due = self._read_from(step + 1)
 
     def next_stop(self) -> int:
         """Return the next step at which the simulation has to stop; what nobody listens to has none."""
         step = self._state.step
+        if self.write_due == step + 1:
+            return step + 1
         nearest = max(step + 1, self._calls[0][0]) if self._calls else NEVER
         for robot in self._stage.everybody:
             nearest = min(nearest, robot.next_stop(step))
@@ -98,7 +97,22 @@ class Agenda:
         return nearest
 
     def _foresee_writing(self, step: int) -> None:
-        """Take note of what is due from a step on."""
-        self.write_due = min([robot.write_due(step) for robot in self._stage.everybody])
-        if self._calls:
-            self.write_due = min(self.write_due, self._calls[0][0])
+        """Take note of the first step from `step` on before which something is due."""
+        nearest = self._calls[0][0] if self._calls else NEVER
+        for robot in self._stage.everybody:
+            if nearest <= step:
+                break
+            nearest = min(nearest, robot.write_due(step))
+        self.write_due = nearest
+
+    def _read_from(self, step: int) -> int:
+        """Return the first step from `step` on after which something is due."""
+        nearest = NEVER
+        for publication in self.publications:
+            if publication.due < nearest:
+                nearest = publication.due
+        for robot in self._stage.everybody:
+            if nearest <= step:
+                break
+            nearest = min(nearest, robot.read_due(step))
+        return nearest

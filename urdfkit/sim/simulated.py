@@ -204,13 +204,12 @@ class SimulatedRobot:
 
     def write_due(self, step: int) -> int:
         """Return the first step from `step` on before which it may have something to write."""
-        before = step - 1
-        nearest = self._approach.after(before) if self.motors.has_goals else NEVER
+        nearest = self._approach.after(step - 1) if self.motors.has_goals else NEVER
         for drive, writes, _ in self._drives:
             if not drive.resting:
-                nearest = min(nearest, writes.after(before))
+                nearest = min(nearest, writes.after(step - 1))
         for controller in self.plugins.controllers:
-            nearest = min(nearest, controller.after(before))
+            nearest = min(nearest, controller.after(step - 1))
         return nearest
 
     def read_due(self, step: int) -> int:
@@ -220,11 +219,14 @@ class SimulatedRobot:
             nearest = min(nearest, reads.after(step - 1))
         for controller in self.plugins.controllers:
             nearest = min(nearest, controller.after(step - 1))
+        if nearest <= step:  # nothing else can be due before
+            return nearest
         for sensor in self.plugins.sensors:
             nearest = min(nearest, sensor.look_due(step))
         for publications in (self._publications, *self.controllers.each_publications):
             for publication in publications:
-                nearest = min(nearest, publication.due)
+                if publication.due < nearest:
+                    nearest = publication.due
         return nearest
 
     def next_stop(self, step: int) -> int:
