@@ -103,6 +103,13 @@ def test_quiet_prints_what_was_written_only(place, capsys):
     ]
 
 
+def test_what_to_do_next_can_be_pasted(place, capsys):
+    assert main(["new", "robot", "scout", "--ros", "none", "--into", "my ws", "--yes"]) == 0
+    assert "  urdfkit lint 'my ws'/scout_description\n" in capsys.readouterr().out
+    assert main(["new", "sensor", "imu", "--into", "my ws/scout_description"]) == 0
+    assert "  urdfkit view 'my ws/scout_description'\n" in capsys.readouterr().out
+
+
 def test_questions_on_a_terminal(place, monkeypatch):
     typed = ["Scout", "scout", "lunar", "noetic", "", "", "", "", "", "0.1"]
     shown = type_in(monkeypatch, *typed, *[""] * 10)

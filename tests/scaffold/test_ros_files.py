@@ -102,6 +102,31 @@ def launch_files(folder, pattern):
     return found
 
 
+def test_speeds_of_a_joystick_are_floats_however_they_are_typed(robots, launch_modules):
+    """`speed:=1` is an integer to a node that declares a double, and ends it."""
+    launched(robots["jazzy"], "scout_bringup/launch/teleop.launch.py", launch_modules)
+    (told,) = (
+        each.kwargs["parameters"][0] for each in Recorder.made if each.kwargs.get("package") == "teleop_twist_joy"
+    )
+    kinds = {name: getattr(said, "kwargs", {}).get("value_type") for name, said in told.items()}
+    assert {name: kind for name, kind in kinds.items() if kind} == {
+        "scale_linear.x": float,
+        "scale_angular.yaw": float,
+        "enable_button": int,
+    }
+
+
+@pytest.mark.parametrize("robot", OF_ROS_2)
+def test_what_is_published_stands_in_one_table(robots, robot):
+    """Lines of a table that come after something else are text."""
+    for path in robots[robot].rglob("README.md"):
+        blocks = re.split(r"\n\s*\n", path.read_text())
+        for block in (block for block in blocks if re.search(r"(?m)^\|", block)):
+            lines = block.strip().splitlines()
+            assert lines[1].startswith("|---"), f"{path}: {block}"
+            assert all(line.startswith("|") for line in lines), f"{path}: {block}"
+
+
 @pytest.mark.parametrize("robot", OF_ROS_2)
 def test_ros2_launch_files(robots, launch_modules, robot):
     for path in launch_files(robots[robot], "*.launch.py"):

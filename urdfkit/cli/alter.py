@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import shlex
 import shutil
 import sys
 from pathlib import Path
@@ -124,7 +125,7 @@ def apply(
     for alteration in alterations:
         print(f"{_shown(alteration.path)}  {'new' if alteration.before is None else 'changed'}")
     if not arguments.quiet:
-        where = arguments.into or "."
+        where = shlex.quote(arguments.into or ".")
         print(f"\nnext:\n  urdfkit view {where}\n  urdfkit sim teleop {where}")
     return 0
 

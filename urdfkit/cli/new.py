@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
+import shlex
 import sys
 from collections.abc import Callable, Mapping
 from datetime import datetime, timezone
@@ -233,7 +234,8 @@ def _tell(template: Template, answers: dict[str, str], files: list[Path], into: 
             print(f"{Path(answers['into'], top).as_posix()}  {count} file{'s' if count > 1 else ''}")
     if beside := [top for top in counts if top in spare]:
         print(f"{Path(answers['into']).as_posix()}  {', '.join(beside)}")
-    for title, commands in [] if quiet else template.next_steps(answers):
+    typed = {**answers, "into": shlex.quote(Path(answers["into"]).as_posix())}
+    for title, commands in [] if quiet else template.next_steps(typed):
         print(f"\n{title or 'next'}:")
         for command in commands:
             print(f"  {command.replace(' ./', ' ')}")

@@ -7,6 +7,7 @@ from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
 
 
 def generate_launch_description():
@@ -23,9 +24,9 @@ def generate_launch_description():
                 {
                     "axis_linear.x": 1,
                     "axis_angular.yaw": 0,
-                    "scale_linear.x": LaunchConfiguration("speed"),
-                    "scale_angular.yaw": LaunchConfiguration("turn"),
-                    "enable_button": LaunchConfiguration("button"),
+                    "scale_linear.x": ParameterValue(LaunchConfiguration("speed"), value_type=float),
+                    "scale_angular.yaw": ParameterValue(LaunchConfiguration("turn"), value_type=float),
+                    "enable_button": ParameterValue(LaunchConfiguration("button"), value_type=int),
                 }
             ],
         ),
