@@ -20,6 +20,7 @@ _IN_BRACES = (
 )
 _JOINTS = r"(?m)^([ \t]*)(joints?|(?:left|right)_wheel(?:_names)?)[ \t]*:[ \t]*"
 _ITEM = r"[ \t]*-[ \t]+([\"']?)([\w./-]+)\1[ \t]*\r?$"
+_ANCHOR = r"(?<=[:-][ \t])([ \t]*)(&[\w.-]+)(?=[ \t\r\n])"
 _WORD = r"([\"']?)([\w./-]+)\1"
 
 _OF_JOINTS = ("JointPositionController", "JointVelocityController", "JointEffortController")
@@ -98,6 +99,8 @@ def joints(source: Source) -> Iterator[Named]:
     text = uncommented(source)
     if not re.search(_TYPE, text) and not re.search(_IN_BRACES, text):
         return
+    if "&" in text:
+        text = re.sub(_ANCHOR, lambda at: at[1] + " " * len(at[2]), text)
     for at in re.finditer(_JOINTS, text):
         rest = text[at.end() : text.find("\n", at.end()) + 1 or len(text)]
         if rest.startswith("["):
