@@ -16,14 +16,15 @@ FAR = 6.0
 
 
 class SafetyControllerInconsistent(RobotRule):
-    """Soft limits lie outside the hard ones, or the safety controller lacks its gain.
+    """Soft limits lie outside the hard ones or exclude each other, or the safety controller lacks its gain.
 
     ## What it does
-    Checks ``<safety_controller>``: ``k_velocity`` is required, and the soft limits lie inside those of ``<limit>``.
+    Checks ``<safety_controller>``: ``k_velocity`` is required, the soft limits lie inside those of ``<limit>``, and the
+    lower one below the upper one.
 
     ## Why is this bad?
     urdfdom refuses the joint without ``k_velocity``. Soft limits outside the hard ones never act: the joint runs
-    into its end at full speed.
+    into its end at full speed. Where the lower one is above the upper one, both hold it at once.
 
     ## Example
     ```xml
@@ -75,6 +76,16 @@ class SafetyControllerInconsistent(RobotRule):
                 or limit.lower is None
                 or limit.upper is None
             ):
+                continue
+            lower, upper = safety.soft_lower_limit, safety.soft_upper_limit
+            if lower > upper and {"soft_lower_limit", "soft_upper_limit"} <= set(safety.element.attributes):
+                yield self.at(
+                    model,
+                    safety.element,
+                    f"joint `{joint.name}`: soft_lower_limit {lower:g} is above soft_upper_limit {upper:g}",
+                    attribute="soft_lower_limit",
+                    joint=joint.name,
+                )
                 continue
             for attribute, soft, hard, outside in (
                 (
