@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 _KEY = r"(?m)^([ \t]*)[\"']?([\w/]+)[\"']?[ \t]*:[ \t]*\r?$"
+_GROUP = r"(?m)(?:^|[{,])[ \t]*[\"']?(ros_*[A-Za-z_]+)[\"']?[ \t]*:[ \t]*(?=\r?$|[{&*])"
 _PARAMETERS = "ros__parameters"
 _TAB = r"(?m)^ *\t[ \t]*(?=[^\s#])"
 _ENDS = 2
@@ -90,7 +91,7 @@ class ControllerSettingsMisspelt(RobotRule):
         from urdfkit.lint.edits import nearest
 
         keys = [(key[2], key.start(2), len(key[1])) for key in re.finditer(_KEY, text)]
-        for name, start, _ in keys:
+        for name, start in ((key[1], key.start(1)) for key in re.finditer(_GROUP, text)):
             if name != _PARAMETERS and nearest(name, [_PARAMETERS], likeness=0.85) is not None:
                 yield self._at(source, start, name, f"`{name}` is read by nobody; did you mean `{_PARAMETERS}`?")
         declared = set(controllers(source))
