@@ -82,6 +82,26 @@ def test_errors_have_their_line(tmp_path, old, new, message):
     assert "\n" not in said
 
 
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        ('default = "= 2 *"', "14: `2 *` is no expression"),
+        ('default = "= 2*size"', "14: no question `size` before"),
+        ('default = "= 1/0"', "14: `1/0` divides by zero"),
+        ("default = 3", '14: `default` has to be a text: default = "3"'),
+        ('default_for = { colour = { red = "= a.b" } }', "14: cannot compute `a.b` in `a.b`"),
+        ('[[check]]\nholds = "width"\notherwise = "no"', "15: `width` is no comparison of two values"),
+        ('[[check]]\nholds = "widht < 2"\notherwise = "no"', "15: no question `widht` before; did you mean `width`?"),
+        ('[[word]]\nname = "w"\nby = "colour"\nsays = { red = "= 2**3" }', "17: cannot compute `2 ** 3` in `2**3`"),
+    ],
+)
+def test_sums_have_their_line(tmp_path, more, message):
+    wide = f'[[question]]\nname = "width"\nprompt = "Width"\nkind = "number"\n{more}\n\n[[fact]]'
+    with pytest.raises(ResourceError) as caught:
+        read(tmp_path, GOOD.replace("[[fact]]", wide))
+    assert str(caught.value).startswith(f"{tmp_path}/template.toml:{message}")
+
+
 def test_what_is_no_text(tmp_path):
     (tmp_path / "template.toml").write_bytes(b"\xff")
     with pytest.raises(ResourceError, match="is not UTF-8"):

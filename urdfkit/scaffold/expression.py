@@ -58,6 +58,24 @@ def holds(text: str, names: Mapping[str, float]) -> bool:
     return _COMPARISONS[kind](left, right + slack if kind in (ast.Lt, ast.LtE) else right - slack)
 
 
+def names_in(text: str, *, comparison: bool = False) -> set[str]:
+    """Return the names that an expression or a comparison of a template needs.
+
+    Args:
+        text: as for `value_of`, or for `holds`.
+        comparison: which of them.
+
+    Raises:
+        ResourceError: it is none.
+    """
+    names = {node.id for node in ast.walk(_parsed(text)) if isinstance(node, ast.Name)} - set(_FUNCTIONS)
+    try:
+        (holds if comparison else value_of)(text, dict.fromkeys(names, math.nan))
+    except ZeroDivisionError:
+        raise ResourceError(f"template: `{text}` divides by zero") from None
+    return names
+
+
 def _parsed(text: str) -> ast.expr:
     try:
         return ast.parse(text.strip(), mode="eval").body

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, NoReturn, get_args, get_type_hints
 
 from urdfkit.errors import ResourceError, did_you_mean
+from urdfkit.scaffold.expression import names_in
 from urdfkit.scaffold.parts import Check, Fact, Layer, Next, Word
 from urdfkit.scaffold.question import Question, When
 from urdfkit.scaffold.template import FRESH, Template
@@ -111,10 +112,7 @@ class _Reader:
             asks_later=tuple(self._table.get("asks_later", ())),
             words=tuple(self._word(index, entry) for index, entry in enumerate(self._entries("word"))),
             layers=tuple(self._layer(index, entry) for index, entry in enumerate(self._entries("layer"))),
-            checks=tuple(
-                Check(entry.get("holds", ""), entry["otherwise"], self._when("check", index, entry))
-                for index, entry in enumerate(self._entries("check"))
-            ),
+            checks=tuple(self._checked(index, entry) for index, entry in enumerate(self._entries("check"))),
             next=tuple(
                 Next(entry.get("title", ""), tuple(entry["commands"]), self._when("next", index, entry))
                 for index, entry in enumerate(self._entries("next"))
@@ -143,13 +141,39 @@ class _Reader:
             if meant not in question.choices:
                 near = did_you_mean(str(meant), question.choices)
                 self._error("question", index, "called", f"`{meant}` is no answer to `{question.name}`{near}")
+        for key, defaults in (("default", {"": question.default or ""}), *question.default_for.items()):
+            for default in defaults.values() if isinstance(defaults, dict) else ():
+                self._computable("question", index, "default_for" if key != "default" else key, default)
         self._known[question.name] = ("yes", "no") if question.kind == "flag" else question.choices
         return question
 
     def _word(self, index: int, entry: dict[str, Any]) -> Word:
         if entry["by"] not in self._known:
             self._error("word", index, "by", f"no question `{entry['by']}`{did_you_mean(entry['by'], self._known)}")
+        for said in entry["says"].values():
+            self._computable("word", index, "says", said, named=False)
         return Word(**entry)
+
+    def _checked(self, index: int, entry: dict[str, Any]) -> Check:
+        if entry.get("holds"):
+            self._computable("check", index, "holds", entry["holds"], comparison=True)
+        return Check(entry.get("holds", ""), entry["otherwise"], self._when("check", index, entry))
+
+    def _computable(
+        self, sort: str, index: int, key: str, said: object, *, named: bool = True, comparison: bool = False
+    ) -> None:
+        """Look at an expression, or at a text, which is one when it begins with ``=``; its names have to be questions.
+
+        What words may also name is not `named` in the file: what is worked out for our own templates.
+        """
+        if not isinstance(said, str) or not (comparison or said.startswith("=")):
+            return
+        try:
+            names = names_in(said.removeprefix("=").strip(), comparison=comparison)
+        except ResourceError as error:
+            self._error(sort, index, key, str(error).removeprefix("template: "))
+        for name in sorted(names - set(self._known) if named else ()):
+            self._error(sort, index, key, f"no question `{name}` before{did_you_mean(name, self._known)}")
 
     def _layer(self, index: int, entry: dict[str, Any]) -> Layer:
         return Layer(
@@ -189,7 +213,9 @@ class _Reader:
                 near = did_you_mean(key, [*known, *(_KEYS if not sort else ())])
                 self._error(sort, index, key, f"no `{key}` in {f'a [[{sort}]]' if sort else 'a template'}{near}")
             if not _is(known[key], value):
-                self._error(sort, index, key, f"`{key}` has to be {known[key]}")
+                number = isinstance(value, int | float) and not isinstance(value, bool) and known[key] == _TEXT
+                meant = f': {key} = "{value}"' if number else ""
+                self._error(sort, index, key, f"`{key}` has to be {known[key]}{meant}")
         for key in _NEEDED[sort]:
             if key not in entry and not (not sort and key in self._table):
                 self._error(sort, index, "", f"{f'this [[{sort}]]' if sort else 'the template'} lacks its `{key}`")
