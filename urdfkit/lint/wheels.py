@@ -34,6 +34,7 @@ class Wheel:
     Attributes:
         joint: the joint; the one with the nearest name where the drive's parameter names none.
         element: where the drive names it; None where its default does.
+        named: what it is called there.
         place: the middle of the joint in the root link [m].
         axis: its axis in the root link.
         radius: of the cylinder or sphere its link is [m]; None where it is something else.
@@ -42,6 +43,7 @@ class Wheel:
 
     joint: Joint
     element: Element | None
+    named: str
     place: Vector
     axis: Vector
     radii: tuple[float, ...]
@@ -136,13 +138,20 @@ def _wheels(model: Model, plugin: Plugin, spec: PluginSpec, meaning: str) -> Ite
     joints = model.robot.joint_by_name
     for text, element in named:
         name = text if text in joints else nearest(text.strip("\"'"), joints)
-        wheel = wheel_of(model, joints[name], element) if name is not None else None
+        wheel = wheel_of(model, joints[name], element, named=text) if name is not None else None
         if wheel is not None:
             yield wheel
 
 
-def wheel_of(model: Model, joint: Joint, element: Element | None) -> Wheel | None:
-    """Return the wheel that a joint turns, named by an element; None where it is not known where it is."""
+def wheel_of(model: Model, joint: Joint, element: Element | None, *, named: str | None = None) -> Wheel | None:
+    """Return the wheel that a joint turns, named by an element; None where it is not known where it is.
+
+    Args:
+        model: what is being linted.
+        joint: the joint.
+        element: where it is named.
+        named: what it is called there; its name where it is None.
+    """
     parent = model.frames.get(joint.parent or "")
     if parent is None:
         return None
@@ -154,6 +163,7 @@ def wheel_of(model: Model, joint: Joint, element: Element | None) -> Wheel | Non
     return Wheel(
         joint,
         element,
+        joint.name if named is None else named,
         frame.translation,
         turned(frame.rotation, joint.axis),
         round_ones if len(round_ones) == len(shapes) else (),

@@ -102,6 +102,8 @@ class DriveWheelsMisaligned(RobotRule):
                 if any(one is not None and any(model.is_unresolved(one, a) for a in ("xyz", "rpy")) for one in origins):
                     continue
                 if left.joint is right.joint:
+                    if left.named != right.named:
+                        continue  # One of the names is of no joint, and the nearest is the other wheel's.
                     message = f"the drive names `{left.joint.name}` for the left side and for the right"
                     yield self.at(model, right.element or drive.plugin.element, message, joint=right.joint.name)
                     continue
