@@ -62,6 +62,15 @@ def test_one_run_reports_everything(write):
     assert "may be defined in missing.xacro" in next(f.help for f in found if f.code == "X103")
 
 
+def test_an_argument_may_be_declared_in_a_file_that_is_not_there(write):
+    link = '<link name="$(arg prefix)base"/>'
+    (alone,) = lint(write("alone.xacro", link))
+    assert (alone.code, alone.severity) == ("X106", "error")
+    found = lint(write("r.xacro", f'<xacro:include filename="missing.xacro"/>\n{link}'))
+    assert sorted((f.code, f.severity) for f in found) == [("X106", "info"), ("X113", "error")]
+    assert "may be defined in missing.xacro" in next(f.help for f in found if f.code == "X106")
+
+
 def test_what_a_fault_makes_up_is_not_reported(write):
     # The wheel is missing because of X103 only: neither T203 for its hub nor Z802 for its joint.
     path = write(

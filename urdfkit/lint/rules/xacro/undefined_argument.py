@@ -9,7 +9,8 @@ class UndefinedArgument(FaultRule):
     """``$(arg …)`` asks for an argument that was neither declared nor given.
 
     ## What it does
-    Reports arguments without ``<xacro:arg>`` default that are not given as ``name:=value``.
+    Reports arguments without ``<xacro:arg>`` default that are not given as ``name:=value``. Where an included file is
+    missing, which may declare them, that is only a note.
 
     ## Why is this bad?
     The description expands only for those who know which arguments to give.
@@ -33,3 +34,4 @@ class UndefinedArgument(FaultRule):
     code = "X106"
     name = "undefined-arg"
     kinds = ("undefined-arg",)
+    may_be_elsewhere = True
