@@ -31,6 +31,9 @@ NUMBERS = frozenset(
 _MAX_ANGLE = 6.3
 """A little more than a full turn [rad]: 6.2832 is written often."""
 
+WIDE = ("wideanglecamera", "wide_angle_camera")
+"""Types of the camera whose picture may go all the way round (sdformat, camera.sdf: ``horizontal_fov`` to 6.283186)."""
+
 
 def senseless_numbers(sensor: Element) -> Senseless:
     """Yield what should be a number and is none, rates below zero, and angles of more than a full turn."""
@@ -80,13 +83,18 @@ def _senseless_fan(fan: Element) -> Senseless:
         yield fan, f"<{fan.tag}> goes from {low:g} to {high:g} rad: the smaller angle is <min_angle>"
 
 
-def senseless_camera(camera: Element) -> Senseless:
-    """Yield what makes no sense in a ``<camera>``; the defaults are sdformat's (camera.sdf)."""
+def senseless_camera(camera: Element, *, is_wide: bool = False) -> Senseless:
+    """Yield what makes no sense in a ``<camera>``; the defaults are sdformat's (camera.sdf).
+
+    Args:
+        camera: the element.
+        is_wide: whether its sensor is of one of the `WIDE` types, which see up to a full turn.
+    """
     angle = _number(camera, "horizontal_fov", 1.047)
-    if not (0.0 < angle < pi or isnan(angle)):
+    if not (0.0 < angle < pi or isnan(angle) or (is_wide and 0.0 < angle < _MAX_ANGLE)):
         yield (
             camera.find("horizontal_fov") or camera,
-            f"<horizontal_fov> is {angle:g} rad; it must be between 0 and π",
+            f"<horizontal_fov> is {angle:g} rad; it must be between 0 and {'2π' if is_wide else 'π'}",
         )
     image, clip = camera.find("image"), camera.find("clip")
     for tag in ("width", "height"):

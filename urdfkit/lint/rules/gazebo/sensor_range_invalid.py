@@ -69,6 +69,7 @@ class SensorRangeInvalid(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each number that leaves nothing to see."""
         from urdfkit.description.plugins.sense import (
+            WIDE,
             senseless_camera,
             senseless_numbers,
             senseless_parameters,
@@ -82,7 +83,7 @@ class SensorRangeInvalid(RobotRule):
                     if child.tag in ("ray", "lidar"):
                         found += senseless_scan(child)
                     elif child.tag == "camera":
-                        found += senseless_camera(child)
+                        found += senseless_camera(child, is_wide=sensor.type in WIDE)
                 for plugin in sensor.plugins:
                     if (spec := spec_of(plugin, model.target)) is not None:
                         found += senseless_parameters(plugin, spec)
