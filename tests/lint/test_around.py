@@ -193,6 +193,24 @@ def test_a_spawner_in_python(workspace):
     assert not [row for row in found(workspace) if row[0] == "K960"]
 
 
+def test_a_spawner_in_yaml(workspace):
+    launch = workspace / "arm_start" / "launch" / "arm.launch.yaml"
+    node = """launch:
+- group:
+  - node:
+      pkg: controller_manager
+      exec: spawner  # args: "arm_controlle"
+      args: {}
+"""
+    for args in ('"--param-file x arm_controler"', "$(var first) arm_controler"):
+        launch.write_text(node.format(args))
+        column = launch.read_text().splitlines()[5].index("arm_controler") + 1
+        assert ("K960", "arm.launch.yaml", 6, column) in found(workspace)
+    for args in ("arm_controller", '"--param-file arm_controler"', '"$(var prefix)arm_controler"', "[arm_controler]"):
+        launch.write_text(node.format(args))
+        assert not [row for row in found(workspace) if row[0] == "K960"]
+
+
 def test_launch_files_need_what_they_start_and_include(workspace):
     (workspace / "arm_start" / "launch" / "arm.launch.py").write_text(
         "from ament_index_python.packages import get_package_share_directory\n"
@@ -344,3 +362,44 @@ def test_what_a_condition_holds():
     assert is_conditional('<xacro:if value="1"><gazebo/></xacro:if>', "<gazebo")
     assert not is_conditional('<xacro:if value="1"><link/></xacro:if><gazebo/>', "<gazebo")
     assert not is_conditional('<gazebo/><xacro:unless value="1"/>', "<gazebo")
+
+
+def test_a_misspelt_interface_of_hardware_is_one_finding(tmp_path):
+    package(tmp_path / "arm")
+    (tmp_path / "arm" / "arm.urdf").write_text(HARDWARE_WITH.format(joint="elbow", name="positon"))
+    (tmp_path / "arm" / "arm.yaml").write_text(TRAJECTORIES)
+    assert [f.code for f in lint(tmp_path) if f.code.startswith(("C", "K96"))] == ["C710"]
+    (tmp_path / "arm" / "arm.urdf").write_text(HARDWARE_WITH.format(joint="elbw", name="position"))
+    assert [f.code for f in lint(tmp_path) if f.code.startswith(("C", "K96"))] == ["C707"]
+    (tmp_path / "arm" / "arm.urdf").write_text(HARDWARE_WITH.format(joint="elbow", name="velocity"))
+    assert [f.code for f in lint(tmp_path) if f.code.startswith(("C", "K96"))] == ["K965"]
+
+
+HARDWARE_WITH = """<robot name='arm'>
+  <link name='base'/><link name='upper'/>
+  <joint name='elbow' type='continuous'><parent link='base'/><child link='upper'/><axis xyz='0 0 1'/></joint>
+  <ros2_control name='arm' type='system'>
+    <hardware><plugin>own_hardware/Arm</plugin></hardware>
+    <joint name='{joint}'><command_interface name='{name}'/><state_interface name='position'/></joint>
+  </ros2_control>
+</robot>
+"""
+TRAJECTORIES = """controller_manager:
+  ros__parameters:
+    arm_controller: {type: joint_trajectory_controller/JointTrajectoryController}
+arm_controller:
+  ros__parameters: {joints: [elbow], command_interfaces: [position], state_interfaces: [position]}
+"""
+
+
+def test_a_misspelt_interface_of_a_transmission_is_one_finding(tmp_path):
+    package(tmp_path / "arm")
+    part = (
+        "<transmission name='t'><type>transmission_interface/SimpleTransmission</type><joint name='elbow'>"
+        "<hardwareInterface>hardware_interface/{}</hardwareInterface></joint><actuator name='m'/></transmission>"
+        "</robot>"
+    )
+    (tmp_path / "arm" / "arm.yaml").write_text(CONTROLLERS.replace("elbo", "elbow"))
+    for name, code in (("PositionJointIntreface", "C703"), ("EffortJointInterface", "K963")):
+        (tmp_path / "arm" / "arm.urdf").write_text(ARM.replace("</robot>", part.format(name)))
+        assert [f.code for f in lint(tmp_path, target="ros1") if f.severity != "info"] == [code]

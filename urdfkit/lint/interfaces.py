@@ -27,6 +27,9 @@ INTERFACES = (
 )
 """The interfaces that hardware_interface has in ROS Noetic."""
 
+STANDARD = ("position", "velocity", "acceleration", "effort")
+"""The interfaces of joints that hardware_interface of ros2_control names."""
+
 _PARTS: dict[str, tuple[str, ...]] = {
     "transmission": ("type", "joint", "actuator", "plugin", "role"),
     "transmission/joint": ("hardwareInterface", "mechanicalReduction", "offset", "role"),
@@ -74,6 +77,29 @@ def written(robot: Robot) -> Iterator[tuple[str, Element, Transmission]]:
             for child in part.find_all("hardwareInterface"):
                 if child.text and "$" not in child.text:
                     yield child.text, child, transmission
+
+
+def is_misspelt(name: str) -> bool:
+    """Whether a hardware interface, without its package, is nearly one that there is."""
+    from urdfkit.lint.edits import nearest
+
+    return name not in INTERFACES and nearest(name, INTERFACES, likeness=0.85) is not None
+
+
+def meant_interface(name: str) -> str | None:
+    """Return the standard interface of ros2_control that a misspelt one must have meant; None where it is one."""
+    from urdfkit.lint.edits import nearest
+
+    return nearest(name, STANDARD, likeness=0.85) if name not in STANDARD else None
+
+
+def meant_joints(robot: Robot) -> set[str]:
+    """Return the joints of a robot that its ``<ros2_control>`` must mean by names that no joint has."""
+    from urdfkit.lint.edits import meant
+
+    known = robot.joint_by_name
+    named = (part.get("name") or "" for block in robot.ros2_control for part in block.element.find_all("joint"))
+    return {near for name in named if name not in known and (near := meant(name, known)[0]) is not None}
 
 
 def is_old(transmission: Transmission) -> bool:

@@ -34,8 +34,8 @@ class Started:
 
 
 def launches(model: Model) -> Iterator[Source]:
-    """Yield the launch files in XML and Python around a model."""
-    endings = (".launch", ".launch.xml", ".launch.py")
+    """Yield the launch files around a model."""
+    endings = (".launch", ".launch.xml", ".launch.py", ".launch.yaml")
     yield from (source for name, source in model.around.items() if name.endswith(endings))
 
 
@@ -46,16 +46,43 @@ def started(source: Source) -> Iterator[Started]:
     if source.file.endswith(".py"):
         yield from _in_python(source)
         return
+    if source.file.endswith((".yaml", ".yml")):
+        yield from _in_yaml(source)
+        return
     text = uncommented(source)
     for tag in re.finditer(_NODE, text):
         program = re.search(r"\b(?:type|exec)\s*=\s*[\"']([^\"'$]*)[\"']", tag[0])
         package = re.search(r"\bpkg\s*=\s*[\"']([^\"'$]*)[\"']", tag[0])
         written = re.search(_ARGUMENTS, tag[0])
         group = 1 if written is not None and written[1] is not None else 2
-        words = list(re.finditer(r"\S+", written[group])) if written is not None else []
         start = tag.start() + (written.start(group) if written is not None else 0)
-        arguments = [Named(word[0], start + word.start()) if "$" not in word[0] else None for word in words]
-        yield Started(package[1] if package else "", program[1] if program else "", tuple(arguments))
+        arguments = _words(written[group], start) if written is not None else ()
+        yield Started(package[1] if package else "", program[1] if program else "", arguments)
+
+
+def _words(text: str, start: int) -> tuple[Named | None, ...]:
+    return tuple(
+        Named(word[0], start + word.start()) if "$" not in word[0] else None for word in re.finditer(r"\S+", text)
+    )
+
+
+def _in_yaml(source: Source) -> Iterator[Started]:
+    from urdfkit.lint.yaml_tree import documents, walk
+
+    for root in documents(source)[0] if "node" in source.text else ():
+        for group in walk(root):
+            node = group.find("node")
+            if node is None or node.kind != "group":
+                continue
+            names = [found.text if (found := node.find(key)) is not None else "" for key in ("pkg", "exec")]
+            arguments = node.find("args")
+            written: tuple[Named | None, ...] = ()
+            if arguments is not None and arguments.kind == "text":
+                start = source.offset(arguments.line, arguments.column)
+                start += not arguments.is_plain
+                if source.text.startswith(arguments.text, start):  # not folded, nor with letters that are escaped
+                    written = _words(arguments.text, start)
+            yield Started("" if "$" in names[0] else names[0], "" if "$" in names[1] else names[1], written)
 
 
 def _in_python(source: Source) -> Iterator[Started]:

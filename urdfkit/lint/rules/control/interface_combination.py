@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.edits import nearest
+from urdfkit.lint.interfaces import meant_interface
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
-
-_STANDARD = ("position", "velocity", "acceleration", "effort")
 
 
 class InterfaceCombination(RobotRule):
@@ -70,7 +68,7 @@ class InterfaceCombination(RobotRule):
                     seen: set[str] = set()
                     for element in joint.find_all(kind):
                         name = element.get("name") or ""
-                        near = nearest(name, _STANDARD, likeness=0.85) if name not in _STANDARD else None
+                        near = meant_interface(name)
                         if name in seen:
                             message = f"joint `{joint.get('name')}` has the {kind.replace('_', ' ')} `{name}` twice"
                             yield self.at(model, element, message, attribute="name", joint=joint.get("name"))

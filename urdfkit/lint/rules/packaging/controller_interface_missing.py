@@ -57,6 +57,7 @@ class ControllerInterfaceMissing(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each controller that finds no such interface for a joint, at its type."""
         from urdfkit.lint.controllers import joints_of, typed
+        from urdfkit.lint.interfaces import is_misspelt
 
         if model.robot.ros2_control:
             return
@@ -72,6 +73,8 @@ class ControllerInterfaceMissing(RobotRule):
                 wanted = _WANTED.get(kind.name.partition("/")[0])
                 lacking = [one for one in joints_of(source, kind) if has.get(one) and wanted not in has[one]]
                 if wanted is None or not lacking or any("$" in name for name in has[lacking[0]]):
+                    continue
+                if any(is_misspelt(name) for name in has[lacking[0]]):
                     continue
                 others = ", ".join(f"`{name}`" for name in sorted(has[lacking[0]]))
                 yield Finding(

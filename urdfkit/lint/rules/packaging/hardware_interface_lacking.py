@@ -20,7 +20,8 @@ class HardwareInterfaceLacking(RobotRule):
     ## What it does
     Compares what controllers of ros2_controllers want of their joints, by their type and their settings in YAML, with
     the ``<command_interface>`` and ``<state_interface>`` of these joints in ``<ros2_control>``. Where arguments, or
-    another description of the package, may make it another hardware, nothing is said.
+    another description of the package, may make it another hardware, and where the hardware misspells its joint or
+    interface, which is a finding of its own, nothing is said.
 
     ## Why is this bad?
     "Not acceptable command interfaces": the controller manager refuses to start the controller.
@@ -76,10 +77,12 @@ class HardwareInterfaceLacking(RobotRule):
     def _lacking(
         self, source: Source, controller: Controller, has: dict[str, dict[bool, list[str]]], model: Model
     ) -> Iterator[Finding]:
+        from urdfkit.lint.interfaces import meant_interface, meant_joints
         from urdfkit.lint.ros2_controllers import wanted
         from urdfkit.lint.yaml_tree import span_of
 
         told: set[tuple[int, int]] = set()
+        misspelt = meant_joints(model.robot)
         for one in wanted(controller):
             interfaces = has.get(one.joint)
             place = (one.where.line, one.where.column)
@@ -89,6 +92,11 @@ class HardwareInterfaceLacking(RobotRule):
             if interfaces is None:
                 if one.joint not in model.robot.joint_by_name or not one.is_command:
                     continue
+                if one.joint in misspelt:
+                    continue
+            elif one.interface in (meant_interface(name) for name in interfaces[one.is_command]):
+                continue
+            if interfaces is None:
                 message = f"`{controller.name}` commands `{one.joint}`, which no <ros2_control> has"
                 help = "add it there, with its interfaces"
             else:
