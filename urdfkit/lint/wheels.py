@@ -10,7 +10,7 @@ from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from urdfkit.description.element import Element
     from urdfkit.description.plugins import PluginSpec
@@ -25,6 +25,9 @@ _SIDES = {
     "mecanum_drive": (("front_left_joint", "back_left_joint"), ("front_right_joint", "back_right_joint")),
 }
 """Kind of a drive → what its parameters for the joints of each side mean."""
+
+_SAME = 1e-6
+"""Lengths that differ by less are one [m]."""
 
 
 @record(eq=False)
@@ -171,6 +174,21 @@ def wheel_of(model: Model, joint: Joint, element: Element | None, *, named: str 
     )
 
 
+def track(left: Wheel, right: Wheel, distances: Iterable[float]) -> tuple[float, str]:
+    """Return how far apart two wheels are [m], and what is: their shapes where those agree, else their joints.
+
+    Args:
+        left: a wheel.
+        right: the other.
+        distances: of their `middles`: of the joints, then of the shapes [m].
+    """
+    joints, *shapes = distances
+    names = f"`{left.joint.name}` and `{right.joint.name}`"
+    if not shapes or max(shapes) - min(shapes) > _SAME or abs(shapes[0] - joints) <= _SAME:
+        return joints, names
+    return shapes[0], f"the wheels at {names}"
+
+
 def same_turn(first: Vector, second: Vector) -> float:
     """Return the largest difference between the rotation matrices of two triples of angles."""
     return max(
@@ -178,4 +196,4 @@ def same_turn(first: Vector, second: Vector) -> float:
     )
 
 
-__all__ = ["Frame", "TwoSided", "Wheel", "drives", "mismatch", "same_turn", "wheel_of", "written"]
+__all__ = ["Frame", "TwoSided", "Wheel", "drives", "mismatch", "same_turn", "track", "wheel_of", "written"]

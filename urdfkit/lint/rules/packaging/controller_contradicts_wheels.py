@@ -86,6 +86,7 @@ class ControllerContradictsWheels(RobotRule):
 
     def _contradictions(self, source: Source, one: Settings, model: Model) -> Iterator[Finding]:
         from urdfkit.lint.rules.semantics.wheel_separation import SKIDDING
+        from urdfkit.lint.wheels import track
 
         left, right = _wheels(one, model, "left"), _wheels(one, model, "right")
         if not left or len(left) != len(right):
@@ -106,8 +107,9 @@ class ControllerContradictsWheels(RobotRule):
         for place, value in _numbers(one, "wheel_separation"):
             tuned = value * next((number for _, number in _numbers(one, "wheel_separation_multiplier")), 1.0)
             if apart > 0.01 and not any(d / most <= v <= most * d for d in shapes for v in (value, tuned) if d):
-                names = f"`{first.joint.name}` and `{other.joint.name}` are {apart:.6g} m apart"
-                yield self._at(source, place, f"`wheel_separation` is {value:g} m, but {names}", first.joint.name)
+                actual, what = track(first, other, shapes[: min(len(first.middles), len(other.middles))])
+                message = f"`wheel_separation` is {value:g} m, but {what} are {actual:.6g} m apart"
+                yield self._at(source, place, message, first.joint.name)
         radii = [radius for _, wheel in (*left, *right) for radius in wheel.radii if radius > 0.0]
         for place, value in _numbers(one, "wheel_radius"):
             if radii and not any(abs(value - radius) <= TOLERANCE * radius for radius in radii):

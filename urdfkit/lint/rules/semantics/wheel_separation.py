@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.placement import unit
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-from urdfkit.lint.wheels import drives, mismatch, written
+from urdfkit.lint.wheels import drives, mismatch, track, written
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ class WheelSeparation(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the parameter is set to the distance of the joints, but it may be the joints that are misplaced.
+    Unsafe: the parameter is set to the distance of the wheels, but it may be those that are misplaced.
     """
 
     code = "S901"
@@ -119,5 +119,6 @@ class WheelSeparation(RobotRule):
             least, most = (1.0 - TOLERANCE, 1.0 + TOLERANCE) if len(drive.left) == 1 else (1.0 / SKIDDING, SKIDDING)
             if distances[0] < 0.01 or any(least * each <= separation <= most * each for each in distances):
                 continue
-            apart = f"`{left.joint.name}` and `{right.joint.name}` are {{}} m apart"
-            yield mismatch(self, model, drive, value, actual=distances[0], beside=apart)
+            of_first = min(len(left.middles), len(right.middles))
+            actual, what = track(left, right, distances[:of_first])
+            yield mismatch(self, model, drive, value, actual=actual, beside=f"{what} are {{}} m apart")
