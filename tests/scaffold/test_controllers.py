@@ -488,3 +488,27 @@ def test_a_file_in_no_package_gets_its_controllers_beside_it(place, monkeypatch,
     assert clean(place / "loose") == []
     states = Simulator(load(file), note=lambda _: None).controllers.list()
     assert [state.name for state in states if "trajectory" in state.type.lower()]
+
+
+def test_a_robot_without_ros_gets_what_needs_none(place, capsys, tell):
+    assert main(["new", "robot", "ab", "--ros", "none", "--yes", "-q"]) == 0
+    assert main(["new", "arm", "--into", "ab_description", "--dof", "4", "--gripper", "-q"]) == 0
+    before = set(place.rglob("*"))
+    assert main(["new", "controllers", "--into", "ab_description", "--name", "x"]) == 2
+    assert "--name is for a package of ROS, and this robot is made without" in capsys.readouterr().err
+    assert main(["new", "controllers", "--into", "ab_description"]) == 0
+    said = capsys.readouterr()
+    assert "elbow_joint: topic arm/elbow" in said.err
+    assert "ros2" not in said.out
+    assert {path.name for path in set(place.rglob("*")) - before} == {"control.xacro"}
+    assert clean(place / "ab_description") == []
+    simulator = Simulator(load(place / "ab_description/urdf/ab.urdf.xacro"), note=lambda _: None)
+    targets = {"shoulder_pan_joint": 0.4, "shoulder_lift_joint": 0.3, "elbow_joint": -0.3, "wrist_pitch_joint": 0.2}
+    tell(simulator, "none", targets | {"left_finger_joint": 0.01}, 1)
+    simulator.run(3.0)
+    for joint, target in targets.items():
+        assert simulator.state.position(joint) == pytest.approx(target, abs=1e-2), joint
+    for finger in ("left_finger_joint", "right_finger_joint"):
+        assert simulator.state.position(finger) == pytest.approx(0.01, abs=2e-4)
+    assert main(["new", "controllers", "--into", "ab_description"]) == 2
+    assert "no joint left that a controller could move" in capsys.readouterr().err

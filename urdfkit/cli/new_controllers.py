@@ -52,6 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.scaffold.hardware import hardware
     from urdfkit.scaffold.joint_roles import roles
     from urdfkit.scaffold.manifest import package_of
+    from urdfkit.scaffold.without_ros import is_without_ros
 
     model, robot, generation = description(arguments)
     if generation == "gz" and _is_fortress(robot):
@@ -68,6 +69,8 @@ def run(arguments: argparse.Namespace) -> int:
     name = sanitised(named.removesuffix("_description"))
     if there.loop is not None and generation != "classic":
         return _added(model, robot, made, arguments, there, name, generation)
+    if is_without_ros(model.path):
+        return _without_ros(model, robot, made, arguments, generation)
     package = check_package_name(arguments.name or f"{name}_control")
     folder = own.parent if own is not None else model.path.parent
     if (folder / package).exists():
@@ -83,6 +86,27 @@ def run(arguments: argparse.Namespace) -> int:
         )
         print(f"  {launch.format(package, name)}  # once the robot is in Gazebo")
     _tell(made, arguments)
+    return code
+
+
+def _without_ros(
+    model: ModelArgument, robot: Robot, made: list[Controller], arguments: argparse.Namespace, generation: str
+) -> int:
+    """Write plugins of Gazebo beside the model.
+
+    Raises:
+        UsageError: Gazebo Classic, or a name for the package that there is not.
+    """
+    from urdfkit.scaffold.without_ros import plugins, topics
+
+    if generation != "gz":
+        raise UsageError("--sim classic needs ROS for controllers, and this robot is made without: --sim gz")
+    if arguments.name is not None:
+        raise UsageError("--name is for a package of ROS, and this robot is made without: leave it out")
+    title = "What moves the joints without ROS: each goes where its topic says, as fast as its motor may."
+    code = apply(_beside(model.path, plugins(robot, made), title), model, arguments)
+    for joint, topic in () if arguments.quiet else topics(made).items():
+        print(f"urdfkit: {joint}: topic {topic}", file=sys.stderr)
     return code
 
 
@@ -186,19 +210,32 @@ def _altered(
             )
         changes = [Alteration(path, before, insert_before_end(before, text, path=path))]
         return [*_told(path, package, generation), *changes]
-    home = path.parent / "control.xacro"
-    if home.exists():
-        raise ResourceError(f"{home} is already there; nothing is overwritten")
-    body = "\n".join(f"  {line}" for line in text.splitlines())
-    whole = (
-        '<?xml version="1.0"?>\n'
-        f"<!-- Which joints are moved, and how; the controllers are in {package}. -->\n"
-        f'<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n{body}\n</robot>\n'
-    )
-    after = insert_before_end(before, f'<{prefix}:include filename="control.xacro"/>', path=path)
-    changes = [Alteration(home, None, whole.encode()), Alteration(path, before, after)]
+    if (path.parent / "control.xacro").exists():
+        raise ResourceError(f"{path.parent / 'control.xacro'} is already there; nothing is overwritten")
+    changes = _beside(path, text, f"Which joints are moved, and how; the controllers are in {package}.")
+    home = changes[0].path
     installed = with_installed(own, path, home) if (own := package_of(path)) is not None else None
     return [*_told(path, package, generation), *([installed] if installed is not None else []), *changes]
+
+
+def _beside(path: Path, text: str, title: str) -> list[Alteration]:
+    """Return a new file with elements beside a model, and the model that includes it; a URDF alone."""
+    from urdfkit.scaffold.alteration import Alteration
+    from urdfkit.scaffold.insertion import insert_before_end, xacro_prefix
+    from urdfkit.scaffold.names import free
+
+    before = path.read_bytes()
+    prefix = xacro_prefix(before) if path.suffix == ".xacro" else None
+    if prefix is None:
+        return [Alteration(path, before, insert_before_end(before, text, path=path))]
+    home = path.parent / f"{free('control', lambda each: (path.parent / f'{each}.xacro').exists())}.xacro"
+    body = "\n".join(f"  {line}" for line in text.splitlines())
+    whole = (
+        f'<?xml version="1.0"?>\n<!-- {title} -->\n'
+        f'<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n{body}\n</robot>\n'
+    )
+    after = insert_before_end(before, f'<{prefix}:include filename="{home.name}"/>', path=path)
+    return [Alteration(home, None, whole.encode()), Alteration(path, before, after)]
 
 
 def _told(path: Path, package: str, generation: str) -> list[Alteration]:
