@@ -1,5 +1,6 @@
 """`urdfkit new controllers`: joints that nothing drives get a controller, those that something drives no second one."""
 
+import re
 import shutil
 from xml.etree import ElementTree
 
@@ -512,3 +513,25 @@ def test_a_robot_without_ros_gets_what_needs_none(place, capsys, tell):
         assert simulator.state.position(finger) == pytest.approx(0.01, abs=2e-4)
     assert main(["new", "controllers", "--into", "ab_description"]) == 2
     assert "no joint left that a controller could move" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("ros", "launch"), [("jazzy", "ab_bringup/launch/ab.launch.py"), ("noetic", "ab_bringup/launch/ab.launch")]
+)
+def test_what_starts_all_of_a_robot_can_be_told_of_them(place, capsys, ros, launch):
+    assert main(["new", "robot", "ab", "--ros", ros, "--yes", "-q"]) == 0
+    assert main(["new", "arm", "--into", "ab_description", "-q"]) == 0
+    capsys.readouterr()
+    assert main(["new", "controllers", "--into", "ab_description"]) == 0
+    _, add = capsys.readouterr().out.split(f"to start them with the rest, add to {launch}:\n")
+    lines, depends = add.split("and to ab_bringup/package.xml:\n")
+    assert depends == "  <exec_depend>ab_control</exec_depend>\n"
+    before = (place / launch).read_text()
+    if ros == "noetic":
+        ElementTree.fromstring(before.replace("</launch>", f"{lines}</launch>"))
+    else:
+        end = "\n    ])"
+        assert before.count(end) == 1
+        compile(before.replace(end, f"\n{lines}{end}"), launch, "exec")
+        for name in set(re.findall(r"\b[A-Z]\w+", lines)):
+            assert re.search(rf"import .*\b{name}\b", before), name

@@ -121,9 +121,9 @@ def apply(
             shutil.rmtree(path, ignore_errors=True)
         raise
     for path in moved:
-        print(f"{_shown(path)}  new")
+        print(f"{shown(path)}  new")
     for alteration in alterations:
-        print(f"{_shown(alteration.path)}  {'new' if alteration.before is None else 'changed'}")
+        print(f"{shown(alteration.path)}  {'new' if alteration.before is None else 'changed'}")
     if not arguments.quiet:
         where = shlex.quote(arguments.into or ".")
         print(f"\nnext:\n  urdfkit view {where}\n  urdfkit sim teleop {where}")
@@ -188,7 +188,12 @@ def number(word: str, option: str) -> float:
     return found
 
 
-def _shown(path: Path) -> str:
+def shown(path: Path) -> str:
+    """Return a path as seen from where one stands, or whole where it is elsewhere.
+
+    Args:
+        path: absolute.
+    """
     try:
         return path.relative_to(Path.cwd()).as_posix()
     except ValueError:

@@ -7,7 +7,7 @@ import sys
 from datetime import datetime, timezone
 from pathlib import Path
 
-from urdfkit.cli.alter import add_description, apply, description
+from urdfkit.cli.alter import add_description, apply, description, shown
 from urdfkit.errors import ResourceError, UsageError
 
 TYPE_CHECKING = False
@@ -85,8 +85,33 @@ def run(arguments: argparse.Namespace) -> int:
             "roslaunch {0} {1}_control.launch" if generation == "classic" else "ros2 launch {0} {1}_control.launch.py"
         )
         print(f"  {launch.format(package, name)}  # once the robot is in Gazebo")
+        for line in _to_add(folder, package, name):
+            print(line)
     _tell(made, arguments)
     return code
+
+
+def _to_add(folder: Path, package: str, name: str) -> Iterator[str]:
+    """Yield what to add to the launch file of all of the robot, and to its package, for the controllers to start too.
+
+    Args:
+        folder: of the packages.
+        package: of the controllers.
+        name: of the robot.
+    """
+    for whole in (folder / f"{name}_bringup", folder / f"{name}_gazebo"):
+        for launch in (whole / f"launch/{name}.launch.py", whole / f"launch/{name}.launch"):
+            if not launch.is_file() or not (whole / "package.xml").is_file():
+                continue
+            yield f"\nto start them with the rest, add to {shown(launch)}:"
+            if launch.suffix == ".py":
+                yield "        IncludeLaunchDescription(PythonLaunchDescriptionSource(PathJoinSubstitution("
+                yield f'            [FindPackageShare("{package}"), "launch", "{name}_control.launch.py"]))),'
+            else:
+                yield f'  <include file="$(find {package})/launch/{name}_control.launch"/>'
+            yield f"and to {shown(whole / 'package.xml')}:"
+            yield f"  <exec_depend>{package}</exec_depend>"
+            return
 
 
 def _without_ros(
