@@ -6,6 +6,7 @@ import re
 from math import degrees, hypot, sqrt
 
 from urdfkit.description.robot import Box, Capsule, Cylinder, Mesh, Sphere
+from urdfkit.lint.placement import turned, unit
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 from urdfkit.lint.wheels import drives
 
@@ -26,6 +27,12 @@ _TILT = 0.06
 _DEEP = 0.1
 """Of the radius of a wheel: how far something reaches below the wheels where it cannot be meant."""
 
+_UPRIGHT = 0.99
+"""Cosine: what is less off is upright."""
+
+_NEAR = 0.01
+"""How far wheels may sink into what they stand on [m]."""
+
 
 class CasterOffTheGround(RobotRule):
     """A robot with two driven wheels does not stand level: its caster is above or below what the wheels stand on.
@@ -34,7 +41,8 @@ class CasterOffTheGround(RobotRule):
     Compares the lowest points of the wheels that a drive turns with those of the other links, every joint at zero and
     the root level. A caster (by its name, or that of its joint) that would tilt the robot by more than 3.4° is
     reported, and any link that reaches below the wheels by more than a tenth of their radius. Collision shapes count,
-    or the visual ones where there are none; meshes are left out.
+    or the visual ones where there are none. Left out are meshes, what a joint lifts or lowers, what hangs on nothing,
+    and a floor that the robot stands on.
 
     ## Why is this bad?
     The robot tips onto its caster when the simulation starts, or its wheels lose the ground and turn in the air: it
@@ -106,7 +114,7 @@ class CasterOffTheGround(RobotRule):
             return
         for drive in drives(model):
             wheels = (*drive.left, *drive.right)
-            if any(not wheel.radii or wheel.radii != wheels[0].radii for wheel in wheels):
+            if any(not wheel.radii or max(wheel.radii) <= 0.0 or wheel.radii != wheels[0].radii for wheel in wheels):
                 continue
             heights = [wheel.place[2] - max(wheel.radii) for wheel in wheels]
             if max(heights) - min(heights) > 1e-3 * max(wheels[0].radii):
@@ -118,11 +126,16 @@ class CasterOffTheGround(RobotRule):
         mean = [sum(wheel.place[i] for wheel in (*drive.left, *drive.right)) / (2 * len(drive.left)) for i in (0, 1)]
         supports: list[tuple[float, float, Joint]] = []
         above = {joint.child: joint for joint in model.robot.joints}
+        tree = _root(above, drive.left[0].joint)
         for link in model.robot.links:
             frame = model.frames.get(link.name)
             low = _lowest(link, frame) if frame is not None and link.name not in driven else None
             joint = above.get(link.name)
-            if low is None:
+            if low is None or frame is None or not _is_rigid(model, above, link):
+                continue
+            if tree != (link.name if joint is None else _root(above, joint)):
+                continue  # Nobody knows where it is: it hangs on nothing, which is a finding of its own.
+            if joint is None and _is_floor(link, frame, drive, ground):
                 continue
             place = joint.element if joint is not None else link.element
             gap, away = low[2] - ground, hypot(low[0] - mean[0], low[1] - mean[1])
@@ -140,6 +153,46 @@ class CasterOffTheGround(RobotRule):
             if tilt > _TILT:
                 message = f"`{joint.child}` is {gap:.3g} m above the ground: the robot tips by {degrees(tilt):.3g}°"
                 yield self.at(model, joint.element, message, attribute="name", link=joint.child, joint=joint.name)
+
+
+def _root(above: dict[str | None, Joint], joint: Joint) -> str | None:
+    """Return the link at the root of the tree that a joint is in, by child → joint."""
+    seen: set[str | None] = set()
+    while joint.parent in above and joint.parent not in seen:
+        seen.add(joint.parent)
+        joint = above[joint.parent]
+    return joint.parent
+
+
+def _is_rigid(model: Model, above: dict[str | None, Joint], link: Link) -> bool:
+    """Whether no joint lifts or lowers a link: arms hang down at zero, where no robot starts."""
+    seen: set[str | None] = set()
+    name: str | None = link.name
+    while name in above and name not in seen:
+        seen.add(name)
+        joint = above[name]
+        frame = model.frames.get(name or "")
+        axis = unit(turned(frame.rotation, joint.axis)) if frame is not None else None
+        if joint.is_movable and (axis is None or abs(axis[2]) < _UPRIGHT):
+            shapes = [shape.geometry for shape in link.collisions or link.visuals]
+            is_wheel = joint.type == "continuous" and name == link.name
+            if not (is_wheel and all(isinstance(shape, (Cylinder, Sphere)) for shape in shapes)):
+                return False
+        name = joint.parent
+    return True
+
+
+def _is_floor(link: Link, frame: Frame, drive: TwoSided, ground: float) -> bool:
+    """Whether a link lies below all wheels of a drive and reaches out farther than they: they stand on it."""
+    boxes = [(shape.geometry, frame.moved(shape.origin)) for shape in link.collisions or link.visuals]
+    for shape, placed in boxes:
+        x, y, z = placed.translation
+        if not isinstance(shape, Box) or placed.rotation[2][2] < _UPRIGHT or z + shape.size[2] / 2.0 > ground + _NEAR:
+            continue
+        reach = min(shape.size[:2]) / 2.0
+        if all(hypot(wheel.place[0] - x, wheel.place[1] - y) < reach for wheel in (*drive.left, *drive.right)):
+            return True
+    return False
 
 
 def _lowest(link: Link, frame: Frame) -> Vector | None:
