@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.errors import ResourceError, UsageError
-from urdfkit.scaffold import load_template, template_names
+from urdfkit.scaffold import create, load_template, template_names
 from urdfkit.scaffold.template import fill
 
 BUILT_IN = {"year": "2026", "into": "src"}
@@ -221,3 +221,38 @@ def test_facts_and_words_that_are_lists(small_template):
             *lines,
             "end 0.4286" if special == "yes" else "end none",
         ]
+
+
+@pytest.mark.parametrize(
+    ("into", "spare"),
+    [
+        ('["../../@name@"]', "false"),
+        ('["/tmp/x"]', "false"),
+        ('["a/../.."]', "true"),
+        ('["/"]', "true"),
+        ('["@where@"]', "false"),
+    ],
+)
+def test_nothing_is_written_outside(small_template, tmp_path, into, spare):
+    place = tmp_path / "above" / "place"
+    place.mkdir(parents=True)
+    (tmp_path / "box").mkdir()
+    (tmp_path / "box" / "COLOUR").write_text("mine")
+    path = small_template / "template.toml"
+    asked = '[[question]]\nname = "where"\nprompt = "Where"\nkind = "text"\ndefault = "../../box"\n'
+    layer = f'\n[[layer]]\nspare = {spare}\nfolder = "blue"\ninto = {into}\n'
+    path.write_text(path.read_text().replace("        [[question]]", asked + "        [[question]]", 1) + layer)
+    template = load_template(small_template)
+    line = path.read_text().splitlines().index(f"into = {into}") + 1
+    with pytest.raises(ResourceError, match=rf"template\.toml:{line}: .* is outside of what is written"):
+        create(template, template.answers({"name": "box"}) | BUILT_IN, place)
+    assert list(place.iterdir()) == []
+    assert (tmp_path / "box" / "COLOUR").read_text() == "mine"
+
+
+def test_a_way_back_inside_is_none_outside(small_template, tmp_path):
+    path = small_template / "template.toml"
+    path.write_text(path.read_text() + '\n[[layer]]\nfolder = "blue"\ninto = ["@name@/src/../.", ""]\n')
+    template = load_template(small_template)
+    written = [target.as_posix() for _, target in template.files(template.answers({"name": "box"}) | BUILT_IN)]
+    assert written == ["box/src/box.txt", "box/COLOUR", "COLOUR"]

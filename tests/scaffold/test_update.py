@@ -222,3 +222,30 @@ def test_of_several_one_is_named(template, place):
 def test_names_are_kept(template, place):
     with pytest.raises(UsageError, match="--update keeps names, and would make tin"):
         changed(template, place, name="tin")
+
+
+def test_what_follows_from_what_is_gone_goes_too(robot_template, tmp_path):
+    recipe = tmp_path / "urdfkit-new.toml"
+    recipe.write_text('template = "robot"\nname = "rr"\narm = "4"\ngripper = true\nfinger_travel = 0.04\n')
+    for given in ({"arm": "none"}, {"arm": "none", "gripper": "no"}):
+        answers = robot_template.answers(read_recipe(robot_template, recipe, given))
+        assert (answers["arm"], answers["gripper"]) == ("none", "no")
+    with pytest.raises(UsageError, match="--finger-travel is for --gripper yes"):
+        robot_template.answers(read_recipe(robot_template, recipe, {"arm": "none", "finger_travel": "0.03"}))
+
+
+def test_a_recipe_that_answers_what_is_not_asked(robot_template, tmp_path):
+    recipe = tmp_path / "urdfkit-new.toml"
+    recipe.write_text('name = "rr"\ngripper = true\n')
+    with pytest.raises(UsageError, match=r"urdfkit-new\.toml: gripper is for --arm 3 or 4"):
+        read_recipe(robot_template, recipe, {})
+    recipe.write_text('name = "rr"\ngripper = false\n')
+    assert "gripper" not in read_recipe(robot_template, recipe, {})
+
+
+def test_a_recipe_touches_nothing_outside(template, place, tmp_path):
+    recipe = place / "box" / "made.toml"
+    (tmp_path / "mine").write_text("mine")
+    recipe.write_text(recipe.read_text() + '"../mine" = "0"\n')
+    with pytest.raises(ResourceError, match=r"made\.toml: \.\./mine is outside"):
+        read_made(recipe)

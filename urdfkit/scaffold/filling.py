@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Mapping
+from pathlib import Path
 
 from urdfkit.errors import ResourceError, did_you_mean
 
@@ -30,6 +32,22 @@ def fill(text: str, answers: Mapping[str, str], *, where: str) -> str:
         return answers[match[1]]
 
     return _PLACEHOLDER.sub(answer, text)
+
+
+def inside(path: str | Path, *, where: str) -> Path:
+    """Return a path of the result, without the ``..`` in it.
+
+    Args:
+        path: as a template and its answers give it.
+        where: named in the error.
+
+    Raises:
+        ResourceError: it is absolute, or leads out of the result.
+    """
+    short = Path(os.path.normpath(path))
+    if short.is_absolute() or short.parts[:1] == ("..",):
+        raise ResourceError(f"{where}: {path} is outside of what is written: a path in it, without a / in front")
+    return short
 
 
 def repeat_lines(text: str, several: Mapping[str, tuple[str, ...]]) -> str:

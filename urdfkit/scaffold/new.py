@@ -10,7 +10,7 @@ from pathlib import Path
 
 from urdfkit.atomic import move_into_place, staging
 from urdfkit.errors import ResourceError
-from urdfkit.scaffold.filling import fill
+from urdfkit.scaffold.filling import fill, inside
 from urdfkit.scaffold.outcome import Checker
 from urdfkit.scaffold.recipe import digest, recipe_text
 from urdfkit.scaffold.template import Template
@@ -149,7 +149,8 @@ def write_recipe(
     Raises:
         ResourceError: the template is wrong.
     """
-    target = Path(fill(template.recipe, answers, where=f"{template.folder}/template.toml"))
+    where = f"{template.folder}/template.toml"
+    target = inside(fill(template.recipe, answers, where=where), where=where)
     contents = {path: (stage / path).read_bytes() for path in files if path != target} | dict(also or {})
     digests = {path.as_posix(): digest(content) for path, content in sorted(contents.items())}
     (stage / target).parent.mkdir(parents=True, exist_ok=True)

@@ -15,6 +15,7 @@ class Layer:
     With ``@question@`` in the folder's name it is the folder of that answer, of several answers each one's.
     With `append`, what a file holds goes behind what the layers before have written into the file of that name.
     What is `spare` is left out where something of that name is there already, instead of refusing all.
+    In ``template.toml`` it says where in that `line`.
     """
 
     folder: str
@@ -22,6 +23,7 @@ class Layer:
     when: When
     append: bool = False
     spare: bool = False
+    line: int = 1
 
 
 @dataclass(frozen=True, slots=True)

@@ -78,6 +78,14 @@ class Question:
         defaults = [self.default or "", *(text for texts in self.default_for.values() for text in texts.values())]
         return any(text.startswith("=") for text in defaults)
 
+    def declines(self, given: Mapping[str, str]) -> bool:
+        """Return whether it is answered that something is not wanted, which goes wherever there is none.
+
+        Args:
+            given: answers by question.
+        """
+        return self.kind == "flag" and self._flag(given.get(self.name, "")) == "no"
+
     def default_given(self, answers: Mapping[str, str]) -> str | None:
         """Return the default, computed where it depends on earlier answers (to four digits).
 

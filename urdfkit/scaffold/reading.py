@@ -182,6 +182,7 @@ class _Reader:
             self._when("layer", index, entry),
             entry.get("append", False),
             entry.get("spare", False),
+            self._line("layer", index, "into"),
         )
 
     def _when(self, sort: str, index: int, entry: Mapping[str, Any]) -> When:
@@ -226,19 +227,21 @@ class _Reader:
         Raises:
             ResourceError: always, with the line of that key in the table of that sort and number.
         """
+        raise ResourceError(f"{self._path}:{self._line(sort, index, key)}: {message}")
+
+    def _line(self, sort: str, index: int, key: str) -> int:
+        """Return the line of a key in the table of that sort and number; where it is not there, that of the table."""
         start = 0
         if sort:
             heads = [i for i, line in enumerate(self._lines) if re.match(rf"\s*\[\[\s*{sort}\s*\]\]", line)]
             start = heads[index] if index < len(heads) else 0
-        place = start
         for number in range(start + bool(sort), len(self._lines) if key else 0):
             line = self._lines[number]
             if re.match(rf"""\s*\[*(\w+\.)?["']?{re.escape(key)}["']?\s*[\].=]""", line):
-                place = number
-                break
+                return number + 1
             if sort and re.match(r"\s*\[\[", line):
                 break
-        raise ResourceError(f"{self._path}:{place + 1}: {message}")
+        return start + 1
 
 
 def _is(what: str, value: object) -> bool:

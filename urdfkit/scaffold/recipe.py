@@ -12,8 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from urdfkit.errors import ResourceError, UsageError
+from urdfkit.scaffold.filling import inside
 from urdfkit.scaffold.question import Question, applies
-from urdfkit.scaffold.template import Template
+from urdfkit.scaffold.template import Template, wanted
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -84,7 +85,7 @@ def read_made(path: Path) -> Made:
         path: the file.
 
     Raises:
-        ResourceError: it cannot be read.
+        ResourceError: it cannot be read, or names a file outside of where it was written to.
     """
     table = _read(path)
     made = table.get(MADE)
@@ -94,7 +95,9 @@ def read_made(path: Path) -> Made:
         str(table.get("template", "")),
         str(made.get("year", "")),
         str(made.get("source", "")),
-        {str(name): str(said) for name, said in files.items()} if isinstance(files, dict) else {},
+        {inside(name, where=str(path)).as_posix(): str(said) for name, said in files.items()}
+        if isinstance(files, dict)
+        else {},
     )
 
 
@@ -113,7 +116,7 @@ def _read(path: Path, before: str = "") -> dict[str, Any]:
 def read_recipe(template: Template, path: Path, instead: Mapping[str, str]) -> dict[str, str]:
     """Return the answers in a file, with those given `instead` in their place.
 
-    An answer of the file to a question that is for other answers, after that, is left out.
+    An answer of the file to a question that is for other answers after those given `instead` is left out.
 
     Args:
         template: what asks.
@@ -122,7 +125,7 @@ def read_recipe(template: Template, path: Path, instead: Mapping[str, str]) -> d
 
     Raises:
         ResourceError: it cannot be read.
-        UsageError: an answer of it is wrong, or it is another template's.
+        UsageError: an answer of it is wrong, or for other answers than it holds, or it is another template's.
     """
     table = _read(path, "--from ")
     made = table.pop(MADE, None)
@@ -144,12 +147,28 @@ def read_recipe(template: Template, path: Path, instead: Mapping[str, str]) -> d
         follows = question.default_for or (question.default or "").startswith("=")
         if follows and instead and found[question.name] == _default(question, found):
             del found[question.name]
+    for question in _astray(template, found):
+        if found[question.name] not in ("no", ""):
+            raise UsageError(f"{path}: {question.name} is for {wanted(question.when)}")
     found |= instead
-    known = {question.name: question.default or "" for question in template.questions} | found
-    for question in template.questions:
-        if question.name not in instead and not applies(question.when, known):
-            found.pop(question.name, None)
+    for question in _astray(template, found):
+        if question.name not in instead:
+            del found[question.name]
     return found
+
+
+def _astray(template: Template, found: Mapping[str, str]) -> list[Question]:
+    """Return the questions that are answered, and for other answers than those."""
+    known: dict[str, str] = {}
+    astray = []
+    for question in template.questions:
+        default = _default(question, known) or ""
+        if question.name in found and not applies(question.when, known):
+            astray.append(question)
+            known[question.name] = default
+        else:
+            known[question.name] = found.get(question.name, default)
+    return astray
 
 
 def _command(kind: str, source: str) -> str:

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
 from urdfkit.scaffold.expression import holds, value_of
-from urdfkit.scaffold.filling import fill, repeat_lines
+from urdfkit.scaffold.filling import fill, inside, repeat_lines
 from urdfkit.scaffold.parts import Check, Fact, Layer, Next, Word
 from urdfkit.scaffold.question import Question, When, applies, numbers
 from urdfkit.scaffold.remedy import Goes, remedy
@@ -133,8 +133,8 @@ class Template:
         found: dict[str, str] = {}
         late = ""
         for question in self.questions:
-            if question.name in given and not applies(question.when, found):
-                raise UsageError(f"{question.option} is for {_options(question.when)}")
+            if question.name in given and not applies(question.when, found) and not question.declines(given):
+                raise UsageError(f"{question.option} is for {wanted(question.when)}")
             answer = given.get(question.name, question.default_given(found | {FRESH: "yes" if fresh else "no"}))
             if answer is None:
                 raise UsageError(f"{question.prompt[0].lower()}{question.prompt[1:]} is missing")
@@ -184,14 +184,19 @@ class Template:
         for layer in self.layers:
             if not applies(layer.when, answers):
                 continue
-            for home, source in self._sources(layer, answers):
-                for folder in layer.into:
-                    name = fill(f"{folder}/{source.relative_to(home).as_posix()}", answers, where=str(source))
-                    target = Path(name)
-                    if target in written and not layer.append:
-                        raise ResourceError(f"template: {source} and {written[target]} both become {target}")
-                    written[target] = source
-                    yield source, target
+            for source, target in self._targets(layer, answers):
+                if target in written and not layer.append:
+                    raise ResourceError(f"template: {source} and {written[target]} both become {target}")
+                written[target] = source
+                yield source, target
+
+    def _targets(self, layer: Layer, answers: Mapping[str, str]) -> Iterator[tuple[Path, Path]]:
+        """Yield the files of a layer, each with its path in the result, which is in the result."""
+        place = f"{self.folder}/template.toml:{layer.line}"
+        for home, source in self._sources(layer, answers):
+            for folder in layer.into:
+                name = fill(source.relative_to(home).as_posix(), answers, where=str(source))
+                yield source, inside(Path(fill(folder, answers, where=place), name), where=place)
 
     def spare(self, answers: Mapping[str, str]) -> set[str]:
         """Return what is left out where it is there already: the topmost names of files and folders.
@@ -203,11 +208,10 @@ class Template:
             ResourceError: the template is wrong.
         """
         return {
-            (Path(folder) / source.relative_to(home)).parts[0]
+            target.parts[0]
             for layer in self.layers
             if layer.spare and applies(layer.when, answers)
-            for home, source in self._sources(layer, answers)
-            for folder in layer.into
+            for _, target in self._targets(layer, answers)
         }
 
     def _sources(self, layer: Layer, answers: Mapping[str, str]) -> Iterator[tuple[Path, Path]]:
@@ -288,5 +292,10 @@ class Template:
         ]
 
 
-def _options(when: When) -> str:
+def wanted(when: When) -> str:
+    """Return the options that something is for.
+
+    Args:
+        when: the answers.
+    """
     return " and ".join(f"--{name.replace('_', '-')} {' or '.join(values)}" for name, values in when.items())
