@@ -110,6 +110,40 @@ def test_what_to_do_next_can_be_pasted(place, capsys):
     assert "  urdfkit view 'my ws/scout_description'\n" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("ros", ["jazzy", "none"])
+def test_packages_inside_a_package_get_a_word(place, capsys, ros):
+    assert main(["new", "robot", "scout", "--ros", ros, "--yes"]) == 0
+    assert "inside" not in capsys.readouterr().err
+    again = ["new", "robot", "inner", "--ros", ros, "--yes", "--into", "scout_description/urdf"]
+    assert main(again) == 0
+    assert "written inside the package scout_description" in capsys.readouterr().err
+    command = re.search("`(urdfkit new robot --from [^`]*)`", (place / "scout_description/README.md").read_text())
+    assert main([*command[1].split()[1:], "--yes"]) == 0
+    assert (place / "another_folder/scout_description").is_dir()
+    assert "inside" not in capsys.readouterr().err
+
+
+def test_packages_beside_src_get_a_word(place, capsys):
+    (place / "src").mkdir()
+    assert main(["new", "package", "scout_bringup", "--yes"]) == 0
+    assert "belong in there (--into src)" in capsys.readouterr().err
+    assert main(["new", "package", "scout_bringup", "--yes", "--into", "src"]) == 0
+    assert "src" not in capsys.readouterr().err
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full here")
+@pytest.mark.parametrize("thing", ["package", "world"])
+def test_what_is_written_is_there_though_it_cannot_be_printed(place, thing):
+    with Path("/dev/full").open("w") as full:
+        command = [sys.executable, "-m", "urdfkit", "new", thing, "mine", "--yes"]
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False, timeout=60)
+    assert done.returncode == 2
+    assert done.stderr == (
+        "urdfkit: all was written to .; only what was done could not be printed: No space left on device\n"
+    )
+    assert list(place.glob("mine*"))
+
+
 def test_questions_on_a_terminal(place, monkeypatch):
     typed = ["Scout", "scout", "lunar", "noetic", "", "", "", "", "", "0.1"]
     shown = type_in(monkeypatch, *typed, *[""] * 10)

@@ -16,6 +16,7 @@ from urdfkit.cli import updating
 from urdfkit.cli.ending import ended_by_signals
 from urdfkit.cli.identity import identity
 from urdfkit.cli.parser import Parser
+from urdfkit.cli.placing import misplaced, told_of_what_is_written
 from urdfkit.cli.things import Kind, add_update, chosen
 from urdfkit.cli.updating import drawn, findings
 from urdfkit.errors import UrdfkitError, UsageError, did_you_mean
@@ -128,7 +129,10 @@ def _written(arguments: argparse.Namespace) -> tuple[int, Path | None]:
     answers |= {"year": str(datetime.now(timezone.utc).year), "into": into.as_posix()}
     files = create(template, answers, into, check=findings, finish=drawn if answers.get("picture") == "yes" else None)
     teleop = template.teleop and arguments.teleop
-    _tell(template, answers, files, into.resolve(), quiet=arguments.quiet or bool(teleop))
+    with told_of_what_is_written(into):
+        _tell(template, answers, files, into.resolve(), quiet=arguments.quiet or bool(teleop))
+    if not arguments.quiet and (why := misplaced(into, files, robot=template.name == "robot")):
+        print(f"urdfkit: {why}", file=sys.stderr)
     return 0, into / fill(template.teleop, answers, where="teleop") if teleop else None
 
 
