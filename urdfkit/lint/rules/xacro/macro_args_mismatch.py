@@ -19,7 +19,8 @@ class MacroArgsMismatch(FaultRule):
 
     ## What it does
     Reports calls that leave out a parameter without default, name a parameter the macro does not have, or bring too few
-    or too many blocks.
+    or too many blocks. Where the macro inserts a block that its parameters have without the star, that is said once, at
+    the macro.
 
     ## Why is this bad?
     xacro stops with "Undefined parameters" and does not say which call is meant.
@@ -50,7 +51,12 @@ class MacroArgsMismatch(FaultRule):
     kinds = ("macro-arguments", "undefined-block")
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
-        """Yield the finding; one for a parameter that is written under another name."""
+        """Yield the finding; one for a parameter that is written under another name, or that lacks its star."""
+        if (starless := self._starless(fault, model)) is not None:
+            place = model.expanded.macros[fault.name or ""].position
+            message = f"macro `{fault.name}` inserts the block `{starless}`, and has it without the star"
+            yield self.at(model, place, message, attribute="params", help=f"write `*{starless}` into its params")
+            return
         unknown, missing = self._of_call(fault, model)
         if not unknown or not missing:
             yield from super().check(fault, model)
@@ -67,6 +73,23 @@ class MacroArgsMismatch(FaultRule):
         elif lacking := [name for name in missing if name not in meant.values()]:
             names = ", ".join(f"`{name}`" for name in lacking)
             yield self.at(model, fault, f"macro `{fault.name}` needs {names}")
+
+    def _starless(self, fault: Fault, model: Model) -> str | None:
+        """Return the parameter that a call lacks and gives as a block, because the macro has it without its star."""
+        macro = model.expanded.macros.get(fault.name or "")
+        tag = model.tag(macro.position) if macro is not None else None
+        if macro is None or tag is None or fault.kind != "macro-arguments":
+            return None
+        inserted = {
+            each.attributes["name"].value
+            for each in tag.walk()
+            if each.name.rpartition(":")[2] == "insert_block" and "name" in each.attributes
+        }
+        unknown, missing = self._of_call(fault, model)
+        call = model.tag(fault.position)
+        if unknown or len(missing) != 1 or call is None or not call.children:
+            return None
+        return missing[0] if missing[0] in inserted and missing[0] in macro.parameters else None
 
     def _of_call(self, fault: Fault, model: Model) -> tuple[list[str], list[str]]:
         """Return the parameters that the call of a fault gives too many, and those that it lacks."""
