@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
 SUFFIXES = (".urdf", ".xacro")
+_TO_MERGE = (".urdf.new", ".xacro.new")
+"""What `urdfkit new --update` puts beside a robot that was edited; the parts it includes are there already."""
 _SKIPPED = frozenset(("build", "install", "devel", "log", "node_modules", "__pycache__"))
 _IGNORE_MARKS = frozenset(("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"))
 _MAX_DEPTH = 12
@@ -122,9 +124,17 @@ def _robots_in(folder: Path) -> list[Entry]:
     texts = {path: _text(path) for path in _walk(folder, 0)}
     robots = {path: text for path, text in texts.items() if _is_robot(text) or _is_broken(text)}
     included = _included(robots)
-    return [
-        Entry(path, (), _is_robot(text) and _is_library(text)) for path, text in robots.items() if path not in included
-    ]
+    alone = [path for path in robots if path not in included]
+    if waiting := _to_merge(alone):
+        alone = [path for path in alone if not any(_matches(text, path) for text in waiting.values())] or alone
+    return [Entry(path, (), _is_robot(robots[path]) and _is_library(robots[path])) for path in alone]
+
+
+def _to_merge(paths: Iterable[Path]) -> dict[Path, str]:
+    """Return what waits in the folders of files, or above, to be merged into a robot; with the texts."""
+    folders = dict.fromkeys(folder for path in paths for folder in (path.parent, path.parent.parent))
+    waiting = (file for folder in folders for ending in _TO_MERGE for file in sorted(folder.glob(f"*{ending}*")))
+    return {file: text for file in waiting if file.is_file() and _is_robot(text := _text(file))}
 
 
 def _of_file(path: Path) -> list[Entry]:
@@ -139,11 +149,23 @@ def _of_file(path: Path) -> list[Entry]:
         return [Entry(path)]
     package = next((folder for folder in path.absolute().parents if (folder / "package.xml").is_file()), None)
     if package is not None:
+        place = path.resolve()
         robots = {other: text for other in _walk(package, 0) if _is_robot(text := _text(other))}
-        above = _includers(path.resolve(), robots)
-        if above:
-            return [Entry(_relative(model), (path,)) for model in above]
+    else:
+        place = Path(os.path.abspath(path))  # noqa: PTH100 - without what is in links
+        robots = _beside(place.parent)
+    waiting = _to_merge([place])
+    above = _includers(place, robots | waiting)
+    if above := [model for model in above if model not in waiting] or above:
+        return [Entry(_relative(model), (path,)) for model in above]
     return [Entry(path, (), _is_library(text))]
+
+
+def _beside(folder: Path) -> dict[Path, str]:
+    """Return the robots and parts, with their texts, of a folder, its own folders and the one it lies in."""
+    files = (file for place in ("", "*/", "../") for end in SUFFIXES for file in sorted(folder.glob(f"{place}*{end}")))
+    near = dict.fromkeys(Path(os.path.normpath(file)) for file in files if file.is_file())
+    return {file: text for file in list(near)[:_MAX_LOOSE] if _is_robot(text := _text(file))}
 
 
 def _begins_with_robot(text: str) -> bool:
