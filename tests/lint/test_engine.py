@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -253,3 +254,38 @@ def test_a_link_to_nowhere_is_passed_over(tmp_path):
     (tmp_path / "bad.urdf").write_text('<robot name="r"><link name="a"/><link name="b"/></robot>')
     (tmp_path / ".#bad.urdf").symlink_to("somebody@somewhere.1234")
     assert [entry.path.name for entry in find_entries([tmp_path])] == ["bad.urdf"]
+
+
+def test_a_robot_whose_first_line_is_gone_is_still_one(tmp_path):
+    (tmp_path / "good.urdf").write_text('<robot name="g"><link name="a"/></robot>')
+    (tmp_path / "part.xacro").write_text('<config><link name="a"/></config>')
+    (tmp_path / "r.urdf.xacro").write_text('<?xml version="1.0"?>\n<link name="a"/>\n</robot>\n')
+    assert [entry.path.name for entry in find_entries([tmp_path])] == ["good.urdf", "r.urdf.xacro"]
+    assert "E001" in codes(lint(tmp_path))
+
+
+XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+
+
+def test_of_two_files_that_are_no_xml_both_are_reported(tmp_path):
+    include = '<xacro:include filename="wheel.xacro"/>'
+    (tmp_path / "r.urdf.xacro").write_text(f'<robot name="r" {XACRO}>\n<link name="a">\n{include}\n</robot>')
+    wheel = tmp_path / "wheel.xacro"
+    wheel.write_text(f"<robot {XACRO}><xacro:macro name='m'><lnk></xacro:macro></robot>")
+    broken = [(Path(f.file).name, f.code) for f in lint(tmp_path)]
+    assert sorted(broken) == [("r.urdf.xacro", "E001"), ("wheel.xacro", "E001")]
+    wheel.write_text(f"<robot {XACRO}><xacro:macro name='m'><link name='${{b}}'/></xacro:macro></robot>")
+    assert [(Path(f.file).name, f.code) for f in lint(tmp_path)] == [("r.urdf.xacro", "E001")]
+
+
+def test_a_file_of_macros_is_part_of_its_robot_though_its_root_has_a_name(tmp_path):
+    (tmp_path / "package.xml").write_text("<package><name>p</name></package>")
+    include = '<xacro:include filename="wheel.xacro"/><xacro:wheel side="left"/>'
+    (tmp_path / "r.urdf.xacro").write_text(f'<robot name="r" {XACRO}>{include}</robot>')
+    wheel = tmp_path / "wheel.xacro"
+    macro = '<xacro:macro name="wheel" params="side"><link name="${x}"/></xacro:macro>'
+    wheel.write_text(f'<robot name="wheel" {XACRO}>{macro}</robot>')
+    assert [entry.path.name for entry in find_entries([wheel])] == ["r.urdf.xacro"]
+    assert [(Path(f.file).name, f.code) for f in lint(wheel)] == [("wheel.xacro", "X104")]
+    wheel.write_text(f'<robot name="wheel" {XACRO}>{macro}<link name="a"/></robot>')
+    assert [entry.path.name for entry in find_entries([wheel])] == ["wheel.xacro"]

@@ -127,7 +127,16 @@ def _robots_in(folder: Path) -> list[Entry]:
     alone = [path for path in robots if path not in included]
     if waiting := _to_merge(alone):
         alone = [path for path in alone if not any(_matches(text, path) for text in waiting.values())] or alone
-    return [Entry(path, (), _is_robot(robots[path]) and _is_library(robots[path])) for path in alone]
+    found = [Entry(path, (), _is_robot(robots[path]) and _is_library(robots[path])) for path in alone]
+    return [*found, *(Entry(path, (), is_library=True) for path in _unreached(included, robots))]
+
+
+def _unreached(included: set[Path], robots: dict[Path, str]) -> list[Path]:
+    """Return the files that are no XML, and are included by way of one that is none either: it may not get to them."""
+    broken = {path for path, text in robots.items() if not _is_well_formed(text)} if included else set()
+    if len(broken) < 2:
+        return []
+    return [path for path in robots if path in included & broken and (_above(path, robots) - {path}) & broken]
 
 
 def _to_merge(paths: Iterable[Path]) -> dict[Path, str]:
@@ -142,10 +151,12 @@ def _of_file(path: Path) -> list[Entry]:
     if path.name.endswith((*LAUNCH, *YAML)):
         return _around(path)
     text = _text(path)
-    if _begins_with_robot(text):
+    if _begins_with_robot(text) and not _may_be_library(text):
         return [Entry(path)]
     root = re.search(_ROOT, text)
-    if root is None or root[1] is None or re.search(_NAMED, root[2]):
+    is_robot = root is not None and root[1] is not None
+    is_named = root is not None and is_robot and re.search(_NAMED, root[2]) is not None
+    if not is_robot or (is_named and not _is_library(text)):
         return [Entry(path)]
     package = next((folder for folder in path.absolute().parents if (folder / "package.xml").is_file()), None)
     if package is not None:
@@ -158,7 +169,13 @@ def _of_file(path: Path) -> list[Entry]:
     above = _includers(place, robots | waiting)
     if above := [model for model in above if model not in waiting] or above:
         return [Entry(_relative(model), (path,)) for model in above]
-    return [Entry(path, (), _is_library(text))]
+    return [Entry(path, (), not is_named and _is_library(text))]
+
+
+def _may_be_library(text: str) -> bool:
+    """Whether a text may define macros and nothing else; most do not, and need no patterns."""
+    _, end, rest = text.rpartition("macro>")
+    return bool(end) and not any(tag in rest for tag in ("<link", "<joint", "<xacro:"))
 
 
 def _beside(folder: Path) -> dict[Path, str]:
@@ -199,14 +216,18 @@ def _relative(path: Path) -> Path:
 
 def _includers(path: Path, robots: dict[Path, str]) -> list[Path]:
     """Return the files nobody includes that reach `path` through includes."""
+    included = _included(robots)
+    return sorted(other for other in _above(path, robots) - {path} if other not in included)
+
+
+def _above(path: Path, robots: dict[Path, str]) -> set[Path]:
+    """Return a file and all that reach it through includes."""
     reached = {path}
     while True:
         more = {other for other, text in robots.items() if any(_matches(text, known) for known in reached)}
         if more <= reached:
-            break
+            return reached
         reached |= more
-    included = _included(robots)
-    return sorted(other for other in reached - {path} if other not in included)
 
 
 def _included(robots: dict[Path, str]) -> set[Path]:
@@ -240,9 +261,22 @@ def _is_robot(text: str) -> bool:
 
 
 def _is_broken(text: str) -> bool:
-    """Whether a file is none of another format, but nothing at all, cut off, or a robot whose root is misspelt."""
+    """Whether a file is none of another format, but empty, cut off, or a robot whose root is misspelt or gone."""
     first = re.search(_FIRST, text)
-    return first is None or is_nearly_robot(first[1]) or (first[1] == "robot" and not _is_robot(text))
+    if first is None or is_nearly_robot(first[1]):
+        return True
+    return not _is_robot(text) if first[1] == "robot" else "</robot>" in text and "<robot" not in text
+
+
+def _is_well_formed(text: str) -> bool:
+    """Whether a text is XML."""
+    from xml.parsers import expat
+
+    try:
+        expat.ParserCreate().Parse(text, True)
+    except (expat.ExpatError, UnicodeEncodeError):
+        return False
+    return True
 
 
 def is_nearly_robot(tag: str) -> bool:
