@@ -13,13 +13,21 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
     from urdfkit.lint.ros2_controllers import Controller
 
+_BROADCASTERS = (
+    "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
+    "imu_sensor_broadcaster/IMUSensorBroadcaster",
+    "range_sensor_broadcaster/RangeSensorBroadcaster",
+)
+"""The types of ros2_controllers that read the sensor of their ``sensor_name`` (Humble to Rolling)."""
+
 
 class HardwareInterfaceLacking(RobotRule):
     """A controller of ROS 2 commands or reads an interface that the hardware of a joint does not have.
 
     ## What it does
     Compares what controllers of ros2_controllers want of their joints, by their type and their settings in YAML, with
-    the ``<command_interface>`` and ``<state_interface>`` of these joints in ``<ros2_control>``. Where arguments, or
+    the ``<command_interface>`` and ``<state_interface>`` of these joints in ``<ros2_control>``; and the ``sensor_name``
+    of broadcasters with its sensors, where it is nearly one of theirs. Where arguments, or
     another description of the package, may make it another hardware, and where the hardware misspells its joint or
     interface, which is a finding of its own, nothing is said.
 
@@ -73,6 +81,21 @@ class HardwareInterfaceLacking(RobotRule):
         for source in sources if has is not None else ():
             for controller in declared(source):
                 yield from self._lacking(source, controller, has or {}, model)
+                yield from self._sensor(source, controller, has or {})
+
+    def _sensor(
+        self, source: Source, controller: Controller, has: dict[str, dict[bool, list[str]]]
+    ) -> Iterator[Finding]:
+        from urdfkit.lint.edits import nearest
+        from urdfkit.lint.yaml_tree import span_of
+
+        named = controller.settings.find("sensor_name") if controller.settings is not None else None
+        if named is None or not named.text or controller.kind.text not in _BROADCASTERS or named.text in has:
+            return
+        near = nearest(named.text, has, likeness=0.7)
+        if near is not None:
+            message = f"`{controller.name}` reads `{named.text}`, which no <ros2_control> has; did you mean `{near}`?"
+            yield Finding(self.code, self.name, self.severity, message, span_of(source, named))
 
     def _lacking(
         self, source: Source, controller: Controller, has: dict[str, dict[bool, list[str]]], model: Model
