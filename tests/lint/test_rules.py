@@ -266,6 +266,24 @@ def test_a_misspelt_type_is_mended_where_its_limits_are_missing(tmp_path):
     assert [b'type="revolute"' in change.after for change in fixed.changes] == [True]
 
 
+def test_a_formula_with_a_slip_is_one_finding(tmp_path):
+    (tmp_path / "can.urdf.xacro").write_text(
+        """<robot name="can" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="can" params="m r h">
+    <link name="can">
+      <visual><geometry><cylinder radius="${r}" length="${h}"/></geometry></visual>
+      <inertial><mass value="${m}"/>
+        <inertia ixx="${m*(3*r*r+h*h)/12}" ixy="0" ixz="0" iyy="${m*(3*r*r+h*h)/12}" iyz="0" izz="${m*r/2}"/>
+      </inertial>
+    </link>
+  </xacro:macro>
+  <xacro:can m="2" r="0.05" h="0.1"/>
+</robot>
+"""
+    )
+    assert [finding.code for finding in lint(tmp_path) if finding.severity != "info"] == ["X119"]
+
+
 def test_a_misspelt_child_is_one_finding(tmp_path):
     (tmp_path / "arm.urdf").write_text(
         '<robot name="arm"><link name="a"/><link name="gripper"/>\n'

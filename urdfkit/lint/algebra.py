@@ -12,6 +12,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
+    from urdfkit.description.element import Element
+    from urdfkit.lint.model import Model
+
     Formula = Callable[[Mapping[str, float]], float]
 
 _ALLOWED = (ast.Expression, ast.BinOp, ast.UnaryOp, ast.Constant, ast.Name, ast.Load)
@@ -35,6 +38,12 @@ class Slip:
     shape: str
     component: str
     right: str
+
+
+def has_slip(model: Model, element: Element) -> bool:
+    """Whether the formulas of an ``<inertia>``, as written, have one wrong moment: X119 says so."""
+    tag = model.tag(element.origin.position)
+    return tag is not None and slip({name: attribute.value for name, attribute in tag.attributes.items()}) is not None
 
 
 def slip(formulas: Mapping[str, str]) -> Slip | None:
