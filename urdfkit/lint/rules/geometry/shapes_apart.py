@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import dist
 
-from urdfkit.description.robot import Mesh
+from urdfkit.description.robot import Mesh, Visual
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -14,13 +14,17 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
+_HALF = 0.5
+"""Of a colour's last number: what has less is seen through."""
+
 
 class ShapesApart(RobotRule):
     """A shape of a link is far away from the others.
 
     ## What it does
     Looks for shapes that reach ten times farther from the centre of mass than the others of their link, and so far that
-    the inertia denies it (as of I508). Meshes that are too large are G604's.
+    the inertia denies it (as of I508). Meshes that are too large are G604's, and what is more than half transparent
+    only shows something: what a camera sees, for one.
 
     ## Why is this bad?
     What is seen is not what is hit: mostly a point has been lost, or metres were taken for something else.
@@ -74,6 +78,8 @@ class ShapesApart(RobotRule):
 
             shapes, far, near = apart(model, link)
             for shape in shapes:
+                if isinstance(shape, Visual) and _is_translucent(model, shape):
+                    continue  # It shows what a sensor sees.
                 box = model.box_of(shape.geometry) if isinstance(shape.geometry, Mesh) else None
                 if box is not None and dist(box[1], (0.0, 0.0, 0.0)) > TIMES * near:
                     continue  # It is its scale.
@@ -88,3 +94,11 @@ class ShapesApart(RobotRule):
                     link=link.name,
                     help="is a point or a unit missing?",
                 )
+
+
+def _is_translucent(model: Model, visual: Visual) -> bool:
+    """Whether more is seen of what is behind a visual than of itself."""
+    material = visual.material
+    if material is not None and material.rgba is None:
+        material = next((one for one in model.robot.materials if one.name == material.name), None)
+    return material is not None and material.rgba is not None and material.rgba[3] < _HALF
