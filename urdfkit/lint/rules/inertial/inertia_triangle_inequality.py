@@ -60,13 +60,13 @@ class InertiaTriangleInequality(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each tensor that violates the inequality."""
-        from urdfkit.lint.algebra import has_slip
-
         for link in model.robot.links:
             for moments, element in principal_moments(link):
                 small, middle, large = moments
                 if small <= 0.0 or small + middle >= large * (1.0 - NOISE):
                     continue
+                from urdfkit.lint.algebra import has_slip
+
                 if reordered(element) is not None or has_slip(model, element):
                     continue  # I505 or X119 says what is wrong with it.
                 a, b, c = shown(moments)
