@@ -288,3 +288,14 @@ def test_blocks_that_hold_each_other_many_times_are_one_fault(write: Write) -> N
     expanded = expand_leniently(path)
     assert [fault.kind for fault in expanded.faults] == ["recursion"]
     assert tags(expanded) == ["link"]
+
+
+def test_names_of_files_that_are_too_long_are_said(write: Write) -> None:
+    main = write("m.xacro", f'HEAD\n<xacro:include filename="{"x" * 5000}.xacro"/>\n<link name="a"/></robot>')
+    expanded = expand_leniently(main)
+    (fault,) = expanded.faults
+    assert (fault.kind, fault.position.line) == ("include-not-found", 2)
+    assert fault.message.endswith("xxx.xacro has a name that is too long")
+    assert tags(expanded) == ["link"]
+    with pytest.raises(ResourceError, match="file name too long"):
+        expanded.packages.resolve(f"{'x' * 5000}.stl", main)

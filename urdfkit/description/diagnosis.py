@@ -185,18 +185,22 @@ def _endless(root: Any) -> dict[str, Any]:
 
 
 def _unreadable(root: OSError, place: Place) -> dict[str, Any]:
+    import errno
     from pathlib import Path
 
-    path = str(root.filename or "")
-    why = "is a folder" if Path(path).is_dir() else "is not there"
-    if Path(path).is_file():
-        why = "cannot be read"
+    path = Path(str(root.filename or ""))
+    if root.errno == errno.ENAMETOOLONG:
+        why = "has a name that is too long"
+    elif path.is_dir():
+        why = "is a folder"
+    else:
+        why = f"{'cannot be read' if path.is_file() else 'is not there'}{near_path(path)}"
     is_include = place.node is not None and place.node.tagName == "xacro:include"
     return {
         "kind": "include-not-found" if is_include else "other",
-        "message": f"{'included ' if is_include else ''}file {shown_path(path)} {why}{near_path(Path(path))}",
+        "message": f"{'included ' if is_include else ''}file {shown_path(path)} {why}",
         "name": shown_path(path),
-        "details": {"path": path},
+        "details": {"path": str(path)},
     }
 
 

@@ -103,8 +103,11 @@ class Packages:
 
     def _resolved(self, uri: str, relative_to: str | Path) -> Path:
         path = self._path_of(uri, Path(relative_to))
-        if path.exists():
-            return path
+        try:
+            if path.exists():
+                return path
+        except OSError as error:
+            raise ResourceError(f"no file {uri}: {(error.strerror or 'not readable').lower()}") from None
         if (moved := self._relocated(path)) is not None:
             return moved
         if "%" in uri:
