@@ -122,15 +122,12 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError("sim run: --cmd-ramp ramps up --cmd-vel, which is missing")
     from urdfkit.atomic import write_bytes
     from urdfkit.cli.sim import pictures, saved, scans
-    from urdfkit.cli.sim.kernel import prepare_kernel
     from urdfkit.cli.sim.report import as_json, as_text
 
     saved.check_places("--save-image", (each.file for each in arguments.save_image))
     saved.check_places("--save-scan", (each.file for each in arguments.save_scan))
     check_record(arguments.record)
     saved.check_places("--save-world", [Path(arguments.save_world)] if arguments.save_world is not None else [])
-    if arguments.engine == "compiled":
-        prepare_kernel(sys.stderr)
     simulator = load(arguments)
     command(simulator, arguments)
     images = pictures.find_topics(simulator, arguments.save_image)
@@ -148,18 +145,23 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def load(arguments: argparse.Namespace) -> Simulator:
-    """Return the simulator, with the robot where it starts.
+    """Return the simulator, with the robot where it starts; its kernel is compiled once robot and world are read.
 
     Raises:
         UrdfkitError: robot or world cannot be loaded or simulated.
     """
+    from urdfkit.cli.sim.kernel import prepare_kernel
     from urdfkit.description import load as load_description
+    from urdfkit.description.world import load_world
     from urdfkit.resources import find_model
     from urdfkit.sim import Simulator, Spawn
 
     model = find_model(arguments.model, package_path=arguments.package_path)
     robot = load_description(model.path, arguments=model.arguments, package_path=model.package_path)
     note_unused(model.arguments, robot.files, quiet=arguments.quiet)
+    world = load_world(arguments.world)
+    if arguments.engine == "compiled":
+        prepare_kernel(sys.stderr)
     spawn = None
     if arguments.spawn or arguments.initial_twist or arguments.initial_joints:
         positions, velocities = arguments.initial_joints or ({}, {})
@@ -168,7 +170,7 @@ def load(arguments: argparse.Namespace) -> Simulator:
         spawn = Spawn(**pose, twist=twist, joints=positions, velocities=velocities)
     return Simulator(
         robot,
-        world=arguments.world,
+        world=world,
         dt=arguments.dt,
         seed=arguments.seed,
         spawn=spawn,
