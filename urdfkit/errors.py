@@ -101,18 +101,29 @@ def bug(error: BaseException, whose: str = "urdfkit") -> str:
     return f"a bug in {whose}, not in your files: {type(error).__name__}: {what} ({place})"
 
 
-def did_you_mean(name: str, candidates: Iterable[str]) -> str:
-    """Return ``; did you mean `x`?`` for the candidate nearest to `name`, or an empty string.
+def nearest(name: str, candidates: Iterable[str]) -> str | None:
+    """Return the candidate most similar to `name`, ignoring case; None if none is similar.
 
     Args:
-        name: what the user wrote.
-        candidates: what would have been right.
+        name: the name the user wrote.
+        candidates: the valid names.
     """
     from difflib import get_close_matches
 
     pool = list(dict.fromkeys(candidates))
     lowered = {candidate.lower(): candidate for candidate in pool}
     if name.lower() in lowered:
-        return f"; did you mean `{lowered[name.lower()]}`?"
+        return lowered[name.lower()]
     near = get_close_matches(name, pool, n=1, cutoff=0.6)
-    return f"; did you mean `{near[0]}`?" if near else ""
+    return near[0] if near else None
+
+
+def did_you_mean(name: str, candidates: Iterable[str]) -> str:
+    """Return ``; did you mean `x`?`` for the candidate nearest to `name`, or an empty string.
+
+    Args:
+        name: the name the user wrote.
+        candidates: the valid names.
+    """
+    near = nearest(name, candidates)
+    return f"; did you mean `{near}`?" if near is not None else ""

@@ -28,8 +28,22 @@ def test_a_typo_gets_the_nearest_command(capsys: pytest.CaptureFixture[str]) -> 
     assert main(["lnit"]) == 2
     captured = capsys.readouterr()
     assert captured.out == ""
-    assert captured.err.endswith("did you mean `lint`?\n")
+    assert captured.err.endswith("did you mean `urdfkit lint`?\n")
     assert captured.err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("word", "meant"),
+    [("simulate", "sim"), ("teleop", "sim teleop"), ("telop", "sim teleop"), ("check", "lint"), ("Lint", "lint")],
+)
+def test_a_word_that_is_no_command_names_the_nearest_command(word, meant, capsys):
+    assert main([word, "simpleton"]) == 2
+    assert capsys.readouterr().err == f"urdfkit: unknown command `{word}`; did you mean `urdfkit {meant}`?\n"
+
+
+def test_a_word_similar_to_no_command_refers_to_the_help(capsys):
+    assert main(["quux"]) == 2
+    assert capsys.readouterr().err == "urdfkit: unknown command `quux`; `urdfkit --help` lists the commands\n"
 
 
 def test_a_misspelt_option_gets_the_nearest_one(capsys: pytest.CaptureFixture[str]) -> None:

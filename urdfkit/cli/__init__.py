@@ -21,19 +21,22 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from types import ModuleType
 
+    from urdfkit.cli.parser import Parser
+
 COMMANDS = {
-    "new": "write robots, worlds and packages; add sensors, arms and controllers",
-    "import": "wrap a bare URDF, as of a CAD program, into packages",
-    "lint": "find and mend the defects of a URDF or xacro",
-    "rule": "print the page of a lint rule, or the catalogue",
-    "lsp": "serve an editor: diagnostics, hover, definitions, completion, fixes",
-    "expand": "xacro to URDF, without ROS installed",
-    "info": "links, joints, mass, sensors, drives",
-    "inertia": "compute masses and inertia from shapes, beside what is written",
-    "view": "look at a robot in the browser",
+    "new": "create a robot, world or package; add a sensor, an arm or controllers",
+    "import": "turn a bare URDF, such as a CAD export, into ROS packages",
+    "lint": "find and fix the defects of a URDF or xacro",
+    "rule": "print the page of a lint rule, or list all rules",
+    "lsp": "run the language server: diagnostics, hover, definitions, completion, fixes",
+    "expand": "expand xacro to URDF; needs no ROS",
+    "info": "print links, joints, mass, sensors and drives",
+    "inertia": "compute masses and inertias from shapes and compare them with the file",
+    "view": "show a robot in the browser",
     "tf": "compute a transform, or draw the frame tree",
     "sim": "simulate a robot: teleop, run, bench, warmup",
-    "topic": "talk to a running simulation: list, info, echo, hz, bw, pub",
+    "topic": "inspect and publish topics of a running simulation: list, info, echo, hz, bw, pub",
+    "completion": "print the completion script of bash, zsh or fish",
 }
 """Command → what it does. The module ``urdfkit.cli.<command>`` implements it; ``import_`` is ``import``."""
 
@@ -53,6 +56,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         if isinstance(stream, TextIOWrapper) and (stream.encoding or "").lower().replace("-", "") != "utf8":
             stream.reconfigure(errors="replace")
     try:
+        if "_ARGCOMPLETE" in os.environ:  # a shell asks what may follow
+            from urdfkit.cli.completion import complete
+
+            complete()
         return _run(arguments)
     except UrdfkitError as error:
         print(f"urdfkit: {error}", file=sys.stderr)
@@ -104,9 +111,24 @@ def _run(arguments: list[str]) -> int:
 
         if (parsed := plain(arguments[1:])) is not None:
             return int(_module("lint").run(parsed))
+    command = next((a for a in arguments if not a.startswith("-")), None)
+    if command is not None and command not in COMMANDS and command == arguments[0]:
+        from urdfkit.cli.unknown_command import refuse
+
+        refuse(command, COMMANDS)
+    parsed = parser_of(command, complete=arguments[:1] != [command]).parse_args(arguments)
+    return int(_module(parsed.command).run(parsed))
+
+
+def parser_of(command: str | None, *, complete: bool = True) -> Parser:
+    """Return the parser of the command line; only that of `command` has arguments, as configuring all takes time.
+
+    Args:
+        command: the command to configure; None for none.
+        complete: whether the other commands are listed too.
+    """
     from urdfkit.cli.parser import Parser, add_common
 
-    command = next((a for a in arguments if not a.startswith("-")), None)
     parser = Parser(
         prog="urdfkit",
         description="From a URDF or xacro to a robot you drive in the browser.",
@@ -114,14 +136,12 @@ def _run(arguments: list[str]) -> int:
     )
     parser.add_argument("--version", action="version", version=f"urdfkit {_version()}")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, prog="urdfkit")
-    names = (command,) if command in COMMANDS and arguments[0] == command else tuple(COMMANDS)
-    for name in names:
+    for name in COMMANDS if complete or command is None else (command,):
         sub = commands.add_parser(name, help=COMMANDS[name], description=COMMANDS[name])
         if name == command:
             _module(name).configure(sub)
             add_common(sub)
-    parsed = parser.parse_args(arguments)
-    return int(_module(parsed.command).run(parsed))
+    return parser
 
 
 def _module(command: str) -> ModuleType:

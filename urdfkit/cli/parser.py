@@ -41,7 +41,8 @@ class Parser(argparse.ArgumentParser):
         kwargs.setdefault("allow_abbrev", False)
         kwargs.setdefault("formatter_class", HelpFormatter)
         super().__init__(*args, **kwargs)
-        self._is_parsing = False
+        self.intermixed = True
+        """Whether options may stand between positional arguments."""
         self._words: list[str] = []
         self.elsewhere: Callable[[str], str] = lambda _: ""
         """What to say of an option that this command does not have, but maybe one of its subcommands."""
@@ -53,7 +54,7 @@ class Parser(argparse.ArgumentParser):
             UsageError: an argument that this command does not have.
         """
         words = list(sys.argv[1:] if args is None else args)
-        if self._is_parsing or {"-h", "--help"} & set(words):
+        if not self.intermixed or {"-h", "--help"} & set(words):
             return super().parse_known_args(words, namespace)
         self._words = words
         if self._subparsers is not None:
@@ -61,18 +62,18 @@ class Parser(argparse.ArgumentParser):
             if unknown:
                 self.error(f"unrecognized arguments: {' '.join(unknown)}")
             return found, unknown
-        self._is_parsing = True  # argparse's own way to do it calls this method again
-        usage, self.usage = (
-            self.usage,
-            self.usage or "",
-        )  # which would be formatted for errors, which we print ourselves
+        self.intermixed = False  # argparse's own method for it calls this method again
+        usage, self.usage = self.usage, self.usage or ""  # argparse would format it for its own error messages
         try:
             found, unknown = self.parse_known_intermixed_args(words, namespace)
         finally:
-            self._is_parsing, self.usage = False, usage
+            self.intermixed, self.usage = True, usage
         if unknown:  # said here, where the options are known; the parser above knows only its own
             self.error(f"unrecognized arguments: {' '.join(unknown)}")
         return found, unknown
+
+    def prepare(self, words: list[str]) -> None:
+        """Add the options that depend on the words of the command line; by default there are none."""
 
     def error(self, message: str) -> NoReturn:
         """Raise instead of exiting.

@@ -26,6 +26,14 @@ _CALLED = {
 """What some call options of `urdfkit new`."""
 
 
+class YesOrNo(argparse.BooleanOptionalAction):
+    """``--option`` and ``--no-option``, kept as the answers ``yes`` and ``no`` of a template's question."""
+
+    def __call__(self, parser: Any, namespace: Any, values: Any, option_string: str | None = None) -> None:
+        """Keep the answer."""
+        setattr(namespace, self.dest, "no" if (option_string or "").startswith("--no-") else "yes")
+
+
 class Kind(Parser):
     """The parser of one template, or of the user's own that is named behind it: its options are the questions."""
 
@@ -39,10 +47,18 @@ class Kind(Parser):
         """
         words = list(args or ())
         self.elsewhere = partial(_meant, self, words)
+        self.prepare(words)
+        return super().parse_known_args(words, namespace)
+
+    def prepare(self, words: list[str]) -> None:
+        """Add the options: the questions of the template that the words of the command line name.
+
+        Raises:
+            ResourceError: there is no such template, or it is wrong.
+        """
         if not self._is_filled and self.get_default("thing") is not None:
             self._is_filled = True
             _fill(self, chosen(self.get_default("thing"), _own(words)))
-        return super().parse_known_args(words, namespace)
 
 
 def _meant(kind: argparse.ArgumentParser, words: list[str], unknown: str) -> str:
@@ -135,11 +151,9 @@ def _add(parser: argparse.ArgumentParser, question: Question) -> None:
     if question.default is None:
         parser.add_argument(question.name, nargs="?", metavar=question.name.upper(), help=text)
     elif question.kind == "flag":
-        parser.add_argument(question.option, dest=question.name, action="store_const", const="yes", help=text)
-        parser.add_argument(
-            f"--no-{question.option[2:]}", dest=question.name, action="store_const", const="no", help=argparse.SUPPRESS
-        )
+        parser.add_argument(question.option, dest=question.name, action=YesOrNo, help=text)
     else:
         metavar = question.unit or question.name.upper()
         action = "append" if question.several else "store"
-        parser.add_argument(question.option, dest=question.name, metavar=metavar, action=action, help=text)
+        option = parser.add_argument(question.option, dest=question.name, metavar=metavar, action=action, help=text)
+        option.completer = lambda prefix, **_: [c for c in question.choices if c.startswith(prefix)]  # type: ignore[attr-defined]

@@ -232,7 +232,8 @@ class Kinematics:
             KinematicsError: no link of that name.
         """
         if name not in self._frames:
-            hint = did_you_mean(name, self.link_names)
+            some = [*self.link_names[:8], *("…" for _ in self.link_names[8:9])]
+            hint = did_you_mean(name, self.link_names) or f"; its frames are {', '.join(some)}"
             if (joint := self.robot.joint_by_name.get(name)) is not None:
                 hint = f"; `{name}` is a joint, its frame is that of its child link `{joint.child}`"
             raise KinematicsError(f"no frame `{name}` in robot `{self.robot.name}`{hint}")

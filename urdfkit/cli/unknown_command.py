@@ -1,0 +1,43 @@
+"""The error for a first word that is no command: names the command that was probably meant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from urdfkit.errors import UsageError, nearest
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import NoReturn
+
+OTHER_NAMES = {
+    **dict.fromkeys(("teleop", "drive"), "sim teleop"),
+    **dict.fromkeys(("run", "play"), "sim run"),
+    **dict.fromkeys(("simulate", "simulation", "simulator", "gazebo"), "sim"),
+    "warmup": "sim warmup",
+    **dict.fromkeys(("bench", "benchmark"), "sim bench"),
+    **dict.fromkeys(("echo", "pub", "hz", "bw"), "topic"),
+    **dict.fromkeys(("create", "init", "scaffold", "generate"), "new"),
+    **dict.fromkeys(("check", "fix", "validate", "check_urdf"), "lint"),
+    **dict.fromkeys(("show", "display", "visualize", "visualise", "rviz"), "view"),
+    **dict.fromkeys(("xacro", "convert"), "expand"),
+    **dict.fromkeys(("transform", "frames", "tf_echo", "view_frames"), "tf"),
+    **dict.fromkeys(("rules", "explain"), "rule"),
+}
+"""A subcommand, or the word of another tool → the command of urdfkit."""
+
+
+def refuse(word: str, commands: Iterable[str]) -> NoReturn:
+    """Raise for a first word that is no command.
+
+    Args:
+        word: the word typed.
+        commands: the commands there are.
+
+    Raises:
+        UsageError: always.
+    """
+    near = nearest(word, [*commands, *OTHER_NAMES])
+    if near is None:
+        raise UsageError(f"unknown command `{word}`; `urdfkit --help` lists the commands")
+    raise UsageError(f"unknown command `{word}`; did you mean `urdfkit {OTHER_NAMES.get(near, near)}`?")
