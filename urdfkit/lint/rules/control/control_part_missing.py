@@ -18,16 +18,17 @@ _REDUCTIONS = ("mechanicalReduction", "mechanical_reduction")
 
 
 class ControlPartMissing(RobotRule):
-    """A transmission, or a block of ros2_control, lacks what its reader asks for, or has a reduction of zero.
+    """A transmission or ``<ros2_control>`` block lacks a required element, or has a reduction ratio of zero.
 
     ## What it does
-    Looks for transmissions without ``<type>`` or without a ``<joint>``, and for ``<ros2_control>`` without the
-    ``<plugin>`` of its ``<hardware>``. Also for a ``<mechanicalReduction>``, or ``<mechanical_reduction>`` of
-    ros2_control, that is zero.
+    Checks for transmissions without ``<type>`` or ``<joint>``, and for ``<ros2_control>`` blocks whose ``<hardware>``
+    has no ``<plugin>``. Also checks for a ``<mechanicalReduction>`` (ros_control) or ``<mechanical_reduction>``
+    (ros2_control) of zero.
 
     ## Why is this bad?
-    transmission_interface passes the whole transmission over, and the resource manager of ros2_control refuses the
-    description: no controller finds its joints. Both throw "reduction ratio cannot be zero".
+    transmission_interface skips an incomplete transmission, and the resource manager of ros2_control rejects the
+    description, so controllers do not find the joints. With a ratio of zero, both throw "reduction ratio cannot be
+    zero".
 
     ## Example
     ```xml
@@ -71,41 +72,41 @@ class ControlPartMissing(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each block, and the first thing that it lacks."""
+        """Yield a finding for each missing element, one per block, and for each reduction ratio of zero."""
         if model.is_incomplete:
             return
         if not model.robot.ros2_control and model.target not in ("gz", "ros2"):
             for transmission in model.robot.transmissions:
                 if not is_old(transmission) and transmission.element.children:
-                    yield from self._lacks(model, transmission.element, "type", "joint")
-                    yield from self._zero(model, transmission.element)
+                    yield from self._missing_child(model, transmission.element, "type", "joint")
+                    yield from self._zero_reductions(model, transmission.element)
         for block in model.robot.ros2_control:
             element = block.element
             hardware = element.find("hardware")
             if hardware is None:
-                yield from self._lacks(model, element, "hardware")
+                yield from self._missing_child(model, element, "hardware")
             elif not any(":" in child.tag for child in hardware.children):
-                yield from self._lacks(model, hardware, "plugin")
-            for inner in element.find_all("transmission"):
-                yield from self._zero(model, inner)
+                yield from self._missing_child(model, hardware, "plugin")
+            for transmission_element in element.find_all("transmission"):
+                yield from self._zero_reductions(model, transmission_element)
 
-    def _zero(self, model: Model, element: Element) -> Iterator[Finding]:
+    def _zero_reductions(self, model: Model, element: Element) -> Iterator[Finding]:
         for part in element.walk():
             if part.tag in _REDUCTIONS and number(part.text) == 0.0:
                 yield self.at(
                     model,
                     part,
-                    f"<{part.tag}> is zero: the transmission is refused",
-                    help="write 1 where there is no gear",
+                    f"<{part.tag}> is zero, so the transmission is rejected",
+                    help="write 1 if the joint has no gear",
                 )
 
-    def _lacks(self, model: Model, element: Element, *tags: str) -> Iterator[Finding]:
+    def _missing_child(self, model: Model, element: Element, *tags: str) -> Iterator[Finding]:
         where = "ros2_control/hardware" if element.tag == "hardware" else element.tag
         if any(True for _ in misspelt_parts(element, where)):
             return
         for tag in tags:
             if element.find(tag) is None:
                 name = element.get("name")
-                called = f"<{element.tag}>{f' `{name}`' if name else ''}"
-                yield self.at(model, element, f"{called} lacks its <{tag}>")
+                label = f"<{element.tag}>{f' `{name}`' if name else ''}"
+                yield self.at(model, element, f"missing <{tag}> in {label}", help=f"add <{tag}>")
                 return

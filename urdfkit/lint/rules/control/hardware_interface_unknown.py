@@ -15,14 +15,14 @@ if TYPE_CHECKING:
 
 
 class HardwareInterfaceUnknown(RobotRule):
-    """There is no such hardware interface.
+    """A transmission names an unknown hardware interface.
 
     ## What it does
-    Looks for ``<hardwareInterface>`` that is nearly one of those that hardware_interface has. Interfaces of other
-    packages pass.
+    Checks for ``<hardwareInterface>`` values that are nearly the name of an interface of the hardware_interface
+    package. Interfaces of other packages are accepted.
 
     ## Why is this bad?
-    "No suitable hardware interface": controllers for the joint do not start.
+    Loading fails with "No suitable hardware interface", and controllers for the joint do not start.
 
     ## Example
     ```xml
@@ -57,7 +57,7 @@ class HardwareInterfaceUnknown(RobotRule):
     ```
 
     ## Fix safety
-    Safe: it is one letter or two from the right name.
+    Safe: the name differs from a known interface by only one or two letters.
     """
 
     code = "C703"
@@ -66,18 +66,18 @@ class HardwareInterfaceUnknown(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each interface that is misspelt."""
+        """Yield a finding for each misspelt interface."""
         for text, element, _ in written(model.robot):
             package, slash, name = text.rpartition("/")
             if name in INTERFACES and package in ("", PACKAGE):
                 continue
-            right = name if name in INTERFACES else nearest(name, INTERFACES, likeness=0.85)
-            if right is None or (slash and package != PACKAGE and nearest(package, [PACKAGE], likeness=0.7) is None):
+            known = name if name in INTERFACES else nearest(name, INTERFACES, likeness=0.85)
+            if known is None or (slash and package != PACKAGE and nearest(package, [PACKAGE], likeness=0.7) is None):
                 continue
-            whole = f"{PACKAGE}/{right}"
+            qualified = f"{PACKAGE}/{known}"
             yield self.at(
                 model,
                 element,
-                f"there is no hardware interface `{text}`; did you mean `{whole}`?",
-                fix=new_text(model, element, whole, "safe", f"Write `{whole}`"),
+                f"unknown hardware interface `{text}`; did you mean `{qualified}`?",
+                fix=new_text(model, element, qualified, "safe", f"Replace with `{qualified}`"),
             )

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 class HardwareInterfaceUnprefixed(RobotRule):
-    """A hardware interface lacks its package.
+    """A hardware interface lacks its package prefix.
 
     ## What it does
-    Looks for ``EffortJointInterface`` and its like without ``hardware_interface/`` before them.
+    Checks for interfaces such as ``EffortJointInterface`` without the prefix ``hardware_interface/``.
 
     ## Why is this bad?
-    gazebo_ros_control calls it deprecated at each start.
+    gazebo_ros_control logs a deprecation warning at every start.
 
     ## Example
     ```xml
@@ -56,7 +56,7 @@ class HardwareInterfaceUnprefixed(RobotRule):
     ```
 
     ## Fix safety
-    Safe: both mean the same.
+    Safe: both forms name the same interface.
     """
 
     code = "C704"
@@ -66,13 +66,13 @@ class HardwareInterfaceUnprefixed(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each interface without its package."""
+        """Yield a finding for each interface without its package prefix."""
         for text, element, _ in written(model.robot):
             if text in INTERFACES:
-                whole = f"{PACKAGE}/{text}"
+                qualified = f"{PACKAGE}/{text}"
                 yield self.at(
                     model,
                     element,
-                    f"`{text}` lacks its package: `{whole}`",
-                    fix=new_text(model, element, whole, "safe", f"Write `{whole}`"),
+                    f"hardware interface `{text}` lacks its package prefix; write `{qualified}`",
+                    fix=new_text(model, element, qualified, "safe", f"Replace with `{qualified}`"),
                 )

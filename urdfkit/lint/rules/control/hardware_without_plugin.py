@@ -20,19 +20,19 @@ _PLUGINS = {
 """Hardware → file and name of the plugin that loads it (the READMEs of gz_ros2_control and gazebo_ros2_control)."""
 
 
-_PARTS = r"<(?:gazebo|plugin|ros2_control|xacro:(?!if|unless|property|arg)\w)"
-"""What may bring the plugin, or the hardware."""
+_PLUGIN_OR_HARDWARE = r"<(?:gazebo|plugin|ros2_control|xacro:(?!if|unless|property|arg)\w)"
+"""Matches elements that may add the plugin or the hardware."""
 
 
 class HardwareWithoutPlugin(RobotRule):
-    """The hardware of ``<ros2_control>`` is Gazebo's, and no plugin in ``<gazebo>`` loads it.
+    """The ``<hardware>`` of ``<ros2_control>`` runs in Gazebo, but no Gazebo plugin loads it.
 
     ## What it does
-    Looks for robots whose ``<hardware>`` is that of gz_ros2_control, ign_ros2_control or gazebo_ros2_control and that
-    bring none of their plugins. Where other files of the package name one, nothing is said.
+    Checks for robots whose ``<hardware>`` is that of gz_ros2_control, ign_ros2_control or gazebo_ros2_control and that
+    include none of the corresponding plugins. Nothing is reported if another file of the package names such a plugin.
 
     ## Why is this bad?
-    The plugin runs the controller manager inside Gazebo. Without it spawners wait for ``/controller_manager`` for ever,
+    The plugin runs the controller manager inside Gazebo. Without it, spawners wait for ``/controller_manager`` forever
     and the robot does not move.
 
     ## Example
@@ -65,33 +65,35 @@ class HardwareWithoutPlugin(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for the first hardware of Gazebo, where no plugin loads it."""
-        if model.is_incomplete or any("ros2_control" in (one.filename or "") for one, _, _ in plugins(model.robot)):
+        """Yield a finding for the first Gazebo hardware that no plugin loads."""
+        if model.is_incomplete or any(
+            "ros2_control" in (plugin.filename or "") for plugin, _, _ in plugins(model.robot)
+        ):
             return
         for block in model.robot.ros2_control:
             hardware = block.element.find("hardware")
             element = hardware.find("plugin") if hardware is not None else None
             if element is None or element.text not in _PLUGINS:
                 continue
-            own = simulated_hardware(model)
-            if own is not None and element.text.partition("/")[0] not in own:
-                continue  # It is hardware of another Gazebo: that has to be changed first.
+            supported = simulated_hardware(model)
+            if supported is not None and element.text.partition("/")[0] not in supported:
+                continue  # The hardware belongs to another Gazebo generation: reported by C709.
             if not _is_loaded_elsewhere(model):
                 file, name = _PLUGINS[element.text]
-                message = f"`{element.text}` is loaded by a plugin for Gazebo, and there is none"
+                message = f"missing Gazebo plugin for the hardware `{element.text}`"
                 help = f'add <gazebo><plugin filename="{file}" name="{name}">…</plugin></gazebo>'
                 yield self.at(model, element, message, help=help)
             return
 
 
 def _is_loaded_elsewhere(model: Model) -> bool:
-    """Whether another description of the package, or a part of these files that is left out, names a plugin."""
+    """Whether another description of the package, or a conditional part of these files, names a plugin."""
     import re
 
     from urdfkit.lint.around import is_conditional
     from urdfkit.lint.entries import descriptions
 
-    if any(is_conditional(source.text, _PARTS) for source in model.expanded.sources.values()):
+    if any(is_conditional(source.text, _PLUGIN_OR_HARDWARE) for source in model.expanded.sources.values()):
         return True
     texts = descriptions(model.package) if model.package is not None else ()
     return any(re.search(r"<plugin\b[^>]*ros2_control", text) for _, text in texts)

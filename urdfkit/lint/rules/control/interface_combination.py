@@ -14,11 +14,12 @@ if TYPE_CHECKING:
 
 
 class InterfaceCombination(RobotRule):
-    """A joint of ``<ros2_control>`` has an interface twice, or a misspelt one.
+    """A joint of ``<ros2_control>`` declares an interface twice or misspells its name.
 
     ## What it does
-    Looks at ``<command_interface>`` and ``<state_interface>`` of each joint: the same name twice, and names that
-    are nearly ``position``, ``velocity``, ``acceleration`` or ``effort``. Other names belong to the hardware.
+    Checks the ``<command_interface>`` and ``<state_interface>`` elements of each joint for duplicate names, and for
+    names that are nearly ``position``, ``velocity``, ``acceleration`` or ``effort``. Other names are accepted, because
+    hardware may define its own interfaces.
 
     ## Why is this bad?
     The controller manager stops, or the controller finds no interface to claim.
@@ -61,18 +62,18 @@ class InterfaceCombination(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each interface that is there twice or misspelt."""
+        """Yield a finding for each duplicate or misspelt interface."""
         for block in model.robot.ros2_control:
             for joint in block.element.find_all("joint"):
                 for kind in ("command_interface", "state_interface"):
                     seen: set[str] = set()
                     for element in joint.find_all(kind):
                         name = element.get("name") or ""
-                        near = meant_interface(name)
+                        suggestion = meant_interface(name)
                         if name in seen:
-                            message = f"joint `{joint.get('name')}` has the {kind.replace('_', ' ')} `{name}` twice"
+                            message = f"duplicate {kind.replace('_', ' ')} `{name}` of joint `{joint.get('name')}`"
                             yield self.at(model, element, message, attribute="name", joint=joint.get("name"))
-                        elif near is not None:
-                            message = f"there is no standard interface `{name}`; did you mean `{near}`?"
+                        elif suggestion is not None:
+                            message = f"unknown interface `{name}`; did you mean `{suggestion}`?"
                             yield self.at(model, element, message, attribute="name", joint=joint.get("name"))
                         seen.add(name)

@@ -14,21 +14,25 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding, Severity
     from urdfkit.lint.model import Model
 
-_DEGREES = 20.0
-"""How many times a limit of a turning joint is exceeded where degrees must have been meant."""
+_DEGREES_RATIO = 20.0
+"""Ratio of a value to the limit of a revolute joint above which the value must be in degrees."""
+
+_UNITS = {"position": ("m", "rad"), "velocity": ("m/s", "rad/s"), "effort": ("N", "N·m")}
+"""Command interface → unit for a prismatic joint, and for any other."""
 
 
 class InterfaceLimits(RobotRule):
-    """The ``min`` and ``max`` of a command interface are beyond the limits of its joint.
+    """The ``min`` or ``max`` of a command interface exceeds the limits of its joint.
 
     ## What it does
     Compares ``<param name="min">`` and ``<param name="max">`` of the command interfaces ``position``, ``velocity`` and
-    ``effort`` with the ``<limit>`` of the joint, and with each other. Limits of the joint that are narrower hold all
-    the same: that is a note. A warning are a ``min`` above its ``max``, and numbers that must be degrees.
+    ``effort`` with the ``<limit>`` of the joint, and with each other. A ``min`` above its ``max``, and values that
+    appear to be in degrees, are warnings. Any other value beyond the limit of the joint is a note, because the narrower
+    limit still applies.
 
     ## Why is this bad?
-    One of the two is not what is meant. With ``min`` above ``max`` no command is allowed; what hardware makes of limits
-    that are too wide is up to it.
+    One of the two values is wrong. With ``min`` above ``max`` no command is accepted, and the effect of limits wider
+    than those of the joint depends on the hardware.
 
     ## Example
     ```xml
@@ -83,22 +87,22 @@ class InterfaceLimits(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each command interface, at the first of its limits that is beyond."""
+        """Yield a finding for each command interface, at its first invalid limit."""
         for block in model.robot.ros2_control:
             for part in block.element.find_all("joint"):
                 joint = model.robot.joint_by_name.get(part.get("name") or "")
                 for interface in part.find_all("command_interface") if joint is not None else ():
-                    yield from self._of_interface(model, interface, joint)
+                    yield from self._check_interface(model, interface, joint)
 
-    def _of_interface(self, model: Model, interface: Element, joint: Joint | None) -> Iterator[Finding]:
+    def _check_interface(self, model: Model, interface: Element, joint: Joint | None) -> Iterator[Finding]:
         params = {param.get("name"): param for param in interface.find_all("param")}
-        written = {name: number(params[name].text) for name in ("min", "max") if name in params}
-        low, high = written.get("min"), written.get("max")
+        values = {name: number(params[name].text) for name in ("min", "max") if name in params}
+        low, high = values.get("min"), values.get("max")
         name = interface.get("name") or ""
         if joint is None:
             return
         if low is not None and high is not None and low > high:
-            message = f"the {name} command of `{joint.name}` has the min {low:g} above the max {high:g}"
+            message = f"{name} command of joint `{joint.name}`: min {low:g} is greater than max {high:g}"
             yield self.at(model, params["min"], message, joint=joint.name)
             return
         allowed = _limits(joint, name)
@@ -109,11 +113,14 @@ class InterfaceLimits(RobotRule):
                 continue
             if abs(value - limit) <= 1e-3 * max(abs(limit), 1e-3):
                 continue
+            unit = _UNITS[name][joint.type != "prismatic"]
             severity: Severity = "info"
             help = None
-            if joint.type != "prismatic" and name == "position" and abs(value) > _DEGREES * max(abs(limit), 0.1):
-                severity, help = "warning", "angles are in rad"
-            message = f"the {which} {value:g} of the {name} command of `{joint.name}` is beyond its limit {limit:g}"
+            if joint.type != "prismatic" and name == "position" and abs(value) > _DEGREES_RATIO * max(abs(limit), 0.1):
+                severity, help = "warning", "write angles in radians"
+            message = (
+                f"{name} command of joint `{joint.name}`: {which} {value:g} is beyond the joint limit {limit:g} {unit}"
+            )
             yield self.at(model, params[which], message, joint=joint.name, severity=severity, help=help)
             return
 
@@ -125,5 +132,5 @@ def _limits(joint: Joint, interface: str) -> tuple[float, float] | None:
     if interface == "position" and joint.type in ("revolute", "prismatic"):
         low, high = limit.lower or 0.0, limit.upper or 0.0
         return (low, high) if low < high else None
-    one = {"velocity": limit.velocity, "effort": limit.effort}.get(interface)
-    return (-one, one) if one is not None and one > 0.0 else None
+    bound = {"velocity": limit.velocity, "effort": limit.effort}.get(interface)
+    return (-bound, bound) if bound is not None and bound > 0.0 else None

@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 
 class OldTransmissionSyntax(RobotRule):
-    """A transmission is written as those of the PR2 were.
+    """A transmission uses the obsolete syntax of the PR2.
 
     ## What it does
-    Looks for ``<transmission type="…">`` without ``<type>`` inside.
+    Checks for ``<transmission type="…">`` without a ``<type>`` element.
 
     ## Why is this bad?
-    ros_control and gazebo_ros_control skip it: they read ``<type>``.
+    ros_control and gazebo_ros_control read only the ``<type>`` element and skip the transmission.
 
     ## Example
     ```xml
@@ -61,13 +61,13 @@ class OldTransmissionSyntax(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each transmission in the old form."""
+        """Yield a finding for each transmission in the obsolete syntax."""
         for transmission in model.robot.transmissions:
             if is_old(transmission):
                 yield self.at(
                     model,
                     transmission.element,
-                    f"transmission `{transmission.name}` is in the old form: ros_control reads <type>, not type=",
+                    f"transmission `{transmission.name}` uses an obsolete syntax: ros_control reads <type>, not type=",
                     attribute="type",
-                    help="write <type>transmission_interface/SimpleTransmission</type> inside",
+                    help="replace the attribute with <type>transmission_interface/SimpleTransmission</type>",
                 )

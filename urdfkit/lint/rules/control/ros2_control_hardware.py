@@ -22,21 +22,23 @@ HARDWARE = {
 """Package of the plugin → its hardware (the plugin descriptions of gazebo_ros2_control and gz_ros2_control)."""
 
 MOCKS = ("mock_components/GenericSystem", "fake_components/GenericSystem")
-"""The hardware that stands in for any, under its name since Iron and before."""
+"""The hardware that simulates any other, under its names since Iron and before."""
 
 
 class HardwareMismatch(RobotRule):
-    """The hardware of ``<ros2_control>`` is not that of the robot's Gazebo plugin.
+    """The hardware of ``<ros2_control>`` does not match the Gazebo plugin of the robot.
 
     ## What it does
-    Each plugin that runs the controller manager in Gazebo has hardware of its own: gazebo_ros2_control has
+    Each plugin that runs the controller manager in Gazebo has its own hardware: gazebo_ros2_control has
     ``gazebo_ros2_control/GazeboSystem``, gz_ros2_control ``gz_ros2_control/GazeboSimSystem`` and ign_ros2_control
-    ``ign_ros2_control/IgnitionSystem``. Names that are nearly one of them, or nearly ``mock_components/GenericSystem``,
-    are reported too; other hardware passes. From Jazzy on (``--target ros2-jazzy``) there is no Gazebo classic, and so
-    no ``gazebo_ros2_control/GazeboSystem``; nor is there for ``--target gz``, and ``classic`` has only that one.
+    ``ign_ros2_control/IgnitionSystem``. The rule reports hardware of another plugin, and names that are nearly one of
+    these or ``mock_components/GenericSystem``. Other hardware is accepted.
+
+    ROS 2 from Jazzy on (``--target ros2-jazzy``) and Gazebo Sim (``--target gz``) have no
+    ``gazebo_ros2_control/GazeboSystem``; Gazebo classic (``--target classic``) has only that hardware.
 
     ## Why is this bad?
-    pluginlib finds no such class: the controller manager stops.
+    pluginlib does not find the class, and the controller manager stops.
 
     ## Example
     ```xml
@@ -65,7 +67,7 @@ class HardwareMismatch(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the hardware of that plugin is taken.
+    Unsafe: the fix writes the hardware of the Gazebo plugin, but the plugin may be the one that is wrong.
     """
 
     code = "C709"
@@ -74,11 +76,11 @@ class HardwareMismatch(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each hardware that the robot's Gazebo plugin does not have."""
+        """Yield a finding for each hardware that the Gazebo plugin of the robot does not have."""
         if not model.robot.ros2_control:
             return
         files = {(plugin.filename or "").strip() for plugin, _, _ in plugins(model.robot)}
-        hosts = {known for known in HARDWARE if any(known in file for file in files)}
+        hosts = {package for package in HARDWARE if any(package in file for file in files)}
         for block in model.robot.ros2_control:
             hardware = block.element.find("hardware")
             element = hardware.find("plugin") if hardware is not None else None
@@ -89,24 +91,24 @@ class HardwareMismatch(RobotRule):
             if text in MOCKS:
                 continue
             if text == HARDWARE["gazebo_ros2_control"] and model.release in WITHOUT_CLASSIC:
-                right, message = HARDWARE["gz_ros2_control"], f"`{text}` does not exist for {model.release}"
+                expected, message = HARDWARE["gz_ros2_control"], f"hardware `{text}` does not exist for {model.release}"
             elif text in HARDWARE.values():
-                if not hosts and (own := simulated_hardware(model)) is not None and package not in own:
-                    hosts = {own[0]}
-                # In Humble gz_ros2_control has the hardware of both names.
+                if not hosts and (supported := simulated_hardware(model)) is not None and package not in supported:
+                    hosts = {supported[0]}
+                # In Humble, gz_ros2_control provides the hardware under both names.
                 if len(hosts) != 1 or package in hosts or {package, *hosts} == {"gz_ros2_control", "ign_ros2_control"}:
                     continue
-                right = HARDWARE[next(iter(hosts))]
-                message = f"`{text}` is not the hardware of {next(iter(hosts))}"
+                expected = HARDWARE[next(iter(hosts))]
+                message = f"hardware `{text}` does not belong to {next(iter(hosts))}"
             else:
-                near = HARDWARE.get(package) or nearest(text, (*HARDWARE.values(), *MOCKS), likeness=0.9)
-                if near is None:
+                suggestion = HARDWARE.get(package) or nearest(text, (*HARDWARE.values(), *MOCKS), likeness=0.9)
+                if suggestion is None:
                     continue
-                right, message = near, f"there is no hardware `{text}`"
+                expected, message = suggestion, f"unknown hardware `{text}`"
             yield self.at(
                 model,
                 element,
                 message,
-                help=f"it is `{right}`",
-                fix=new_text(model, element, right, "unsafe", f"Write `{right}`"),
+                help=f"write `{expected}`",
+                fix=new_text(model, element, expected, "unsafe", f"Replace with `{expected}`"),
             )

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 class Ros2ControlInGazebo(RobotRule):
-    """``<ros2_control>`` stands inside ``<gazebo>``.
+    """``<ros2_control>`` is inside ``<gazebo>``.
 
     ## What it does
-    Looks for ``<ros2_control>`` as a child of ``<gazebo>``.
+    Checks for ``<ros2_control>`` as a child of ``<gazebo>``.
 
     ## Why is this bad?
-    ros2_control looks for it in ``<robot>`` only: there is no hardware, and the controller manager does not start.
+    ros2_control reads only children of ``<robot>``, so it finds no hardware and the controller manager does not start.
 
     ## Example
     ```xml
@@ -46,7 +46,7 @@ class Ros2ControlInGazebo(RobotRule):
     ```
 
     ## Fix safety
-    Safe where nothing else is in the ``<gazebo>``, which is taken away; otherwise it is left to you.
+    Safe: the fix removes the surrounding ``<gazebo>`` tags. No fix is offered if ``<gazebo>`` has other children.
     """
 
     code = "C708"
@@ -55,22 +55,23 @@ class Ros2ControlInGazebo(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each block in the wrong place."""
+        """Yield a finding for each misplaced block."""
         for block in model.robot.gazebo:
             for child in block.element.find_all("ros2_control"):
                 yield self.at(
                     model,
                     child,
-                    "<ros2_control> in <gazebo> is not found: it stands in <robot>",
-                    fix=_unwrapped(model, block.element) if len(block.element.children) == 1 else None,
+                    "<ros2_control> inside <gazebo> is not read",
+                    help="move it into <robot>",
+                    fix=_without_parent(model, block.element) if len(block.element.children) == 1 else None,
                 )
 
 
-def _unwrapped(model: Model, gazebo: Element) -> Fix | None:
+def _without_parent(model: Model, gazebo: Element) -> Fix | None:
     position = gazebo.origin.position
     tag = model.tag(position)
     if tag is None or tag.close is None or tag.name != "gazebo":
         return None
     span = model.document(position.file).source.span
     edits = (Edit(span(tag.start, tag.end), ""), Edit(span(tag.close, tag.close_end), ""))
-    return Fix("safe", "Take the <gazebo> around it away", edits)
+    return Fix("safe", "Remove the surrounding <gazebo>", edits)

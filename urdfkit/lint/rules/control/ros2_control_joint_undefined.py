@@ -15,15 +15,15 @@ if TYPE_CHECKING:
 
 
 class Ros2ControlJointUndefined(RobotRule):
-    """``<ros2_control>`` names a joint that is not there, or commands one that is fixed.
+    """``<ros2_control>`` names an undefined joint, or commands a fixed joint.
 
     ## What it does
-    Compares the joints of ``<ros2_control>`` with those of the robot. Those with a ``<command_interface>`` have to
-    move; that a fixed joint is commanded is a warning.
+    Compares the joints of ``<ros2_control>`` with the joints of the robot. A ``<command_interface>`` of a fixed joint
+    is a warning.
 
     ## Why is this bad?
-    The controller manager stops: "Joint … not found in URDF". What commands a fixed joint moves nothing, and
-    in Gazebo there is no such joint.
+    The controller manager stops with "Joint … not found in URDF". Commands to a fixed joint have no effect, and Gazebo
+    removes fixed joints from the model.
 
     ## Example
     ```xml
@@ -58,7 +58,7 @@ class Ros2ControlJointUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the joint with the nearest name is taken.
+    Unsafe: the fix writes the nearest joint name, which may not be the intended one.
     """
 
     code = "C707"
@@ -67,7 +67,7 @@ class Ros2ControlJointUndefined(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint that the block names and the robot lacks."""
+        """Yield a finding for each undefined joint and each commanded fixed joint."""
         joints = model.robot.joint_by_name
         for block in model.robot.ros2_control:
             for element in block.element.find_all("joint"):
@@ -77,16 +77,16 @@ class Ros2ControlJointUndefined(RobotRule):
                 if name in joints:
                     command = element.find("command_interface")
                     if command is not None and joints[name].type == "fixed":
-                        message = f"<ros2_control> `{block.name}` commands the joint `{name}`, which is fixed"
+                        message = f"<ros2_control> `{block.name}` commands the fixed joint `{name}`"
                         yield self.at(model, command, message, joint=name, severity="warning")
                     continue
                 near, hint = meant(name, joints)
-                found = self.at(
+                finding = self.at(
                     model,
                     element,
-                    f"<ros2_control> `{block.name}` has the joint `{name}`, which the robot does not have{hint}",
+                    f"<ros2_control> `{block.name}` names the undefined joint `{name}`{hint}",
                     attribute="name",
                     joint=name,
-                    fix=new_value(model, element, "name", near, "unsafe", f"Write `{near}`") if near else None,
+                    fix=new_value(model, element, "name", near, "unsafe", f"Replace with `{near}`") if near else None,
                 )
-                yield from doubted(model, name, near, found)
+                yield from doubted(model, name, near, finding)

@@ -13,17 +13,17 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 _TYPES = ("system", "sensor", "actuator")
-"""What the resource manager of ros2_control asks for."""
+"""The types that the resource manager of ros2_control accepts."""
 
 
 class Ros2ControlTypeUnknown(RobotRule):
-    """The type of ``<ros2_control>`` is none of those there are.
+    """A ``<ros2_control>`` block has an unknown type.
 
     ## What it does
-    Looks for ``<ros2_control type="…">`` that is not ``system``, ``sensor`` or ``actuator``.
+    Checks for ``<ros2_control type="…">`` values other than ``system``, ``sensor`` and ``actuator``.
 
     ## Why is this bad?
-    The resource manager passes over the whole block: no controller finds its interfaces.
+    The resource manager skips the whole block, so no controller finds its interfaces.
 
     ## Example
     ```xml
@@ -46,7 +46,7 @@ class Ros2ControlTypeUnknown(RobotRule):
     ```
 
     ## Fix safety
-    Safe: it is one letter or two from the right word, or the same in another case.
+    Safe: the value differs from a known type only in case or by one or two letters.
     """
 
     code = "C716"
@@ -57,15 +57,15 @@ class Ros2ControlTypeUnknown(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each block of an unknown type."""
         for block in model.robot.ros2_control:
-            written = block.element.get("type")
-            if written is None or written in _TYPES or "$" in written:
+            value = block.element.get("type")
+            if value is None or value in _TYPES or "$" in value:
                 continue
-            near, hint = meant(written, _TYPES)
-            hint = hint or f"; it is one of {', '.join(_TYPES)}"
+            near, hint = meant(value, _TYPES)
+            hint = hint or f"; use one of {', '.join(_TYPES)}"
             yield self.at(
                 model,
                 block.element,
-                f"<ros2_control> has no type `{written}`{hint}",
+                f"unknown <ros2_control> type `{value}`{hint}",
                 attribute="type",
-                fix=new_value(model, block.element, "type", near, "safe", f"Write `{near}`") if near else None,
+                fix=new_value(model, block.element, "type", near, "safe", f"Replace with `{near}`") if near else None,
             )

@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 
 
 class TransmissionInRos2(RobotRule):
-    """Transmissions are not read in ROS 2.
+    """ROS 2 does not read ``<transmission>`` elements of the robot.
 
     ## What it does
-    With ``--target ros2`` or ``gz`` it looks for ``<transmission>`` in robots without ``<ros2_control>``.
+    With ``--target ros2`` or ``--target gz``, checks for ``<transmission>`` in robots without ``<ros2_control>``.
 
     ## Why is this bad?
-    ROS 2 reads ``<ros2_control>`` and nothing else: no joint can be controlled.
+    ROS 2 reads joint interfaces only from ``<ros2_control>``, so controllers find no joints.
 
     ## Example
     ```xml
@@ -67,11 +67,12 @@ class TransmissionInRos2(RobotRule):
         robot = model.robot
         if robot.transmissions and not robot.ros2_control and not model.is_incomplete:
             first = robot.transmissions[0]
-            number = len(robot.transmissions)
-            others = f" and {number - 1} others" if number > 1 else ""
+            count = len(robot.transmissions)
+            others = f" and {count - 1} more" if count > 1 else ""
             yield self.at(
                 model,
                 first.element,
-                f"ROS 2 does not read transmissions (`{first.name}`{others}): it reads <ros2_control>",
+                f"ROS 2 does not read transmissions (`{first.name}`{others})",
                 attribute="name",
+                help="declare the joints in <ros2_control>",
             )

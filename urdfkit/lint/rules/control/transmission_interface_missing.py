@@ -17,14 +17,16 @@ if TYPE_CHECKING:
 
 
 class TransmissionInterfaceMissing(RobotRule):
-    """A transmission does not say by which interface its joint is driven.
+    """A joint of a transmission has no hardware interface.
 
     ## What it does
-    Looks for ``<joint>`` of a transmission without ``<hardwareInterface>``. It is an error where the robot brings
-    gazebo_ros_control. Transmissions in the old form, with their type in an attribute, have none.
+    Checks for ``<joint>`` elements of transmissions without ``<hardwareInterface>``. The finding is an error if the
+    robot uses gazebo_ros_control. Transmissions in the syntax of the PR2, with their type in an attribute, are not
+    checked.
 
     ## Why is this bad?
-    gazebo_ros_control skips the joint since ROS Indigo; in ``<actuator>`` the interface counts no more.
+    gazebo_ros_control has skipped such joints since ROS Indigo, and no longer reads a ``<hardwareInterface>`` inside
+    ``<actuator>``.
 
     ## Example
     ```xml
@@ -59,7 +61,7 @@ class TransmissionInterfaceMissing(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the interface of the transmission's actuator is taken, where it names one.
+    Unsafe: the fix copies the interface that the actuator of the transmission names, which may not be the intended one.
     """
 
     code = "C702"
@@ -69,7 +71,7 @@ class TransmissionInterfaceMissing(RobotRule):
     not_for = NOT_GAZEBO | {"gz", "ros2"}
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint of a transmission without interface."""
+        """Yield a finding for each joint of a transmission without a hardware interface."""
         if not model.robot.transmissions or model.robot.ros2_control:
             return
         severity: Severity | None = "error" if has_gazebo_ros_control(model.robot) else None
@@ -80,7 +82,7 @@ class TransmissionInterfaceMissing(RobotRule):
                     yield self.at(
                         model,
                         part.element,
-                        f"transmission `{transmission.name}` names no hardware interface for joint `{part.name}`",
+                        f"transmission `{transmission.name}` has no hardware interface for joint `{part.name}`",
                         attribute="name",
                         joint=part.name,
                         help="add <hardwareInterface>hardware_interface/…JointInterface</hardwareInterface>",
@@ -98,6 +100,6 @@ def _from_actuator(model: Model, transmission: Transmission, joint: Element) -> 
     source = model.document(position.file).source
     text = f"<hardwareInterface>{names[0]}</hardwareInterface>"
     if tag.close is not None:
-        return Fix("unsafe", "Take that of the actuator", (Edit(source.span(tag.end, tag.close), text),))
+        return Fix("unsafe", "Copy the interface of the actuator", (Edit(source.span(tag.end, tag.close), text),))
     end = len(source.text[: tag.end - 2].rstrip())
-    return Fix("unsafe", "Take that of the actuator", (Edit(source.span(end, tag.end), f">{text}</joint>"),))
+    return Fix("unsafe", "Copy the interface of the actuator", (Edit(source.span(end, tag.end), f">{text}</joint>"),))

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 class TransmissionJointUndefined(RobotRule):
-    """A transmission is for a joint that is not there.
+    """A transmission names an undefined joint.
 
     ## What it does
-    Compares the joints of ``<transmission>`` with those of the robot.
+    Compares the joints of ``<transmission>`` with the joints of the robot.
 
     ## Why is this bad?
-    The transmission is skipped with a line in the log, and controllers for the joint do not start.
+    The transmission is skipped with a log message, and controllers for the joint do not start.
 
     ## Example
     ```xml
@@ -56,7 +56,7 @@ class TransmissionJointUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the joint with the nearest name is taken.
+    Unsafe: the fix writes the nearest joint name, which may not be the intended one.
     """
 
     code = "C701"
@@ -65,19 +65,21 @@ class TransmissionJointUndefined(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint that a transmission names and the robot lacks."""
+        """Yield a finding for each undefined joint of a transmission."""
         joints = model.robot.joint_by_name
         for transmission in model.robot.transmissions:
             for part in transmission.joints:
                 if not part.name or part.name in joints or "$" in part.name:
                     continue
                 near, hint = meant(part.name, joints)
-                found = self.at(
+                finding = self.at(
                     model,
                     part.element,
-                    f"transmission `{transmission.name}` is for `{part.name}`, which is no joint{hint}",
+                    f"transmission `{transmission.name}` names the undefined joint `{part.name}`{hint}",
                     attribute="name",
                     joint=part.name,
-                    fix=new_value(model, part.element, "name", near, "unsafe", f"Write `{near}`") if near else None,
+                    fix=new_value(model, part.element, "name", near, "unsafe", f"Replace with `{near}`")
+                    if near
+                    else None,
                 )
-                yield from doubted(model, part.name, near, found)
+                yield from doubted(model, part.name, near, finding)

@@ -15,18 +15,18 @@ if TYPE_CHECKING:
 
 _PACKAGE = "transmission_interface"
 _TYPES = ("SimpleTransmission", "DifferentialTransmission", "FourBarLinkageTransmission")
-"""The transmissions of transmission_interface, in ros_control and in ros2_control alike."""
+"""The classes of transmission_interface, the same in ros_control and ros2_control."""
 
 
 class TransmissionTypeUnknown(RobotRule):
-    """There is no such transmission.
+    """A transmission has an unknown type.
 
     ## What it does
-    Looks for ``<type>`` of a transmission, and ``<plugin>`` of one in ``<ros2_control>``, that is nearly one of those
-    of transmission_interface. Transmissions of other packages pass.
+    Checks the ``<type>`` of transmissions, and the ``<plugin>`` of transmissions in ``<ros2_control>``, for names that
+    are nearly a class of transmission_interface. Transmissions of other packages are accepted.
 
     ## Why is this bad?
-    pluginlib finds no such class: the robot's hardware does not load its transmissions.
+    pluginlib does not find the class, so the hardware does not load its transmissions.
 
     ## Example
     ```xml
@@ -61,7 +61,7 @@ class TransmissionTypeUnknown(RobotRule):
     ```
 
     ## Fix safety
-    Safe: it is one letter or two from the right name.
+    Safe: the name differs from a known class by only one or two letters.
     """
 
     code = "C715"
@@ -70,28 +70,28 @@ class TransmissionTypeUnknown(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each transmission that is misspelt."""
-        for element in _types(model):
+        """Yield a finding for each misspelt transmission type."""
+        for element in _type_elements(model):
             package, slash, name = element.text.rpartition("/")
-            right = name if name in _TYPES else nearest(name, _TYPES, likeness=0.85)
-            is_ours = not slash or package == _PACKAGE or nearest(package, [_PACKAGE], likeness=0.8) is not None
-            whole = f"{_PACKAGE}/{right}"
-            if right is None or not is_ours or element.text in (whole, right):
+            suggestion = name if name in _TYPES else nearest(name, _TYPES, likeness=0.85)
+            is_standard = not slash or package == _PACKAGE or nearest(package, [_PACKAGE], likeness=0.8) is not None
+            qualified = f"{_PACKAGE}/{suggestion}"
+            if suggestion is None or not is_standard or element.text in (qualified, suggestion):
                 continue
             yield self.at(
                 model,
                 element,
-                f"there is no transmission `{element.text}`; did you mean `{whole}`?",
-                fix=new_text(model, element, whole, "safe", f"Write `{whole}`"),
+                f"unknown transmission type `{element.text}`; did you mean `{qualified}`?",
+                fix=new_text(model, element, qualified, "safe", f"Replace with `{qualified}`"),
             )
 
 
-def _types(model: Model) -> Iterator[Element]:
-    """Yield the elements that name transmissions."""
-    named = [(transmission.element, "type") for transmission in model.robot.transmissions]
+def _type_elements(model: Model) -> Iterator[Element]:
+    """Yield the elements that name the type of a transmission."""
+    parents = [(transmission.element, "type") for transmission in model.robot.transmissions]
     for block in model.robot.ros2_control:
-        named += [(element, "plugin") for element in block.element.find_all("transmission")]
-    for element, tag in named:
-        found = element.find(tag)
-        if found is not None and found.text and "$" not in found.text:
-            yield found
+        parents += [(element, "plugin") for element in block.element.find_all("transmission")]
+    for element, tag in parents:
+        type_element = element.find(tag)
+        if type_element is not None and type_element.text and "$" not in type_element.text:
+            yield type_element

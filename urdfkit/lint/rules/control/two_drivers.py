@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 
 class TwoDrivers(RobotRule):
-    """A joint is driven by gazebo_ros_control and by another plugin.
+    """A joint is driven by a controller and by another Gazebo plugin.
 
     ## What it does
-    Looks for joints that have a transmission, in robots with gazebo_ros_control, and that a drive turns as well.
-    The same with ``<ros2_control>`` and its plugins for Gazebo, where the joint has a command interface.
+    Checks for joints that have a transmission, in robots with gazebo_ros_control, and that another plugin also drives.
+    The same applies to joints with a command interface in ``<ros2_control>`` if its hardware runs in Gazebo.
 
     ## Why is this bad?
-    Both set the joint in each step: it jerks, or does what the one that comes last says.
+    Both set the joint in every step, so the joint jerks or follows the plugin that runs last.
 
     ## Example
     ```xml
@@ -92,10 +92,10 @@ class TwoDrivers(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each drive, or controller, whose joints have another driver."""
+        """Yield a finding for each plugin that drives joints of a controller."""
         from urdfkit.description.plugins import values
 
-        driven = _driven(model.robot)
+        driven = _controlled_joints(model.robot)
         if not driven:
             return
         for plugin, _, _ in plugins(model.robot):
@@ -113,24 +113,24 @@ class TwoDrivers(RobotRule):
                 yield self.at(
                     model,
                     plugin.element,
-                    f"`{', '.join(dict.fromkeys(both))}` is driven by {driven[both[0]]} as well",
+                    f"`{', '.join(dict.fromkeys(both))}` is also driven by {driven[both[0]]}",
                     attribute="name",
                     joint=both[0],
-                    help="take one of them away",
+                    help="remove one of the two drivers",
                 )
 
 
-def _driven(robot: Robot) -> dict[str, str]:
-    """Return the joints that controllers drive in Gazebo, and by what."""
-    found: dict[str, str] = {}
+def _controlled_joints(robot: Robot) -> dict[str, str]:
+    """Return the joints that controllers drive in Gazebo, each with the name of its driver."""
+    drivers: dict[str, str] = {}
     if robot.transmissions and has_gazebo_ros_control(robot):
         for transmission in robot.transmissions:
-            found.update({part.name: "gazebo_ros_control" for part in transmission.joints if part.name})
+            drivers.update({part.name: "gazebo_ros_control" for part in transmission.joints if part.name})
     for block in robot.ros2_control:
         hardware = block.element.find("hardware")
         element = hardware.find("plugin") if hardware is not None else None
         if element is not None and element.text.startswith(("gazebo_ros2", "gz_ros2", "ign_ros2")):
             for joint in block.element.find_all("joint"):
                 if joint.find("command_interface") is not None:
-                    found[joint.get("name") or ""] = "ros2_control"
-    return found
+                    drivers[joint.get("name") or ""] = "ros2_control"
+    return drivers
