@@ -27,7 +27,7 @@ def test_what_is_no_utf8_is_found_at_its_place(write, name, content, severity, p
     (finding,) = lint(write(name, content))
     assert (finding.code, finding.severity, (finding.line, finding.column)) == ("E001", severity, place)
     assert finding.message.startswith(message)
-    assert finding.help == "save it as UTF-8"
+    assert finding.help == "save the file as UTF-8"
 
 
 @pytest.mark.parametrize("name", ["r.urdf", "r.urdf.xacro"])

@@ -68,10 +68,10 @@ def unused(path, **options) -> list[tuple[int, str]]:
 
 def test_what_is_not_asked_for_is_not_called_unused(write):
     path = write("r.xacro", "<!-- urdfkit: ignore-file J403, T210, C705 -->\n" + LINK.replace("TRAIL", ""))
-    assert unused(path) == [(2, "there is no `J403` here to ignore")]
+    assert unused(path) == [(2, "unused suppression of `J403`")]
     assert unused(path, target="mujoco") == []
     assert unused(path, ignore=["J4"]) == []
-    assert unused(path, select=["E019", "J403"]) == [(2, "there is no `J403` here to ignore")]
+    assert unused(path, select=["E019", "J403"]) == [(2, "unused suppression of `J403`")]
     write("lost.xacro", '<!-- urdfkit: ignore-file J403 --><link name="a"/><xacro:include filename="gone.xacro"/>')
     assert unused("lost.xacro") == []
 
@@ -92,5 +92,5 @@ def test_one_robot_of_several_is_use_enough(write):
         "p/bare.urdf.xacro",
         bare.format("false", "b").join(('<robot name="q" xmlns:xacro="http://www.ros.org/wiki/xacro">', "</robot>")),
     )
-    assert [message for _, message in unused("p/bare.urdf.xacro")] == ["there is no `I503`, `J403` here to ignore"]
-    assert [message for _, message in unused("p")] == ["there is no `J403` here to ignore"]
+    assert [message for _, message in unused("p/bare.urdf.xacro")] == ["unused suppression of `I503`, `J403`"]
+    assert [message for _, message in unused("p")] == ["unused suppression of `J403`"]

@@ -24,14 +24,14 @@ _COUNTS = {"xyz": 3, "rpy": 3, "size": 3, "scale": 3, "rgba": 4}
 
 
 class BadNumber(RobotRule):
-    """A value that has to be a number, or several, is none.
+    """A numeric value cannot be parsed.
 
     ## What it does
-    Checks every attribute that holds numbers (``xyz``, ``rpy``, ``size``, ``radius``, ``value``, ``lower`` …): commas
-    between the numbers, units after them, or an expression that was never evaluated do not parse.
+    Checks every attribute that holds numbers (``xyz``, ``rpy``, ``size``, ``radius``, ``value``, ``lower`` …). Commas
+    between numbers, trailing units and expressions that were never evaluated cannot be parsed.
 
     ## Why is this bad?
-    check_urdf, Pinocchio and MuJoCo refuse the whole robot; more lenient readers take zero.
+    check_urdf, Pinocchio and MuJoCo reject the whole robot; more lenient readers use zero.
 
     ## Example
     ```xml
@@ -58,7 +58,7 @@ class BadNumber(RobotRule):
     ```
 
     ## Fix safety
-    Safe where commas between numbers are the only fault; anything else is left to you.
+    Safe: the fix replaces commas between numbers with spaces. No fix is offered for other defects.
     """
 
     code = "E010"
@@ -66,20 +66,20 @@ class BadNumber(RobotRule):
     fix = "safe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each number the reader could not read, one for a property that several use."""
-        told: set[Place] = set()
+        """Yield a finding for each invalid number, once per property that several values use."""
+        reported: set[Place] = set()
         for problem in model.robot.problems:
             if problem.kind != "bad-number" or model.is_unresolved(problem.element, problem.attribute):
                 continue
             written = problem.element.get(problem.attribute) if problem.attribute else problem.element.text
             if is_unexpanded(written or ""):
-                continue  # X110 says why.
+                continue  # Reported by X110.
             place = blamed(model, problem.element, problem.attribute, is_no_number) if problem.attribute else None
             if place is not None:
-                if place not in told:
-                    told.add(place)
-                    used = f"it is used at {model.shown(problem.element.origin.position)}"
-                    yield self.at(model, place[0], problem.message, attribute=place[1], help=used)
+                if place not in reported:
+                    reported.add(place)
+                    help = f"the value is used at {model.shown(problem.element.origin.position)}"
+                    yield self.at(model, place[0], problem.message, attribute=place[1], help=help)
                 continue
             fix = self._without_commas(problem, model)
             yield self.at(
@@ -94,9 +94,9 @@ class BadNumber(RobotRule):
         written = model.literal(problem.element, problem.attribute) if problem.attribute else None
         if written is None:
             return None
-        # A decimal comma ("0,5 0 0") is no separator: there has to be one between any two numbers.
+        # Commas are separators only if they separate all numbers; "0,5 0 0" has a decimal comma.
         words = _COMMA.split(written.value.strip())
         if len(words) != _COUNTS.get(written.name) or any(number(word) is None for word in words):
             return None
         span = model.document(problem.origin.position.file).source.span(written.value_start, written.value_end)
-        return Fix("safe", "Replace commas by blanks", (Edit(span, " ".join(words)),))
+        return Fix("safe", "Replace commas with spaces", (Edit(span, " ".join(words)),))

@@ -16,15 +16,15 @@ if TYPE_CHECKING:
 
 
 class DuplicateSingletonElement(RobotRule):
-    """An element that may stand there once stands there twice.
+    """An element that may occur once occurs twice.
 
     ## What it does
-    Looks for a second ``<inertial>``, ``<mass>``, ``<inertia>``, ``<origin>``, ``<geometry>``, ``<axis>``,
-    ``<limit>`` … in one element, and for a plugin's parameter that is given twice with different values although
-    the plugin reads one. A second material, or parameter, is a warning: no reader refuses it.
+    Checks for a second ``<inertial>``, ``<mass>``, ``<inertia>``, ``<origin>``, ``<geometry>``, ``<axis>``, ``<limit>``
+    … in the same element, and for a plugin parameter that is given twice with different values although the plugin
+    reads only one. A second material or plugin parameter is a warning, because no reader rejects it.
 
     ## Why is this bad?
-    Readers differ: urdfdom and Gazebo take the first, others the last, MuJoCo refuses the file ("repeated
+    Readers differ: urdfdom and Gazebo use the first element, others the last, and MuJoCo rejects the file ("repeated
     element").
 
     ## Example
@@ -53,8 +53,8 @@ class DuplicateSingletonElement(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: all but the first are taken away, which is the one that most readers use, but perhaps not the one you
-    mean.
+    Unsafe: the fix removes all but the first element. Most readers use the first one, but it may not be the intended
+    one.
     """
 
     code = "E013"
@@ -62,50 +62,54 @@ class DuplicateSingletonElement(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each element that is one too many."""
+        """Yield a finding for each duplicate element."""
         for part in model.parts:
-            yield from self._look(model, part.element)
+            yield from self._check_children(model, part.element)
         if model.robot.gazebo:
-            yield from self._plugins(model)
+            yield from self._check_plugins(model)
 
-    def _look(self, model: Model, element: Element) -> Iterator[Finding]:
+    def _check_children(self, model: Model, element: Element) -> Iterator[Finding]:
         allowed, children = URDF_CHILDREN[element.tag], element.children
         if len(children) > 1:
-            first: dict[str, Element] = {}
+            first_by_kind: dict[str, Element] = {}
             for child in children:
                 kind = "shape" if element.tag == "geometry" and child.tag in allowed else child.tag
                 if child.tag not in allowed or (element.tag == "link" and child.tag != "inertial"):
                     continue
-                if kind in first:
+                if kind in first_by_kind:
                     severity: Severity | None = "warning" if kind == "material" else None
-                    yield self._second(model, element.tag, child, first[kind], severity)
+                    yield self._duplicate(model, element.tag, child, first_by_kind[kind], severity)
                 else:
-                    first[kind] = child
+                    first_by_kind[kind] = child
         for child in children:
             if child.tag in URDF_CHILDREN and child.tag in allowed and child.tag != "material":
-                yield from self._look(model, child)
+                yield from self._check_children(model, child)
 
-    def _plugins(self, model: Model) -> Iterator[Finding]:
+    def _check_plugins(self, model: Model) -> Iterator[Finding]:
         from urdfkit.lint.gazebo import plugins, specs
 
         for plugin, _, _ in plugins(model.robot):
-            known = specs(plugin)
-            first: dict[str, Element] = {}
+            candidates = specs(plugin)
+            first_by_tag: dict[str, Element] = {}
             for child in plugin.element.children:
-                parameters = [parameter for spec in known if (parameter := spec.parameter(child.tag)) is not None]
+                parameters = [parameter for spec in candidates if (parameter := spec.parameter(child.tag)) is not None]
                 if not parameters or any(parameter.repeats for parameter in parameters) or child.children:
                     continue
-                before = first.setdefault(child.tag, child)
-                if before.text != child.text:
-                    yield self._second(model, "plugin", child, before, "warning")
+                first = first_by_tag.setdefault(child.tag, child)
+                if first.text != child.text:
+                    yield self._duplicate(model, "plugin", child, first, "warning")
 
-    def _second(self, model: Model, parent: str, child: Element, first: Element, severity: Severity | None) -> Finding:
+    def _duplicate(
+        self, model: Model, parent: str, child: Element, first: Element, severity: Severity | None
+    ) -> Finding:
         where = model.shown(first.origin.position)
         return self.at(
             model,
             child,
-            f"a second <{child.tag}> in one <{parent}>: readers differ in which they take",
-            help=f"the first is at {where}" if first.tag == child.tag else f"<{first.tag}> is at {where}",
-            fix=without_element(model, child, "unsafe", f"Take the second <{child.tag}> away"),
+            f"extra <{child.tag}> in <{parent}>: some readers use the first, others the last",
+            help=f"remove one of them; the first is at {where}"
+            if first.tag == child.tag
+            else f"remove it or the <{first.tag}> at {where}",
+            fix=without_element(model, child, "unsafe", f"Remove the extra <{child.tag}>"),
             severity=severity,
         )

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 LARGEST = 1e10
-"""Nothing a robot is made of is larger, in SI units."""
+"""Largest plausible value, in SI units."""
 
 _ATTRIBUTES = {
     "origin": ("xyz", "rpy"),
@@ -28,14 +28,14 @@ _ATTRIBUTES = {
 
 
 class NanOrInf(RobotRule):
-    """A pose, a size, a mass or an inertia is not finite, or no length of this world.
+    """A pose, size, mass or inertia is not finite or is implausibly large.
 
     ## What it does
-    Reports ``nan`` and ``inf``, and poses, sizes, masses and inertias beyond 1e10, which stand for infinity in some
-    exporters. Limits of joints may be infinite.
+    Checks for ``nan`` and ``inf``, and for poses, sizes, masses and inertias beyond 1e10, which some exporters write
+    instead of infinity. Joint limits may be infinite.
 
     ## Why is this bad?
-    One such number makes every position a not-a-number: simulators stop or explode.
+    One such value makes every position not-a-number, and simulators stop or diverge.
 
     ## Example
     ```xml
@@ -66,16 +66,17 @@ class NanOrInf(RobotRule):
     name = "nan-or-inf"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each value that is not finite or beyond all measure."""
+        """Yield a finding for each value that is not finite or implausibly large."""
         for problem in model.robot.problems:
             if problem.kind == "not-finite":
                 yield self.at(model, problem.element, problem.message, attribute=problem.attribute)
         for element in model.elements:
             for attribute in _ATTRIBUTES.get(element.tag, ()):
                 text = element.get(attribute)
-                # Only what has an exponent or eleven digits can be so large.
+                # Only text with an exponent or at least eleven characters can be that large.
                 if text is None or (len(text) < 11 and "e" not in text.lower()):
                     continue
                 if any(LARGEST < abs(value) <= BEYOND for value in numbers(text) or ()):
-                    message = f'{attribute}="{text}" of <{element.tag}> stands for infinity'
-                    yield self.at(model, element, message, attribute=attribute)
+                    message = f'{attribute}="{text}" of <{element.tag}> is larger than {LARGEST:g}'
+                    help = "write the real value in SI units"
+                    yield self.at(model, element, message, attribute=attribute, help=help)

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 class PluginOutsideGazebo(RobotRule):
-    """A plugin or a sensor stands directly in ``<robot>``.
+    """A ``<plugin>`` or ``<sensor>`` is a direct child of ``<robot>``.
 
     ## What it does
-    Looks for ``<plugin>``, and for ``<sensor>`` as Gazebo writes it, outside of ``<gazebo>``.
+    Checks for ``<plugin>``, and for ``<sensor>`` in the syntax of Gazebo, outside ``<gazebo>``.
 
     ## Why is this bad?
-    Nobody reads it there: Gazebo takes only what is in ``<gazebo>`` over from a URDF.
+    Gazebo reads only the content of ``<gazebo>`` from a URDF, so the plugin or sensor is not loaded.
 
     ## Example
     ```xml
@@ -42,7 +42,7 @@ class PluginOutsideGazebo(RobotRule):
     ```
 
     ## Fix safety
-    Safe: ``<gazebo>`` is written around a plugin. A sensor needs the link it is on, which you have to say.
+    Safe: the fix wraps a plugin in ``<gazebo>``. No fix is offered for a sensor, because its link is unknown.
     """
 
     code = "Z810"
@@ -51,15 +51,15 @@ class PluginOutsideGazebo(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each plugin and sensor that nobody reads."""
+        """Yield a finding for each plugin and sensor outside ``<gazebo>``."""
         for element in model.robot.element.children:
             is_sensor = element.tag == "sensor" and element.find("parent") is None and element.get("type") is not None
             if element.tag == "plugin" or is_sensor:
                 yield self.at(
                     model,
                     element,
-                    f"<{element.tag}> in <robot> is read by nobody",
-                    help='put it into <gazebo reference="LINK">' if is_sensor else "put it into <gazebo>",
+                    f"<{element.tag}> in <robot> is not read",
+                    help='move it into <gazebo reference="LINK">' if is_sensor else "move it into <gazebo>",
                     fix=None if is_sensor else _wrapped(model, element),
                 )
 
@@ -71,4 +71,4 @@ def _wrapped(model: Model, element: Element) -> Fix | None:
         return None
     span = model.document(position.file).source.span
     edits = (Edit(span(tag.start, tag.start), "<gazebo>"), Edit(span(tag.close_end, tag.close_end), "</gazebo>"))
-    return Fix("safe", "Put <gazebo> around it", edits)
+    return Fix("safe", "Wrap in <gazebo>", edits)

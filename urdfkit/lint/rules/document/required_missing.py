@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-_ELSEWHERE = frozenset(
+_OTHER_RULES = frozenset(
     (
         ("robot", "name"),
         ("joint", "type"),
@@ -21,17 +21,18 @@ _ELSEWHERE = frozenset(
         ("safety_controller", "k_velocity"),
     )
 )
+"""Attributes whose absence other rules report."""
 
 
 class RequiredMissing(RobotRule):
-    """Something is missing that has to be there.
+    """A required element or attribute is missing.
 
     ## What it does
-    Reports what URDF requires: a geometry and its sizes, the file name of a mesh, the value of a mass, a whole
-    inertia tensor, parent and child of a joint, names.
+    Checks for missing elements and attributes that URDF requires: a geometry and its sizes, the file name of a mesh,
+    the value of a mass, a complete inertia tensor, the parent and child of a joint, and names.
 
     ## Why is this bad?
-    check_urdf only warns of some of it, and drops the geometry or the inertia; others refuse the robot.
+    check_urdf only warns about some of them and drops the geometry or the inertia; other readers reject the robot.
 
     ## Example
     ```xml
@@ -60,14 +61,14 @@ class RequiredMissing(RobotRule):
     name = "required-child-or-attr-missing"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each thing that is missing, those that have rules of their own left out."""
+        """Yield a finding for each missing element or attribute that no other rule reports."""
         for problem in model.robot.problems:
-            if problem.kind != "missing" or (problem.element.tag, problem.attribute) in _ELSEWHERE:
+            if problem.kind != "missing" or (problem.element.tag, problem.attribute) in _OTHER_RULES:
                 continue
             if problem.element.tag == "texture":
-                continue  # Exporters leave an empty one, which every reader takes for none.
+                continue  # Exporters write empty textures, which every reader ignores.
             if model.is_incomplete and problem.attribute is None:
-                continue  # It may be in what could not be expanded.
+                continue  # The element may be in a part that could not be expanded.
             if problem.element.tag == "joint" and problem.message.partition(": ")[2].endswith(", ".join(JOINT_TYPES)):
                 continue
             yield self.at(model, problem.element, problem.message, attribute=problem.attribute)

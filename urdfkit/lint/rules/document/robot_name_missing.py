@@ -19,10 +19,10 @@ class RobotNameMissing(RobotRule):
     """The robot has no name.
 
     ## What it does
-    Checks that the ``<robot>`` of a whole robot has a ``name``. Files that are only included need none.
+    Checks that the ``<robot>`` element of a complete robot has a ``name``. Files that are only included need no name.
 
     ## Why is this bad?
-    urdfdom refuses it: "No name given for the robot".
+    urdfdom rejects the robot: "No name given for the robot".
 
     ## Example
     ```xml
@@ -39,7 +39,7 @@ class RobotNameMissing(RobotRule):
     ```
 
     ## Fix safety
-    Safe: the name of the file becomes that of the robot, which nobody could have relied upon.
+    Safe: the fix names the robot after its file, and no reference can depend on a missing name.
     """
 
     code = "E006"
@@ -47,14 +47,16 @@ class RobotNameMissing(RobotRule):
     fix = "safe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for a robot without name."""
+        """Yield a finding for a robot without a name."""
         robot = model.robot
         if robot.element.get("name") or robot.element.tag != "robot" or not robot.links or model.is_incomplete:
             return
         if any(
-            name is not None and name not in robot.link_by_name for j in robot.joints for name in (j.parent, j.child)
+            name is not None and name not in robot.link_by_name
+            for joint in robot.joints
+            for name in (joint.parent, joint.child)
         ):
-            return  # A part of a robot, which brings the missing links.
+            return  # The file is a part of a robot: another file defines the missing links.
         name = re.sub(r"\W", "_", model.expanded.path.name.partition(".")[0]) or "robot"
         fix = (
             new_value(model, robot.element, "name", name, "safe", "Name the robot after its file")

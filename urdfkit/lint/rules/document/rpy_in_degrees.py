@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 
 
 class RpyInDegrees(RobotRule):
-    """Angles of an ``<origin>`` seem to be in degrees.
+    """The angles of an ``<origin>`` appear to be in degrees.
 
     ## What it does
-    Looks at ``rpy`` for round numbers of more than one turn (2π).
+    Checks ``rpy`` for multiples of 0.5 that exceed one turn (2π).
 
     ## Why is this bad?
-    Angles are in radians: 90 turns the part by 117 degrees. Nothing complains, the part just looks wrong.
+    Angles are in radians: a value of 90 rotates the part by 117 degrees. No reader reports an error.
 
     ## Example
     ```xml
@@ -50,7 +50,7 @@ class RpyInDegrees(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the three angles are taken for degrees.
+    Unsafe: the fix assumes that all three angles are in degrees.
     """
 
     code = "J408"
@@ -59,7 +59,7 @@ class RpyInDegrees(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each origin whose angles look like degrees."""
+        """Yield a finding for each origin whose angles appear to be in degrees."""
         for origin in model.elements:
             text = origin.get("rpy") if origin.tag == "origin" else None
             angles = numbers(text) if text else None
@@ -70,9 +70,9 @@ class RpyInDegrees(RobotRule):
             yield self.at(
                 model,
                 origin,
-                f'rpy="{text}": {first:g} rad turn the part by {degrees(first) % 360:.0f} degrees',
+                f'rpy="{text}" appears to be in degrees: {first:g} rad turns the part by {degrees(first) % 360:.0f}°',
                 attribute="rpy",
-                help=f"angles are in rad: {first:g} degrees are {radians(first):.6g}",
+                help=f"write angles in radians: {first:g} degrees are {radians(first):.6g} rad",
                 fix=new_value(model, origin, "rpy", value, "unsafe", "Convert degrees to radians"),
             )
 

@@ -15,21 +15,21 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-_ALWAYS = "`\u2018\u2019\u201c\u201d"
+_BACKTICKS = "`\u2018\u2019\u201c\u201d"
 _QUOTES = "\"'"
 _INVISIBLE = "[\u00a0\u200b-\u200f\u2060\ufeff]"
-_FOREIGN = f"[{_ALWAYS}]|{_INVISIBLE}"
+_STRAY = f"[{_BACKTICKS}]|{_INVISIBLE}"
 
 
 class StrayQuote(RobotRule):
-    """A value has a quote, a backtick or an invisible character too many.
+    """A value contains a stray quote, a backtick or an invisible character.
 
     ## What it does
-    Looks in values after expansion for a quote on one side only, for backticks and typographic quotes around them,
-    and for characters that cannot be seen (no-break space, zero-width space).
+    Checks expanded values for a quote on one side only, for surrounding backticks and typographic quotes, and for
+    invisible characters (no-break space, zero-width space).
 
     ## Why is this bad?
-    They come along when text is copied from a web page. The name is another one then and is found nowhere.
+    Such characters often come from text copied from a web page. The name no longer matches, and references to it fail.
 
     ## Example
     ```xml
@@ -66,7 +66,7 @@ class StrayQuote(RobotRule):
     ```
 
     ## Fix safety
-    Safe: no name or number begins or ends with one of them.
+    Safe: names and numbers never begin or end with these characters.
     """
 
     code = "E016"
@@ -75,24 +75,24 @@ class StrayQuote(RobotRule):
     fix = "safe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each value with a character too many."""
+        """Yield a finding for each value with a stray character."""
         if not any(_is_suspect(source.text) for source in model.expanded.sources.values()):
             return
         for element in model.robot.element.walk():
             for attribute, value in element.attributes.items():
                 clean = _cleaned(value)
                 if clean is not None and not model.is_unresolved(element, attribute):
-                    fix = new_value(model, element, attribute, clean, "safe", f"Write `{clean}`")
+                    fix = new_value(model, element, attribute, clean, "safe", f"Replace with `{clean}`")
                     yield self.at(model, element, _message(value, clean), attribute=attribute, fix=fix)
             text = _written(model, element) if element.text and not element.children else ""
             clean = _cleaned(text) if text else None
             if clean is not None and not model.is_unresolved(element):
-                fix = new_text(model, element, clean, "safe", f"Write `{clean}`")
+                fix = new_text(model, element, clean, "safe", f"Replace with `{clean}`")
                 yield self.at(model, element, f"<{element.tag}>: {_message(text, clean)}", fix=fix)
 
 
 def _written(model: Model, element: Element) -> str:
-    """Return the text of an element, with what reading it has stripped from its ends: that may be unseen characters."""
+    """Return the text of an element as written, including invisible characters that parsing has stripped."""
     tag = model.tag(element.origin.position)
     if tag is None or tag.close is None or tag.children:
         return element.text
@@ -101,22 +101,22 @@ def _written(model: Model, element: Element) -> str:
 
 
 def _is_suspect(text: str) -> bool:
-    """Whether there may be such a character. Plain texts need not wait for patterns of others."""
+    """Whether a text may contain a stray character; most texts need no regular expression."""
     if "`" in text or "'\"" in text or "\"'" in text or _has_quotes_outside(text):
         return True
-    return not text.isascii() and re.search(_FOREIGN, text) is not None
+    return not text.isascii() and re.search(_STRAY, text) is not None
 
 
 def _has_quotes_outside(text: str) -> bool:
-    """Whether a quote follows a tag, or an end tag a quote."""
+    """Whether a quote follows a tag or precedes an end tag."""
     if any(piece.rstrip().endswith(('"', "'")) for piece in text.split("</")[:-1]):
         return True
     return any(piece.lstrip().startswith(('"', "'")) for piece in text.split(">")[1:])
 
 
 def _cleaned(value: str) -> str | None:
-    """Return the value without what is too much, None where nothing is."""
-    clean = re.sub(_INVISIBLE, "", value).strip(_ALWAYS)
+    """Return the value without stray characters, None if it has none."""
+    clean = re.sub(_INVISIBLE, "", value).strip(_BACKTICKS)
     if len(clean) > 1 and "\n" not in clean:
         first, last = clean[0], clean[-1]
         if first in _QUOTES and clean.count(first) == 1:
@@ -128,7 +128,7 @@ def _cleaned(value: str) -> str | None:
 
 
 def _message(value: str, clean: str) -> str:
-    hidden = re.search(_INVISIBLE, value)
-    if hidden is not None:
-        return f"`{clean}` has a character in it that cannot be seen (U+{ord(hidden[0]):04X})"
-    return f"`{value.strip()}` has a quote too many: `{clean}`"
+    invisible = re.search(_INVISIBLE, value)
+    if invisible is not None:
+        return f"`{clean}` contains an invisible character (U+{ord(invisible[0]):04X})"
+    return f"stray quote in `{value.strip()}`; write `{clean}`"

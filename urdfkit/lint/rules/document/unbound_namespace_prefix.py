@@ -17,18 +17,18 @@ if TYPE_CHECKING:
     from urdfkit.lint.syntax import Document
 
 _PREFIXED = r"[<\s]([A-Za-z_][\w.-]*):[A-Za-z_][\w.-]*(?=[\s/>=])"
-_NO_NAME = frozenset("\"'=/>")
+_NOT_IN_NAMES = frozenset("\"'=/>")
 
 
 class UnboundNamespacePrefix(SourceRule):
-    """A prefix is used that the file does not bind.
+    """A namespace prefix is used but not bound.
 
     ## What it does
-    Looks for prefixes (``xacro:``) that no element around them binds with ``xmlns:…``. Every file has to bind the
-    prefixes it uses itself, included files too.
+    Checks for prefixes such as ``xacro:`` that no enclosing element binds with ``xmlns:…``. Every file, including
+    included files, must bind the prefixes that it uses.
 
     ## Why is this bad?
-    XML parsers stop with "unbound prefix" and do not say how to mend it.
+    XML parsers stop with "unbound prefix" and do not report which declaration is missing.
 
     ## Example
     ```xml
@@ -47,7 +47,7 @@ class UnboundNamespacePrefix(SourceRule):
     ```
 
     ## Fix safety
-    Safe for ``xacro:``, which has one meaning. Other prefixes are left to you.
+    Safe for ``xacro:``, which has only one meaning. No fix is offered for other prefixes.
     """
 
     code = "E002"
@@ -57,17 +57,17 @@ class UnboundNamespacePrefix(SourceRule):
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
         """Yield one finding for each unbound prefix, at the root element.
 
-        The ``xmlns`` of xacro's own namespace is one too: no prefix has to be used yet.
+        Xacro's namespace as the default namespace counts as one, even if no prefix is used yet.
         """
         text = document.source.text
         if "xmlns=" in text and has_xacro_as_default(document) and not declares_xacro(document):
             yield self.at(
                 model,
                 document.source.position(document.roots[0].start),
-                "xacro's namespace is the default one here, so that the prefix `xacro:` is bound to nothing",
+                "xacro's namespace is the default namespace of this file, so the prefix `xacro:` is unbound",
                 attribute="xmlns",
                 help="write xmlns:xacro instead of xmlns",
-                fix=Fix("safe", "Write `xmlns:xacro`", declaration(document)),
+                fix=Fix("safe", "Replace with `xmlns:xacro`", declaration(document)),
             )
             return
         if not any(f"xmlns:{prefix}" not in text for prefix in _before_colons(text)):
@@ -84,17 +84,17 @@ class UnboundNamespacePrefix(SourceRule):
                 used.discard(prefix)
                 first = document.source.position(tag.start)
                 edits = declaration(document) if prefix == "xacro" else ()
-                bound = f'xmlns:{prefix}="{"http://www.ros.org/wiki/xacro" if prefix == "xacro" else "…"}"'
+                binding = f'xmlns:{prefix}="{"http://www.ros.org/wiki/xacro" if prefix == "xacro" else "…"}"'
                 yield self.at(
                     model,
                     document.source.position(root.start),
-                    f"the prefix `{prefix}:` (first used in line {first.line}) is bound to nothing",
-                    help=f"write {bound} on the root element of this file",
+                    f"unbound prefix `{prefix}:`, first used in line {first.line}",
+                    help=f"add {binding} to the root element of this file",
                     fix=Fix("safe", f"Bind the prefix `{prefix}:`", edits) if edits else None,
                 )
 
 
 def _before_colons(text: str) -> set[str]:
-    """Return what may be a prefix: what colons follow, from a blank or ``<`` on."""
+    """Return the words before colons, each from white space or ``<`` on: these may be prefixes."""
     words = {word.rpartition("<")[2] for piece in text.split(":")[:-1] for word in piece.rsplit(None, 1)[-1:]}
-    return {word for word in words if word and _NO_NAME.isdisjoint(word)} - {"xml", "xmlns"}
+    return {word for word in words if word and _NOT_IN_NAMES.isdisjoint(word)} - {"xml", "xmlns"}

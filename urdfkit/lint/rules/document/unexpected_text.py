@@ -15,14 +15,14 @@ if TYPE_CHECKING:
 
 
 class UnexpectedText(RobotRule):
-    """There is text where URDF has none.
+    """An element contains text that URDF does not allow.
 
     ## What it does
-    Looks for text directly inside ``<robot>``, ``<link>``, ``<joint>`` and what they hold. Extensions
-    (``<gazebo>``, ``<transmission>`` …) are left alone.
+    Checks for text directly inside ``<robot>``, ``<link>``, ``<joint>`` and their children. Extensions (``<gazebo>``,
+    ``<transmission>`` …) are not checked.
 
     ## Why is this bad?
-    Readers skip it without a word. Mostly it is the rest of a comment or of a tag that was lost.
+    Readers ignore the text silently. It is usually the remainder of a comment or of an incomplete tag.
 
     ## Example
     ```xml
@@ -51,7 +51,7 @@ class UnexpectedText(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the text is taken away, but may be what is left of something that was meant.
+    Unsafe: the fix removes the text, which may be the remainder of an intended element.
     """
 
     code = "E007"
@@ -65,36 +65,38 @@ class UnexpectedText(RobotRule):
         if root.text:
             for document in map(model.document, model.expanded.sources):
                 for tag in document.roots[:1]:
-                    yield from self._pieces(model, document, tag, root.text, root)
+                    yield from self._check_text(model, document, tag, root.text, root)
         for element in model.elements:
             if element.text and not model.is_unresolved(element):
                 position = element.origin.position
                 written = model.tag(position)
                 if written is not None:
-                    yield from self._pieces(model, model.document(position.file), written, element.text, element)
+                    yield from self._check_text(model, model.document(position.file), written, element.text, element)
 
-    def _pieces(self, model: Model, document: Document, tag: Tag, expanded: str, element: Element) -> Iterator[Finding]:
+    def _check_text(
+        self, model: Model, document: Document, tag: Tag, expanded: str, element: Element
+    ) -> Iterator[Finding]:
         text, source = document.source.text, document.source
-        inside = [(child.start, child.close_end) for child in tag.children]
-        inside += [
+        skipped = [(child.start, child.close_end) for child in tag.children]
+        skipped += [
             (start, end) for start, end, _ in document.comments if tag.end <= start < (tag.close or tag.close_end)
         ]
-        at = tag.end
-        for start, end in [*sorted(inside), (tag.close or tag.close_end, 0)]:
-            piece = text[at:start]
+        offset = tag.end
+        for start, end in [*sorted(skipped), (tag.close or tag.close_end, 0)]:
+            piece = text[offset:start]
             words = " ".join(piece.split())
             if words and words.split()[0] in expanded:
-                first = at + len(piece) - len(piece.lstrip())
+                first = offset + len(piece) - len(piece.lstrip())
                 span = source.span(first, first + len(piece.strip()))
                 shown = words if len(words) <= 40 else words[:39] + "…"
                 yield Finding(
                     self.code,
                     self.name,
                     self.severity,
-                    f"`{shown}` is text inside <{tag.name}>, which holds none: readers skip it",
+                    f"unexpected text `{shown}` in <{tag.name}>: readers ignore it",
                     span,
-                    help="take it away, or write what was meant",
-                    fix=Fix("unsafe", "Take the text away", (Edit(span, ""),)),
+                    help="remove it, or restore the tag or comment it belongs to",
+                    fix=Fix("unsafe", "Remove the text", (Edit(span, ""),)),
                     chains=(element.origin.expansions,) if element.origin.expansions else (),
                 )
-            at = end
+            offset = end

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-_KEYS = {tag: frozenset(names) for tag, names in URDF_ATTRIBUTES.items()}
-_CALLED = {
+_KNOWN = {tag: frozenset(names) for tag, names in URDF_ATTRIBUTES.items()}
+_FOREIGN_NAMES = {
     ("limit", "min"): "lower",
     ("limit", "max"): "upper",
     ("cylinder", "height"): "length",
@@ -26,20 +26,21 @@ _CALLED = {
     ("mass", "mass"): "value",
     ("mimic", "name"): "joint",
 }
-"""What is called so elsewhere, in SDFormat mostly, and how URDF calls it."""
+"""Element and attribute in other formats, mostly SDFormat → attribute in URDF."""
 
 _ALL = frozenset(name for names in URDF_ATTRIBUTES.values() for name in names)
 
 
 class UnknownAttribute(RobotRule):
-    """URDF has no such attribute on that element.
+    """An element has an unknown attribute.
 
     ## What it does
-    Looks at the attributes of links, joints and what they hold. Attributes with a prefix belong to somebody else;
-    what is neither misspelt nor an attribute of another element may be somebody's extension, and is a note.
+    Checks the attributes of links, joints and their children. Attributes with a prefix are accepted as extensions. An
+    attribute that is neither misspelt nor an attribute of another URDF element is a note, because it may be an
+    extension.
 
     ## Why is this bad?
-    Readers skip it without a word: an axis is not turned by ``rpy``, and a misspelt ``efort`` limits nothing.
+    Readers ignore the attribute silently: ``rpy`` does not rotate an axis, and a misspelt ``efort`` limits nothing.
 
     ## Example
     ```xml
@@ -68,7 +69,7 @@ class UnknownAttribute(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: a misspelt attribute is renamed, any other taken away; it may have been meant for another element.
+    Unsafe: the fix renames a misspelt attribute and removes any other, which may belong to another element.
     """
 
     code = "E009"
@@ -77,28 +78,30 @@ class UnknownAttribute(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each attribute that has no meaning where it stands."""
+        """Yield a finding for each unknown attribute."""
         for element in model.elements:
             known = URDF_ATTRIBUTES.get(element.tag)
-            if known is not None and not element.attributes.keys() <= _KEYS[element.tag]:
-                yield from self._look(model, element, known)
+            if known is not None and not element.attributes.keys() <= _KNOWN[element.tag]:
+                yield from self._check_attributes(model, element, known)
 
-    def _look(self, model: Model, element: Element, known: tuple[str, ...]) -> Iterator[Finding]:
+    def _check_attributes(self, model: Model, element: Element, known: tuple[str, ...]) -> Iterator[Finding]:
         for attribute in element.attributes:
             if attribute not in known and ":" not in attribute and attribute != "xmlns":
-                meant = _CALLED.get((element.tag, attribute)) or nearest(attribute, known)
-                if meant is None or meant in element.attributes:
-                    meant, fix = None, None
+                suggestion = _FOREIGN_NAMES.get((element.tag, attribute)) or nearest(attribute, known)
+                if suggestion is None or suggestion in element.attributes:
+                    suggestion, fix = None, None
                     if attribute in _ALL:
-                        fix = without_attribute(model, element, attribute, "unsafe", f"Take `{attribute}` away")
+                        fix = without_attribute(model, element, attribute, "unsafe", f"Remove `{attribute}`")
                 else:
-                    fix = new_name(model, element, attribute, meant, "unsafe", f"Call it `{meant}`")
+                    fix = new_name(model, element, attribute, suggestion, "unsafe", f"Rename to `{suggestion}`")
                 yield self.at(
                     model,
                     element,
-                    f"`{attribute}` has no meaning on <{element.tag}>",
+                    f"unknown attribute `{attribute}` of <{element.tag}>",
                     attribute=attribute,
-                    help=f"did you mean `{meant}`?" if meant else f"it has {', '.join(known) or 'no attributes'}",
+                    help=f"did you mean `{suggestion}`?"
+                    if suggestion
+                    else f"known attributes: {', '.join(known) or 'none'}",
                     fix=fix,
-                    severity=None if meant or attribute in _ALL else "info",
+                    severity=None if suggestion or attribute in _ALL else "info",
                 )

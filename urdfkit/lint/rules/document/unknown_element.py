@@ -14,22 +14,24 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding, Fix
     from urdfkit.lint.model import Model
 
-_BETTER = {"joint_properties": "dynamics"}
-"""Names of elements that URDF once had, and what they are called today."""
+_CURRENT_NAMES = {"joint_properties": "dynamics"}
+"""Obsolete names of URDF elements → current names."""
 
 
 class UnknownElement(RobotRule):
-    """URDF has no such element there.
+    """An element is unknown in its parent.
 
     ## What it does
-    Looks at what is inside ``<link>``, ``<joint>``, ``<inertial>``, ``<visual>``, ``<collision>`` and ``<geometry>``.
-    Elements with a prefix belong to somebody else. The root is ``<robot>``, which may hold extensions of any name:
-    there an element is reported where its name is nearly that of a link, a joint or another that belongs there, and so
-    it is in ``<transmission>`` and ``<ros2_control>``.
+    Checks the children of ``<link>``, ``<joint>``, ``<inertial>``, ``<visual>``, ``<collision>`` and ``<geometry>``.
+    Elements with a prefix are accepted as extensions.
+
+    The root element must be ``<robot>``. It may contain extensions of any name, so its children are reported only if
+    their name is nearly that of a link, a joint or another known element. The same applies to ``<transmission>`` and
+    ``<ros2_control>``.
 
     ## Why is this bad?
-    Readers skip it without a word: a typing error, or a macro call without prefix, takes wheels, damping or inertia
-    away and check_urdf still says "Successfully Parsed".
+    Readers ignore the element silently. A typing error, or a macro call without its prefix, removes wheels, damping or
+    inertia, and check_urdf still prints "Successfully Parsed".
 
     ## Example
     ```xml
@@ -58,8 +60,8 @@ class UnknownElement(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the element is called what its name is nearest to, or what it is called today; calls of macros are left to
-    you.
+    Unsafe: the fix renames the element to the nearest known name, or to its current name if it is obsolete. No fix is
+    offered for macro calls.
     """
 
     code = "E008"
@@ -68,18 +70,18 @@ class UnknownElement(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each element that has no meaning where it stands."""
+        """Yield a finding for each unknown element."""
         robot = model.robot.element
         if robot.tag != "robot":
-            fix = new_tag(model, robot, "robot", "unsafe", "Call it <robot>")
-            message = f"<{robot.tag}> is no robot description"
+            fix = new_tag(model, robot, "robot", "unsafe", "Rename to <robot>")
+            message = f"root element <{robot.tag}> is not a robot description"
             yield self.at(model, robot, message, help="did you mean `robot`?", fix=fix, severity="error")
         for child in robot.children:
-            if (meant := misspelt_in_robot(child)) is not None:
-                fix = new_tag(model, child, meant, "unsafe", f"Call it <{meant}>")
-                help = f"did you mean `{meant}`?"
+            if (tag := misspelt_in_robot(child)) is not None:
+                fix = new_tag(model, child, tag, "unsafe", f"Rename to <{tag}>")
+                help = f"did you mean `{tag}`?"
                 yield self.at(model, child, _message(robot, child), help=help, fix=fix, severity="error")
-        yield from self._of_control(model)
+        yield from self._check_control(model)
         for link in model.robot.links:
             for parent, child in _unknown(link.element):
                 hint, fix = _hint(parent, child), _renamed(model, parent, child)
@@ -89,14 +91,14 @@ class UnknownElement(RobotRule):
                 hint, fix = _hint(parent, child), _renamed(model, parent, child)
                 yield self.at(model, child, _message(parent, child), joint=joint.name, help=hint, fix=fix)
 
-    def _of_control(self, model: Model) -> Iterator[Finding]:
+    def _check_control(self, model: Model) -> Iterator[Finding]:
         robot = model.robot
-        for whole in (*(one.element for one in robot.transmissions), *(one.element for one in robot.ros2_control)):
+        for block in (*robot.transmissions, *robot.ros2_control):
             from urdfkit.lint.interfaces import misspelt_parts
 
-            for parent, child, meant in misspelt_parts(whole, whole.tag):
-                fix = new_tag(model, child, meant, "unsafe", f"Call it <{meant}>")
-                yield self.at(model, child, _message(parent, child), help=f"did you mean `{meant}`?", fix=fix)
+            for parent, child, tag in misspelt_parts(block.element, block.element.tag):
+                fix = new_tag(model, child, tag, "unsafe", f"Rename to <{tag}>")
+                yield self.at(model, child, _message(parent, child), help=f"did you mean `{tag}`?", fix=fix)
 
 
 def _unknown(element: Element) -> Iterator[tuple[Element, Element]]:
@@ -110,22 +112,22 @@ def _unknown(element: Element) -> Iterator[tuple[Element, Element]]:
 
 
 def _message(parent: Element, child: Element) -> str:
-    return f"<{child.tag}> has no meaning in <{parent.tag}>"
+    return f"unknown element <{child.tag}> in <{parent.tag}>"
 
 
 def _hint(parent: Element, child: Element) -> str | None:
-    if child.tag in _BETTER:
-        return f"it is called <{_BETTER[child.tag]}> today"
+    if child.tag in _CURRENT_NAMES:
+        return f"rename it to <{_CURRENT_NAMES[child.tag]}>"
     near = nearest(child.tag, URDF_CHILDREN[parent.tag], likeness=0.7)
     if near or not child.attributes:
         return f"did you mean `{near}`?" if near else None
-    return "a call of a macro needs the prefix `xacro:`, and a file that is run through xacro"
+    return "to call a macro, add the prefix `xacro:` and process the file with xacro"
 
 
 def _renamed(model: Model, parent: Element, child: Element) -> Fix | None:
-    meant = _BETTER.get(child.tag) or nearest(child.tag, URDF_CHILDREN[parent.tag], likeness=0.75)
-    if meant is None or (meant != "visual" and meant != "collision" and parent.find(meant) is not None):
+    tag = _CURRENT_NAMES.get(child.tag) or nearest(child.tag, URDF_CHILDREN[parent.tag], likeness=0.75)
+    if tag is None or (tag != "visual" and tag != "collision" and parent.find(tag) is not None):
         return None
-    if not child.attributes.keys() <= set(URDF_ATTRIBUTES.get(meant, ())):
-        return None  # A call of a macro, rather.
-    return new_tag(model, child, meant, "unsafe", f"Call it <{meant}>")
+    if not child.attributes.keys() <= set(URDF_ATTRIBUTES.get(tag, ())):
+        return None  # Probably a macro call.
+    return new_tag(model, child, tag, "unsafe", f"Rename to <{tag}>")

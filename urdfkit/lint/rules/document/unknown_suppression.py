@@ -14,14 +14,15 @@ if TYPE_CHECKING:
 
 
 class UnknownSuppression(Rule):
-    """A comment suppresses a rule that does not exist, or cannot be read.
+    """A suppression comment is malformed or names an unknown rule.
 
     ## What it does
-    Checks the comments that begin with ``urdfkit:``. They are ``ignore CODE …`` (for its line and, where it stands
-    alone, for the element after it) and ``ignore-file CODE …``; without codes they stand for every rule.
+    Checks comments that begin with ``urdfkit:``. Valid comments are ``ignore CODE …``, which applies to its line and,
+    if it is alone on the line, to the next element, and ``ignore-file CODE …``. Without codes, a comment suppresses
+    every rule.
 
     ## Why is this bad?
-    The finding it was meant for is reported all the same, or will be, once the code is taken for another rule.
+    The comment does not suppress the intended finding, and may suppress another one once a new rule has this code.
 
     ## Example
     ```xml
@@ -49,17 +50,19 @@ class UnknownSuppression(Rule):
     severity = "warning"
 
     def check(self, suppressions: Iterable[Suppression], codes: Iterable[str], model: Model) -> Iterator[Finding]:
-        """Yield a finding for each suppression that says nothing we know."""
+        """Yield a finding for each malformed suppression and each unknown code."""
         from urdfkit.errors import did_you_mean
 
         known = tuple(codes)
         for suppression in suppressions:
             if suppression.verb not in ("ignore", "ignore-file"):
-                message = f"`urdfkit: {suppression.verb}` is not known{did_you_mean(suppression.verb, _VERBS)}"
-                yield self.at(model, suppression.position, message, help="write ignore or ignore-file, then codes")
+                message = f"unknown suppression `urdfkit: {suppression.verb}`{did_you_mean(suppression.verb, _VERBS)}"
+                yield self.at(
+                    model, suppression.position, message, help="write ignore or ignore-file, followed by rule codes"
+                )
             for code in suppression.codes:
                 if code not in known:
-                    message = f"there is no rule `{code}` to ignore{did_you_mean(code, known)}"
+                    message = f"unknown rule `{code}` in suppression{did_you_mean(code, known)}"
                     yield self.at(model, suppression.position, message)
 
 

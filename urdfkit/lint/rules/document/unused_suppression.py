@@ -14,15 +14,15 @@ if TYPE_CHECKING:
 
 
 class UnusedSuppression(Rule):
-    """A comment suppresses what is not found any more.
+    """A suppression comment suppresses no finding.
 
     ## What it does
-    Looks for comments ``urdfkit: ignore …`` that no finding meets, and for codes in them that none does. Codes that
-    are not asked for, or that the target leaves out, are let be, and so are comments where parts of the robot are
-    missing. A comment in an included file is in use if it is for one of the robots linted.
+    Checks for ``urdfkit: ignore …`` comments, and codes in them, that match no finding. Codes that are not selected or
+    do not apply to the target are not checked, and neither are robots with missing parts. A comment in an included file
+    is used if it matches a finding of any linted robot.
 
     ## Why is this bad?
-    It will hide the next finding, which nobody has looked at.
+    An unused comment hides future findings that nobody has reviewed.
 
     ## Example
     ```xml
@@ -45,7 +45,7 @@ class UnusedSuppression(Rule):
     severity = "info"
 
     def check(self, unused: Iterable[tuple[Suppression, Collection[str]]], model: Model) -> Iterator[Finding]:
-        """Yield a finding for each suppression, with those of its codes that nothing was found for."""
+        """Yield a finding for each suppression, with its unused codes."""
         for suppression, codes in unused:
-            what = f"there is no `{'`, `'.join(codes)}` here" if codes else "there is no finding here"
-            yield self.at(model, suppression.position, f"{what} to ignore", help="take it away")
+            message = f"unused suppression of `{'`, `'.join(codes)}`" if codes else "unused suppression"
+            yield self.at(model, suppression.position, message, help="remove it")

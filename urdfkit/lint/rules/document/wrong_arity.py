@@ -14,13 +14,14 @@ if TYPE_CHECKING:
 
 
 class WrongArity(RobotRule):
-    """There are more or fewer numbers than there have to be.
+    """An attribute has too many or too few numbers.
 
     ## What it does
-    Counts the numbers in ``xyz``, ``rpy``, ``size``, ``scale`` (three), ``rgba`` (four) and in those that hold one.
+    Checks that ``xyz``, ``rpy``, ``size`` and ``scale`` have three numbers, ``rgba`` has four, and scalar attributes
+    have one.
 
     ## Why is this bad?
-    check_urdf warns at most and keeps the link without its geometry; others refuse the robot.
+    check_urdf at most warns and drops the geometry of the link; other readers reject the robot.
 
     ## Example
     ```xml
@@ -45,7 +46,7 @@ class WrongArity(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: one number for a scale is taken for all three axes; the rest is left to you.
+    Unsafe: the fix applies a single scale to all three axes. No fix is offered for other attributes.
     """
 
     code = "E011"
@@ -61,5 +62,5 @@ class WrongArity(RobotRule):
             words = (problem.element.get(problem.attribute) or "").split() if problem.attribute else []
             if problem.attribute == "scale" and len(words) == 1:
                 value = " ".join(words * 3)
-                fix = new_value(model, problem.element, "scale", value, "unsafe", "Scale all three axes alike")
+                fix = new_value(model, problem.element, "scale", value, "unsafe", "Apply the scale to all three axes")
             yield self.at(model, problem.element, problem.message, attribute=problem.attribute, fix=fix)

@@ -16,17 +16,16 @@ if TYPE_CHECKING:
 
 
 class WrongXacroNamespaceUri(SourceRule):
-    """The prefix ``xacro:`` is bound to something other than xacro's namespace.
+    """The prefix ``xacro:`` is bound to a namespace other than that of xacro.
 
     ## What it does
-    Compares ``xmlns:xacro`` on the root element with the addresses that xacro has had:
+    Compares ``xmlns:xacro`` on the root element with the namespaces that xacro has used:
     ``http://www.ros.org/wiki/xacro``, with or without ``www.``, ``http://wiki.ros.org/xacro``, and the same with
     ``https``.
 
     ## Why is this bad?
-    xacro goes by the prefix and expands the file all the same, but warns of "inconsistent namespace redefinitions"
-    when it includes a file that has the right one, and other tools that read XML do not take the elements for
-    xacro's.
+    xacro identifies its elements by their prefix and still expands the file, but warns of "inconsistent namespace
+    redefinitions" when it includes a file with the correct namespace. Other XML tools do not recognize the elements.
 
     ## Example
     ```xml
@@ -45,7 +44,7 @@ class WrongXacroNamespaceUri(SourceRule):
     ```
 
     ## Fix safety
-    Safe: the prefix has one meaning.
+    Safe: the prefix has only one meaning.
     """
 
     code = "E004"
@@ -54,7 +53,7 @@ class WrongXacroNamespaceUri(SourceRule):
     fix = "safe"
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
-        """Yield a finding where the root element binds the prefix to another address."""
+        """Yield a finding if the root element binds the prefix to another namespace."""
         text = document.source.text
         if text.count("xmlns:xacro") == text.count(f'xmlns:xacro="{NAMESPACE}"'):
             return
@@ -62,7 +61,7 @@ class WrongXacroNamespaceUri(SourceRule):
         if root is None:
             return
         written = root.attributes.get("xmlns:xacro")
-        if written is None or _is_right(written.value):
+        if written is None or _is_xacro_namespace(written.value):
             return
         span = document.source.span(written.value_start, written.value_end)
         yield self.at(
@@ -71,15 +70,15 @@ class WrongXacroNamespaceUri(SourceRule):
             f"`{written.value}` is not xacro's namespace",
             attribute="xmlns:xacro",
             help=f'write xmlns:xacro="{NAMESPACE}"',
-            fix=Fix("safe", "Write xacro's namespace", (Edit(span, NAMESPACE),)),
-            # What xacro made carries the declaration along, and nothing uses it any more.
+            fix=Fix("safe", "Replace with xacro's namespace", (Edit(span, NAMESPACE),)),
+            # Output of xacro keeps the declaration, but does not use it.
             severity="info" if document.source.file.endswith(".urdf") and "<xacro:" not in text else None,
         )
 
 
-def _is_right(address: str) -> bool:
-    """Whether an address is one that xacro has had; what comes after `#` does not count."""
+def _is_xacro_namespace(address: str) -> bool:
+    """Whether an address is a namespace that xacro has used, ignoring the part after `#`."""
     bare = address.strip().partition("#")[0].rstrip("/")
-    for beginning in ("https://", "http://", "www."):
-        bare = bare.removeprefix(beginning)
+    for prefix in ("https://", "http://", "www."):
+        bare = bare.removeprefix(prefix)
     return bare in ("ros.org/wiki/xacro", "wiki.ros.org/xacro")

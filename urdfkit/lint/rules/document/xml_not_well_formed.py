@@ -19,14 +19,15 @@ class XmlNotWellFormed(FaultRule):
     """The file is not well-formed XML.
 
     ## What it does
-    Reports the place where a file, or a file it includes, stops being XML: a tag that is not closed, an attribute
-    without quotes, a stray ``<`` or ``&``, something before ``<?xml``. Entity declarations and external entities are
-    reported too: they can grow without end or read other files. So are bytes that are no UTF-8 (Latin-1,
-    UTF-16), even in comments and whatever ``<?xml encoding=…?>`` says; where only urdfdom reads the file, which takes
-    bytes as they are, that is a warning.
+    Reports where a file, or a file that it includes, is not well-formed: an unclosed tag, an attribute without quotes,
+    a stray ``<`` or ``&``, or content before ``<?xml``. Entity declarations and external entities are also reported,
+    because they can grow without bound or read other files.
+
+    Bytes that are not UTF-8 (Latin-1, UTF-16) are reported even in comments and regardless of ``<?xml encoding=…?>``.
+    They are a warning if only urdfdom reads the file, because urdfdom does not decode it.
 
     ## Why is this bad?
-    Nothing that reads the description gets any further; xacro names the line, but not the file that was included.
+    No reader of the description gets past the error. xacro reports the line, but not the name of an included file.
 
     ## Example
     ```xml
@@ -43,7 +44,7 @@ class XmlNotWellFormed(FaultRule):
     ```
 
     ## Fix safety
-    Unsafe: a root that is never closed is closed at the end; there may be more missing than that.
+    Unsafe: the fix closes an unclosed root element at the end of the file, but more may be missing.
     """
 
     code = "E001"
@@ -52,13 +53,13 @@ class XmlNotWellFormed(FaultRule):
     kinds = ("xml", "encoding")
 
     def claims(self, fault: Fault) -> bool:
-        """Return whether the fault is about XML as such, not about an unbound prefix."""
+        """Return whether the fault concerns well-formedness or encoding, not an unbound prefix."""
         return fault.kind in self.kinds and "unbound prefix" not in fault.message
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
-        """Yield the finding; a file that ends too early is pointed at where what is written ends."""
+        """Yield the finding; for a file that ends too early, at the last character of its text."""
         if fault.kind == "encoding":
-            severity, help = fault.details["severity"], "save it as UTF-8"
+            severity, help = fault.details["severity"], "save the file as UTF-8"
             yield self.at(model, fault.position, fault.message, help=help, severity=severity)
             return
         if not fault.message.startswith("the file ends too early"):
@@ -71,9 +72,9 @@ class XmlNotWellFormed(FaultRule):
 
 
 def _closed(document: Document, end: int) -> Fix | None:
-    """Return the fix that closes the root where nothing else is open."""
+    """Return the fix that closes the root element if no other element is open."""
     root = next(iter(document.roots), None)
     if root is None or root.empty or any(not tag.empty and tag.close is None for tag in root.walk() if tag is not root):
         return None
-    there = document.source.span(end, end)
-    return Fix("unsafe", f"Close <{root.name}>", (Edit(there, f"{document.source.line_end}</{root.name}>"),))
+    end_of_text = document.source.span(end, end)
+    return Fix("unsafe", f"Close <{root.name}>", (Edit(end_of_text, f"{document.source.line_end}</{root.name}>"),))
