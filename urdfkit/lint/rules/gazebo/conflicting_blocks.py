@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 
 class ConflictingBlocks(RobotRule):
-    """Two blocks for Gazebo set the same thing differently.
+    """Two ``<gazebo>`` blocks set the same element to different values.
 
     ## What it does
-    Compares what several ``<gazebo>`` blocks for one link or joint say.
+    Compares the values in all ``<gazebo>`` blocks that reference the same link or joint.
 
     ## Why is this bad?
-    One of them wins, and it is not said which.
+    Only one of the values takes effect, and which one is not specified.
 
     ## Example
     ```xml
@@ -52,19 +52,19 @@ class ConflictingBlocks(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each value that contradicts one before."""
-        said: dict[tuple[str, str], Element] = {}
+        """Yield a finding for each value that contradicts an earlier one."""
+        first_by_name: dict[tuple[str, str], Element] = {}
         for block in model.robot.gazebo:
             for child in block.element.children if block.reference else ():
                 value = _value(child)
                 if value and not child.children:
-                    first = said.setdefault((block.reference or "", child.tag), child)
+                    first = first_by_name.setdefault((block.reference or "", child.tag), child)
                     if _value(first) != value:
                         yield self.at(
                             model,
                             child,
-                            f"<{child.tag}> of `{block.reference}` is {value} here and {_value(first)} elsewhere",
-                            help=f"the other is at {model.shown(first.origin.position)}",
+                            f"<{child.tag}> of `{block.reference}` is {value} here but {_value(first)} elsewhere",
+                            help=f"remove one of them; the other is at {model.shown(first.origin.position)}",
                         )
 
 

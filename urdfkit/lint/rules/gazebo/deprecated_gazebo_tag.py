@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 
 class DeprecatedGazeboTag(RobotRule):
-    """An extension for Gazebo has another name today.
+    """A Gazebo element is deprecated.
 
     ## What it does
-    Looks for ``<cfmDamping>``, the only one that sdformat calls deprecated.
+    Checks for ``<cfmDamping>``, the only element that sdformat has deprecated.
 
     ## Why is this bad?
-    sdformat still reads it, with a note at each start.
+    sdformat still reads the element, but logs a warning at every start.
 
     ## Example
     ```xml
@@ -47,7 +47,7 @@ class DeprecatedGazeboTag(RobotRule):
     ```
 
     ## Fix safety
-    Safe: sdformat reads both alike.
+    Safe: sdformat reads both elements alike.
     """
 
     code = "Z816"
@@ -57,13 +57,13 @@ class DeprecatedGazeboTag(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each old name."""
+        """Yield a finding for each deprecated element."""
         for block in model.robot.gazebo:
             for child in block.element.children:
                 if child.tag == "cfmDamping":
                     yield self.at(
                         model,
                         child,
-                        "<cfmDamping> is deprecated: it is <implicitSpringDamper> today",
-                        fix=new_tag(model, child, "implicitSpringDamper", "safe", "Write <implicitSpringDamper>"),
+                        "<cfmDamping> is deprecated; use <implicitSpringDamper>",
+                        fix=new_tag(model, child, "implicitSpringDamper", "safe", "Rename to <implicitSpringDamper>"),
                     )

@@ -15,14 +15,14 @@ if TYPE_CHECKING:
 
 
 class DuplicateSensorOrPlugin(RobotRule):
-    """Two sensors on one link, or two plugins, have the same name.
+    """Two sensors of a link, or two plugins, have the same name.
 
     ## What it does
-    Compares the names of sensors on one link (an error), of plugins beside each other (a warning), and of plugins
-    in different sensors (a note: each has its own scope).
+    Compares the names of the sensors of each link (an error), of plugins in the same scope (a warning), and of plugins
+    in different sensors (a note, because each sensor is a separate scope).
 
     ## Why is this bad?
-    SDF wants names that differ; Gazebo refuses the model, or both publish on the same topic.
+    SDF requires unique names: Gazebo rejects the model, or both publish on the same topic.
 
     ## Example
     ```xml
@@ -52,33 +52,31 @@ class DuplicateSensorOrPlugin(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each second of a name."""
+        """Yield a finding for each sensor or plugin whose name is already used."""
         sensors: dict[tuple[str, str], Element] = {}
         for block in model.robot.gazebo:
             for sensor in block.sensors:
                 if sensor.name and "$" not in sensor.name:
                     first = sensors.setdefault((block.reference or "", sensor.name), sensor.element)
                     if first is not sensor.element:
-                        yield self._second(
-                            model, sensor.element, f"a sensor `{sensor.name}` is on this link already", first
+                        yield self._duplicate(
+                            model, sensor.element, f"duplicate sensor name `{sensor.name}` on this link", first
                         )
-        beside: dict[tuple[int, str], Element] = {}
-        anywhere: dict[str, Element] = {}
+        by_scope: dict[tuple[int, str], Element] = {}
+        by_name: dict[str, Element] = {}
         for plugin, _, within in plugins(model.robot):
             if not plugin.name or "$" in plugin.name or "::" in plugin.name:
                 continue
             scope = (id(within) if within is not None else 0, plugin.name)
-            first, other = beside.setdefault(scope, plugin.element), anywhere.setdefault(plugin.name, plugin.element)
+            first, other = by_scope.setdefault(scope, plugin.element), by_name.setdefault(plugin.name, plugin.element)
             if first is not plugin.element:
-                yield self._second(
-                    model, plugin.element, f"a plugin `{plugin.name}` is there already", first, "warning"
-                )
+                yield self._duplicate(model, plugin.element, f"duplicate plugin name `{plugin.name}`", first, "warning")
             elif other is not plugin.element:
-                message = f"a plugin in another sensor is called `{plugin.name}` too"
-                yield self._second(model, plugin.element, message, other, "info")
+                message = f"plugin name `{plugin.name}` is also used in another sensor"
+                yield self._duplicate(model, plugin.element, message, other, "info")
 
-    def _second(
+    def _duplicate(
         self, model: Model, element: Element, message: str, first: Element, severity: Severity | None = None
     ) -> Finding:
-        help = f"the first is at {model.shown(first.origin.position)}"
+        help = f"rename one of them; the first is at {model.shown(first.origin.position)}"
         return self.at(model, element, message, attribute="name", help=help, severity=severity)

@@ -13,20 +13,20 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 _BODIES = frozenset(("body_name", "linkName", "link_name"))
-"""``bodyName`` and ``frameName`` sdformat replaces itself (parser_urdf.cc, ReduceSDFExtensionPluginFrameReplace)."""
+"""Plugin parameters that name a link; sdformat itself updates ``bodyName`` and ``frameName`` (parser_urdf.cc)."""
 
 
 class FixedJointLumping(RobotRule):
-    """A plugin, or a force-torque sensor, needs a link or joint that Gazebo dissolves.
+    """A plugin or force-torque sensor uses a link or joint that Gazebo merges away at a fixed joint.
 
     ## What it does
-    Looks for bodies that plugins name (``body_name``, ``linkName`` …; sdformat mends ``bodyName`` itself) and
-    force-torque sensors on joints, where the joint is fixed and neither ``preserveFixedJoint`` nor
-    ``disableFixedJointLumping`` keeps it.
+    Checks links that plugins name (``body_name``, ``linkName`` …), and joints with a force-torque sensor. Reports those
+    at a fixed joint that neither ``preserveFixedJoint`` nor ``disableFixedJointLumping`` keeps. ``bodyName`` is not
+    checked, because sdformat updates it.
 
     ## Why is this bad?
-    Gazebo makes a link behind a fixed joint part of the link before it: there is no body, and no joint, of that
-    name any more, and the plugin stops.
+    Gazebo merges the child link of a fixed joint into its parent link. The model then has no link or joint of that
+    name, and the plugin stops.
 
     ## Example
     ```xml
@@ -68,19 +68,19 @@ class FixedJointLumping(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each body or joint that will not be there."""
-        gone = lumped(model.robot)
-        if not gone:
+        """Yield a finding for each use of a link or joint that Gazebo merges away."""
+        merged = lumped(model.robot)
+        if not merged:
             return
         for plugin, _, _ in plugins(model.robot):
             for child in plugin.element.children:
-                if child.tag in _BODIES and child.text in gone:
+                if child.tag in _BODIES and child.text in merged:
                     yield self.at(
                         model,
                         child,
-                        f"<{child.tag}> names `{child.text}`, which Gazebo makes part of the link before it",
+                        f"<{child.tag}> names `{child.text}`, which Gazebo merges into its parent link",
                         link=child.text,
-                        help="set preserveFixedJoint in a <gazebo reference> of its joint",
+                        help="set <preserveFixedJoint> to true in a <gazebo> block of its joint",
                     )
         for block in model.robot.gazebo:
             joint = model.robot.joint_by_name.get(block.reference or "")
@@ -88,13 +88,13 @@ class FixedJointLumping(RobotRule):
                 if (
                     joint is not None
                     and sensor.type == "force_torque"
-                    and joint.child in gone
+                    and joint.child in merged
                     and joint.type == "fixed"
                 ):
                     yield self.at(
                         model,
                         sensor.element,
-                        f"joint `{joint.name}` is fixed: Gazebo dissolves it, and the force-torque sensor on it",
+                        f"joint `{joint.name}` is fixed: Gazebo removes it together with its force-torque sensor",
                         joint=joint.name,
-                        help="set preserveFixedJoint in this block",
+                        help="set <preserveFixedJoint> to true in this block",
                     )

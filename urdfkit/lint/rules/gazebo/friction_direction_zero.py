@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 class FrictionDirectionZero(RobotRule):
-    """The direction of friction is no direction.
+    """The friction direction has zero length.
 
     ## What it does
-    Looks for ``<fdir1>`` of ``0 0 0``.
+    Checks for ``<fdir1>`` of ``0 0 0``.
 
     ## Why is this bad?
-    Friction is spread along a vector without length; physics engines divide by it, or ignore friction.
+    Physics engines divide by the length of the vector, or ignore friction.
 
     ## Example
     ```xml
@@ -44,7 +44,7 @@ class FrictionDirectionZero(RobotRule):
     ```
 
     ## Fix safety
-    Safe: without it friction is the same in all directions, which zero comes to at best.
+    Safe: without ``<fdir1>`` friction is isotropic, which is also the best possible effect of a zero vector.
     """
 
     code = "Z814"
@@ -54,12 +54,12 @@ class FrictionDirectionZero(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each direction without length."""
+        """Yield a finding for each direction of zero length."""
         for block in model.robot.gazebo:
             for element in block.element.walk():
                 if element.tag != "fdir1":
                     continue
                 values = numbers(element.text or element.get("value") or "")
                 if values and not any(values):
-                    fix = without_element(model, element, "safe", "Take it away")
-                    yield self.at(model, element, "<fdir1> is 0 0 0, which is no direction", fix=fix)
+                    fix = without_element(model, element, "safe", "Remove <fdir1>")
+                    yield self.at(model, element, "<fdir1> 0 0 0 has zero length", fix=fix)

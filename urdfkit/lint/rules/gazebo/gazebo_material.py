@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 
 
 class GazeboMaterial(RobotRule):
-    """A material script of Gazebo classic is used with the new Gazebo.
+    """A material script of Gazebo classic is used with Gazebo Sim.
 
     ## What it does
-    With ``--target gz`` it looks for ``<material>Gazebo/…</material>``.
+    With ``--target gz``, checks for ``<material>Gazebo/…</material>``.
 
     ## Why is this bad?
-    The new Gazebo has no such scripts: the part is white.
+    Gazebo Sim does not support these scripts, and the link is white.
 
     ## Example
     ```xml
@@ -52,14 +52,14 @@ class GazeboMaterial(RobotRule):
     only_for = ("gz",)
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each script."""
+        """Yield a finding for each material script."""
         for block in model.robot.gazebo:
             for child in block.element.find_all("material"):
                 if (child.text or child.get("value") or "").startswith("Gazebo/"):
                     yield self.at(
                         model,
                         child,
-                        f"the new Gazebo has no script `{child.text or child.get('value')}`: the link is white",
+                        f"Gazebo Sim has no material script `{child.text or child.get('value')}`: the link is white",
                         link=block.reference,
-                        help="write <visual><material><diffuse>…, or a <color> in the URDF",
+                        help="set <visual><material><diffuse> here, or <color> in the URDF",
                     )

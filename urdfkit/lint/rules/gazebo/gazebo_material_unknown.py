@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 
 class GazeboMaterialUnknown(RobotRule):
-    """Gazebo has no material of that name.
+    """A Gazebo material is unknown.
 
     ## What it does
-    Compares ``<material>Gazebo/…</material>`` with the materials that come with Gazebo classic. Names without that
-    prefix pass: they may come with the robot.
+    Compares ``<material>Gazebo/…</material>`` with the materials of Gazebo classic. Names without the prefix
+    ``Gazebo/`` are accepted, because the robot may define them.
 
     ## Why is this bad?
-    "Unable to find material": the link is white.
+    Gazebo logs "Unable to find material" and shows the link in white.
 
     ## Example
     ```xml
@@ -44,7 +44,7 @@ class GazeboMaterialUnknown(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the nearest name is taken.
+    Unsafe: the fix writes the nearest material name, which may not be the intended one.
     """
 
     code = "Z824"
@@ -54,15 +54,17 @@ class GazeboMaterialUnknown(RobotRule):
     not_for = NOT_GAZEBO | {"gz"}
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each name that is none of Gazebo's."""
+        """Yield a finding for each unknown material."""
         from urdfkit.description.gazebo_materials import unknown_materials
 
-        for element, name, meant in unknown_materials(model.robot):
+        for element, name, suggestion in unknown_materials(model.robot):
             if not model.is_unresolved(element):
                 yield self.at(
                     model,
                     element,
-                    f"Gazebo has no material `{name}`",
-                    help=f"did you mean `{meant}`?" if meant else None,
-                    fix=new_text(model, element, meant, "unsafe", f"Write `{meant}`") if meant else None,
+                    f"unknown Gazebo material `{name}`",
+                    help=f"did you mean `{suggestion}`?" if suggestion else None,
+                    fix=new_text(model, element, suggestion, "unsafe", f"Replace with `{suggestion}`")
+                    if suggestion
+                    else None,
                 )

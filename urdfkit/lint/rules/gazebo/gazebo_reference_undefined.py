@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 class GazeboReferenceUndefined(RobotRule):
-    """A ``<gazebo reference="…">`` names neither a link nor a joint.
+    """A ``<gazebo reference="…">`` block refers to an undefined link or joint.
 
     ## What it does
-    Compares the reference with the links and joints of the robot.
+    Compares the reference of each ``<gazebo>`` block with the links and joints of the robot.
 
     ## Why is this bad?
-    The block is dropped without a word: no friction, no colour, no sensor.
+    Gazebo silently drops the block with its friction, colours and sensors.
 
     ## Example
     ```xml
@@ -44,7 +44,7 @@ class GazeboReferenceUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the link or joint with the nearest name is taken.
+    Unsafe: the fix writes the nearest link or joint name, which may not be the intended one.
     """
 
     code = "Z801"
@@ -53,19 +53,21 @@ class GazeboReferenceUndefined(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each block that refers to nothing."""
+        """Yield a finding for each block with an undefined reference."""
         robot = model.robot
         for block in robot.gazebo:
             name = block.reference
             if not name or name in robot.link_by_name or name in robot.joint_by_name or "$" in name:
                 continue
             near, hint = meant(name, [*robot.link_by_name, *robot.joint_by_name])
-            found = self.at(
+            finding = self.at(
                 model,
                 block.element,
                 f"`{name}` is neither a link nor a joint{hint}",
                 attribute="reference",
-                help=None if near else "Gazebo drops the whole block",
-                fix=new_value(model, block.element, "reference", near, "unsafe", f"Write `{near}`") if near else None,
+                help=None if near else "correct the reference, or remove the block",
+                fix=new_value(model, block.element, "reference", near, "unsafe", f"Replace with `{near}`")
+                if near
+                else None,
             )
-            yield from doubted(model, name, near, found)
+            yield from doubted(model, name, near, finding)

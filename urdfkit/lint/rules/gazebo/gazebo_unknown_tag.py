@@ -40,9 +40,9 @@ KEYS = (
     "preserveFixedJoint",
     "disableFixedJointLumping",
 )
-"""What parser_urdf.cc of sdformat (12.3) reads in ``<gazebo reference>``."""
+"""The elements that parser_urdf.cc of sdformat (12.3) reads in ``<gazebo reference>``."""
 
-_MEANT = {"mu": "mu1", "mul": "mu1"}
+_ALIASES = {"mu": "mu1", "mul": "mu1"}
 _SDF = frozenset(
     (
         "sensor",
@@ -76,16 +76,16 @@ _SDF = frozenset(
 
 
 class GazeboUnknownTag(RobotRule):
-    """An extension in ``<gazebo reference="…">`` is misspelt, or an element of a ``<sensor>``.
+    """An element of ``<gazebo reference="…">`` or of a ``<sensor>`` is unknown.
 
     ## What it does
-    Compares what is in the block with the names that sdformat turns into friction, stiffness, colour …, and says
-    the nearest one. Names that are near to none pass: they may be SDF. In a ``<sensor>`` everything is SDF, so there
-    every name that SDF does not know in that place is told.
+    Compares the elements of the block with the names that sdformat converts to friction, stiffness, colour and other
+    properties, and suggests the nearest one. Names that resemble none of them are accepted, because they may be SDF.
+    The content of a ``<sensor>`` is SDF, so every element that SDF does not define there is reported.
 
     ## Why is this bad?
-    What sdformat does not know it copies as it is, and Gazebo skips it: ``<mu>`` is no friction, ``<selfcollide>``
-    nothing, and a camera with ``<horisontal_fov>`` has the field of view that cameras have by default.
+    sdformat copies an unknown element unchanged, and Gazebo ignores it: ``<mu>`` sets no friction, ``<selfcollide>``
+    has no effect, and a camera with ``<horisontal_fov>`` has the default field of view.
 
     ## Example
     ```xml
@@ -108,7 +108,7 @@ class GazeboUnknownTag(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the nearest name is taken.
+    Unsafe: the fix renames the element to the nearest known name, which may not be the intended one.
     """
 
     code = "Z811"
@@ -118,29 +118,29 @@ class GazeboUnknownTag(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each name that is nearly one of sdformat's, and each that no sensor knows."""
+        """Yield a finding for each misspelt element of a block, and each unknown element of a sensor."""
         from urdfkit.description.plugins.elements import strangers
 
         for block in model.robot.gazebo:
             for child in block.element.children if block.reference else ():
                 if child.tag in KEYS or child.tag in _SDF or ":" in child.tag:
                     continue
-                meant = _MEANT.get(child.tag) or nearest(child.tag, KEYS, likeness=0.7)
-                if meant is not None:
+                suggestion = _ALIASES.get(child.tag) or nearest(child.tag, KEYS, likeness=0.7)
+                if suggestion is not None:
                     yield self.at(
                         model,
                         child,
-                        f"sdformat knows no <{child.tag}>",
-                        help=f"did you mean <{meant}>?",
-                        fix=new_tag(model, child, meant, "unsafe", f"Write <{meant}>"),
+                        f"unknown element <{child.tag}> in <gazebo>",
+                        help=f"did you mean <{suggestion}>?",
+                        fix=new_tag(model, child, suggestion, "unsafe", f"Rename to <{suggestion}>"),
                     )
             for sensor in block.sensors:
-                for stranger in strangers(sensor.element):
-                    near, element = stranger.meant, stranger.element
+                for unknown in strangers(sensor.element):
+                    near, element = unknown.meant, unknown.element
                     yield self.at(
                         model,
                         element,
-                        f"<{stranger.inside}> of a sensor knows no <{element.tag}>",
+                        f"unknown element <{element.tag}> in <{unknown.inside}> of a sensor",
                         help=f"did you mean <{near}>?" if near else None,
-                        fix=new_tag(model, element, near, "unsafe", f"Write <{near}>") if near else None,
+                        fix=new_tag(model, element, near, "unsafe", f"Rename to <{near}>") if near else None,
                     )

@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 
 class PluginFileMissing(RobotRule):
-    """The settings that a plugin is to read are not there.
+    """The parameter file of a Gazebo plugin does not exist.
 
     ## What it does
-    Looks up the file in ``<parameters>`` of gz_ros2_control and gazebo_ros2_control, where ``$(find …)`` led into a
-    package that is there. Files that the build makes, and those of packages that are not there, pass.
+    Checks the file in ``<parameters>`` of gz_ros2_control and gazebo_ros2_control if ``$(find …)`` resolves to an
+    existing package. Files that the build generates, and files of missing packages, are not checked.
 
     ## Why is this bad?
-    The controller manager comes up without controllers, or takes the simulator down with it.
+    The controller manager starts without controllers, or crashes the simulator.
 
     ## Example
     ```xml
@@ -56,7 +56,7 @@ class PluginFileMissing(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each file of settings that is not there."""
+        """Yield a finding for each parameter file that does not exist."""
         from urdfkit.description.packages import near_path
         from urdfkit.description.surroundings import package_of
 
@@ -69,8 +69,8 @@ class PluginFileMissing(RobotRule):
                 package = package_of(path)
                 if package is None or model.expanded.packages.whereabouts(path):
                     continue
-                build = [file for name in ("CMakeLists.txt", "setup.py") if (file := package / name).is_file()]
-                if any(path.name in file.read_text("utf-8", "replace") for file in build):
+                build_files = [file for name in ("CMakeLists.txt", "setup.py") if (file := package / name).is_file()]
+                if any(path.name in file.read_text("utf-8", "replace") for file in build_files):
                     continue
                 shown = path.relative_to(package)
-                yield self.at(model, element, f"`{shown}` is not in the package {package.name}{near_path(path)}")
+                yield self.at(model, element, f"`{shown}` does not exist in package {package.name}{near_path(path)}")

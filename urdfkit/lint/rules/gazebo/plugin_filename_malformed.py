@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 
 class PluginFilenameMalformed(RobotRule):
-    """The file name of a plugin is broken.
+    """The file name of a plugin is malformed.
 
     ## What it does
-    Looks for white space and line ends in ``filename``, and for libraries of Gazebo classic without ``lib`` or
-    ``.so``.
+    Checks for white space and line breaks in ``filename``, and for libraries of Gazebo classic without the prefix
+    ``lib`` or the suffix ``.so``.
 
     ## Why is this bad?
-    "Failed to load plugin": there is no such file.
+    Gazebo reports "Failed to load plugin", because the file does not exist.
 
     ## Example
     ```xml
@@ -46,7 +46,7 @@ class PluginFilenameMalformed(RobotRule):
     ```
 
     ## Fix safety
-    Safe: no library has white space in its name, and those of Gazebo classic are called ``lib….so``.
+    Safe: library names contain no white space, and libraries of Gazebo classic are named ``lib….so``.
     """
 
     code = "Z809"
@@ -55,34 +55,34 @@ class PluginFilenameMalformed(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each file name that can be none."""
+        """Yield a finding for each malformed file name."""
         for plugin, _, _ in plugins(model.robot):
             name = plugin.filename
             if name is None or "$" in name or model.is_unresolved(plugin.element, "filename"):
                 continue
-            right = "".join(name.split())
-            if right != name:
-                what = "white space in it"
+            corrected = "".join(name.split())
+            if corrected != name:
+                defect = "contains white space"
             elif any(spec.generation != "gz" for spec in specs(plugin)) and "/" not in name:
-                right = f"{'' if name.startswith('lib') else 'lib'}{name.removesuffix('.so')}.so"
-                what = "no `lib` before it" if not name.startswith("lib") else "no `.so` after it"
-            if right == name:
+                corrected = f"{'' if name.startswith('lib') else 'lib'}{name.removesuffix('.so')}.so"
+                defect = "lacks the prefix `lib`" if not name.startswith("lib") else "lacks the suffix `.so`"
+            if corrected == name:
                 continue
             yield self.at(
                 model,
                 plugin.element,
-                f"the file name `{' '.join(name.split())}` has {what}",
+                f"plugin file name `{' '.join(name.split())}` {defect}",
                 attribute="filename",
-                help=f"write {right}",
-                fix=_rewritten(model, plugin, right),
+                help=f"write {corrected}",
+                fix=_rewritten(model, plugin, corrected),
             )
 
 
-def _rewritten(model: Model, plugin: Plugin, right: str) -> Fix | None:
+def _rewritten(model: Model, plugin: Plugin, corrected: str) -> Fix | None:
     position = plugin.element.origin.position
     tag = model.tag(position)
     written = tag.attributes.get("filename") if tag is not None else None
     if written is None or " ".join(written.value.split()) != " ".join((plugin.filename or "").split()):
         return None
     span = model.document(position.file).source.span(written.value_start, written.value_end)
-    return Fix("safe", f"Write `{right}`", (Edit(span, right),))
+    return Fix("safe", f"Replace with `{corrected}`", (Edit(span, corrected),))

@@ -15,19 +15,19 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 _MAY_BE_FIXED = ("joint", "joints")
-"""Meanings of parameters whose joints are only looked at, by force-torque sensors and state publishers."""
+"""Meanings of parameters whose joints are only read, by force-torque sensors and state publishers."""
 
 
 class PluginJointUndefined(RobotRule):
-    """A Gazebo plugin names a joint that the robot does not have, or drives one that is fixed.
+    """A Gazebo plugin names an undefined joint, or drives a fixed joint.
 
     ## What it does
-    Looks up the joints in the parameters of the plugins we have a table of (diff drive, skid steer, joint state
-    publisher, joint controllers), also the names they take when the parameter is left out. What drives turn must not be
-    fixed, where it has an axis to turn about.
+    Checks the joint parameters of known plugins (differential drive, skid steer, joint state publisher, joint
+    controllers), including the default names of missing parameters. Joints with an axis that a drive turns must not be
+    fixed.
 
     ## Why is this bad?
-    The plugin does nothing, or takes the simulator down with it.
+    The plugin does nothing, or crashes the simulator.
 
     ## Example
     ```xml
@@ -64,7 +64,7 @@ class PluginJointUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the joint with the nearest name is taken.
+    Unsafe: the fix writes the nearest joint name, which may not be the intended one.
     """
 
     code = "Z802"
@@ -73,7 +73,7 @@ class PluginJointUndefined(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint name that is no joint."""
+        """Yield a finding for each undefined joint and each fixed joint that a plugin drives."""
         if not model.robot.gazebo:
             return
         from urdfkit.description.plugins import match
@@ -92,47 +92,47 @@ class PluginJointUndefined(RobotRule):
         from urdfkit.lint.edits import meant, new_text
 
         joints = model.as_written.joint_by_name
-        written = [(text, element) for text, element in values(plugin, parameter) if text]
-        for text, element in written:
+        named = [(text, element) for text, element in values(plugin, parameter) if text]
+        for text, element in named:
             if (
                 text in joints
                 and joints[text].type == "fixed"
                 and joints[text].element.find("axis") is not None
                 and parameter.meaning not in _MAY_BE_FIXED
             ):
-                message = f"<{parameter.tag}> names `{text}`, which is fixed: Gazebo dissolves it"
-                help = "give it the type of the joint that is meant: a wheel is continuous"
+                message = f"<{parameter.tag}> names the fixed joint `{text}`, which Gazebo removes"
+                help = "set the type of the joint; a wheel is continuous"
                 yield self.at(model, element, message, joint=text, help=help)
             if text in joints or "::" in text or "$" in text or model.is_unresolved(element):
                 continue
-            message = f"<{parameter.tag}> names `{text}`, which is no joint"
+            message = f"<{parameter.tag}> names the undefined joint `{text}`"
             fix, near = None, None
             if text in model.robot.joint_by_name:
-                help = f"{_lost(model, text)} would make it, but lacks its `xacro:` prefix"
+                help = f"add the prefix `xacro:` to {_unprefixed_call(model, text)}, which defines the joint"
             else:
-                single = not parameter.separator or parameter.separator not in element.text
+                is_single = not parameter.separator or parameter.separator not in element.text
                 near, hint = meant(text.strip("\"'"), joints)
-                help = hint.removeprefix("; ") or f"joints: {', '.join(joints) or 'none'}"
-                fix = new_text(model, element, near, "unsafe", f"Write `{near}`") if near and single else None
-            found = self.at(model, element, message, joint=text, help=help, fix=fix)
-            yield from doubted(model, text, near, found) if text not in model.robot.joint_by_name else (found,)
+                help = hint.removeprefix("; ") or f"joints of the robot: {', '.join(joints) or 'none'}"
+                fix = new_text(model, element, near, "unsafe", f"Replace with `{near}`") if near and is_single else None
+            finding = self.at(model, element, message, joint=text, help=help, fix=fix)
+            yield from doubted(model, text, near, finding) if text not in model.robot.joint_by_name else (finding,)
         default = parameter.default
-        if not written and default is not None and default not in joints:
-            found = self.at(
+        if not named and default is not None and default not in joints:
+            finding = self.at(
                 model,
                 plugin.element,
-                f"<{parameter.tag}> is left out, and its default `{default}` is no joint",
+                f"<{parameter.tag}> is missing, and its default `{default}` is not a joint",
                 joint=default,
                 help=f"add <{parameter.tag}>…</{parameter.tag}>{did_you_mean(default, joints)}",
             )
-            yield from doubted(model, default, None, found)
+            yield from doubted(model, default, None, finding)
 
 
-def _lost(model: Model, joint: str) -> str:
-    """Return the call, or definition, without prefix that the joint came from."""
+def _unprefixed_call(model: Model, joint: str) -> str:
+    """Return the macro call or definition without ``xacro:`` prefix that defines a joint."""
     chain = model.robot.joint_by_name[joint].element.origin.expansions
     unprefixed = {item.position: item.name for item in model.expanded.unprefixed}
     for call in chain:
         if call.position in unprefixed:
             return f"`<{unprefixed[call.position]}>` ({model.shown(call.position)})"
-    return "a macro"
+    return "the macro call"

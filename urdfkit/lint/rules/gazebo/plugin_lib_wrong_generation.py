@@ -14,15 +14,15 @@ if TYPE_CHECKING:
 
 
 class PluginLibWrongGeneration(RobotRule):
-    """A plugin's library does not exist for the target.
+    """A plugin library does not exist for the target.
 
     ## What it does
-    With ``--target gz`` it looks for libraries of Gazebo classic (``libgazebo_ros_….so``), with ``classic`` and
-    ``ros1`` for systems of the new Gazebo (``gz-sim-…-system``), and with ``ros1`` or ``ros2`` for those that only
-    the other has. From Jazzy on (``ros2-jazzy``) ROS 2 has no Gazebo classic.
+    Checks for libraries of Gazebo classic (``libgazebo_ros_….so``) with ``--target gz``, for systems of Gazebo Sim
+    (``gz-sim-…-system``) with ``classic`` and ``ros1``, and for libraries of only one ROS generation with ``ros1`` or
+    ``ros2``. From Jazzy on (``ros2-jazzy``), ROS 2 has no Gazebo classic.
 
     ## Why is this bad?
-    "Failed to load plugin": the robot stands there without drive or sensor.
+    Gazebo reports "Failed to load plugin", and the robot has no drive or sensor.
 
     ## Example
     ```xml
@@ -66,7 +66,7 @@ class PluginLibWrongGeneration(RobotRule):
             if not is_foreign(plugin, model):
                 continue
             kinds = {spec.kind for spec in specs(plugin)}
-            instead = {
+            replacements = {
                 file
                 for spec in ALL_SPECS
                 if spec.kind in kinds and spec.generation in allowed(model)
@@ -75,7 +75,7 @@ class PluginLibWrongGeneration(RobotRule):
             yield self.at(
                 model,
                 plugin.element,
-                f"`{(plugin.filename or '').strip()}` does not exist for {model.release or model.target}",
+                f"library `{(plugin.filename or '').strip()}` does not exist for {model.release or model.target}",
                 attribute="filename",
-                help=f"there it is {min(instead)}" if instead else None,
+                help=f"use {min(replacements)}" if replacements else None,
             )

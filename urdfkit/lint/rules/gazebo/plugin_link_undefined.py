@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 
 class PluginLinkUndefined(RobotRule):
-    """A plugin names a link that is not there.
+    """A plugin names an undefined link.
 
     ## What it does
-    Looks at those parameters of the plugins it knows that name links: base frames of drives (``robotBaseFrame``,
-    ``child_frame_id``), bodies of sensors.
+    Checks the parameters of known plugins that name links: base frames of drives (``robotBaseFrame``,
+    ``child_frame_id``) and bodies of sensors.
 
     ## Why is this bad?
-    The plugin stops, or publishes transforms of a frame that nobody has.
+    The plugin stops, or publishes transforms of a frame that does not exist.
 
     ## Example
     ```xml
@@ -50,7 +50,7 @@ class PluginLinkUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the link with the nearest name is taken.
+    Unsafe: the fix writes the nearest link name, which may not be the intended one.
     """
 
     code = "Z803"
@@ -59,18 +59,18 @@ class PluginLinkUndefined(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each link that a plugin names and the robot lacks."""
+        """Yield a finding for each undefined link."""
         for text, element, parameter, _ in references(model, ("link", "frame")):
             if parameter.names == "frame" and parameter.meaning != "base_frame":
                 continue
             if is_frame(text, model.robot):
                 continue
             near, hint = meant(text.strip("\"'"), model.robot.link_by_name)
-            found = self.at(
+            finding = self.at(
                 model,
                 element,
-                f"<{parameter.tag}> names `{text}`, which is no link{hint}",
+                f"<{parameter.tag}> names the undefined link `{text}`{hint}",
                 link=text,
-                fix=new_text(model, element, near, "unsafe", f"Write `{near}`") if near else None,
+                fix=new_text(model, element, near, "unsafe", f"Replace with `{near}`") if near else None,
             )
-            yield from doubted(model, text, near, found)
+            yield from doubted(model, text, near, finding)

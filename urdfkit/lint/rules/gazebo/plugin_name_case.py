@@ -15,15 +15,15 @@ if TYPE_CHECKING:
 
 
 class PluginNameCase(RobotRule):
-    """A system of the new Gazebo is called in the wrong case.
+    """The class name of a Gazebo Sim system has the wrong case.
 
     ## What it does
-    Compares the ``name`` of plugins that begins with ``gz::`` or ``ignition::`` with the classes it knows, without
-    regard to case.
+    Compares plugin names that begin with ``gz::``, ``ignition::`` or the namespace of gz_ros2_control or
+    ign_ros2_control with the known classes, ignoring case.
 
     ## Why is this bad?
-    In the new Gazebo the name is that of the C++ class: ``gz::sim::Systems::DiffDrive`` is found nowhere and the
-    plugin is not loaded.
+    Gazebo Sim looks up a plugin by the name of its C++ class. It finds no class ``gz::sim::Systems::DiffDrive`` and
+    does not load the plugin.
 
     ## Example
     ```xml
@@ -46,7 +46,7 @@ class PluginNameCase(RobotRule):
     ```
 
     ## Fix safety
-    Safe: there is one class of that name.
+    Safe: the fix changes only the case of the name.
     """
 
     code = "Z808"
@@ -63,15 +63,15 @@ class PluginNameCase(RobotRule):
             name = (plugin.name or "").strip()
             if not name.lower().startswith(("gz::", "ignition::", "gz_ros2_control::", "ign_ros2_control::")):
                 continue
-            right = classes.get(name.lower())
-            if right is None and "::systems::" in name.lower() and "::systems::" not in name:
-                at = name.lower().index("::systems::")
-                right = f"{name[:at]}::systems::{name[at + 11 :]}"
-            if right is not None and right != name:
+            expected = classes.get(name.lower())
+            if expected is None and "::systems::" in name.lower() and "::systems::" not in name:
+                start = name.lower().index("::systems::")
+                expected = f"{name[:start]}::systems::{name[start + 11 :]}"
+            if expected is not None and expected != name:
                 yield self.at(
                     model,
                     plugin.element,
-                    f"there is no class `{name}`; it is `{right}`",
+                    f"unknown class `{name}`; did you mean `{expected}`?",
                     attribute="name",
-                    fix=new_value(model, plugin.element, "name", right, "safe", f"Write `{right}`"),
+                    fix=new_value(model, plugin.element, "name", expected, "safe", f"Replace with `{expected}`"),
                 )

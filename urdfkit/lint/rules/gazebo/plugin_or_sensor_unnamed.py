@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 
 class PluginOrSensorUnnamed(RobotRule):
-    """A plugin or a sensor has no name.
+    """A plugin or sensor has no name.
 
     ## What it does
-    Looks for ``<plugin>`` and ``<sensor>`` without ``name``, or with an empty one.
+    Checks for ``<plugin>`` and ``<sensor>`` elements with a missing or empty ``name``.
 
     ## Why is this bad?
-    "Required attribute[name] in element[plugin] is not specified in SDF": Gazebo reads nothing of the model from there
-    on, and the robot stands there without it.
+    Gazebo reports "Required attribute[name] in element[plugin] is not specified in SDF" and ignores the rest of the
+    model.
 
     ## Example
     ```xml
@@ -49,9 +49,9 @@ class PluginOrSensorUnnamed(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each of them."""
+        """Yield a finding for each unnamed plugin and sensor."""
         named = [(plugin.name, plugin.element) for plugin, _, _ in plugins(model.robot)]
         named += [(sensor.name, sensor.element) for block in model.robot.gazebo for sensor in block.sensors]
         for name, element in named:
             if not (name or "").strip():
-                yield self.at(model, element, f"a <{element.tag}> has no name", help='add name="…"')
+                yield self.at(model, element, f"<{element.tag}> has no name", help='add name="…"')

@@ -15,15 +15,15 @@ if TYPE_CHECKING:
 
 
 class PluginParamUnknown(RobotRule):
-    """A plugin has no such parameter.
+    """A plugin parameter is unknown.
 
     ## What it does
-    Compares what is written in a plugin with what its source reads, for the plugins it knows. Nothing is said of
-    other libraries.
+    Compares the elements of each known plugin with the parameters that its source code reads. Other libraries are not
+    checked.
 
     ## Why is this bad?
-    The plugin does not complain: it takes its default. ``<torque>`` does not make the wheels of the differential
-    drive stronger, ``<wheelTorque>`` does.
+    The plugin ignores the element and uses its default: ``<torque>`` does not make the wheels of the differential drive
+    stronger, ``<wheelTorque>`` does.
 
     ## Example
     ```xml
@@ -50,7 +50,7 @@ class PluginParamUnknown(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the parameter with the nearest name is taken, and the robot behaves differently from then on.
+    Unsafe: the fix renames the element to the nearest parameter, which changes the behaviour of the robot.
     """
 
     code = "Z805"
@@ -60,20 +60,22 @@ class PluginParamUnknown(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each parameter that the plugin does not read, in no generation."""
+        """Yield a finding for each parameter that no generation of the plugin reads."""
         from urdfkit.description.plugins.unread import unread
 
         for plugin, _, _ in plugins(model.robot):
             spec = spec_of(plugin, model.target) if not is_foreign(plugin, model) else None
-            for each in unread(plugin, spec) if spec is not None else ():
-                if each.promised:
-                    yield self.at(model, each.element, each.message, severity="info")
+            for parameter in unread(plugin, spec) if spec is not None else ():
+                if parameter.promised:
+                    yield self.at(model, parameter.element, parameter.message, severity="info")
                     continue
-                meant = each.meant
+                suggestion = parameter.meant
                 yield self.at(
                     model,
-                    each.element,
-                    each.message,
-                    help=f"did you mean <{meant}>?" if meant else None,
-                    fix=new_tag(model, each.element, meant, "unsafe", f"Write <{meant}>") if meant else None,
+                    parameter.element,
+                    parameter.message,
+                    help=f"did you mean <{suggestion}>?" if suggestion else None,
+                    fix=new_tag(model, parameter.element, suggestion, "unsafe", f"Rename to <{suggestion}>")
+                    if suggestion
+                    else None,
                 )

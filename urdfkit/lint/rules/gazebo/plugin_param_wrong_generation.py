@@ -13,18 +13,19 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-_NAMES = {"ros1": "ROS 1", "ros2": "ROS 2", "gz": "the new Gazebo"}
+_NAMES = {"ros1": "ROS 1", "ros2": "ROS 2", "gz": "Gazebo Sim"}
 
 
 class PluginParamWrongGeneration(RobotRule):
-    """A plugin is given a parameter in the spelling of another generation.
+    """A plugin parameter has the spelling of another generation of the plugin.
 
     ## What it does
-    ROS 1 spells parameters in camelCase, ROS 2 and the new Gazebo in snake_case, and some changed their meaning. A
-    plugin is taken for that of the target, else for the generation that most of its parameters are spelt in.
+    ROS 1 spells parameters in camelCase, ROS 2 and Gazebo Sim in snake_case, and some parameters have changed their
+    meaning. The rule reports parameters that only another generation of the plugin reads. The generation is that of the
+    target, or else the one in which most parameters of the plugin are spelt.
 
     ## Why is this bad?
-    The plugin does not complain: it takes its default, and topics, frames and wheels are other ones than you wrote.
+    The plugin ignores the parameter and uses its default, so topics, frames and wheels differ from the description.
 
     ## Example
     ```xml
@@ -55,7 +56,7 @@ class PluginParamWrongGeneration(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the parameter of the same meaning is written, and the robot behaves differently from then on.
+    Unsafe: the fix renames the parameter to its equivalent, which changes the behaviour of the robot.
     """
 
     code = "Z806"
@@ -74,19 +75,19 @@ class PluginParamWrongGeneration(RobotRule):
             for child in plugin.element.children:
                 if spec.parameter(child.tag) is not None:
                     continue
-                found = next((p for other in others if (p := other.parameter(child.tag)) is not None), None)
-                if found is None or child.tag in ("ros", "robotNamespace"):
+                parameter = next((p for other in others if (p := other.parameter(child.tag)) is not None), None)
+                if parameter is None or child.tag in ("ros", "robotNamespace"):
                     continue
-                ours = spec.by_meaning(found.meaning)
-                is_there = ours is not None and plugin.element.find(ours.tag) is not None
-                topic = found.names == "topic" and spec.generation == "ros2"
-                help = "in ROS 2 topics are changed by <ros><remapping>from:=to</remapping></ros>" if topic else None
+                equivalent = spec.by_meaning(parameter.meaning)
+                is_set = equivalent is not None and plugin.element.find(equivalent.tag) is not None
+                is_topic = parameter.names == "topic" and spec.generation == "ros2"
+                help = "remap the topic with <ros><remapping>from:=to</remapping></ros>" if is_topic else None
                 yield self.at(
                     model,
                     child,
                     f"<{child.tag}> is not read in {_NAMES[spec.generation]}",
-                    help=f"there it is <{ours.tag}>" if ours is not None else help,
+                    help=f"use <{equivalent.tag}>" if equivalent is not None else help,
                     fix=None
-                    if ours is None or is_there
-                    else new_tag(model, child, ours.tag, "unsafe", f"Write <{ours.tag}>"),
+                    if equivalent is None or is_set
+                    else new_tag(model, child, equivalent.tag, "unsafe", f"Rename to <{equivalent.tag}>"),
                 )

@@ -17,18 +17,18 @@ _REQUIRED = {
     ("p3d", "ros1"): ("body", "topic"),
     ("p3d", "ros2"): ("body",),
 }
-"""Kind and generation → what it stops without (gazebo_plugins, gazebo_ros_imu.cpp and gazebo_ros_p3d.cpp)."""
+"""Kind and generation → required parameters (gazebo_plugins, gazebo_ros_imu.cpp and gazebo_ros_p3d.cpp)."""
 
 
 class PluginParameterMissing(RobotRule):
-    """A plugin lacks a parameter without which it stops.
+    """A plugin lacks a required parameter.
 
     ## What it does
-    Looks for the plugins ``libgazebo_ros_imu.so`` of ROS 1 and ``libgazebo_ros_p3d.so`` without the body that they
-    measure, and for the latter of ROS 1 without its topic.
+    Checks ``libgazebo_ros_imu.so`` of ROS 1 and ``libgazebo_ros_p3d.so`` for a missing link to measure, and
+    ``libgazebo_ros_p3d.so`` of ROS 1 also for a missing topic.
 
     ## Why is this bad?
-    The plugin says so once, among all that Gazebo prints when it starts, and publishes nothing.
+    The plugin logs a single message at start-up and publishes nothing.
 
     ## Example
     ```xml
@@ -61,7 +61,7 @@ class PluginParameterMissing(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each parameter that has to be written and is not, nor any that may mean it."""
+        """Yield a finding for each required parameter that is missing, unless it is misspelt."""
         if model.is_incomplete:
             return
         from urdfkit.description.plugins.unread import unread
@@ -70,14 +70,14 @@ class PluginParameterMissing(RobotRule):
             spec = spec_of(plugin, model.target)
             if spec is None or sensor is not None or is_foreign(plugin, model):
                 continue
-            mistaken = {each.meant for each in unread(plugin, spec)}
+            misspelt = {other.meant for other in unread(plugin, spec)}
             for meaning in _REQUIRED.get((spec.kind, spec.generation), ()):
-                tags = {found.tag for each in specs(plugin) if (found := each.by_meaning(meaning)) is not None}
+                tags = {variant.tag for other in specs(plugin) if (variant := other.by_meaning(meaning)) is not None}
                 parameter = spec.by_meaning(meaning)
-                if parameter is None or parameter.tag in mistaken:
+                if parameter is None or parameter.tag in misspelt:
                     continue
                 if not any(child.tag in tags for child in plugin.element.children):
                     name = (plugin.filename or "").strip()
-                    what = "the link it measures" if parameter.names == "link" else "where it publishes"
-                    message = f"`{name}` stops without <{parameter.tag}>, {what}"
+                    purpose = "the link to measure" if parameter.names == "link" else "the topic to publish"
+                    message = f"`{name}` requires <{parameter.tag}>, {purpose}"
                     yield self.at(model, plugin.element, message, help=f"add <{parameter.tag}>…</{parameter.tag}>")

@@ -16,16 +16,16 @@ if TYPE_CHECKING:
 
 
 class PluginUnknown(RobotRule):
-    """There is no such plugin: its library or its class is misspelt.
+    """A plugin library or class is unknown.
 
     ## What it does
-    Looks for file names that are nearly those of a library of gazebo_ros_pkgs, of the new Gazebo or of other packages
-    in wide use, and, for libraries of the new Gazebo, for a ``name`` that is none of the library's classes. Names that
-    are near none pass: the library may be anybody's.
+    Checks for file names that are nearly those of a library of gazebo_ros_pkgs, Gazebo Sim or another widely used
+    package. For libraries of Gazebo Sim, also checks that ``name`` is a class of the library. Names that resemble no
+    known library are accepted, because they may be custom libraries.
 
     ## Why is this bad?
-    "Failed to load plugin": the robot stands there without drive or sensor. In the new Gazebo the name of a plugin is
-    that of its C++ class.
+    Gazebo reports "Failed to load plugin", and the robot has no drive or sensor. Gazebo Sim looks up a plugin by the
+    name of its C++ class.
 
     ## Example
     ```xml
@@ -48,7 +48,7 @@ class PluginUnknown(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the library, or the class, with the nearest name is taken.
+    Unsafe: the fix writes the nearest library or class name, which may not be the intended one.
     """
 
     code = "Z825"
@@ -66,44 +66,50 @@ class PluginUnknown(RobotRule):
             if file is None or "$" in file or model.is_unresolved(plugin.element, "filename"):
                 continue
             library = stem("".join(file.split()))
-            meant = meant_library(library)
-            if meant is not None:
-                yield self._found(model, plugin, "filename", f"there is no library `{library}`", _dressed(file, meant))
-            known = classes().get(meant or library, ())
+            suggestion = meant_library(library)
+            if suggestion is not None:
+                yield self._finding(
+                    model, plugin, "filename", f"unknown library `{library}`", _file_name(file, suggestion)
+                )
+            class_names = classes().get(suggestion or library, ())
             name = (plugin.name or "").strip()
-            if name in known or not (known or "::" in name) or "$" in name:
+            if name in class_names or not (class_names or "::" in name) or "$" in name:
                 continue
-            if known and "::" not in name and not _is_gazebos(known[0]):
-                # Versions differ in their classes, but all of them have a name space.
-                yield self._found(model, plugin, "name", f"`{meant or library}` has no class `{name}`", known[0])
+            if class_names and "::" not in name and not _is_system(class_names[0]):
+                # The classes differ between versions, but all of them have a namespace.
+                yield self._finding(
+                    model, plugin, "name", f"library `{suggestion or library}` has no class `{name}`", class_names[0]
+                )
                 continue
-            right = meant_class(name, known or _every_class())
-            if right is not None and right.lower() == name.lower():
-                continue  # Z808's
-            if known and _is_gazebos(known[0]):
-                right = right or known[0]
-                yield self._found(model, plugin, "name", f"`{meant or library}` has no class `{name}`", right)
-            elif right is not None and not known:
-                yield self._found(model, plugin, "name", f"there is no class `{name}`", right)
+            expected = meant_class(name, class_names or _all_classes())
+            if expected is not None and expected.lower() == name.lower():
+                continue  # Reported by Z808.
+            if class_names and _is_system(class_names[0]):
+                expected = expected or class_names[0]
+                yield self._finding(
+                    model, plugin, "name", f"library `{suggestion or library}` has no class `{name}`", expected
+                )
+            elif expected is not None and not class_names:
+                yield self._finding(model, plugin, "name", f"unknown class `{name}`", expected)
 
-    def _found(self, model: Model, plugin: Plugin, attribute: str, message: str, right: str) -> Finding:
-        fix = new_value(model, plugin.element, attribute, right, "unsafe", f"Write `{right}`")
-        return self.at(model, plugin.element, f"{message}; did you mean `{right}`?", attribute=attribute, fix=fix)
+    def _finding(self, model: Model, plugin: Plugin, attribute: str, message: str, expected: str) -> Finding:
+        fix = new_value(model, plugin.element, attribute, expected, "unsafe", f"Replace with `{expected}`")
+        return self.at(model, plugin.element, f"{message}; did you mean `{expected}`?", attribute=attribute, fix=fix)
 
 
-def _every_class() -> list[str]:
+def _all_classes() -> list[str]:
     from urdfkit.lint.libraries import classes
 
     return [name for names in classes().values() for name in names]
 
 
-def _is_gazebos(name: str) -> bool:
-    """Whether a class is the new Gazebo's own: those of gz_ros2_control have other names in other versions."""
+def _is_system(name: str) -> bool:
+    """Whether a class is a system of Gazebo Sim; classes of gz_ros2_control differ between versions."""
     return "::systems::" in name
 
 
-def _dressed(file: str, library: str) -> str:
-    """Return a library's file name as files of its kind are written, or as this one is where both are."""
+def _file_name(file: str, library: str) -> str:
+    """Return the file name of a library in the form of its generation, or of `file` if both forms exist."""
     if library.startswith(("gz", "ign")):
         return f"lib{library}.so" if file.strip().endswith(".so") else library
     folder = file.strip().rpartition("/")

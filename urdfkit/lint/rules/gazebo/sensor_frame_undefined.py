@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 
 class SensorFrameUndefined(RobotRule):
-    """A sensor speaks of a frame that the robot does not have.
+    """A sensor names an undefined frame.
 
     ## What it does
-    Compares ``frameName``, ``frame_name``, ``gz_frame_id`` … of sensors with the links. ``world``, ``map`` and
-    ``odom`` are frames outside of the robot.
+    Compares ``frameName``, ``frame_name``, ``gz_frame_id`` and similar elements of sensors with the links. ``world``,
+    ``map`` and ``odom`` are accepted as frames outside the robot.
 
     ## Why is this bad?
-    Its pictures and scans come with a frame that TF does not know: RViz shows nothing, localisation waits.
+    Images and scans are published in a frame that is missing in TF: RViz shows nothing, and localisation waits.
 
     ## Example
     ```xml
@@ -57,7 +57,7 @@ class SensorFrameUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the link with the nearest name is taken.
+    Unsafe: the fix writes the nearest link name, which may not be the intended one.
     """
 
     code = "Z804"
@@ -67,18 +67,18 @@ class SensorFrameUndefined(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each frame of a sensor that is no link."""
+        """Yield a finding for each undefined frame of a sensor."""
         for text, element, tag in self._frames(model):
             if is_frame(text.strip().lstrip("/"), model.robot) or is_frame(text, model.robot):
                 continue
             near, hint = meant(text.strip("\"'"), model.robot.link_by_name)
-            found = self.at(
+            finding = self.at(
                 model,
                 element,
-                f"<{tag}> names `{text}`, which is no link{hint}",
-                fix=new_text(model, element, near, "unsafe", f"Write `{near}`") if near else None,
+                f"<{tag}> names the undefined frame `{text}`{hint}",
+                fix=new_text(model, element, near, "unsafe", f"Replace with `{near}`") if near else None,
             )
-            yield from doubted(model, text, near, found)
+            yield from doubted(model, text, near, finding)
 
     def _frames(self, model: Model) -> Iterator[tuple[str, Element, str]]:
         for text, element, parameter, _ in references(model, ("frame",)):

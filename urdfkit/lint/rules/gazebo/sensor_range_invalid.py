@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 
 
 class SensorRangeInvalid(RobotRule):
-    """A sensor is told to look where nothing is.
+    """A sensor has an invalid range, resolution, field of view or rate.
 
     ## What it does
-    Looks for lidars without samples or with a resolution of zero, for a smaller number above the larger one in
-    ``<min>`` and ``<max>``, ``<min_angle>`` and ``<max_angle>``, ``<near>`` and ``<far>``, ``<pointCloudCutoff>`` and
-    ``<pointCloudCutoffMax>``, ``<min_range>`` and ``<max_range>``, and for cameras whose field of view is none. Also
-    for numbers that are none, rates below zero and angles of more than a full turn.
+    Checks for lidars without samples or with a resolution of zero, for a minimum above its maximum (``<min>`` and
+    ``<max>``, ``<min_angle>`` and ``<max_angle>``, ``<near>`` and ``<far>``, ``<pointCloudCutoff>`` and
+    ``<pointCloudCutoffMax>``, ``<min_range>`` and ``<max_range>``), and for cameras without a valid field of view. Also
+    checks for values that are not numbers, negative rates and angles of more than a full turn.
 
     ## Why is this bad?
-    Such a sensor sees nothing; the simulator of this package leaves it out.
+    The sensor measures nothing, and the simulator of urdfkit omits it.
 
     ## Example
     ```xml
@@ -67,7 +67,7 @@ class SensorRangeInvalid(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each number that leaves nothing to see."""
+        """Yield a finding for each invalid value."""
         from urdfkit.description.plugins.sense import (
             WIDE,
             senseless_camera,
@@ -78,15 +78,15 @@ class SensorRangeInvalid(RobotRule):
 
         for block in model.robot.gazebo:
             for sensor in block.sensors:
-                found: list[tuple[Element, str]] = [*senseless_numbers(sensor.element)]
+                defects: list[tuple[Element, str]] = [*senseless_numbers(sensor.element)]
                 for child in sensor.element.children:
                     if child.tag in ("ray", "lidar"):
-                        found += senseless_scan(child)
+                        defects += senseless_scan(child)
                     elif child.tag == "camera":
-                        found += senseless_camera(child, is_wide=sensor.type in WIDE)
+                        defects += senseless_camera(child, is_wide=sensor.type in WIDE)
                 for plugin in sensor.plugins:
                     if (spec := spec_of(plugin, model.target)) is not None:
-                        found += senseless_parameters(plugin, spec)
-                for element, message in found:
+                        defects += senseless_parameters(plugin, spec)
+                for element, message in defects:
                     if not any(model.is_unresolved(each) for each in element.walk()):
                         yield self.at(model, element, message, link=block.reference)

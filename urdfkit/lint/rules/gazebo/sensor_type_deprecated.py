@@ -12,17 +12,17 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-_TODAY = {"ray": "gpu_lidar", "gpu_ray": "gpu_lidar", "depth": "depth_camera", "openni_kinect": "rgbd_camera"}
+_REPLACEMENTS = {"ray": "gpu_lidar", "gpu_ray": "gpu_lidar", "depth": "depth_camera", "openni_kinect": "rgbd_camera"}
 
 
 class SensorTypeDeprecated(RobotRule):
-    """A sensor is of a type that the new Gazebo does not simulate.
+    """A sensor has a type that Gazebo Sim does not support.
 
     ## What it does
-    With ``--target gz`` it looks for ``ray``, ``gpu_ray``, ``depth`` and ``openni_kinect``.
+    With ``--target gz``, checks for sensors of type ``ray``, ``gpu_ray``, ``depth`` and ``openni_kinect``.
 
     ## Why is this bad?
-    "Sensor type not supported yet": nothing is published.
+    Gazebo Sim reports "Sensor type not supported yet" and publishes nothing.
 
     ## Example
     ```xml
@@ -55,16 +55,16 @@ class SensorTypeDeprecated(RobotRule):
     only_for = ("gz",)
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each sensor of an old type."""
+        """Yield a finding for each sensor of an unsupported type."""
         for block in model.robot.gazebo:
             for sensor in block.sensors:
-                new = _TODAY.get((sensor.type or "").strip())
+                new = _REPLACEMENTS.get((sensor.type or "").strip())
                 if new is not None:
                     yield self.at(
                         model,
                         sensor.element,
-                        f"the new Gazebo does not simulate sensors of type `{sensor.type}`",
+                        f"Gazebo Sim does not support sensors of type `{sensor.type}`",
                         attribute="type",
                         help=f'write type="{new}"',
-                        fix=new_value(model, sensor.element, "type", new, "safe", f"Write `{new}`"),
+                        fix=new_value(model, sensor.element, "type", new, "safe", f"Replace with `{new}`"),
                     )

@@ -20,9 +20,9 @@ _CLASSIC = {
     "rgbd": "depth",
     "navsat": "gps",
 }
-"""Types of the new Gazebo → what Gazebo classic has instead (gazebo11, `SensorFactory::RegisterAll`)."""
+"""Types of Gazebo Sim → equivalent types of Gazebo classic (gazebo11, `SensorFactory::RegisterAll`)."""
 
-_OFTEN = {
+_MISNOMERS = {
     "laser": "ray",
     "hokuyo": "ray",
     "kinect": "depth",
@@ -30,18 +30,18 @@ _OFTEN = {
     "rgb_camera": "camera",
     "webcam": "camera",
 }
-"""What people call a sensor → its type."""
+"""Common misnomers → SDF types."""
 
 
 class SensorTypeUnknown(RobotRule):
-    """There is no sensor of that type.
+    """A sensor has an unknown type.
 
     ## What it does
-    Looks for a ``type`` of a ``<sensor>`` that is nearly one of SDF's, or that is often taken for one, and, for Gazebo
-    classic, for types that only the new Gazebo has. Other names pass: plugins may bring sensors of their own.
+    Checks for a ``type`` of a ``<sensor>`` that is nearly an SDF type or a common misnomer, and, for Gazebo classic,
+    for types that only Gazebo Sim has. Other types are accepted, because plugins may define their own.
 
     ## Why is this bad?
-    "Unable to create sensor": nothing is published.
+    Gazebo reports "Unable to create sensor" and publishes nothing.
 
     ## Example
     ```xml
@@ -64,7 +64,7 @@ class SensorTypeUnknown(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the type with the nearest name is taken.
+    Unsafe: the fix writes the nearest type, which may not be the intended one.
     """
 
     code = "Z827"
@@ -73,7 +73,7 @@ class SensorTypeUnknown(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each sensor of a type that is not there."""
+        """Yield a finding for each sensor of an unknown type."""
         from urdfkit.description.plugins.sensors import SENSOR_TYPES
 
         is_classic = model.target in ("classic", "ros1")
@@ -82,19 +82,19 @@ class SensorTypeUnknown(RobotRule):
                 kind = sensor.type or ""
                 if not kind or "$" in kind or model.is_unresolved(sensor.element, "type"):
                     continue
-                right = None
+                expected = None
                 if kind in SENSOR_TYPES or kind in ("openni_kinect", "gpu_ray"):
-                    right = _CLASSIC.get(kind) if is_classic else None
+                    expected = _CLASSIC.get(kind) if is_classic else None
                 else:
-                    right = _OFTEN.get(kind.lower()) or nearest(kind.strip(), SENSOR_TYPES, likeness=0.8)
-                    right = {"ray": "gpu_lidar"}.get(right or "", right) if model.target == "gz" else right
-                if right is None:
+                    expected = _MISNOMERS.get(kind.lower()) or nearest(kind.strip(), SENSOR_TYPES, likeness=0.8)
+                    expected = {"ray": "gpu_lidar"}.get(expected or "", expected) if model.target == "gz" else expected
+                if expected is None:
                     continue
-                which = "Gazebo classic has no sensor" if kind in SENSOR_TYPES else "there is no sensor"
+                defect = "Gazebo classic has no sensor type" if kind in SENSOR_TYPES else "unknown sensor type"
                 yield self.at(
                     model,
                     sensor.element,
-                    f"{which} of type `{kind}`; did you mean `{right}`?",
+                    f"{defect} `{kind}`; did you mean `{expected}`?",
                     attribute="type",
-                    fix=new_value(model, sensor.element, "type", right, "unsafe", f"Write `{right}`"),
+                    fix=new_value(model, sensor.element, "type", expected, "unsafe", f"Replace with `{expected}`"),
                 )

@@ -17,13 +17,13 @@ class SensorsShareTopic(RobotRule):
     """Two sensors publish on the same topic.
 
     ## What it does
-    Compares the topics of lasers, cameras, IMUs, GPS and the like: as they are written, with namespace, name of the
-    camera and remappings, else as the plugin takes them. Rangefinders and bumpers are left out: of theirs several often
+    Compares the topics of lasers, cameras, IMUs, GPS receivers and similar sensors, including namespaces, camera names,
+    remappings and the defaults of the plugins. Rangefinders and bumpers are not checked, because several of them often
     share a topic on purpose.
 
     ## Why is this bad?
-    The images of two cameras, or the scans of two lasers, come one after the other on one topic, each from elsewhere:
-    RViz flickers and maps are torn. It happens where a macro of a sensor has its topic written out.
+    The images of two cameras, or the scans of two lasers, alternate on one topic: RViz flickers and maps are distorted.
+    The usual cause is a sensor macro with a fixed topic.
 
     ## Example
     ```xml
@@ -54,19 +54,19 @@ class SensorsShareTopic(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each second sensor on a topic, once for each of them."""
+        """Yield a finding for each sensor on the topic of another sensor, once per sensor."""
         from urdfkit.lint.topics import published
 
         first: dict[str, Published] = {}
-        said: set[tuple[str, str]] = set()
-        for one in published(model):
-            other = first.setdefault(one.topic, one)
-            if other.key == one.key or one.key in said:
+        reported: set[tuple[str, str]] = set()
+        for sensor in published(model):
+            other = first.setdefault(sensor.topic, sensor)
+            if other.key == sensor.key or sensor.key in reported:
                 continue
-            said.add(one.key)
+            reported.add(sensor.key)
             yield self.at(
                 model,
-                one.element,
-                f"`{one.name}` publishes on `{one.topic}`, as `{other.name}` does",
-                help=f"give each a topic of its own; the other is at {model.shown(other.element.origin.position)}",
+                sensor.element,
+                f"`{sensor.name}` publishes on `{sensor.topic}`, which `{other.name}` also uses",
+                help=f"choose another topic; the other sensor is at {model.shown(other.element.origin.position)}",
             )

@@ -20,13 +20,13 @@ _TAGS = ("topic", "camera_info_topic")
 
 
 class TopicWithBlank(RobotRule):
-    """The name of a topic has a blank in it.
+    """A topic name contains white space.
 
     ## What it does
-    Looks at the topics of sensors and of the plugins it knows, and at remappings. Blanks around a name do not count.
+    Checks the topics of sensors and known plugins, and remappings. White space around a name is ignored.
 
     ## Why is this bad?
-    ROS throws "invalid topic name", Gazebo advertises nothing: the sensor is there and nobody hears of it.
+    ROS throws "invalid topic name" and Gazebo does not advertise the topic, so nothing receives the data of the sensor.
 
     ## Example
     ```xml
@@ -49,7 +49,8 @@ class TopicWithBlank(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: other programs may name the topic, too; blanks become underscores, those beside a slash nothing.
+    Unsafe: other programs may use the topic name. The fix removes white space next to slashes and replaces any other
+    with an underscore.
     """
 
     code = "Z830"
@@ -59,25 +60,25 @@ class TopicWithBlank(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each topic with a blank."""
+        """Yield a finding for each topic with white space."""
         seen: set[int] = set()
         for text, element in self._topics(model):
             if id(element) in seen or not re.search(r"\s", text) or "$" in text:
                 continue
             seen.add(id(element))
-            right = re.sub(r"\s+", "_", re.sub(r"\s*(/|:=)\s*", r"\1", text.strip()))
-            fix = new_text(model, element, right, "unsafe", f"Write `{right}`")
-            yield self.at(model, element, f"the topic `{text}` has a blank in it: no topic can be called that", fix=fix)
+            corrected = re.sub(r"\s+", "_", re.sub(r"\s*(/|:=)\s*", r"\1", text.strip()))
+            fix = new_text(model, element, corrected, "unsafe", f"Replace with `{corrected}`")
+            yield self.at(model, element, f"invalid topic name `{text}`: it contains white space", fix=fix)
 
     def _topics(self, model: Model) -> Iterator[tuple[str, Element]]:
         for block in model.robot.gazebo:
             for sensor in block.sensors:
-                inner = (sensor.element, *(one for one in (sensor.element.find("camera"),) if one is not None))
+                inner = (sensor.element, *sensor.element.find_all("camera")[:1])
                 yield from ((child.text, child) for part in inner for child in part.children if child.tag in _TAGS)
-            for plugin in (*block.plugins, *(one for sensor in block.sensors for one in sensor.plugins)):
+            for plugin in (*block.plugins, *(plugin for sensor in block.sensors for plugin in sensor.plugins)):
                 ros = plugin.element.find("ros")
-                for rule in ros.children if ros is not None else ():
-                    if ":=" in rule.text or rule.tag == "namespace":
-                        yield re.sub(r"\s*:=\s*", ":=", rule.text), rule
+                for remapping in ros.children if ros is not None else ():
+                    if ":=" in remapping.text or remapping.tag == "namespace":
+                        yield re.sub(r"\s*:=\s*", ":=", remapping.text), remapping
         for text, element, _, _ in references(model, ("topic",)):
             yield text, element

@@ -15,15 +15,15 @@ if TYPE_CHECKING:
 
 
 class ValueAttributeInSdf(RobotRule):
-    """A value stands in an attribute where SDF wants it as text.
+    """A value is given as an attribute where SDF expects text.
 
     ## What it does
-    Looks inside ``<sensor>``, ``<visual>``, ``<collision>`` and ``<surface>`` of ``<gazebo>`` for elements that
-    have only an attribute ``value``. Directly in ``<gazebo reference="…">`` both ways are read: ``<mu1
-    value="1"/>`` is fine.
+    Checks inside ``<sensor>``, ``<visual>``, ``<collision>`` and ``<surface>`` of ``<gazebo>`` for elements that have
+    only the attribute ``value``. Direct children of ``<gazebo reference="…">``, such as ``<mu1 value="1"/>``, accept
+    both forms.
 
     ## Why is this bad?
-    SDF reads the text of an element, which is empty here: the default is taken.
+    SDF reads the text of an element, which is empty here, and uses the default value.
 
     ## Example
     ```xml
@@ -51,7 +51,7 @@ class ValueAttributeInSdf(RobotRule):
     ```
 
     ## Fix safety
-    Safe: the value becomes the text.
+    Safe: the fix writes the value as text.
     """
 
     code = "Z812"
@@ -61,13 +61,13 @@ class ValueAttributeInSdf(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each value that SDF does not see."""
+        """Yield a finding for each value that SDF does not read."""
         for block in model.robot.gazebo:
             for child in block.element.children:
                 if child.tag in ("sensor", "visual", "collision", "surface"):
-                    yield from self._look(model, child)
+                    yield from self._check_children(model, child)
 
-    def _look(self, model: Model, element: Element) -> Iterator[Finding]:
+    def _check_children(self, model: Model, element: Element) -> Iterator[Finding]:
         for child in element.children:
             if child.tag == "plugin":
                 continue
@@ -75,12 +75,12 @@ class ValueAttributeInSdf(RobotRule):
                 yield self.at(
                     model,
                     child,
-                    f"SDF reads the text of <{child.tag}>, which is empty",
+                    f"<{child.tag}> has a value attribute but no text: SDF reads only the text",
                     attribute="value",
                     help=f"write <{child.tag}>{child.get('value')}</{child.tag}>",
                     fix=_as_text(model, child),
                 )
-            yield from self._look(model, child)
+            yield from self._check_children(model, child)
 
 
 def _as_text(model: Model, element: Element) -> Fix | None:
