@@ -38,7 +38,7 @@ def test_a_row_has_the_lines_the_place_the_rule_and_the_fix(robot: Path) -> None
     row = rows["J412"]
     assert (row["joint"], row["line"], row["severity"]) == ("turn", 6, "warning")
     assert row["lines"][0].strip().startswith('<axis xyz="0 0 2"/>')
-    assert row["fix"]["title"] == "Make the axis one long"
+    assert row["fix"]["title"] == "Normalise the axis"
     assert [line[0] for line in row["fix"]["diff"]] == ["@", "-", "+"]
     assert 'xyz="0 0 1"' in row["fix"]["diff"][2]
     assert row["fix"]["may"]
@@ -52,7 +52,7 @@ def test_one_fix_changes_its_line_and_no_other_byte(robot: Path) -> None:
     before = robot.read_bytes()
     robot.chmod(0o640)
     findings, rows = look(robot)
-    assert findings.mend(rows["J412"]["number"]).startswith("J412: Make the axis one long, in ")
+    assert findings.mend(rows["J412"]["number"]).startswith("J412: Normalise the axis, in ")
     assert robot.read_bytes() == before.replace(b'xyz="0 0 2"', b'xyz="0 0 1"')
     assert robot.stat().st_mode & 0o777 == 0o640
     assert list(robot.parent.iterdir()) == [robot]  # no temporary file is left

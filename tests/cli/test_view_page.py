@@ -53,7 +53,7 @@ def test_a_badge_leads_to_the_finding_and_its_fix_is_applied(serve, visits, unti
     until(lambda: page.evaluate("urdfkit.scene.model") != model)
     assert path.read_text() == before.replace('axis xyz="0 2 0"', 'axis xyz="0 1 0"')
     until(lambda: page.locator(".badge[data-link=lower]").count() == 0)
-    assert "fixed J412: Make the axis one long" in served.errors.read_text()
+    assert "fixed J412: Normalise the axis" in served.errors.read_text()
     assert page.evaluate("urdfkit.page.selected") == {"link": "lower"}
     assert values(page)["bend"] == 0.5
     assert page.evaluate("urdfkit.stage.viewer.camera.position.toArray()") == pytest.approx(camera)

@@ -14,14 +14,15 @@ if TYPE_CHECKING:
 
 
 class AxisMissing(RobotRule):
-    """A joint that moves has no axis.
+    """A movable joint has no ``<axis>``.
 
     ## What it does
-    Looks for joints of type ``revolute``, ``continuous``, ``prismatic`` and ``planar`` without ``<axis>`` whose
-    child has a shape or a mass.
+    Checks for ``revolute``, ``continuous``, ``prismatic`` and ``planar`` joints without an ``<axis>`` whose child link
+    has a shape or a mass.
 
     ## Why is this bad?
-    The default is x, not z as many expect: say so where it is meant.
+    The default axis is x (``1 0 0``), although z is often expected. Write the axis explicitly, even if it is the
+    default.
 
     ## Example
     ```xml
@@ -53,7 +54,7 @@ class AxisMissing(RobotRule):
     ```
 
     ## Fix safety
-    Safe: the default is written out.
+    Safe: the fix writes the default value explicitly.
     """
 
     code = "J413"
@@ -62,7 +63,7 @@ class AxisMissing(RobotRule):
     fix = "safe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint that relies on the default."""
+        """Yield a finding for each joint that relies on the default axis."""
         for joint in model.robot.joints:
             if (
                 joint.type not in ("revolute", "continuous", "prismatic", "planar")
@@ -74,7 +75,7 @@ class AxisMissing(RobotRule):
                 yield self.at(
                     model,
                     joint.element,
-                    f"{joint.type} joint `{joint.name}` has no axis: it is x (1 0 0) then",
+                    f"{joint.type} joint `{joint.name}` has no <axis> and uses the default, x (1 0 0)",
                     attribute="name",
                     joint=joint.name,
                     fix=more_children(model, joint.element, '<axis xyz="1 0 0"/>', "safe", "Write the default axis"),

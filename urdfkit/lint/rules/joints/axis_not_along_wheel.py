@@ -16,18 +16,18 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 PARALLEL = 0.985
-"""Cosine of 10 degrees: cambered wheels are let be."""
+"""Cosine of 10 degrees, the largest accepted deviation, so that cambered wheels pass."""
 
 
 class AxisNotAlongWheel(RobotRule):
-    """A wheel does not turn about its own axis.
+    """The axis of a wheel joint is not the axis of the wheel.
 
     ## What it does
-    Compares the axis of continuous joints with the axis of the disc (a cylinder wider than long) that the child
-    link is, both turned as the origins say.
+    Compares the axis of each continuous joint with the symmetry axis of its child link, if all shapes of that link are
+    discs (cylinders wider than long). Deviations of up to 10 degrees, such as the camber of a wheel, are accepted.
 
     ## Why is this bad?
-    The wheel spins like a coin or a turntable, and the robot does not drive.
+    The wheel tumbles instead of rolling, and the robot does not drive.
 
     ## Example
     ```xml
@@ -77,35 +77,36 @@ class AxisNotAlongWheel(RobotRule):
             wheel = model.robot.link_by_name.get(joint.child or "")
             if joint.type != "continuous" or wheel is None or axis is None:
                 continue
-            written = joint.element.find("axis")
-            if written is not None and len(numbers(written.get("xyz") or "1 0 0") or ()) != 3:
-                continue  # It could not be read.
+            axis_element = joint.element.find("axis")
+            if axis_element is not None and len(numbers(axis_element.get("xyz") or "1 0 0") or ()) != 3:
+                continue  # The axis is malformed: reported by bad-number or wrong-arity.
             discs = [
                 tuple(row[2] for row in rotation(shape.origin.rpy))
                 for shape in shapes_of(wheel)
                 if isinstance(shape.geometry, Cylinder) and shape.geometry.length < 2.0 * shape.geometry.radius
             ]
             if len(discs) != len(wheel.visuals) + len(wheel.collisions) or not discs:
-                continue  # Something else than a disc: the wheel may be any part of it.
+                continue  # The link has other shapes, and any of them may be the wheel.
             cosines = [abs(sum(a * b for a, b in zip(axis, disc, strict=True))) for disc in discs]
             if max(cosines) < PARALLEL:
-                own = _rolling_ahead(model, joint, discs[0])
+                forward_axis = _forward_axis(model, joint, discs[0])
+                expected = " ".join(f"{round(part, 3) + 0.0:g}" for part in forward_axis)
                 yield self.at(
                     model,
                     joint.element.find("axis") or joint.element,
-                    f"joint `{joint.name}` does not turn the wheel `{wheel.name}` about its own axis: that is "
-                    f"{' '.join(f'{round(part, 3) + 0.0:g}' for part in own)} in the joint's frame",
+                    f"joint `{joint.name}` does not turn the wheel `{wheel.name}` about the axis of the wheel, "
+                    f"{expected} in the joint frame",
                     attribute="xyz",
                     joint=joint.name,
-                    help="a cylinder lies along its z",
+                    help=f'write <axis xyz="{expected}"/>, or rotate the shape: a cylinder extends along its z axis',
                 )
 
 
-def _rolling_ahead(model: Model, joint: Joint, axis: tuple[float, ...]) -> Vector:
-    """Return an axis, turned round where a wheel that turns about it would roll backwards: y is left (REP 103)."""
+def _forward_axis(model: Model, joint: Joint, axis: tuple[float, ...]) -> Vector:
+    """Return the axis with the sign that makes positive rotation drive forward, where y points left (REP 103)."""
     x, y, z = axis
     parent = model.frames.get(joint.parent or "")
     frame = parent.moved(joint.origin) if parent is not None else None
-    ahead = turned(frame.rotation, (x, y, z)) if frame is not None else (x, y, z)
-    largest = max(ahead, key=abs)
+    axis_in_root = turned(frame.rotation, (x, y, z)) if frame is not None else (x, y, z)
+    largest = max(axis_in_root, key=abs)
     return (x, y, z) if largest > 0.0 else (-x, -y, -z)

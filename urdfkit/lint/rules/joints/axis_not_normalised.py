@@ -14,17 +14,17 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 TOLERANCE = 1e-3
-"""Rounded axes (0.577 0.577 0.577) are let be."""
+"""Accepted deviation of the length from 1, so that rounded axes (0.577 0.577 0.577) pass."""
 
 
 class AxisNotNormalised(RobotRule):
-    """The axis of a joint has not the length 1.
+    """The axis of a joint is not a unit vector.
 
     ## What it does
-    Measures the axes of joints that move; up to a thousandth more or less is let be.
+    Checks the length of the axis of each movable joint. A deviation of up to 0.001 is accepted.
 
     ## Why is this bad?
-    urdfdom and KDL take the vector as it is: the joint turns, or slides, too far or not far enough.
+    urdfdom and KDL use the vector as written, which scales the motion of the joint by the length of the axis.
 
     ## Example
     ```xml
@@ -53,7 +53,7 @@ class AxisNotNormalised(RobotRule):
     ```
 
     ## Fix safety
-    Safe: the direction stays, which is all that was meant.
+    Safe: the fix keeps the direction of the axis.
     """
 
     code = "J412"
@@ -62,7 +62,7 @@ class AxisNotNormalised(RobotRule):
     fix = "safe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each axis that is too long or too short."""
+        """Yield a finding for each axis that is not a unit vector."""
         for joint in model.robot.joints:
             length = sum(value * value for value in joint.axis) ** 0.5
             axis, direction = joint.element.find("axis"), unit(joint.axis)
@@ -72,9 +72,9 @@ class AxisNotNormalised(RobotRule):
             yield self.at(
                 model,
                 axis,
-                f"joint `{joint.name}`: the axis has the length {length:.4g}, not 1",
+                f"the axis of joint `{joint.name}` has length {length:.4g} instead of 1",
                 attribute="xyz",
                 joint=joint.name,
                 help=f'write xyz="{value}"',
-                fix=new_value(model, axis, "xyz", value, "safe", "Make the axis one long"),
+                fix=new_value(model, axis, "xyz", value, "safe", "Normalise the axis"),
             )

@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 
 class AxisOrLimitOnFixed(RobotRule):
-    """A fixed joint has an axis or a limit.
+    """A fixed joint has an ``<axis>`` or a ``<limit>``.
 
     ## What it does
-    Looks for ``<limit>``, and for ``<axis>`` with a direction, on joints of type ``fixed``. Exporters write ``0 0
-    0`` there.
+    Checks for ``<limit>`` and nonzero ``<axis>`` elements in ``fixed`` joints. A zero axis is accepted, because
+    exporters write it.
 
     ## Why is this bad?
-    They are not read. Perhaps the joint was meant to move.
+    The elements have no effect. They may also indicate that the joint type is wrong.
 
     ## Example
     ```xml
@@ -49,7 +49,7 @@ class AxisOrLimitOnFixed(RobotRule):
     ```
 
     ## Fix safety
-    Safe: nobody reads what is taken away.
+    Safe: the fix removes an element that has no effect.
     """
 
     code = "J418"
@@ -67,7 +67,8 @@ class AxisOrLimitOnFixed(RobotRule):
                     yield self.at(
                         model,
                         child,
-                        f"joint `{joint.name}` is fixed: <{child.tag}> is not read",
+                        f"<{child.tag}> has no effect on fixed joint `{joint.name}`",
                         joint=joint.name,
-                        fix=without_element(model, child, "safe", f"Take <{child.tag}> away"),
+                        help=f"remove <{child.tag}>, or change the joint type if the joint should move",
+                        fix=without_element(model, child, "safe", f"Remove <{child.tag}>"),
                     )

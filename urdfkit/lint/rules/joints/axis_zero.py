@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 
 
 class AxisZero(RobotRule):
-    """The axis of a joint has no direction.
+    """The axis of a movable joint is zero.
 
     ## What it does
-    Looks for ``<axis xyz="0 0 0"/>`` on joints that move.
+    Checks for ``<axis xyz="0 0 0"/>`` in movable joints.
 
     ## Why is this bad?
-    The joint can move about nothing: MuJoCo refuses it, others divide by zero or leave it rigid.
+    A zero vector has no direction. MuJoCo rejects the joint; other tools divide by zero or treat the joint as fixed.
 
     ## Example
     ```xml
@@ -52,13 +52,14 @@ class AxisZero(RobotRule):
     name = "axis-zero"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each axis without direction."""
+        """Yield a finding for each axis of length zero."""
         for joint in model.robot.joints:
             if joint.type in ("revolute", "continuous", "prismatic", "planar") and not any(joint.axis):
                 yield self.at(
                     model,
                     joint.element.find("axis") or joint.element,
-                    f"joint `{joint.name}` has the axis 0 0 0, which is no direction",
+                    f"joint `{joint.name}` has the axis 0 0 0, which has no direction",
                     attribute="xyz",
                     joint=joint.name,
+                    help="write the direction of the axis, such as 0 0 1",
                 )

@@ -20,11 +20,11 @@ class ContinuousWithPositionLimits(RobotRule):
     """A continuous joint has position limits.
 
     ## What it does
-    Looks for ``lower`` and ``upper`` on joints of type ``continuous``. Limits of a turn or more, and two zeros, are
-    a note.
+    Checks for the attributes ``lower`` and ``upper`` in ``continuous`` joints. A range of at least one full turn, or
+    two zeros, is reported as a note.
 
     ## Why is this bad?
-    They are not read: the joint turns without end.
+    The limits have no effect: a continuous joint turns without limits.
 
     ## Example
     ```xml
@@ -55,7 +55,7 @@ class ContinuousWithPositionLimits(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the limits are taken away, as nobody reads them; perhaps the joint should be revolute.
+    Unsafe: the fix removes the limits, but the joint may be meant to be ``revolute``.
     """
 
     code = "J415"
@@ -70,16 +70,16 @@ class ContinuousWithPositionLimits(RobotRule):
             if joint.type != "continuous" or limit is None or (limit.lower is None and limit.upper is None):
                 continue
             lower, upper = limit.lower or 0.0, limit.upper or 0.0
-            parts = [without_attribute(model, limit.element, side, "unsafe", "") for side in ("lower", "upper")]
-            edits = tuple(edit for part in parts if part is not None for edit in part.edits)
-            means_nothing = lower == upper == 0.0 or upper - lower >= 2 * pi - 0.01
+            removals = [without_attribute(model, limit.element, side, "unsafe", "") for side in ("lower", "upper")]
+            edits = tuple(edit for removal in removals if removal is not None for edit in removal.edits)
+            is_unbounded = lower == upper == 0.0 or upper - lower >= 2 * pi - 0.01
             yield self.at(
                 model,
                 limit.element,
-                f"joint `{joint.name}` is continuous: lower and upper are not read",
+                f"position limits have no effect on continuous joint `{joint.name}`",
                 attribute="lower" if limit.lower is not None else "upper",
                 joint=joint.name,
-                help="a joint that stops is `revolute`",
-                fix=Fix("unsafe", "Take the position limits away", edits) if edits else None,
-                severity="info" if means_nothing else None,
+                help="remove lower and upper, or use the type `revolute` if the joint has end stops",
+                fix=Fix("unsafe", "Remove the position limits", edits) if edits else None,
+                severity="info" if is_unbounded else None,
             )

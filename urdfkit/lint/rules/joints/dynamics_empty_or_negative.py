@@ -11,16 +11,19 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
+_LINEAR_UNITS = {"damping": "N·s/m", "friction": "N"}
+_ANGULAR_UNITS = {"damping": "N·m·s/rad", "friction": "N·m"}
+
 
 class DynamicsEmptyOrNegative(RobotRule):
-    """``<dynamics>`` says nothing, or has a negative value.
+    """``<dynamics>`` is empty, or has a negative value.
 
     ## What it does
-    Looks for ``<dynamics>`` without ``damping`` and ``friction``, and for negative ones.
+    Checks for ``<dynamics>`` with neither ``damping`` nor ``friction``, and for negative values of these attributes.
 
     ## Why is this bad?
-    urdfdom refuses an empty one ("specified with no damping and no friction"), and a joint that gains energy as it
-    moves makes every simulation explode.
+    urdfdom rejects an empty element ("specified with no damping and no friction"). With a negative value the joint
+    gains energy as it moves, and simulations become unstable.
 
     ## Example
     ```xml
@@ -56,22 +59,25 @@ class DynamicsEmptyOrNegative(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each ``<dynamics>`` that is empty or negative."""
+        """Yield a finding for each ``<dynamics>`` that is empty, and for each negative value."""
         for joint in model.robot.joints:
             dynamics = joint.dynamics
             if dynamics is None:
                 continue
-            written = dynamics.element.attributes
-            if "damping" not in written and "friction" not in written:
-                message = f"joint `{joint.name}`: <dynamics> has neither damping nor friction"
-                yield self.at(model, dynamics.element, message, joint=joint.name)
+            attributes = dynamics.element.attributes
+            if "damping" not in attributes and "friction" not in attributes:
+                message = f"<dynamics> of joint `{joint.name}` has neither damping nor friction"
+                help = "add one of them, or remove the element"
+                yield self.at(model, dynamics.element, message, joint=joint.name, help=help)
+            units = _LINEAR_UNITS if joint.type == "prismatic" else _ANGULAR_UNITS
             for name in ("damping", "friction"):
                 value = getattr(dynamics, name)
                 if value < 0.0:
                     yield self.at(
                         model,
                         dynamics.element,
-                        f"joint `{joint.name}`: {name} {value:g} is negative: the joint gains energy as it moves",
+                        f"{name} {value:g} {units[name]} of joint `{joint.name}` is negative",
                         attribute=name,
                         joint=joint.name,
+                        help="write a value of zero or more",
                     )

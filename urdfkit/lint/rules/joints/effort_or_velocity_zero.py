@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 
 class EffortOrVelocityZero(RobotRule):
-    """A joint may use no force, or have no speed.
+    """The effort or velocity limit of a joint is zero.
 
     ## What it does
-    Looks for ``effort="0"`` and ``velocity="0"`` on joints that move. With ``--target gz``, ``classic`` or
-    ``isaac`` it is a warning, otherwise a note: models that are only looked at may have both.
+    Checks for ``effort="0"`` and ``velocity="0"`` in the limits of movable joints. This is a warning with ``--target
+    gz``, ``classic`` or ``isaac``, and a note otherwise, because models that are only displayed often omit real limits.
 
     ## Why is this bad?
-    Simulators take the limits at their word: the motor is too weak to hold the arm, or never turns.
+    Simulators enforce the limits: with zero effort the joint cannot hold a load, and with zero velocity it never moves.
 
     ## Example
     ```xml
@@ -57,19 +57,20 @@ class EffortOrVelocityZero(RobotRule):
     not_for = frozenset(("moveit",))
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each limit with a zero."""
+        """Yield a finding for each joint with a limit of zero."""
         for joint in model.robot.joints:
             limit = joint.limit
             if limit is None or joint.type not in ("revolute", "prismatic", "continuous") or joint.mimic is not None:
                 continue
             zero = [name for name in ("effort", "velocity") if getattr(limit, name) == 0.0]
             if zero:
+                verb = "are" if len(zero) > 1 else "is"
                 yield self.at(
                     model,
                     limit.element,
-                    f"joint `{joint.name}`: {' and '.join(zero)} limit{'s are' if len(zero) > 1 else ' is'} zero",
+                    f"{' and '.join(zero)} limit{'s' if len(zero) > 1 else ''} of joint `{joint.name}` {verb} zero",
                     attribute=zero[0],
                     joint=joint.name,
-                    help="a motor that may use no force holds nothing" if "effort" in zero else None,
+                    help=f"write the {' and '.join(zero)} of the actuator",
                     severity="warning" if model.target in ("gz", "classic", "isaac") else None,
                 )

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 class JointTypeMissing(RobotRule):
-    """A joint has no type.
+    """A joint has no ``type``.
 
     ## What it does
-    Looks for joints without the attribute ``type``.
+    Checks for joints without the attribute ``type``.
 
     ## Why is this bad?
-    There is no default: every parser refuses the robot.
+    The attribute has no default: every parser rejects the robot.
 
     ## Example
     ```xml
@@ -50,7 +50,8 @@ class JointTypeMissing(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: a joint without axis becomes fixed, one with limits revolute, any other continuous.
+    Unsafe: the fix guesses the type from the other elements. A joint without ``<axis>`` becomes ``fixed``, one with
+    position limits ``revolute``, and any other ``continuous``.
     """
 
     code = "J401"
@@ -58,22 +59,26 @@ class JointTypeMissing(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint without type."""
+        """Yield a finding for each joint without a type."""
+        from urdfkit.description.robot import JOINT_TYPES
+
         for joint in model.robot.joints:
             if joint.type is None:
-                kind = _likely_type(joint)
+                joint_type = _likely_type(joint)
                 yield self.at(
                     model,
                     joint.element,
                     f"joint `{joint.name}` has no type",
                     joint=joint.name,
-                    help=f'write type="{kind}", or whichever of the six types it is',
-                    fix=more_attributes(model, joint.element, f'type="{kind}"', "unsafe", f"Make it {kind}"),
+                    help=f'add type="{joint_type}", or another of {", ".join(JOINT_TYPES)}',
+                    fix=more_attributes(
+                        model, joint.element, f'type="{joint_type}"', "unsafe", f'Add type="{joint_type}"'
+                    ),
                 )
 
 
 def _likely_type(joint: Joint) -> str:
     if joint.element.find("axis") is None:
         return "fixed"
-    limited = joint.limit is not None and (joint.limit.lower is not None or joint.limit.upper is not None)
-    return "revolute" if limited else "continuous"
+    has_limits = joint.limit is not None and (joint.limit.lower is not None or joint.limit.upper is not None)
+    return "revolute" if has_limits else "continuous"

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-_ELSEWHERE = {
+_FOREIGN_TYPES = {
     "hinge": "revolute",
     "rotational": "revolute",
     "rotary": "revolute",
@@ -28,18 +28,19 @@ _ELSEWHERE = {
     "ball": "floating",
     "spherical": "floating",
 }
-"""Types of joints in other formats (SDF, MJCF, USD, Drake) and in speech → the nearest of URDF."""
+"""Joint type of another format (SDF, MJCF, USD, Drake) or common term → closest URDF type."""
 
 
 class JointTypeUnknown(RobotRule):
-    """A joint's type is none of the six.
+    """A joint has an unknown ``type``.
 
     ## What it does
-    Looks for joints whose ``type`` is not fixed, revolute, continuous, prismatic, planar or floating.
+    Checks for joints whose ``type`` is not ``fixed``, ``revolute``, ``continuous``, ``prismatic``, ``planar`` or
+    ``floating``.
 
     ## Why is this bad?
-    Every parser refuses the robot. Types of other formats (``hinge``, ``ball``) are not URDF,
-    and case counts.
+    Every parser rejects the robot. Joint types of other formats, such as ``hinge`` and ``ball``, are not part of URDF.
+    Types are case-sensitive.
 
     ## Example
     ```xml
@@ -60,8 +61,9 @@ class JointTypeUnknown(RobotRule):
     ```
 
     ## Fix safety
-    Safe where a letter or two are wrong; a revolute joint may lack its limits then, which is reported next. Unsafe
-    where it is a guess: what other formats' types come nearest to.
+    Safe if the type is misspelt by one or two letters; a joint corrected to ``revolute`` may then lack its limits,
+    which another rule reports. Unsafe if the fix replaces a joint type of another format with its closest equivalent in
+    URDF.
     """
 
     code = "J402"
@@ -69,23 +71,30 @@ class JointTypeUnknown(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint of unknown type."""
+        """Yield a finding for each joint with an unknown type."""
         from urdfkit.description.robot import JOINT_TYPES
 
         for joint in model.robot.joints:
             if joint.type is None or joint.type in JOINT_TYPES:
                 continue
-            near = nearest(joint.type.strip(), JOINT_TYPES, likeness=0.85)
-            right = _ELSEWHERE.get(joint.type.lower()) or nearest(joint.type.strip(), JOINT_TYPES)
+            is_typo = nearest(joint.type.strip(), JOINT_TYPES, likeness=0.85) is not None
+            suggestion = _FOREIGN_TYPES.get(joint.type.lower()) or nearest(joint.type.strip(), JOINT_TYPES)
             yield self.at(
                 model,
                 joint.element,
-                f"joint `{joint.name}` has the type `{joint.type}`, which is none"
-                + (f"; did you mean `{right}`?" if right else ""),
+                f"unknown type `{joint.type}` of joint `{joint.name}`"
+                + (f"; did you mean `{suggestion}`?" if suggestion else ""),
                 attribute="type",
                 joint=joint.name,
-                help=f"the types are {', '.join(JOINT_TYPES)}",
-                fix=new_value(model, joint.element, "type", right, "safe" if near else "unsafe", f"Write `{right}`")
-                if right
+                help=f"use one of {', '.join(JOINT_TYPES)}",
+                fix=new_value(
+                    model,
+                    joint.element,
+                    "type",
+                    suggestion,
+                    "safe" if is_typo else "unsafe",
+                    f"Replace with `{suggestion}`",
+                )
+                if suggestion
                 else None,
             )

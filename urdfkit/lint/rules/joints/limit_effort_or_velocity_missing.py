@@ -11,17 +11,19 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-_TURNING = {"effort": "[N·m]", "velocity": "[rad/s]"}
+_LINEAR_UNITS = {"effort": "[N]", "velocity": "[m/s]"}
+_ANGULAR_UNITS = {"effort": "[N·m]", "velocity": "[rad/s]"}
 
 
 class LimitEffortOrVelocityMissing(RobotRule):
     """A ``<limit>`` lacks ``effort`` or ``velocity``.
 
     ## What it does
-    Looks at the limits of joints of type ``revolute``, ``prismatic`` and ``continuous``.
+    Checks for ``<limit>`` elements of ``revolute``, ``prismatic`` and ``continuous`` joints without ``effort`` or
+    ``velocity``.
 
     ## Why is this bad?
-    urdfdom refuses the joint, and with it the robot: both are required wherever a limit is written.
+    Both attributes are required in every ``<limit>``: without them urdfdom rejects the robot.
 
     ## Example
     ```xml
@@ -57,19 +59,19 @@ class LimitEffortOrVelocityMissing(RobotRule):
     not_for = frozenset(("mujoco",))
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each limit that lacks one of the two, or both."""
+        """Yield a finding for each limit that lacks an attribute."""
         for joint in model.robot.joints:
             limit = joint.limit
             if limit is None or joint.type not in ("revolute", "prismatic", "continuous"):
                 continue
             missing = [name for name in ("effort", "velocity") if name not in limit.element.attributes]
             if missing:
-                units = {"effort": "[N]", "velocity": "[m/s]"} if joint.type == "prismatic" else _TURNING
-                wanted = " and ".join(f"{name} {units[name]}" for name in missing)
+                units = _LINEAR_UNITS if joint.type == "prismatic" else _ANGULAR_UNITS
+                attributes = " and ".join(f"{name} {units[name]}" for name in missing)
                 yield self.at(
                     model,
                     limit.element,
-                    f"joint `{joint.name}`: <limit> lacks {' and '.join(missing)}",
+                    f"<limit> of joint `{joint.name}` lacks {' and '.join(missing)}",
                     joint=joint.name,
-                    help=f"add {wanted}",
+                    help=f"add {attributes}",
                 )

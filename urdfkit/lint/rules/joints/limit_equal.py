@@ -14,15 +14,15 @@ if TYPE_CHECKING:
 
 
 class LimitEqual(RobotRule):
-    """The lower limit of a joint equals the upper one.
+    """The lower and upper limits of a joint are equal.
 
     ## What it does
-    Compares ``lower`` and ``upper`` of joints of type ``revolute`` and ``prismatic``; what is left out is 0. Other
-    equal limits than 0 were written on purpose, and are a note.
+    Compares ``lower`` and ``upper`` of ``revolute`` and ``prismatic`` joints. Both default to 0. Equal limits other
+    than 0 are reported as a note, because they are probably intended.
 
     ## Why is this bad?
-    The joint cannot move. Mostly the limits were forgotten; where a rigid joint is meant, ``fixed`` says so, and
-    solvers are spared a constraint.
+    The joint cannot move. Usually the limits were forgotten. If the joint is meant to be rigid, the type ``fixed``
+    states this and saves solvers a constraint.
 
     ## Example
     ```xml
@@ -58,7 +58,7 @@ class LimitEqual(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint that its limits freeze."""
+        """Yield a finding for each joint whose limits prevent motion."""
         for joint in model.robot.joints:
             limit = joint.limit
             if joint.type not in ("revolute", "prismatic") or limit is None:
@@ -68,17 +68,19 @@ class LimitEqual(RobotRule):
             lower, upper = limit.lower or 0.0, limit.upper or 0.0
             if lower == upper:
                 unit = "rad" if joint.type == "revolute" else "m"
-                left_out = limit.lower is None and limit.upper is None
-                what = (
-                    "lower and upper are left out, so both are 0" if left_out else f"both limits are {lower:g} {unit}"
+                is_omitted = limit.lower is None and limit.upper is None
+                reason = (
+                    "<limit> has neither lower nor upper, and both default to 0"
+                    if is_omitted
+                    else f"both limits are {lower:g} {unit}"
                 )
-                endless = "a joint that turns without end is `continuous`; " if joint.type == "revolute" else ""
+                alternative = "`continuous` if it turns without limits, or " if joint.type == "revolute" else ""
                 yield self.at(
                     model,
                     limit.element,
-                    f"joint `{joint.name}` cannot move: {what}",
+                    f"joint `{joint.name}` cannot move: {reason}",
                     joint=joint.name,
-                    help=f"{endless}a joint that never moves is `fixed`",
+                    help=f"write the range of motion, or use the type {alternative}`fixed` if it never moves",
                     severity="info" if lower else None,
                 )
 

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 class LimitLowerAboveUpper(RobotRule):
-    """The lower limit of a joint is above its upper limit.
+    """The lower limit of a joint is greater than its upper limit.
 
     ## What it does
-    Compares ``lower`` and ``upper`` of joints of type ``revolute`` and ``prismatic``; what is left out is 0.
+    Compares ``lower`` and ``upper`` of ``revolute`` and ``prismatic`` joints. Both default to 0.
 
     ## Why is this bad?
-    No position is allowed. check_urdf, Pinocchio and MuJoCo accept it all the same, and the joint jumps or sticks.
+    No position satisfies both limits. check_urdf, Pinocchio and MuJoCo accept the robot, but the joint jumps or jams.
 
     ## Example
     ```xml
@@ -50,7 +50,7 @@ class LimitLowerAboveUpper(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the limits are swapped where both are written out as numbers, but a wrong sign is as likely.
+    Unsafe: the fix swaps the limits if both are numbers, but a wrong sign is equally likely.
     """
 
     code = "J405"
@@ -58,7 +58,7 @@ class LimitLowerAboveUpper(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each inverted limit."""
+        """Yield a finding for each joint with inverted limits."""
         for joint in model.robot.joints:
             limit = joint.limit
             if joint.type not in ("revolute", "prismatic") or limit is None:
@@ -71,9 +71,11 @@ class LimitLowerAboveUpper(RobotRule):
                 yield self.at(
                     model,
                     limit.element,
-                    f"joint `{joint.name}`: the lower limit {lower:g} {unit} is above the upper limit {upper:g} {unit}",
+                    f"lower limit {lower:g} {unit} of joint `{joint.name}` is greater than "
+                    f"its upper limit {upper:g} {unit}",
                     attribute="lower" if limit.lower is not None else "upper",
                     joint=joint.name,
+                    help="swap the limits or correct their signs",
                     fix=_swapped(limit, model),
                 )
 

@@ -13,13 +13,14 @@ if TYPE_CHECKING:
 
 
 class LimitMissing(RobotRule):
-    """A revolute or prismatic joint has no limit.
+    """A revolute or prismatic joint has no ``<limit>``.
 
     ## What it does
-    Looks for joints of type ``revolute`` and ``prismatic`` without ``<limit>``.
+    Checks for ``revolute`` and ``prismatic`` joints without ``<limit>``.
 
     ## Why is this bad?
-    The limit is required for them: urdfdom refuses the robot. A joint that turns without end is ``continuous``.
+    These types require a limit: without it urdfdom rejects the robot. A joint that turns without limits has the type
+    ``continuous``.
 
     ## Example
     ```xml
@@ -54,15 +55,17 @@ class LimitMissing(RobotRule):
     not_for = frozenset(("mujoco",))
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint that needs a limit and has none."""
+        """Yield a finding for each joint that lacks a required limit."""
         for joint in model.robot.joints:
             if joint.type in ("revolute", "prismatic") and joint.limit is None:
-                unit = "[rad], [N·m] and [rad/s]" if joint.type == "revolute" else "[m], [N] and [m/s]"
-                endless = "; a joint that turns without end is `continuous`" if joint.type == "revolute" else ""
+                units = "[rad], [N·m] and [rad/s]" if joint.type == "revolute" else "[m], [N] and [m/s]"
+                alternative = (
+                    ", or use the type `continuous` if it turns without limits" if joint.type == "revolute" else ""
+                )
                 yield self.at(
                     model,
                     joint.element,
                     f"{joint.type} joint `{joint.name}` has no <limit>",
                     joint=joint.name,
-                    help=f'add <limit lower="…" upper="…" effort="…" velocity="…"/> in {unit}{endless}',
+                    help=f'add <limit lower="…" upper="…" effort="…" velocity="…"/> in {units}{alternative}',
                 )

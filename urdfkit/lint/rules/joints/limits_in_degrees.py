@@ -18,13 +18,14 @@ if TYPE_CHECKING:
 
 
 class LimitsInDegrees(RobotRule):
-    """Limits of a joint seem to be in degrees.
+    """The limits of a joint appear to be in degrees.
 
     ## What it does
-    Looks at the limits of joints of type ``revolute`` for round numbers beyond two turns (4π) and up to 360.
+    Checks the limits of ``revolute`` joints for integers and half-integers greater than two turns (4π) and up to 360.
 
     ## Why is this bad?
-    Limits are in radians: 90 is more than fourteen turns. Nothing complains, the joint just never stops.
+    Limits are in radians: a limit of 90 rad allows more than fourteen turns. No tool reports an error, and the joint
+    never reaches its limit.
 
     ## Example
     ```xml
@@ -55,7 +56,7 @@ class LimitsInDegrees(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: both limits are taken for degrees, but a joint may turn that often.
+    Unsafe: the fix converts both limits from degrees, but the joint may actually turn that far.
     """
 
     code = "J407"
@@ -64,26 +65,27 @@ class LimitsInDegrees(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each pair of limits that look like degrees."""
+        """Yield a finding for each joint whose limits appear to be in degrees."""
         for joint in model.robot.joints:
             limit = joint.limit
             if joint.type != "revolute" or limit is None:
                 continue
-            suspects = [side for side in ("lower", "upper") if _is_degrees(getattr(limit, side))]
+            suspects = [side for side in ("lower", "upper") if _looks_like_degrees(getattr(limit, side))]
             if suspects:
-                value = getattr(limit, suspects[-1])
+                side = suspects[-1]
+                value = getattr(limit, side)
                 yield self.at(
                     model,
                     limit.element,
-                    f"joint `{joint.name}`: {suspects[-1]}={value:g} rad is {abs(value) / (2 * pi):.1f} turns",
-                    attribute=suspects[-1],
+                    f"{side} limit {value:g} rad of joint `{joint.name}` is {abs(value) / (2 * pi):.1f} turns",
+                    attribute=side,
                     joint=joint.name,
-                    help=f"limits are in rad: {value:g} degrees are {radians(value):.6g}",
+                    help=f"write limits in radians: {value:g}° = {radians(value):.6g} rad",
                     fix=_in_radians(model, limit),
                 )
 
 
-def _is_degrees(value: float | None) -> bool:
+def _looks_like_degrees(value: float | None) -> bool:
     return value is not None and 4 * pi < abs(value) <= 360.0 and (2.0 * value).is_integer()
 
 
@@ -92,8 +94,8 @@ def _in_radians(model: Model, limit: Limit) -> Fix | None:
     for side in ("lower", "upper"):
         value = getattr(limit, side)
         if value:
-            one = new_value(model, limit.element, side, f"{radians(value):.7g}", "unsafe", "")
-            if one is None:
+            fix = new_value(model, limit.element, side, f"{radians(value):.7g}", "unsafe", "")
+            if fix is None:
                 return None
-            edits += one.edits
-    return Fix("unsafe", "Convert degrees to radians", tuple(edits))
+            edits += fix.edits
+    return Fix("unsafe", "Convert the limits to radians", tuple(edits))

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 
 class MimicJointUndefined(RobotRule):
-    """A joint mimics a joint that is not there, that never moves, or itself.
+    """A joint mimics an undefined joint, a fixed joint or itself.
 
     ## What it does
-    Looks for ``<mimic joint="…"/>`` that names no joint, a fixed one, or the joint that it stands in.
+    Checks for ``<mimic joint="…"/>`` that names an undefined joint, a fixed joint, or the joint that contains it.
 
     ## Why is this bad?
-    No reader complains. The joint never moves, or robot_state_publisher leaves its frame out.
+    Parsers do not report the error. The joint never moves, or robot_state_publisher does not publish its frame.
 
     ## Example
     ```xml
@@ -68,7 +68,7 @@ class MimicJointUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the joint with the nearest name is taken.
+    Unsafe: the fix writes the name of the joint with the most similar name.
     """
 
     code = "J416"
@@ -76,7 +76,7 @@ class MimicJointUndefined(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint that mimics nothing."""
+        """Yield a finding for each joint without a valid joint to mimic."""
         for joint in model.robot.joints:
             mimic = joint.mimic
             if mimic is None:
@@ -87,23 +87,27 @@ class MimicJointUndefined(RobotRule):
                     yield self.at(
                         model,
                         mimic.element,
-                        f"joint `{joint.name}` mimics `{mimic.joint}`, which is fixed and never moves",
+                        f"joint `{joint.name}` mimics the fixed joint `{mimic.joint}`",
                         attribute="joint",
                         joint=joint.name,
+                        help="name a movable joint, or remove <mimic>",
                         severity="warning",
                     )
                 continue
             if mimic.joint == joint.name:
                 message = f"joint `{joint.name}` mimics itself"
-                yield self.at(model, mimic.element, message, attribute="joint", joint=joint.name)
+                help = "name the joint to follow, or remove <mimic>"
+                yield self.at(model, mimic.element, message, attribute="joint", joint=joint.name, help=help)
                 continue
-            near, hint = meant(mimic.joint, others)
-            found = self.at(
+            suggestion, hint = meant(mimic.joint, others)
+            finding = self.at(
                 model,
                 mimic.element,
-                f"joint `{joint.name}` mimics `{mimic.joint}`, which is no joint{hint}",
+                f"joint `{joint.name}` mimics the undefined joint `{mimic.joint}`{hint}",
                 attribute="joint",
                 joint=joint.name,
-                fix=new_value(model, mimic.element, "joint", near, "unsafe", f"Write `{near}`") if near else None,
+                fix=new_value(model, mimic.element, "joint", suggestion, "unsafe", f"Replace with `{suggestion}`")
+                if suggestion
+                else None,
             )
-            yield from doubted(model, mimic.joint, near, found)
+            yield from doubted(model, mimic.joint, suggestion, finding)

@@ -11,15 +11,18 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
+_UNITS = {"effort": ("N", "N·m"), "velocity": ("m/s", "rad/s")}
+"""Attribute → unit for a prismatic joint, and for any other."""
+
 
 class NegativeEffortOrVelocity(RobotRule):
     """The effort or velocity limit of a joint is negative.
 
     ## What it does
-    Looks for negative ``effort`` and ``velocity`` in ``<limit>``.
+    Checks for negative ``effort`` and ``velocity`` values in ``<limit>``.
 
     ## Why is this bad?
-    Both are magnitudes. Pinocchio refuses the robot; controllers clamp between limits that exclude each other.
+    Both limits are magnitudes. Pinocchio rejects the robot, and controllers clamp commands to an empty range.
 
     ## Example
     ```xml
@@ -54,16 +57,17 @@ class NegativeEffortOrVelocity(RobotRule):
     name = "negative-effort-or-velocity"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each negative magnitude."""
+        """Yield a finding for each negative limit."""
         for joint in model.robot.joints:
             for name in ("effort", "velocity") if joint.limit is not None and joint.is_movable else ():
                 value = getattr(joint.limit, name)
                 if value is not None and value < 0.0 and joint.limit is not None:
+                    unit = _UNITS[name][joint.type != "prismatic"]
                     yield self.at(
                         model,
                         joint.limit.element,
-                        f"joint `{joint.name}`: the {name} limit {value:g} is negative",
+                        f"{name} limit {value:g} {unit} of joint `{joint.name}` is negative",
                         attribute=name,
                         joint=joint.name,
-                        help="it is a magnitude: leave the sign out, or write a large number for no limit",
+                        help="remove the sign, or write a large value if the joint has no limit",
                     )

@@ -11,20 +11,21 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-FAR = 6.0
-"""Soft limits that lie farther out [rad, m] are meant to be none."""
+DISABLED_DISTANCE = 6.0
+"""Distance from the hard limit [rad, m] from which a soft limit counts as deliberately disabled."""
 
 
 class SafetyControllerInconsistent(RobotRule):
-    """Soft limits lie outside the hard ones or exclude each other, or the safety controller lacks its gain.
+    """A ``<safety_controller>`` has inconsistent soft limits, or lacks ``k_velocity``.
 
     ## What it does
-    Checks ``<safety_controller>``: ``k_velocity`` is required, the soft limits lie inside those of ``<limit>``, and the
-    lower one below the upper one.
+    Checks that each ``<safety_controller>`` has a ``k_velocity``, that its soft limits are within those of ``<limit>``,
+    and that its lower soft limit is not greater than the upper one.
 
     ## Why is this bad?
-    urdfdom refuses the joint without ``k_velocity``. Soft limits outside the hard ones never act: the joint runs
-    into its end at full speed. Where the lower one is above the upper one, both hold it at once.
+    urdfdom rejects a joint without ``k_velocity``. A soft limit outside the hard limits never acts, so the joint
+    reaches its end stop at full speed. If the lower soft limit is greater than the upper one, both act at the same
+    time.
 
     ## Example
     ```xml
@@ -62,14 +63,14 @@ class SafetyControllerInconsistent(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each safety controller that cannot do its work."""
+        """Yield a finding for each inconsistent safety controller."""
         for joint in model.robot.joints:
             safety, limit = joint.safety_controller, joint.limit
             if safety is None:
                 continue
             if "k_velocity" not in safety.element.attributes:
-                message = f"joint `{joint.name}`: <safety_controller> lacks k_velocity"
-                yield self.at(model, safety.element, message, joint=joint.name)
+                message = f"<safety_controller> of joint `{joint.name}` lacks k_velocity"
+                yield self.at(model, safety.element, message, joint=joint.name, help="add k_velocity")
             if (
                 joint.type not in ("revolute", "prismatic")
                 or limit is None
@@ -77,35 +78,39 @@ class SafetyControllerInconsistent(RobotRule):
                 or limit.upper is None
             ):
                 continue
+            unit = "rad" if joint.type == "revolute" else "m"
             lower, upper = safety.soft_lower_limit, safety.soft_upper_limit
             if lower > upper and {"soft_lower_limit", "soft_upper_limit"} <= set(safety.element.attributes):
                 yield self.at(
                     model,
                     safety.element,
-                    f"joint `{joint.name}`: soft_lower_limit {lower:g} is above soft_upper_limit {upper:g}",
+                    f"soft_lower_limit {lower:g} {unit} of joint `{joint.name}` is greater than "
+                    f"soft_upper_limit {upper:g} {unit}",
                     attribute="soft_lower_limit",
                     joint=joint.name,
+                    help="swap the soft limits or correct their signs",
                 )
                 continue
-            for attribute, soft, hard, outside in (
+            for attribute, soft, hard, is_outside in (
                 (
                     "soft_lower_limit",
                     safety.soft_lower_limit,
                     limit.lower,
-                    1e-9 < limit.lower - safety.soft_lower_limit < FAR,
+                    1e-9 < limit.lower - safety.soft_lower_limit < DISABLED_DISTANCE,
                 ),
                 (
                     "soft_upper_limit",
                     safety.soft_upper_limit,
                     limit.upper,
-                    1e-9 < safety.soft_upper_limit - limit.upper < FAR,
+                    1e-9 < safety.soft_upper_limit - limit.upper < DISABLED_DISTANCE,
                 ),
             ):
-                if outside and attribute in safety.element.attributes:
+                if is_outside and attribute in safety.element.attributes:
                     yield self.at(
                         model,
                         safety.element,
-                        f"joint `{joint.name}`: {attribute} {soft:g} is outside of the limit {hard:g}",
+                        f"{attribute} {soft:g} {unit} of joint `{joint.name}` is beyond the hard limit {hard:g} {unit}",
                         attribute=attribute,
                         joint=joint.name,
+                        help="write a soft limit within the hard limits",
                     )
