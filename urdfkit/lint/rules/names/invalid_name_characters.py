@@ -15,14 +15,15 @@ if TYPE_CHECKING:
 
 
 class InvalidNameCharacters(RobotRule):
-    """A name has characters that not every tool takes.
+    """A name contains characters that some tools do not accept.
 
     ## What it does
-    Looks at the names of links and joints for blanks, quotes, letters beyond ASCII and a slash in front.
+    Checks the names of links and joints for spaces, quotes, ``<``, ``>``, ``&``, non-ASCII characters, and a leading
+    slash.
 
     ## Why is this bad?
-    check_urdf accepts them. TF refuses frames that begin with a slash, and topics, parameters and MJCF made from
-    such names do not work.
+    check_urdf accepts such names, but TF rejects frame names with a leading slash, and topics, parameters and MJCF
+    files generated from such names are invalid.
 
     ## Example
     ```xml
@@ -44,20 +45,20 @@ class InvalidNameCharacters(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each name with such a character."""
+        """Yield a finding for each invalid name."""
         for part in model.parts:
             name = part.name
             if "$" in name or model.is_unresolved(part.element, "name") or ("\ufffd" in name and model.misread):
                 continue
-            wrong = re.search(r"^/|[^!-~]|[\"'`<>&]", name)
-            if wrong is not None:
-                what = {" ": "a blank", "/": "a slash in front"}.get(wrong[0], f"`{wrong[0]}`")
+            invalid = re.search(r"^/|[^!-~]|[\"'`<>&]", name)
+            if invalid is not None:
+                character = {" ": "a space", "/": "a leading slash"}.get(invalid[0], f"`{invalid[0]}`")
                 yield self.at(
                     model,
                     part.element,
-                    f"the name `{name}` of a {part.element.tag} has {what} in it",
+                    f"name of {part.element.tag} `{name}` contains {character}",
                     attribute="name",
                     link=name if part.element.tag == "link" else None,
                     joint=name if part.element.tag == "joint" else None,
-                    help="letters, digits, `_`, `-` and `.` work everywhere",
+                    help="use only letters, digits, `_`, `-` and `.`",
                 )

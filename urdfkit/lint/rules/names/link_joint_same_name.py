@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 
 class LinkJointSameName(RobotRule):
-    """A joint has the name of a link.
+    """A joint and a link have the same name.
 
     ## What it does
-    Looks for joints that are called as a link is.
+    Checks for joints that have the name of a link.
 
     ## Why is this bad?
-    URDF allows it, but SDF has one name space for both: Gazebo refuses the model ("non-unique name"), or renames
-    the joint, and then plugins that name it do not find it.
+    URDF allows this, but in SDF links and joints share one namespace. Gazebo rejects the model ("non-unique name") or
+    renames the joint, and plugins that refer to the joint do not find it.
 
     ## Example
     ```xml
@@ -68,8 +68,9 @@ class LinkJointSameName(RobotRule):
                 yield self.at(
                     model,
                     joint.element,
-                    f"joint `{joint.name}` has the name of a link: in SDF they share one name space",
+                    f"joint `{joint.name}` has the same name as a link, which SDF does not allow",
                     attribute="name",
                     joint=joint.name,
-                    help=f"the link: {model.shown(link.element.origin.position)}; call the joint `{joint.name}_joint`",
+                    help=f"rename the joint to `{joint.name}_joint`; "
+                    f"the link is at {model.shown(link.element.origin.position)}",
                 )

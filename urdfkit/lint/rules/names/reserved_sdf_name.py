@@ -13,13 +13,14 @@ if TYPE_CHECKING:
 
 
 class ReservedSdfName(RobotRule):
-    """A name is reserved in SDF.
+    """A link or joint has a name that is reserved in SDF.
 
     ## What it does
-    Looks for links and joints called ``__…__``, for joints called ``world`` and for ``::`` in names.
+    Checks for link and joint names that begin and end with two underscores or contain ``::``, and for joints named
+    ``world``.
 
     ## Why is this bad?
-    sdformat, and with it Gazebo, refuses the model: names between double underscores and ``world`` are its own, and
+    sdformat, and therefore Gazebo, rejects the model. Names between double underscores and ``world`` are reserved, and
     ``::`` separates the names of nested models.
 
     ## Example
@@ -46,18 +47,19 @@ class ReservedSdfName(RobotRule):
         for part in model.parts:
             name, kind = part.name, part.element.tag
             if name.startswith("__") and name.endswith("__") and len(name) > 4:
-                why = "names between double underscores are reserved in SDF"
+                reason = "names between double underscores are reserved in SDF"
             elif "::" in name:
-                why = "`::` separates the names of nested models in SDF"
+                reason = "`::` separates the names of nested models in SDF"
             elif name == "world" and kind == "joint":
-                why = "`world` is reserved in SDF"
+                reason = "`world` is reserved in SDF"
             else:
                 continue
             yield self.at(
                 model,
                 part.element,
-                f"{kind} `{name}`: {why}",
+                f"invalid name `{name}` of a {kind}: {reason}",
                 attribute="name",
                 link=name if kind == "link" else None,
                 joint=name if kind == "joint" else None,
+                help=f"rename the {kind}",
             )
