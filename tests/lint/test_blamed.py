@@ -114,7 +114,7 @@ def test_of_properties_below_zero_the_one_that_is_a_size_is_blamed(tmp_path):
 def test_a_child_with_letters_swapped_is_one_finding_with_a_hint(tmp_path):
     joint = '<joint name="j" type="fixed"><parent link="base"/><child link="amr"/></joint>'
     told = found(tmp_path, f'<link name="base"/><link name="arm"/>\n{joint}')
-    assert told == [("T202", 3, "joint `j` has the child `amr`, which is no link; did you mean `arm`?")]
+    assert told == [("T202", 3, "undefined child link `amr` of joint `j`; did you mean `arm`?")]
 
 
 BOX = """<link name="{0}"><visual><geometry><box size="{1} {1} {1}"/></geometry></visual>

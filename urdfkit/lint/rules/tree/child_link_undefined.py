@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 
 
 class ChildLinkUndefined(RobotRule):
-    """A joint's child is no link.
+    """The child link of a joint is undefined.
 
     ## What it does
-    Looks for joints whose ``<child>`` names a link that is not there, and names the nearest one that is.
+    Checks for joints whose ``<child>`` names an undefined link, and suggests the link with the most similar name.
 
     ## Why is this bad?
-    The joint carries nothing: urdfdom, Pinocchio and every viewer refuse the robot.
+    The joint has no child link: urdfdom, Pinocchio and every viewer reject the robot.
 
     ## Example
     ```xml
@@ -43,7 +43,7 @@ class ChildLinkUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the link with the nearest name is taken.
+    Unsafe: the fix writes the name of the link with the most similar name.
     """
 
     code = "T202"
@@ -51,15 +51,17 @@ class ChildLinkUndefined(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint whose child is no link."""
+        """Yield a finding for each joint with an undefined child link."""
         for joint, name, element in dangling(model.robot, "child"):
-            near, hint = meant_child(model.robot, name)
-            found = self.at(
+            suggestion, hint = meant_child(model.robot, name)
+            finding = self.at(
                 model,
                 element,
-                f"joint `{joint.name}` has the child `{name}`, which is no link{hint}",
+                f"undefined child link `{name}` of joint `{joint.name}`{hint}",
                 attribute="link",
                 joint=joint.name,
-                fix=new_value(model, element, "link", near, "unsafe", f"Write `{near}`") if near else None,
+                fix=new_value(model, element, "link", suggestion, "unsafe", f"Replace with `{suggestion}`")
+                if suggestion
+                else None,
             )
-            yield from doubted(model, name, near, found)
+            yield from doubted(model, name, suggestion, finding)

@@ -17,10 +17,11 @@ class DuplicateJoint(RobotRule):
     """Two joints have the same name.
 
     ## What it does
-    Looks for joints that carry the name of an earlier one.
+    Checks for joints with the name of an earlier joint.
 
     ## Why is this bad?
-    Names are how everything refers to a joint. urdfdom refuses the robot; tools that do not, keep either of the two.
+    Other elements and tools identify a joint by its name. urdfdom rejects the robot; other tools keep one of the two
+    joints.
 
     ## Example
     ```xml
@@ -49,13 +50,13 @@ class DuplicateJoint(RobotRule):
     name = "duplicate-joint"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint whose name is taken."""
+        """Yield a finding for each joint with the name of an earlier one."""
         for joint, first in repeated(model.robot.joints):
             yield self.at(
                 model,
                 joint.element,
-                f"joint `{joint.name}` is there already",
+                f"duplicate joint `{joint.name}`",
                 attribute="name",
                 joint=joint.name,
-                help=f"the first is at {model.shown(first.element.origin.position)}",
+                help=f"rename or remove it; the first definition is at {model.shown(first.element.origin.position)}",
             )

@@ -17,10 +17,11 @@ class DuplicateLink(RobotRule):
     """Two links have the same name.
 
     ## What it does
-    Looks for links that carry the name of an earlier one.
+    Checks for links with the name of an earlier link.
 
     ## Why is this bad?
-    Names are how everything refers to a link. urdfdom refuses the robot; tools that do not, keep either of the two.
+    Other elements and tools identify a link by its name. urdfdom rejects the robot; other tools keep one of the two
+    links.
 
     ## Example
     ```xml
@@ -46,13 +47,13 @@ class DuplicateLink(RobotRule):
     name = "duplicate-link"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each link whose name is taken."""
+        """Yield a finding for each link with the name of an earlier one."""
         for link, first in repeated(model.robot.links):
             yield self.at(
                 model,
                 link.element,
-                f"link `{link.name}` is there already",
+                f"duplicate link `{link.name}`",
                 attribute="name",
                 link=link.name,
-                help=f"the first is at {model.shown(first.element.origin.position)}",
+                help=f"rename or remove it; the first definition is at {model.shown(first.element.origin.position)}",
             )

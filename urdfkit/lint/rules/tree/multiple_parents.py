@@ -16,11 +16,11 @@ class MultipleParents(RobotRule):
     """A link is the child of more than one joint.
 
     ## What it does
-    Looks for links that several joints name as their child.
+    Checks for links that several joints name as their child.
 
     ## Why is this bad?
-    URDF describes trees: a link has one parent. check_urdf says nothing and keeps one of the joints; Pinocchio and
-    MuJoCo refuse the robot.
+    A URDF robot is a tree, so each link has at most one parent. check_urdf accepts the robot and silently keeps one of
+    the joints; Pinocchio and MuJoCo reject it.
 
     ## Example
     ```xml
@@ -50,19 +50,19 @@ class MultipleParents(RobotRule):
     name = "multiple-parents"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint that takes a child which has a parent already."""
+        """Yield a finding for each further joint with the same child."""
         for name, joints in model.robot.parents_of.items():
             first = joints[0]
             for joint in joints[1:]:
                 if joint.name == first.name:
-                    continue  # The same joint twice is another matter: duplicate names.
+                    continue  # Reported by duplicate-joint.
                 child = joint.element.find("child") or joint.element
                 yield self.at(
                     model,
                     child,
-                    f"link `{name}` is the child of joint `{joint.name}` and of joint `{first.name}`",
+                    f"link `{name}` is the child of both joint `{joint.name}` and joint `{first.name}`",
                     attribute="link",
                     link=name,
                     joint=joint.name,
-                    help=f"give `{joint.name}` a link of its own, or remove one of the joints",
+                    help=f"give `{joint.name}` a separate child link, or remove one of the joints",
                 )

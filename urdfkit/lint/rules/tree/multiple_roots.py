@@ -17,12 +17,12 @@ class MultipleRoots(RobotRule):
     """More than one link has no parent.
 
     ## What it does
-    Looks for links that are nobody's child besides the root of the largest tree. A link that a joint must have meant
-    whose child is misspelt is left to child-link-undefined.
+    Checks for links without a parent other than the root of the largest tree. A link is not reported if it is the
+    likely correction of an undefined child link, which child-link-undefined reports.
 
     ## Why is this bad?
-    A robot is one tree. urdfdom refuses two roots, robot_state_publisher cannot connect the frames, and MuJoCo silently
-    welds the second tree to the world.
+    A robot is a single tree. urdfdom rejects a second root, robot_state_publisher cannot connect the frames, and MuJoCo
+    silently welds the second tree to the world.
 
     ## Example
     ```xml
@@ -49,14 +49,14 @@ class MultipleRoots(RobotRule):
     name = "multiple-roots"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each root but the one with the most links below it."""
+        """Yield a finding for each root except that of the largest tree."""
         robot = model.robot
         roots = robot.roots()
         if len(roots) < 2:
             return
-        missed = _missed(robot)
-        hidden = model.hidden
-        roots = [link for link in roots if link.name not in missed and not hidden.has_child(link.name)]
+        likely_children = _likely_children(robot)
+        masked = model.hidden
+        roots = [link for link in roots if link.name not in likely_children and not masked.has_child(link.name)]
         if len(roots) < 2:
             return
         main = max(roots, key=lambda link: _links_below(robot, link.name))
@@ -65,10 +65,10 @@ class MultipleRoots(RobotRule):
                 yield self.at(
                     model,
                     link.element,
-                    f"link `{link.name}` has no parent: it is a second root beside `{main.name}`",
+                    f"link `{link.name}` has no parent, but `{main.name}` is already the root",
                     attribute="name",
                     link=link.name,
-                    help=_remedy(robot, link.name, main.name),
+                    help=_suggested_change(robot, link.name, main.name),
                 )
 
 
@@ -83,18 +83,20 @@ def _links_below(robot: Robot, name: str) -> int:
     return len(seen)
 
 
-def _missed(robot: Robot) -> set[str]:
-    """Return the links that joints must have meant whose child is none."""
+def _likely_children(robot: Robot) -> set[str]:
+    """Return the suggested corrections of undefined child links."""
     from urdfkit.description.queries import dangling
     from urdfkit.lint.orphans import meant_child
 
-    return {near for _, name, _ in dangling(robot, "child") if (near := meant_child(robot, name)[0]) is not None}
+    return {
+        suggestion for _, name, _ in dangling(robot, "child") if (suggestion := meant_child(robot, name)[0]) is not None
+    }
 
 
-def _remedy(robot: Robot, orphan: str, root: str) -> str:
+def _suggested_change(robot: Robot, name: str, root: str) -> str:
     from urdfkit.errors import did_you_mean
 
     for joint in robot.joints:
-        if joint.child is not None and joint.child not in robot.link_by_name and did_you_mean(joint.child, [orphan]):
-            return f"joint `{joint.name}` has the child `{joint.child}`, which is no link: is `{orphan}` meant?"
-    return f"add a joint with child `{orphan}` and parent `{root}` or another link"
+        if joint.child is not None and joint.child not in robot.link_by_name and did_you_mean(joint.child, [name]):
+            return f"write `{name}` as the child of joint `{joint.name}` if `{joint.child}` is a misspelling"
+    return f"add a joint with child `{name}` and parent `{root}`, or another link"

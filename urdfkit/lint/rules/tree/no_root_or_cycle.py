@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 
 class NoRootOrCycle(RobotRule):
-    """Joints lead from a link back to itself.
+    """The joints of the robot form a loop.
 
     ## What it does
-    Follows the joints from child to parent and looks for loops.
+    Follows the joints from child to parent and checks for loops.
 
     ## Why is this bad?
-    URDF describes trees. A loop has no root to start from: check_urdf and Pinocchio refuse it when it is the whole
-    robot and silently leave it out when it stands beside a tree; some tools follow it for ever.
+    A URDF robot is a tree, and a loop has no root. check_urdf and Pinocchio reject a robot that consists only of a
+    loop, and silently drop a loop next to a tree. Some tools do not terminate.
 
     ## Example
     ```xml
@@ -46,7 +46,7 @@ class NoRootOrCycle(RobotRule):
     name = "no-root-or-cycle"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each loop, at the joint that is written last."""
+        """Yield a finding for each loop, at the last of its joints in the file."""
         for loop in model.robot.cycles():
             last = max(loop, key=model.robot.joints.index)
             links = [str(joint.parent) for joint in loop]
@@ -56,5 +56,5 @@ class NoRootOrCycle(RobotRule):
                 f"the joints form a loop: {' → '.join([*links, links[0]])}",
                 attribute="name",
                 joint=last.name,
-                help="a link has one parent: take one of the joints away",
+                help="remove one of the joints: each link has at most one parent",
             )

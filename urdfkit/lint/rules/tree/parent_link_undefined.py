@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 
 
 class ParentLinkUndefined(RobotRule):
-    """A joint's parent is no link.
+    """The parent link of a joint is undefined.
 
     ## What it does
-    Looks for joints whose ``<parent>`` names a link that is not there, and names the nearest one that is.
+    Checks for joints whose ``<parent>`` names an undefined link, and suggests the link with the most similar name.
 
     ## Why is this bad?
-    The joint hangs on nothing: urdfdom, Pinocchio and every viewer refuse the robot.
+    The joint has no parent link: urdfdom, Pinocchio and every viewer reject the robot.
 
     ## Example
     ```xml
@@ -43,7 +43,7 @@ class ParentLinkUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the link with the nearest name is taken.
+    Unsafe: the fix writes the name of the link with the most similar name.
     """
 
     code = "T201"
@@ -51,15 +51,17 @@ class ParentLinkUndefined(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint whose parent is no link."""
+        """Yield a finding for each joint with an undefined parent link."""
         for joint, name, element in dangling(model.robot, "parent"):
-            near, hint = meant(name, model.robot.link_by_name)
-            found = self.at(
+            suggestion, hint = meant(name, model.robot.link_by_name)
+            finding = self.at(
                 model,
                 element,
-                f"joint `{joint.name}` has the parent `{name}`, which is no link{hint}",
+                f"undefined parent link `{name}` of joint `{joint.name}`{hint}",
                 attribute="link",
                 joint=joint.name,
-                fix=new_value(model, element, "link", near, "unsafe", f"Write `{near}`") if near else None,
+                fix=new_value(model, element, "link", suggestion, "unsafe", f"Replace with `{suggestion}`")
+                if suggestion
+                else None,
             )
-            yield from doubted(model, name, near, found)
+            yield from doubted(model, name, suggestion, finding)

@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 
 class RootLinkHasInertia(RobotRule):
-    """The root link has an inertia, which KDL does not use.
+    """The root link has an inertia, which KDL does not support.
 
     ## What it does
-    With ``--target ros1`` or ``ros2`` it looks for a mass on the root link.
+    With ``--target ros1`` or ``--target ros2``, checks for a mass on the root link.
 
     ## Why is this bad?
-    robot_state_publisher warns of it at each start, and dynamics by KDL leave the mass out. Simulators use it, and
-    where the robot floats it has to be there: so this is a note, and only for ROS.
+    robot_state_publisher logs a warning at every start, and dynamics computed with KDL ignore the mass. Simulators use
+    the mass, and a floating base requires it, so this is a note, and only for ROS.
 
     ## Example
     ```xml
@@ -67,8 +67,8 @@ class RootLinkHasInertia(RobotRule):
             yield self.at(
                 model,
                 roots[0].element,
-                f"the root link `{roots[0].name}` has an inertia, which KDL leaves out",
+                f"root link `{roots[0].name}` has an inertia, which KDL ignores",
                 attribute="name",
                 link=roots[0].name,
-                help="put an empty link (base_footprint) above it, fixed to it",
+                help="add an empty root link, such as base_footprint, and connect it with a fixed joint",
             )
