@@ -85,7 +85,7 @@ class ControllerContradictsWheels(RobotRule):
             yield from found
 
     def _contradictions(self, source: Source, one: Settings, model: Model) -> Iterator[Finding]:
-        from urdfkit.lint.rules.semantics.wheel_separation import SKIDDING
+        from urdfkit.lint.rules.semantics.wheel_separation import SKID_STEER_RATIO
         from urdfkit.lint.wheels import track
 
         left, right = _wheels(one, model, "left"), _wheels(one, model, "right")
@@ -98,7 +98,7 @@ class ControllerContradictsWheels(RobotRule):
             at = f"y = {first.place[1]:g} m, on the right side"
             yield self._at(source, node, f"`{node.text}` is a left wheel of `{one.name}`, but lies at {at}", node.text)
         apart = abs(aside)
-        most = SKIDDING if len(left) > 1 else 1.0 + TOLERANCE
+        most = SKID_STEER_RATIO if len(left) > 1 else 1.0 + TOLERANCE
         shapes = [
             abs(a[1] - b[1])
             for (_, wheel), (_, its) in zip(left, right, strict=True)

@@ -20,32 +20,33 @@ if TYPE_CHECKING:
     from urdfkit.lint.placement import Frame
     from urdfkit.lint.wheels import TwoSided
 
-_SUPPORT = re.compile(r"cast[eo]r|ball", re.IGNORECASE)
-_TILT = 0.06
-"""[rad]: robots that stand so on purpose are tilted less."""
+_CASTER_NAME = re.compile(r"cast[eo]r|ball", re.IGNORECASE)
+_MAX_TILT = 0.06
+"""Largest accepted tilt [rad]; robots that are tilted by design stay below it."""
 
-_DEEP = 0.1
-"""Of the radius of a wheel: how far something reaches below the wheels where it cannot be meant."""
+_MAX_DEPTH = 0.1
+"""Largest accepted depth of a link below the wheels, as a fraction of the wheel radius."""
 
 _UPRIGHT = 0.99
-"""Cosine: what is less off is upright."""
+"""Cosine of the angle up to which an axis counts as vertical."""
 
-_NEAR = 0.01
-"""How far wheels may sink into what they stand on [m]."""
+_MAX_PENETRATION = 0.01
+"""Depth by which wheels may penetrate the floor [m]."""
 
 
 class CasterOffTheGround(RobotRule):
-    """A robot with two driven wheels does not stand level: its caster is above or below what the wheels stand on.
+    """The caster of a robot with two drive wheels is above or below the ground.
 
     ## What it does
-    Compares the lowest points of the wheels that a drive turns with those of the other links, every joint at zero and
-    the root level. A caster (by its name, or that of its joint) that would tilt the robot by more than 3.4° is
-    reported, and any link that reaches below the wheels by more than a tenth of their radius. Collision shapes count,
-    or the visual ones where there are none. Left out are meshes, what a joint lifts or lowers, what hangs on nothing,
-    and a floor that the robot stands on.
+    Compares the lowest points of the drive wheels with those of the other links, with every joint at zero and the root
+    link level. The rule reports a caster, recognised by its name or that of its joint, that would tilt the robot by
+    more than 3.4°, and any link that extends below the wheels by more than a tenth of their radius.
+
+    Collision shapes are used, or visual shapes if there are none. Meshes, links that a joint raises or lowers, links
+    outside the tree of the robot, and a floor below the robot are not checked.
 
     ## Why is this bad?
-    The robot tips onto its caster when the simulation starts, or its wheels lose the ground and turn in the air: it
+    The robot tips onto its caster when the simulation starts, or its wheels lose contact with the ground: the robot
     jumps, drifts, or does not move.
 
     ## Example
@@ -109,7 +110,7 @@ class CasterOffTheGround(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each link that is too low, or for a caster that is too high."""
+        """Yield a finding for each link below the ground, and for a caster above it."""
         if model.is_incomplete or any(joint.type in ("prismatic", "planar") for joint in model.robot.joints):
             return
         for drive in drives(model):
@@ -118,59 +119,70 @@ class CasterOffTheGround(RobotRule):
                 continue
             heights = [wheel.place[2] - max(wheel.radii) for wheel in wheels]
             if max(heights) - min(heights) > 1e-3 * max(wheels[0].radii):
-                continue  # That is a finding of drive-wheels-misaligned, or is meant.
-            yield from self._off(model, drive, min(heights), max(wheels[0].radii))
+                continue  # Intended, or reported by drive-wheels-misaligned.
+            yield from self._check_supports(model, drive, min(heights), max(wheels[0].radii))
 
-    def _off(self, model: Model, drive: TwoSided, ground: float, radius: float) -> Iterator[Finding]:
+    def _check_supports(self, model: Model, drive: TwoSided, ground: float, radius: float) -> Iterator[Finding]:
         driven = {wheel.joint.child for wheel in (*drive.left, *drive.right)}
-        mean = [sum(wheel.place[i] for wheel in (*drive.left, *drive.right)) / (2 * len(drive.left)) for i in (0, 1)]
+        centre = [sum(wheel.place[i] for wheel in (*drive.left, *drive.right)) / (2 * len(drive.left)) for i in (0, 1)]
         supports: list[tuple[float, float, Joint]] = []
-        above = {joint.child: joint for joint in model.robot.joints}
-        tree = _root(above, drive.left[0].joint)
+        parent_joint = {joint.child: joint for joint in model.robot.joints}
+        root = _root(parent_joint, drive.left[0].joint)
         for link in model.robot.links:
             frame = model.frames.get(link.name)
-            low = _lowest(link, frame) if frame is not None and link.name not in driven else None
-            joint = above.get(link.name)
-            if low is None or frame is None or not _is_rigid(model, above, link):
+            lowest = _lowest(link, frame) if frame is not None and link.name not in driven else None
+            joint = parent_joint.get(link.name)
+            if lowest is None or frame is None or not _is_rigid(model, parent_joint, link):
                 continue
-            if tree != (link.name if joint is None else _root(above, joint)):
-                continue  # Nobody knows where it is: it hangs on nothing, which is a finding of its own.
+            if root != (link.name if joint is None else _root(parent_joint, joint)):
+                continue  # Its position is unknown, because a parent link is missing; other rules report this.
             if joint is None and _is_floor(link, frame, drive, ground):
                 continue
-            place = joint.element if joint is not None else link.element
-            gap, away = low[2] - ground, hypot(low[0] - mean[0], low[1] - mean[1])
-            if gap < -_DEEP * radius:
-                message = f"`{link.name}` reaches {-gap:.3g} m below the drive's wheels: they lose the ground"
-                yield self.at(model, place, message, attribute="name", link=link.name)
+            element = joint.element if joint is not None else link.element
+            gap, distance = lowest[2] - ground, hypot(lowest[0] - centre[0], lowest[1] - centre[1])
+            if gap < -_MAX_DEPTH * radius:
+                message = f"link `{link.name}` extends {-gap:.3g} m below the drive wheels and lifts them"
+                help = f"raise the link or its shapes by {-gap:.3g} m"
+                yield self.at(model, element, message, attribute="name", link=link.name, help=help)
             elif (
                 joint is not None
                 and len(drive.left) == 1
                 and gap < 2.0 * radius
-                and _SUPPORT.search(f"{link.name} {joint.name}")
+                and _CASTER_NAME.search(f"{link.name} {joint.name}")
             ):
-                supports.append((gap / max(away, 1e-3), gap, joint))
+                supports.append((gap / max(distance, 1e-3), gap, joint))
         for tilt, gap, joint in sorted(supports, key=lambda support: support[0])[:1]:
-            if tilt > _TILT:
-                message = f"`{joint.child}` is {gap:.3g} m above the ground: the robot tips by {degrees(tilt):.3g}°"
-                yield self.at(model, joint.element, message, attribute="name", link=joint.child, joint=joint.name)
+            if tilt > _MAX_TILT:
+                message = (
+                    f"link `{joint.child}` is {gap:.3g} m above the ground, so the robot tips by {degrees(tilt):.3g}°"
+                )
+                yield self.at(
+                    model,
+                    joint.element,
+                    message,
+                    attribute="name",
+                    link=joint.child,
+                    joint=joint.name,
+                    help=f"lower the link by {gap:.3g} m",
+                )
 
 
-def _root(above: dict[str | None, Joint], joint: Joint) -> str | None:
-    """Return the link at the root of the tree that a joint is in, by child → joint."""
+def _root(parent_joint: dict[str | None, Joint], joint: Joint) -> str | None:
+    """Return the root link of the tree that contains a joint; `parent_joint` maps a child link to its joint."""
     seen: set[str | None] = set()
-    while joint.parent in above and joint.parent not in seen:
+    while joint.parent in parent_joint and joint.parent not in seen:
         seen.add(joint.parent)
-        joint = above[joint.parent]
+        joint = parent_joint[joint.parent]
     return joint.parent
 
 
-def _is_rigid(model: Model, above: dict[str | None, Joint], link: Link) -> bool:
-    """Whether no joint lifts or lowers a link: arms hang down at zero, where no robot starts."""
+def _is_rigid(model: Model, parent_joint: dict[str | None, Joint], link: Link) -> bool:
+    """Return whether no joint raises or lowers a link; an arm may hang down with its joints at zero."""
     seen: set[str | None] = set()
     name: str | None = link.name
-    while name in above and name not in seen:
+    while name in parent_joint and name not in seen:
         seen.add(name)
-        joint = above[name]
+        joint = parent_joint[name]
         frame = model.frames.get(name or "")
         axis = unit(turned(frame.rotation, joint.axis)) if frame is not None else None
         if joint.is_movable and (axis is None or abs(axis[2]) < _UPRIGHT):
@@ -183,11 +195,15 @@ def _is_rigid(model: Model, above: dict[str | None, Joint], link: Link) -> bool:
 
 
 def _is_floor(link: Link, frame: Frame, drive: TwoSided, ground: float) -> bool:
-    """Whether a link lies below all wheels of a drive and reaches out farther than they: they stand on it."""
+    """Return whether a link is a box below all wheels of a drive and extends beyond them."""
     boxes = [(shape.geometry, frame.moved(shape.origin)) for shape in link.collisions or link.visuals]
-    for shape, placed in boxes:
-        x, y, z = placed.translation
-        if not isinstance(shape, Box) or placed.rotation[2][2] < _UPRIGHT or z + shape.size[2] / 2.0 > ground + _NEAR:
+    for shape, pose in boxes:
+        x, y, z = pose.translation
+        if (
+            not isinstance(shape, Box)
+            or pose.rotation[2][2] < _UPRIGHT
+            or z + shape.size[2] / 2.0 > ground + _MAX_PENETRATION
+        ):
             continue
         reach = min(shape.size[:2]) / 2.0
         if all(hypot(wheel.place[0] - x, wheel.place[1] - y) < reach for wheel in (*drive.left, *drive.right)):
@@ -196,24 +212,24 @@ def _is_floor(link: Link, frame: Frame, drive: TwoSided, ground: float) -> bool:
 
 
 def _lowest(link: Link, frame: Frame) -> Vector | None:
-    """Return the lowest point of a link's shapes in the root link [m]; None where it has none, or has meshes."""
+    """Return the lowest point of the shapes of a link in the root frame [m]; None without shapes or with meshes."""
     points: list[Vector] = []
     for shape in link.collisions or link.visuals:
         geometry = shape.geometry
         if not link.collisions and any(shape.origin.xyz):
-            return None  # Nothing touches the ground there: wheel-off-its-axis tells where a picture is elsewhere.
+            return None  # A visual shape with an offset does not show where the link touches the ground.
         if geometry is None or isinstance(geometry, Mesh):
             return None
-        placed = frame.moved(shape.origin)
-        up = placed.rotation[2]
+        pose = frame.moved(shape.origin)
+        up = pose.rotation[2]
         if isinstance(geometry, Box):
-            down = sum(abs(part * size) / 2.0 for part, size in zip(up, geometry.size, strict=True))
+            depth = sum(abs(part * size) / 2.0 for part, size in zip(up, geometry.size, strict=True))
         elif isinstance(geometry, Cylinder):
-            down = abs(up[2]) * geometry.length / 2.0 + geometry.radius * sqrt(max(0.0, 1.0 - up[2] ** 2))
+            depth = abs(up[2]) * geometry.length / 2.0 + geometry.radius * sqrt(max(0.0, 1.0 - up[2] ** 2))
         else:
             assert isinstance(geometry, (Capsule, Sphere))
             length = geometry.length if isinstance(geometry, Capsule) else 0.0
-            down = abs(up[2]) * length / 2.0 + geometry.radius
-        x, y, z = placed.translation
-        points.append((x, y, z - down))
+            depth = abs(up[2]) * length / 2.0 + geometry.radius
+        x, y, z = pose.translation
+        points.append((x, y, z - depth))
     return min(points, key=lambda point: point[2]) if points else None

@@ -13,15 +13,15 @@ if TYPE_CHECKING:
 
 
 class DoubleOffset(RobotRule):
-    """Two fixed joints in a row have the same offset.
+    """Two consecutive fixed joints have the same offset.
 
     ## What it does
-    Looks for a fixed joint and a fixed joint above it with the same ``xyz``, at least two parts of which are not
-    zero. Equal segments of legs and arms, whose joints move, are normal.
+    Checks for a fixed joint with the same ``xyz`` as the fixed joint above it, if at least two components are nonzero.
+    Movable joints are not checked, because equal segments of legs and arms are common.
 
     ## Why is this bad?
-    The offset is applied twice: the frame is twice as far away as the part it belongs to. Mostly one of them was
-    copied.
+    The offset is applied twice, so the frame is twice as far away as intended. Usually one of the offsets is a
+    copy-and-paste error.
 
     ## Example
     ```xml
@@ -67,19 +67,24 @@ class DoubleOffset(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each offset that is repeated."""
+        """Yield a finding for each repeated offset."""
         for joint in model.robot.joints:
             xyz = joint.origin.xyz
-            if joint.type != "fixed" or sum(part != 0.0 for part in xyz) < 2:
+            if joint.type != "fixed" or sum(component != 0.0 for component in xyz) < 2:
                 continue
-            above = model.robot.parents_of.get(joint.parent or "", [])
-            if len(above) == 1 and above[0] is not joint and above[0].type == "fixed" and above[0].origin.xyz == xyz:
-                shown = " ".join(f"{part:g}" for part in xyz)
+            parents = model.robot.parents_of.get(joint.parent or "", [])
+            if (
+                len(parents) == 1
+                and parents[0] is not joint
+                and parents[0].type == "fixed"
+                and parents[0].origin.xyz == xyz
+            ):
+                offset = " ".join(f"{component:g}" for component in xyz)
                 yield self.at(
                     model,
                     joint.element.find("origin") or joint.element,
-                    f"joint `{joint.name}` has the offset {shown} of joint `{above[0].name}` above it",
+                    f"joint `{joint.name}` repeats the offset {offset} m of its parent joint `{parents[0].name}`",
                     attribute="xyz",
                     joint=joint.name,
-                    help="is it meant twice?",
+                    help="remove one of the offsets unless both are intended",
                 )

@@ -14,21 +14,25 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-_NEAR = 0.01
-"""[m]"""
+_MIN_DISTANCE = 0.01
+"""Distance or height difference below which two wheels count as being in the same place or level [m]."""
+
+_OPPOSITE = -0.9
+"""Cosine of the angle from which two axes count as opposite."""
 
 
 class DriveWheelsMisaligned(RobotRule):
-    """The two wheels of a drive are one, in one place, at two heights, or turn in opposite directions.
+    """The left and right wheels of a drive do not match.
 
     ## What it does
-    Compares the joints that a drive calls left and right, wheel by wheel: where they are, how high, and where their
-    axes point.
+    Compares the position, height and axis direction of the joints that a drive names as left and right, in pairs. The
+    rule reports a joint that is named for both sides, two wheels in the same place, different heights, and opposite
+    axes.
 
     ## Why is this bad?
-    A drive gives both wheels the same velocity to go straight ahead: where their axes point in opposite directions the
-    robot turns on the spot instead. Wheels at two heights do not both touch the ground, and of two wheels in one place
-    one has its sign wrong: ``reflect="1"`` twice.
+    A drive commands the same velocity to both wheels to move straight ahead. If the axes point in opposite directions,
+    the robot turns on the spot instead. Wheels at different heights do not both touch the ground. Two wheels in the
+    same place usually result from a wrong sign, such as ``reflect="1"`` for both sides.
 
     ## Example
     ```xml
@@ -93,36 +97,55 @@ class DriveWheelsMisaligned(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each pair of wheels that is off, the worst that is wrong with it."""
+        """Yield a finding for the worst defect of each pair of wheels."""
         if not model.robot.gazebo or model.is_incomplete:
             return
         for drive in drives(model):
             for left, right in zip(drive.left, drive.right, strict=True):
                 origins = (wheel.joint.element.find("origin") for wheel in (left, right))
-                if any(one is not None and any(model.is_unresolved(one, a) for a in ("xyz", "rpy")) for one in origins):
+                if any(
+                    origin is not None and any(model.is_unresolved(origin, a) for a in ("xyz", "rpy"))
+                    for origin in origins
+                ):
                     continue
                 if left.joint is right.joint:
                     if left.named != right.named:
-                        continue  # One of the names is of no joint, and the nearest is the other wheel's.
-                    message = f"the drive names `{left.joint.name}` for the left side and for the right"
-                    yield self.at(model, right.element or drive.plugin.element, message, joint=right.joint.name)
+                        continue  # One of the names is misspelt and was resolved to the other wheel.
+                    message = f"the drive uses joint `{left.joint.name}` for both the left and the right side"
+                    help = "name a different joint for each side"
+                    yield self.at(
+                        model, right.element or drive.plugin.element, message, joint=right.joint.name, help=help
+                    )
                     continue
-                wrong = _wrong(left, right)
-                if wrong is not None:
-                    yield self.at(model, right.joint.element, wrong, attribute="name", joint=right.joint.name)
+                defect = _defect(left, right)
+                if defect is not None:
+                    message, help = defect
+                    yield self.at(
+                        model, right.joint.element, message, attribute="name", joint=right.joint.name, help=help
+                    )
 
 
-def _wrong(left: Wheel, right: Wheel) -> str | None:
-    """Return what is wrong with a pair of wheels; None where nothing is."""
+def _defect(left: Wheel, right: Wheel) -> tuple[str, str] | None:
+    """Return the message and help for a pair of wheels; None if they match."""
     if not (left.joint.is_movable and right.joint.is_movable):
         return None
     both = f"`{left.joint.name}` and `{right.joint.name}`"
-    apart = [dist(one, other) for one, other in zip(left.middles, right.middles, strict=False)]
-    if max(apart) < _NEAR:
-        return f"the drive's wheels {both} are in the same place"
-    if sum(a * b for a, b in zip(left.axis, right.axis, strict=True)) < -0.9:
-        return f"the axes of the drive's wheels {both} point in opposite directions: it turns where it should go ahead"
-    higher = min((one[2] - other[2] for one, other in zip(left.middles, right.middles, strict=False)), key=abs)
-    if abs(higher) > max(_NEAR, 0.05 * max(apart)) and left.radii == right.radii:
-        return f"of the drive's wheels {both} one is {abs(higher):.3g} m higher than the other"
+    distances = [
+        dist(left_centre, right_centre) for left_centre, right_centre in zip(left.middles, right.middles, strict=False)
+    ]
+    if max(distances) < _MIN_DISTANCE:
+        return f"drive wheels {both} are in the same place", "correct the <origin> of one of the joints"
+    if sum(a * b for a, b in zip(left.axis, right.axis, strict=True)) < _OPPOSITE:
+        message = f"the axes of drive wheels {both} point in opposite directions, so the robot turns on the spot"
+        return message, "reverse the axis of one of the joints"
+    height_difference = min(
+        (
+            left_centre[2] - right_centre[2]
+            for left_centre, right_centre in zip(left.middles, right.middles, strict=False)
+        ),
+        key=abs,
+    )
+    if abs(height_difference) > max(_MIN_DISTANCE, 0.05 * max(distances)) and left.radii == right.radii:
+        message = f"drive wheels {both} differ in height by {abs(height_difference):.3g} m"
+        return message, "place both joints at the same height"
     return None

@@ -19,12 +19,13 @@ class LeftRightSwapped(RobotRule):
     """The left wheel of a drive is on the right side.
 
     ## What it does
-    Looks where the joints are that a drive calls left and right: x is forward and y is left (REP 103). It also
-    looks for wheels whose axis points to the right, which roll backwards.
+    Checks the positions of the joints that a drive names as left and right: x points forward and y left (REP 103). Also
+    checks for wheels whose axes point right, so that they roll backwards.
 
     ## Why is this bad?
-    The robot turns the other way. The drive of Gazebo classic up to ROS Indigo, and that of Kinetic unless its
-    ``legacyMode`` is false, swaps the sides itself: what was right there turns the wrong way from Melodic on.
+    The robot turns in the wrong direction. The drive plugin of Gazebo classic up to ROS Indigo swaps the sides itself,
+    and so does that of ROS Kinetic unless ``legacyMode`` is false. A robot written for these versions turns in the
+    wrong direction from ROS Melodic on.
 
     ## Example
     ```xml
@@ -83,7 +84,7 @@ class LeftRightSwapped(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the two names are swapped, but it may be the joints that are misplaced.
+    Unsafe: the fix swaps the two names, but the positions of the joints may be the error.
     """
 
     code = "S903"
@@ -93,23 +94,24 @@ class LeftRightSwapped(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each drive with its sides swapped, and one for each that rolls backwards."""
+        """Yield a finding for each drive with swapped sides, and for each that rolls backwards."""
         if not model.robot.gazebo:
             return
         for drive in drives(model):
             left, right = drive.left[0], drive.right[0]
-            aside = left.place[1] - right.place[1]
-            along = left.place[0] - right.place[0]
+            lateral = left.place[1] - right.place[1]
+            longitudinal = left.place[0] - right.place[0]
             element = left.element or drive.plugin.element
-            if aside < 0.0 and abs(aside) > abs(along):
-                swaps = drive.spec.generation == "ros1" and drive.spec.kind == "diff_drive"
+            if lateral < 0.0 and abs(lateral) > abs(longitudinal):
+                is_legacy = drive.spec.generation == "ros1" and drive.spec.kind == "diff_drive"
                 yield self.at(
                     model,
                     element,
-                    f"`{left.joint.name}` is the left wheel, but lies at y = {left.place[1]:g} m, on the right side",
+                    f"left wheel `{left.joint.name}` is on the right side, at y = {left.place[1]:g} m",
                     joint=left.joint.name,
-                    help="right for ROS Indigo and Kinetic's legacyMode only, which swap the sides" if swaps else None,
-                    fix=_swapped(model, drive),
+                    help="swap the two joint names"
+                    + ("; only ROS Indigo, and Kinetic with legacyMode, swap the sides" if is_legacy else ""),
+                    fix=_swap_sides(model, drive),
                 )
             wheels = (*drive.left, *drive.right)
             if all(wheel.axis[1] < -0.7 for wheel in wheels) and all(
@@ -118,17 +120,18 @@ class LeftRightSwapped(RobotRule):
                 yield self.at(
                     model,
                     element,
-                    f"the axes of `{left.joint.name}` and `{right.joint.name}` point right: the wheels roll backwards",
+                    f"the axes of wheels `{left.joint.name}` and `{right.joint.name}` point right, "
+                    "so they roll backwards",
                     joint=left.joint.name,
-                    help="turn the axes round: y is left",
+                    help="reverse the axes: y points left",
                 )
 
 
-def _swapped(model: Model, drive: TwoSided) -> Fix | None:
-    """Return the fix that gives each side the joint of the other; None where one is not written out."""
+def _swap_sides(model: Model, drive: TwoSided) -> Fix | None:
+    """Return the fix that swaps the joint names of the two sides; None if one of them is not literal text."""
     edits: list[Edit] = []
-    for wheel, other in zip((*drive.left, *drive.right), (*drive.right, *drive.left), strict=True):
-        fix = new_text(model, wheel.element, other.joint.name, "unsafe", "") if wheel.element is not None else None
+    for wheel, opposite in zip((*drive.left, *drive.right), (*drive.right, *drive.left), strict=True):
+        fix = new_text(model, wheel.element, opposite.joint.name, "unsafe", "") if wheel.element is not None else None
         if fix is None:
             return None
         edits += fix.edits

@@ -15,18 +15,18 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 TOLERANCE = 2e-3
-"""1.57 for π/2 is let be."""
+"""Accepted difference of the rotation matrices, so that 1.57 passes for π/2."""
 
 
 class OpticalFrame(RobotRule):
-    """An optical frame is not turned as optical frames are.
+    """An optical frame does not have the standard orientation.
 
     ## What it does
-    Looks at fixed joints to links with ``optical`` in their name: from the camera's body (x forward, z up) to the
-    optical frame (z forward, x right) it is rpy = -π/2 0 -π/2 (REP 103).
+    Checks fixed joints whose child link has ``optical`` in its name. The rotation from the camera body (x forward, z
+    up) to its optical frame (z forward, x right) must be rpy = -π/2 0 -π/2 (REP 103).
 
     ## Why is this bad?
-    Point clouds and detections come out rotated by 90 degrees.
+    Point clouds and detections are rotated by 90 degrees.
 
     ## Example
     ```xml
@@ -60,7 +60,7 @@ class OpticalFrame(RobotRule):
     severity = "info"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each optical frame with another rotation."""
+        """Yield a finding for each optical frame with a different rotation."""
         for joint in model.robot.joints:
             child, parent = (joint.child or "").lower(), (joint.parent or "").lower()
             if joint.type != "fixed" or "optical" not in child or "optical" in parent:
@@ -69,13 +69,13 @@ class OpticalFrame(RobotRule):
             if origin is not None and model.is_unresolved(origin, "rpy"):
                 continue
             if same_turn(joint.origin.rpy, (-pi / 2, 0.0, -pi / 2)) > TOLERANCE:
-                shown = " ".join(f"{angle:.4g}" for angle in joint.origin.rpy)
+                rpy = " ".join(f"{angle:.4g}" for angle in joint.origin.rpy)
                 yield self.at(
                     model,
                     origin or joint.element,
-                    f"the optical frame `{joint.child}` is turned by {shown}, not by -π/2 0 -π/2",
+                    f"optical frame `{joint.child}` has rpy {rpy} rad instead of -π/2 0 -π/2",
                     attribute="rpy",
                     link=joint.child,
                     joint=joint.name,
-                    help="an optical frame looks along z, with x to the right and y down",
+                    help='write rpy="${-pi/2} 0 ${-pi/2}": z points forward, x right and y down',
                 )

@@ -13,14 +13,15 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 TOLERANCE = 0.05
+"""Accepted relative deviation."""
 
 
 class WheelDiameter(RobotRule):
-    """The wheel diameter, or radius, a drive is told is not that of the wheels.
+    """The configured wheel diameter or radius of a drive differs from the wheels.
 
     ## What it does
-    Compares the parameter with the cylinders or spheres that the wheels are. A twentieth more or less is let be;
-    wheels with meshes only are left alone.
+    Compares the parameter of the drive with the cylinders and spheres of its wheels. A deviation of 5 % is accepted.
+    Wheels that consist only of meshes are not checked.
 
     ## Why is this bad?
     The robot drives faster or slower than commanded, and its odometry is wrong by the same factor.
@@ -90,7 +91,7 @@ class WheelDiameter(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the parameter is set to what the wheels are, but it may be the wheels that are drawn too large.
+    Unsafe: the fix writes the size of the wheel shapes, but the shapes may be the error.
     """
 
     code = "S902"
@@ -100,7 +101,7 @@ class WheelDiameter(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each drive whose wheels have another size."""
+        """Yield a finding for each drive with a wrong wheel size."""
         if not model.robot.gazebo:
             return
         for drive in drives(model):
@@ -111,4 +112,5 @@ class WheelDiameter(RobotRule):
                     continue
                 if any(abs(value[0] - factor * radius) <= TOLERANCE * factor * radius for radius in radii):
                     continue
-                yield mismatch(self, model, drive, value, actual=factor * radii[0], beside="the wheels have {} m")
+                actual = f"the {meaning.removeprefix('wheel_')} of the wheels is {{}} m"
+                yield mismatch(self, model, drive, value, actual=factor * radii[0], beside=actual)

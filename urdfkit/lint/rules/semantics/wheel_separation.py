@@ -14,18 +14,19 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 TOLERANCE = 0.05
+"""Accepted relative deviation with one wheel on each side."""
 
-SKIDDING = 2.0
-"""With several wheels on a side, which skid when it turns, the separation is tuned: up to twice is let be."""
+SKID_STEER_RATIO = 2.0
+"""Accepted ratio with several wheels on each side, where the separation is tuned to compensate for slip."""
 
 
 class WheelSeparation(RobotRule):
-    """The wheel separation a drive is told is not that of the wheels.
+    """The configured wheel separation of a drive differs from the wheels.
 
     ## What it does
-    Compares the parameter with the distance of the joints, and of the wheels' shapes, across the robot, every joint
-    at zero. A twentieth more or less is let be. Robots with several wheels on a side are left alone: as they slip
-    when they turn, their separation is tuned.
+    Compares the parameter with the lateral distance between the wheel joints and between the wheel shapes, with every
+    joint at zero. A deviation of 5 % is accepted. For skid-steer robots, with several wheels on each side, a factor of
+    up to two is accepted, because their separation is tuned to compensate for slip.
 
     ## Why is this bad?
     The robot turns more or less than commanded, and its odometry is wrong by the same factor.
@@ -91,7 +92,7 @@ class WheelSeparation(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the parameter is set to the distance of the wheels, but it may be those that are misplaced.
+    Unsafe: the fix writes the distance between the wheels, but the positions of the wheels may be the error.
     """
 
     code = "S901"
@@ -101,7 +102,7 @@ class WheelSeparation(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each drive whose separation is off."""
+        """Yield a finding for each drive with a wrong wheel separation."""
         if not model.robot.gazebo:
             return
         for drive in drives(model):
@@ -110,15 +111,19 @@ class WheelSeparation(RobotRule):
                 continue
             separation = value[0]
             left, right = drive.left[0], drive.right[0]
-            across = unit(left.axis) or (0.0, 1.0, 0.0)
+            lateral = unit(left.axis) or (0.0, 1.0, 0.0)
             distances = [
-                abs(sum((a - b) * c for a, b, c in zip(one, other, across, strict=True)))
-                for wheel, its in zip(drive.left, drive.right, strict=True)
-                for one, other in zip(wheel.middles, its.middles, strict=False)
+                abs(sum((a - b) * c for a, b, c in zip(left_centre, right_centre, lateral, strict=True)))
+                for left_wheel, right_wheel in zip(drive.left, drive.right, strict=True)
+                for left_centre, right_centre in zip(left_wheel.middles, right_wheel.middles, strict=False)
             ]
-            least, most = (1.0 - TOLERANCE, 1.0 + TOLERANCE) if len(drive.left) == 1 else (1.0 / SKIDDING, SKIDDING)
-            if distances[0] < 0.01 or any(least * each <= separation <= most * each for each in distances):
+            least, most = (
+                (1.0 - TOLERANCE, 1.0 + TOLERANCE)
+                if len(drive.left) == 1
+                else (1.0 / SKID_STEER_RATIO, SKID_STEER_RATIO)
+            )
+            if distances[0] < 0.01 or any(least * distance <= separation <= most * distance for distance in distances):
                 continue
-            of_first = min(len(left.middles), len(right.middles))
-            actual, what = track(left, right, distances[:of_first])
-            yield mismatch(self, model, drive, value, actual=actual, beside=f"{what} are {{}} m apart")
+            first_pair = min(len(left.middles), len(right.middles))
+            actual, subject = track(left, right, distances[:first_pair])
+            yield mismatch(self, model, drive, value, actual=actual, beside=f"{subject} are {{}} m apart")
