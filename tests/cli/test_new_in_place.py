@@ -364,6 +364,6 @@ def test_joints_that_edited_settings_do_not_know_are_told(place, capsys):
         "left to merge: rover_control/config/controllers.yaml.new into your controllers.yaml; until then "
         "no controller of it moves `forearm_roll_joint`, `wrist_roll_joint`, `left_finger_joint`\n"
     ) in said
-    assert "K960 no controller `gripper_controller` has settings" in said
+    assert "K960 unknown controller `gripper_controller`" in said
     settings.with_name("controllers.yaml.new").replace(settings)
     assert main(["lint", ".", "-q"]) == 0

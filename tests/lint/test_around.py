@@ -239,8 +239,8 @@ def test_links_in_settings_are_compared_with_those_of_every_description_around(w
     settings.write_text("base_frame: bas\ntip_link: uper\nrobot_base_frame: somewhere\n# base_frame: bse\n")
     findings = [finding for finding in lint(workspace) if finding.code == "K961"]
     assert [(f.line, f.column, f.message) for f in findings] == [
-        (1, 13, "`base_frame` is `bas`, which is no link of `arm`; did you mean `base`?"),
-        (2, 11, "`tip_link` is `uper`, which is no link of `arm`; did you mean `upper`?"),
+        (1, 13, "`base_frame` is `bas`, but robot `arm` has no such link; did you mean `base`?"),
+        (2, 11, "`tip_link` is `uper`, but robot `arm` has no such link; did you mean `upper`?"),
     ]
     (workspace / "arm_description" / "urdf" / "other.urdf").write_text('<robot name="o"><link name="bas"/></robot>')
     assert {f.line for f in lint(workspace) if f.code == "K961" and "`arm`" in f.message} == {2}
@@ -341,8 +341,8 @@ def test_a_package_whose_settings_a_plugin_reads_is_looked_at(tmp_path):
 @pytest.mark.parametrize(
     ("lines", "place", "said"),
     [
-        ("a:\n  b\n  - one\n  - two\n  c: 1\n", 2, "a colon behind `b` is missing"),
-        ("a:\n  b: 1\n  c:2\n  d: 3\n", 3, "a blank behind `c:` is missing"),
+        ("a:\n  b\n  - one\n  - two\n  c: 1\n", 2, "missing colon after `b`"),
+        ("a:\n  b: 1\n  c:2\n  d: 3\n", 3, "missing space after `c:`"),
         ("a: {b: 1\nc: 2\n", 2, "expected"),
         ("a:\n  b: 'open\n", 3, "end of stream"),
     ],

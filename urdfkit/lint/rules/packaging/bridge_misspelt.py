@@ -20,15 +20,15 @@ _BRIDGES = ("gz_type_name", "gz_topic_name", "ros_type_name", "ign_type_name", "
 
 
 class BridgeMisspelt(RobotRule):
-    """A bridge between Gazebo and ROS passes a type, or a topic, that is not there.
+    """A bridge between Gazebo and ROS uses an unknown type or topic.
 
     ## What it does
-    Looks at what ros_gz_bridge is told to pass, by its YAML and by arguments in launch files: for types that are nearly
-    one of those it knows, types that do not go together, misspelt names of parameters and directions, topics that are
-    nearly one of the robot's, and commands and measurements that are passed the wrong way.
+    Checks the configuration of ros_gz_bridge in YAML and in the arguments of launch files for misspelt message types,
+    keys, directions and topics of the robot, for pairs of types that cannot be converted, and for command topics and
+    sensor topics that are bridged in the wrong direction.
 
     ## Why is this bad?
-    "No template specialization for the pair", or silence: the bridge waits on a topic that nobody has.
+    The bridge logs "No template specialization for the pair", or waits silently for a topic that does not exist.
 
     ## Example
     ```yaml
@@ -55,7 +55,7 @@ class BridgeMisspelt(RobotRule):
     not_for = NOT_GAZEBO | {"classic", "ros1"}
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each name, type, topic or direction that is wrong."""
+        """Yield a finding for each invalid key, type, topic or direction."""
         sources = [source for source in model.around.values() if any(word in source.text for word in _BRIDGES)]
         if not sources:
             return
@@ -63,69 +63,76 @@ class BridgeMisspelt(RobotRule):
         from urdfkit.lint.edits import nearest
         from urdfkit.lint.yaml_tree import span_of
 
-        every: list[tuple[Source, Bridged]] = []
+        bridges: list[tuple[Source, Bridged]] = []
         for source in sources:
             if not source.file.endswith((".yaml", ".yml")):
-                every += ((source, one) for one in in_launch(source))
+                bridges += ((source, bridge) for bridge in in_launch(source))
                 continue
-            for one, keys in in_yaml(source):
-                every.append((source, one))
+            for bridge, keys in in_yaml(source):
+                bridges.append((source, bridge))
                 for key in keys:
-                    near = nearest(key.text, KEYS, likeness=0.7) if key.text not in KEYS else None
-                    if near is not None:
-                        message = f"the bridge reads no `{key.text}`; did you mean `{near}`?"
+                    suggestion = nearest(key.text, KEYS, likeness=0.7) if key.text not in KEYS else None
+                    if suggestion is not None:
+                        message = f"unknown key `{key.text}` of ros_gz_bridge; did you mean `{suggestion}`?"
                         yield Finding(self.code, self.name, self.severity, message, span_of(source, key))
-        for source, one in every:
-            wrong = _of_types(one) or _of_direction(one)
-            if wrong is not None:
-                yield self._at(source, *wrong)
-        for source, written, message in _of_topics(every, model):
-            yield self._at(source, written, message)
+        for source, bridge in bridges:
+            defect = _type_defect(bridge) or _direction_defect(bridge)
+            if defect is not None:
+                yield self._at(source, *defect)
+        for source, reference, message in _topic_defects(bridges, model):
+            yield self._at(source, reference, message)
 
-    def _at(self, source: Source, written: Named, message: str) -> Finding:
-        span = source.span(written.start, written.start + len(written.name))
+    def _at(self, source: Source, reference: Named, message: str) -> Finding:
+        span = source.span(reference.start, reference.start + len(reference.name))
         return Finding(self.code, self.name, self.severity, message, span)
 
 
-def _of_types(one: Bridged) -> tuple[Named, str] | None:
-    """Return what is wrong with the types of what is passed; None where nothing is."""
+def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:
+    """Return an invalid type with its message; None if both types are valid."""
     from urdfkit.lint.bridges import pairs
     from urdfkit.lint.edits import nearest
 
-    known = pairs()
-    gazebo = {name for names in known.values() for name in names}
-    ros_type = one.ros.name if one.ros is not None else ""
-    gz_type = one.gazebo.name.replace("::", ".") if one.gazebo is not None else ""
+    compatible_types = pairs()
+    known_gazebo_types = {name for names in compatible_types.values() for name in names}
+    ros_type = bridge.ros.name if bridge.ros is not None else ""
+    gz_type = bridge.gazebo.name.replace("::", ".") if bridge.gazebo is not None else ""
     if gz_type.startswith("ignition.msgs."):
         gz_type = f"gz.msgs.{gz_type.removeprefix('ignition.msgs.')}"
-    if one.ros is not None and ros_type in gazebo:
-        return one.ros, f"the type of ROS comes before that of Gazebo, not `{one.ros.name}`"
-    if one.ros is not None and ros_type not in known:
-        near = nearest(ros_type, known, likeness=0.85)
-        return (one.ros, f"the bridge knows no type `{one.ros.name}`; did you mean `{near}`?") if near else None
-    if one.gazebo is not None and gz_type not in gazebo:
-        near = nearest(gz_type, gazebo, likeness=0.85)
-        return (one.gazebo, f"the bridge knows no type `{one.gazebo.name}`; did you mean `{near}`?") if near else None
-    if one.gazebo is not None and ros_type and gz_type not in known[ros_type]:
-        right = " or ".join(f"`{name}`" for name in known[ros_type])
-        return one.gazebo, f"the bridge makes no `{one.gazebo.name}` of `{ros_type}`, but {right}"
+    if bridge.ros is not None and ros_type in known_gazebo_types:
+        return bridge.ros, f"expected the ROS type before the Gazebo type, found `{bridge.ros.name}`"
+    if bridge.ros is not None and ros_type not in compatible_types:
+        suggestion = nearest(ros_type, compatible_types, likeness=0.85)
+        return (
+            (bridge.ros, f"unknown ROS type `{bridge.ros.name}`; did you mean `{suggestion}`?") if suggestion else None
+        )
+    if bridge.gazebo is not None and gz_type not in known_gazebo_types:
+        suggestion = nearest(gz_type, known_gazebo_types, likeness=0.85)
+        return (
+            (bridge.gazebo, f"unknown Gazebo type `{bridge.gazebo.name}`; did you mean `{suggestion}`?")
+            if suggestion
+            else None
+        )
+    if bridge.gazebo is not None and ros_type and gz_type not in compatible_types[ros_type]:
+        compatible = " or ".join(f"`{name}`" for name in compatible_types[ros_type])
+        return bridge.gazebo, f"cannot convert between `{ros_type}` and `{bridge.gazebo.name}`; use {compatible}"
     return None
 
 
-def _of_direction(one: Bridged) -> tuple[Named, str] | None:
+def _direction_defect(bridge: Bridged) -> tuple[Named, str] | None:
+    """Return an unknown direction with its message; None if it is valid."""
     from urdfkit.lint.bridges import DIRECTIONS
     from urdfkit.lint.edits import nearest
 
-    if one.direction is None or one.direction.name in DIRECTIONS:
+    if bridge.direction is None or bridge.direction.name in DIRECTIONS:
         return None
-    near = nearest(one.direction.name, DIRECTIONS, likeness=0.7)
-    return one.direction, f"there is no direction `{one.direction.name}`" + (
-        f"; did you mean `{near}`?" if near else ""
+    suggestion = nearest(bridge.direction.name, DIRECTIONS, likeness=0.7)
+    return bridge.direction, f"unknown direction `{bridge.direction.name}`" + (
+        f"; did you mean `{suggestion}`?" if suggestion else ""
     )
 
 
-def _of_topics(every: list[tuple[Source, Bridged]], model: Model) -> Iterator[tuple[Source, Named, str]]:
-    """Yield the topics that are nearly one of the robot's, and the directions that pass nothing."""
+def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Iterator[tuple[Source, Named, str]]:
+    """Yield misspelt topics and wrong directions with their messages."""
     from urdfkit.lint.edits import nearest
     from urdfkit.lint.gazebo import references
     from urdfkit.lint.topics import published
@@ -133,35 +140,45 @@ def _of_topics(every: list[tuple[Source, Bridged]], model: Model) -> Iterator[tu
     if model.is_incomplete:
         return
     commands: set[str] = set()
-    others = {one.topic.strip("/") for one in published(model)}
+    others = {publication.topic.strip("/") for publication in published(model)}
     for text, _, parameter, _ in references(model, ("topic",)):
         (commands if parameter.meaning == "command_topic" else others).add(text.strip().strip("/"))
-    every_topic = commands | others
-    passed = {(source.file, one.topic.name.strip("/")) for source, one in every if one.topic is not None}
-    for source, one in every:
-        if one.topic is None:
+    robot_topics = commands | others
+    bridged_topics = {
+        (source.file, bridge.topic.name.strip("/")) for source, bridge in bridges if bridge.topic is not None
+    }
+    for source, bridge in bridges:
+        if bridge.topic is None:
             continue
-        topic, way = one.topic.name.strip("/"), one.direction.name if one.direction is not None else ""
-        free = [name for name in every_topic if (source.file, name) not in passed]
-        near = nearest(topic, sorted(free), likeness=0.75) if topic not in every_topic else None
-        if near is not None and _is_meant(topic, near) and not _is_below(topic, model):
-            yield source, one.topic, f"the robot has no topic `{one.topic.name}` in Gazebo; did you mean `{near}`?"
-        elif one.direction is not None and topic in commands - others and way in ("GZ_TO_ROS", "IGN_TO_ROS"):
-            yield source, one.direction, f"`{topic}` commands the robot: it has to pass from ROS to Gazebo"
-        elif one.direction is not None and topic in others - commands and way in ("ROS_TO_GZ", "ROS_TO_IGN"):
-            yield source, one.direction, f"`{topic}` is published in Gazebo: it has to pass from there to ROS"
+        topic, direction = bridge.topic.name.strip("/"), bridge.direction.name if bridge.direction is not None else ""
+        unbridged = [name for name in robot_topics if (source.file, name) not in bridged_topics]
+        suggestion = nearest(topic, sorted(unbridged), likeness=0.75) if topic not in robot_topics else None
+        if suggestion is not None and _is_misspelling(topic, suggestion) and not _is_in_description(topic, model):
+            yield (
+                source,
+                bridge.topic,
+                f"the robot has no Gazebo topic `{bridge.topic.name}`; did you mean `{suggestion}`?",
+            )
+        elif bridge.direction is not None and topic in commands - others and direction in ("GZ_TO_ROS", "IGN_TO_ROS"):
+            yield source, bridge.direction, f"`{topic}` is a command topic; bridge it from ROS to Gazebo"
+        elif bridge.direction is not None and topic in others - commands and direction in ("ROS_TO_GZ", "ROS_TO_IGN"):
+            yield source, bridge.direction, f"`{topic}` is published in Gazebo; bridge it from Gazebo to ROS"
 
 
-def _is_meant(topic: str, near: str) -> bool:
-    """Whether a topic must be another: a letter less, more or other in a long name, or two that changed places."""
-    kept = [[letter for letter in name if letter.isdigit() or letter == "/"] for name in (topic, near)]
-    if kept[0] != kept[1]:
+def _is_misspelling(topic: str, suggestion: str) -> bool:
+    """Return whether two topics differ by swapped letters or, in a long name, by one letter."""
+    fixed_characters = [
+        [letter for letter in name if letter.isdigit() or letter == "/"] for name in (topic, suggestion)
+    ]
+    if fixed_characters[0] != fixed_characters[1]:
         return False
-    return sorted(topic) == sorted(near) or (abs(len(near) - len(topic)) <= 1 and min(len(topic), len(near)) > 5)
+    return sorted(topic) == sorted(suggestion) or (
+        abs(len(suggestion) - len(topic)) <= 1 and min(len(topic), len(suggestion)) > 5
+    )
 
 
-def _is_below(topic: str, model: Model) -> bool:
-    """Whether a topic, or what stands before its last slash, is written in a description, for other arguments maybe."""
+def _is_in_description(topic: str, model: Model) -> bool:
+    """Return whether a topic or its namespace occurs in the description, possibly under other arguments."""
     names = "|".join(re.escape(name) for name in {topic, topic.rpartition("/")[0] or topic})
     pattern = rf"topic>\s*/?(?:{names})\s*<"
     return any(re.search(pattern, source.text) for source in model.expanded.sources.values())

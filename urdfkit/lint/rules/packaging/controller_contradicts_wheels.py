@@ -16,20 +16,22 @@ if TYPE_CHECKING:
     from urdfkit.lint.yaml_tree import Node
 
 TOLERANCE = 0.1
-"""Twice what drives in descriptions are granted: settings of controllers are measured on real robots."""
+"""Accepted relative deviation; twice that of Gazebo plugins, because controllers are tuned on real robots."""
 
 
 class ControllerContradictsWheels(RobotRule):
-    """The settings of a diff_drive_controller contradict the wheels of the robot.
+    """The parameters of a ``diff_drive_controller`` contradict the wheels of the robot.
 
     ## What it does
-    Compares ``wheel_separation`` and ``wheel_radius`` in YAML with the joints and the shapes of the wheels, and looks
-    where the wheels are that are called left and right: x is forward and y is left (REP 103). A tenth more or less is
-    let be, and so is the separation of several wheels on a side up to twice, as they slip when the robot turns; so are
-    meshes. Where another description around has wheels, too, nothing is said.
+    Compares ``wheel_separation`` and ``wheel_radius`` in YAML with the joints and shapes of the wheels, and checks the
+    positions of the left and right wheels: x points forward and y left (REP 103). A deviation of 10 % is accepted. With
+    several wheels on each side a factor of two is accepted for the separation, because the wheels slip when the robot
+    turns. Wheels with meshes are not measured.
+
+    Nothing is reported if another description in the package or its neighbours also has continuous joints.
 
     ## Why is this bad?
-    The robot turns the other way, or drives and turns more or less than commanded, and its odometry is wrong.
+    The robot turns in the wrong direction, or drives and turns more or less than commanded, and its odometry is wrong.
 
     ## Example
     ```yaml
@@ -60,7 +62,7 @@ class ControllerContradictsWheels(RobotRule):
     ```
 
     ## References
-    The wheels of the cart beside the example are 0.3 m apart.
+    In the robot of this example, the wheels are 0.3 m apart.
     """
 
     code = "K970"
@@ -69,89 +71,99 @@ class ControllerContradictsWheels(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each setting of a drive that is not what the robot has, where it is written."""
+        """Yield a finding for each parameter of a drive controller that contradicts the robot."""
         if model.is_incomplete:
             return
         from urdfkit.lint.controller_settings import settings
         from urdfkit.lint.yaml_tree import yamls
 
-        found: list[Finding] = []
+        findings: list[Finding] = []
         for source in yamls(model):
             if "DiffDriveController" in source.text:
-                for one in settings(source):
-                    if one.kind == "diff_drive_controller/DiffDriveController":
-                        found += self._contradictions(source, one, model)
-        if found and not _has_other_wheels(model):
-            yield from found
+                for controller in settings(source):
+                    if controller.kind == "diff_drive_controller/DiffDriveController":
+                        findings += self._contradictions(source, controller, model)
+        if findings and not _has_other_wheels(model):
+            yield from findings
 
-    def _contradictions(self, source: Source, one: Settings, model: Model) -> Iterator[Finding]:
+    def _contradictions(self, source: Source, controller: Settings, model: Model) -> Iterator[Finding]:
         from urdfkit.lint.rules.semantics.wheel_separation import SKID_STEER_RATIO
         from urdfkit.lint.wheels import track
 
-        left, right = _wheels(one, model, "left"), _wheels(one, model, "right")
+        left, right = _wheels(controller, model, "left"), _wheels(controller, model, "right")
         if not left or len(left) != len(right):
             return
         (node, first), (_, other) = left[0], right[0]
-        aside, along = (a - b for a, b in ((first.place[k], other.place[k]) for k in (1, 0)))
-        turned_round = all(wheel.axis[1] < -0.7 for _, wheel in (*left, *right))  # Its front is where x is negative.
-        if aside < 0.0 and abs(aside) > abs(along) and not turned_round:
-            at = f"y = {first.place[1]:g} m, on the right side"
-            yield self._at(source, node, f"`{node.text}` is a left wheel of `{one.name}`, but lies at {at}", node.text)
-        apart = abs(aside)
-        most = SKID_STEER_RATIO if len(left) > 1 else 1.0 + TOLERANCE
-        shapes = [
-            abs(a[1] - b[1])
-            for (_, wheel), (_, its) in zip(left, right, strict=True)
-            for a, b in zip(wheel.middles, its.middles, strict=False)
+        lateral, longitudinal = (a - b for a, b in ((first.place[k], other.place[k]) for k in (1, 0)))
+        # If all axes point right, the front of the robot is at negative x.
+        is_reversed = all(wheel.axis[1] < -0.7 for _, wheel in (*left, *right))
+        if lateral < 0.0 and abs(lateral) > abs(longitudinal) and not is_reversed:
+            position = f"y = {first.place[1]:g} m"
+            message = f"left wheel `{node.text}` of controller `{controller.name}` is on the right side, at {position}"
+            yield self._at(source, node, message, node.text, "swap the wheel names")
+        separation_of_joints = abs(lateral)
+        max_ratio = SKID_STEER_RATIO if len(left) > 1 else 1.0 + TOLERANCE
+        distances = [
+            abs(left_centre[1] - right_centre[1])
+            for (_, wheel), (_, opposite) in zip(left, right, strict=True)
+            for left_centre, right_centre in zip(wheel.middles, opposite.middles, strict=False)
         ]
-        for place, value in _numbers(one, "wheel_separation"):
-            tuned = value * next((number for _, number in _numbers(one, "wheel_separation_multiplier")), 1.0)
-            if apart > 0.01 and not any(d / most <= v <= most * d for d in shapes for v in (value, tuned) if d):
-                actual, what = track(first, other, shapes[: min(len(first.middles), len(other.middles))])
-                message = f"`wheel_separation` is {value:g} m, but {what} are {actual:.6g} m apart"
-                yield self._at(source, place, message, first.joint.name)
+        for parameter, value in _positive_number(controller, "wheel_separation"):
+            tuned = value * next(
+                (number for _, number in _positive_number(controller, "wheel_separation_multiplier")), 1.0
+            )
+            if separation_of_joints > 0.01 and not any(
+                distance / max_ratio <= separation <= max_ratio * distance
+                for distance in distances
+                for separation in (value, tuned)
+                if distance
+            ):
+                actual, subject = track(first, other, distances[: min(len(first.middles), len(other.middles))])
+                message = f"`wheel_separation` is {value:g} m, but {subject} are {actual:.6g} m apart"
+                yield self._at(source, parameter, message, first.joint.name, f"write {actual:.6g}")
         radii = [radius for _, wheel in (*left, *right) for radius in wheel.radii if radius > 0.0]
-        for place, value in _numbers(one, "wheel_radius"):
+        for parameter, value in _positive_number(controller, "wheel_radius"):
             if radii and not any(abs(value - radius) <= TOLERANCE * radius for radius in radii):
-                message = f"`wheel_radius` is {value:g} m, but the wheels have {radii[0]:.6g} m"
-                yield self._at(source, place, message, first.joint.name)
+                message = f"`wheel_radius` is {value:g} m, but the radius of the wheels is {radii[0]:.6g} m"
+                yield self._at(source, parameter, message, first.joint.name, f"write {radii[0]:.6g}")
 
-    def _at(self, source: Source, node: Node, message: str, joint: str) -> Finding:
+    def _at(self, source: Source, node: Node, message: str, joint: str, help: str) -> Finding:
         from urdfkit.lint.yaml_tree import span_of
 
-        return Finding(self.code, self.name, self.severity, message, span_of(source, node), joint=joint)
+        return Finding(self.code, self.name, self.severity, message, span_of(source, node), joint=joint, help=help)
 
 
-def _wheels(one: Settings, model: Model, side: str) -> list[tuple[Node, Wheel]]:
-    """Return the wheels of a side with where they are named; none where the robot lacks one."""
+def _wheels(controller: Settings, model: Model, side: str) -> list[tuple[Node, Wheel]]:
+    """Return the wheels of one side with their nodes in YAML; empty if the robot lacks one of them."""
     from urdfkit.lint.wheels import wheel_of
 
-    named = one.group.find(f"{side}_wheel_names") or one.group.find(f"{side}_wheel")
-    nodes = [node for node in (named, *named.items) if node.text] if named is not None else []
+    names = controller.group.find(f"{side}_wheel_names") or controller.group.find(f"{side}_wheel")
+    nodes = [node for node in (names, *names.items) if node.text] if names is not None else []
     joints = [model.robot.joint_by_name.get(node.text) for node in nodes]
     wheels = [wheel_of(model, joint, None) if joint is not None else None for joint in joints]
-    known = [(node, wheel) for node, wheel in zip(nodes, wheels, strict=True) if wheel is not None]
-    return known if len(known) == len(nodes) else []
+    found = [(node, wheel) for node, wheel in zip(nodes, wheels, strict=True) if wheel is not None]
+    return found if len(found) == len(nodes) else []
 
 
-def _numbers(one: Settings, name: str) -> Iterator[tuple[Node, float]]:
-    """Yield a parameter with its place, where it is a number greater than zero: zero takes it from the description."""
+def _positive_number(controller: Settings, name: str) -> Iterator[tuple[Node, float]]:
+    """Yield the node and value of a parameter greater than zero; with zero, the controller reads the description."""
     from urdfkit.description.numbers import number
 
-    node = one.group.find(name)
+    node = controller.group.find(name)
     value = number(node.text) if node is not None and node.text else None
     if node is not None and value is not None and value > 0.0:
         yield node, value
 
 
 def _has_other_wheels(model: Model) -> bool:
-    """Whether a description around that is no part of this one has joints that turn, too."""
+    """Return whether another description in these packages has continuous joints."""
     from pathlib import Path
 
     from urdfkit.description.surroundings import package_of
     from urdfkit.lint.entries import descriptions
 
-    own = {str(Path(name).absolute()) for name in model.expanded.sources}
+    included = {str(Path(name).absolute()) for name in model.expanded.sources}
     packages = {model.package, *(package_of(Path(file)) for file in model.around)}
-    texts = (each for folder in sorted(p for p in packages if p is not None) for each in descriptions(folder))
-    return any("continuous" in text for path, text in texts if str(path.absolute()) not in own)
+    folders = sorted(package for package in packages if package is not None)
+    texts = (description for folder in folders for description in descriptions(folder))
+    return any("continuous" in text for path, text in texts if str(path.absolute()) not in included)

@@ -11,25 +11,25 @@ if TYPE_CHECKING:
 
     from urdfkit.lint.model import Model
 
-_WANTED = {
+_REQUIRED_INTERFACES = {
     "effort_controllers": "EffortJointInterface",
     "velocity_controllers": "VelocityJointInterface",
     "position_controllers": "PositionJointInterface",
     "diff_drive_controller": "VelocityJointInterface",
 }
-"""Package of a controller → the interface that its joints need (ros_controllers, Noetic)."""
+"""Package of a controller → interface that it requires of its joints (ros_controllers, Noetic)."""
 
 
 class ControllerInterfaceMissing(RobotRule):
-    """A controller of ROS 1 commands a joint by an interface that its transmission does not have.
+    """A ROS 1 controller requires an interface that the transmission of its joint does not provide.
 
     ## What it does
-    Compares the type of controllers in YAML (``effort_controllers/…``, ``velocity_controllers/…``,
-    ``position_controllers/…``, ``diff_drive_controller/…``) with the ``<hardwareInterface>`` of their joints'
-    transmissions.
+    Compares the types of controllers in YAML (``effort_controllers/…``, ``velocity_controllers/…``,
+    ``position_controllers/…`` and ``diff_drive_controller/…``) with the ``<hardwareInterface>`` elements in the
+    transmissions of their joints.
 
     ## Why is this bad?
-    "Could not find resource 'elbow' in 'hardware_interface::EffortJointInterface'": the controller does not start.
+    The controller does not start: "Could not find resource 'elbow' in 'hardware_interface::EffortJointInterface'".
 
     ## Example
     ```yaml
@@ -46,7 +46,7 @@ class ControllerInterfaceMissing(RobotRule):
     ```
 
     ## References
-    The robot beside the example has a transmission for ``elbow`` with an ``EffortJointInterface``.
+    In the robot of this example, the transmission of ``elbow`` has an ``EffortJointInterface``.
     """
 
     code = "K963"
@@ -55,34 +55,39 @@ class ControllerInterfaceMissing(RobotRule):
     not_for = NOT_GAZEBO | {"ros2", "gz"}
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each controller that finds no such interface for a joint, at its type."""
+        """Yield a finding at the type of each controller whose joint lacks the required interface."""
         from urdfkit.lint.controllers import joints_of, typed
         from urdfkit.lint.interfaces import is_misspelt
 
         if model.robot.ros2_control:
             return
-        has: dict[str, set[str]] = {}
+        provided: dict[str, set[str]] = {}
         for transmission in model.robot.transmissions:
-            for part in transmission.joints:
-                names = (name.rpartition("/")[2] for name in part.hardware_interfaces)
-                has.setdefault(part.name or "", set()).update(names)
-        for source in model.around.values() if has else ():
+            for joint in transmission.joints:
+                names = (name.rpartition("/")[2] for name in joint.hardware_interfaces)
+                provided.setdefault(joint.name or "", set()).update(names)
+        for source in model.around.values() if provided else ():
             if not source.file.endswith((".yaml", ".yml")):
                 continue
-            for kind in typed(source):
-                wanted = _WANTED.get(kind.name.partition("/")[0])
-                lacking = [one for one in joints_of(source, kind) if has.get(one) and wanted not in has[one]]
-                if wanted is None or not lacking or any("$" in name for name in has[lacking[0]]):
+            for controller_type in typed(source):
+                required = _REQUIRED_INTERFACES.get(controller_type.name.partition("/")[0])
+                missing = [
+                    joint
+                    for joint in joints_of(source, controller_type)
+                    if provided.get(joint) and required not in provided[joint]
+                ]
+                if required is None or not missing or any("$" in name for name in provided[missing[0]]):
                     continue
-                if any(is_misspelt(name) for name in has[lacking[0]]):
+                if any(is_misspelt(name) for name in provided[missing[0]]):
                     continue
-                others = ", ".join(f"`{name}`" for name in sorted(has[lacking[0]]))
+                others = ", ".join(f"`{name}`" for name in sorted(provided[missing[0]]))
                 yield Finding(
                     self.code,
                     self.name,
                     self.severity,
-                    f"`{kind.name}` needs the {wanted} of `{lacking[0]}`, whose transmission has {others}",
-                    source.span(kind.start, kind.start + len(kind.name)),
-                    joint=lacking[0],
-                    help="change one of the two",
+                    f"`{controller_type.name}` requires the {required} of joint `{missing[0]}`, "
+                    f"whose transmission provides {others}",
+                    source.span(controller_type.start, controller_type.start + len(controller_type.name)),
+                    joint=missing[0],
+                    help="change the controller type or the <hardwareInterface>",
                 )

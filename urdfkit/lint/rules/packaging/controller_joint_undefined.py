@@ -17,15 +17,15 @@ if TYPE_CHECKING:
 
 
 class ControllerJointUndefined(RobotRule):
-    """A controller is for a joint that the robot does not have.
+    """A controller uses a joint that the robot does not have.
 
     ## What it does
-    Compares the joints of controllers, in the YAML of the robot's package and of those beside it that depend on it,
-    with the joints of the robot. Where other descriptions there, other arguments or other conditions could make a
-    joint of the name, nothing is said.
+    Compares the joints of controllers in the YAML files of the robot's package and of neighbouring packages that depend
+    on it with the joints of the robot. Nothing is reported if another description in these packages, other arguments or
+    other conditions may define the joint.
 
     ## Why is this bad?
-    The controller does not start: there is no such joint to command.
+    The controller does not start, because it cannot claim the joint.
 
     ## Example
     ```yaml
@@ -56,31 +56,32 @@ class ControllerJointUndefined(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each joint of a controller that no description around can have."""
+        """Yield a finding for each controller joint that no description in these packages can define."""
         from urdfkit.lint.controllers import joints
         from urdfkit.lint.edits import nearest
 
-        known = model.robot.joint_by_name
-        if not known:
+        joints_by_name = model.robot.joint_by_name
+        if not joints_by_name:
             return
-        others: list[str] | None = None
+        defined_elsewhere: list[str] | None = None
         for source in model.around.values():
             if not source.file.endswith((".yaml", ".yml")):
                 continue
-            for named in joints(source):
-                if named.name.rpartition("/")[2] in known:  # a controller that others are chained to stands before it
+            for reference in joints(source):
+                # A chained controller writes the name of the other controller before that of the joint.
+                if reference.name.rpartition("/")[2] in joints_by_name:
                     continue
-                others = names_around(model, "joint") if others is None else others
-                if any(re.fullmatch(pattern, named.name) for pattern in others):
+                defined_elsewhere = names_around(model, "joint") if defined_elsewhere is None else defined_elsewhere
+                if any(re.fullmatch(pattern, reference.name) for pattern in defined_elsewhere):
                     continue
-                near = nearest(named.name, known)
-                found = Finding(
+                suggestion = nearest(reference.name, joints_by_name)
+                finding = Finding(
                     self.code,
                     self.name,
                     self.severity,
-                    f"a controller is for `{named.name}`, which is no joint of `{model.robot.name}`"
-                    f"{f'; did you mean `{near}`?' if near else ''}",
-                    source.span(named.start, named.start + len(named.name)),
-                    joint=named.name,
+                    f"controller joint `{reference.name}` does not exist in robot `{model.robot.name}`"
+                    f"{f'; did you mean `{suggestion}`?' if suggestion else ''}",
+                    source.span(reference.start, reference.start + len(reference.name)),
+                    joint=reference.name,
                 )
-                yield from doubted(model, named.name, near, found)
+                yield from doubted(model, reference.name, suggestion, finding)

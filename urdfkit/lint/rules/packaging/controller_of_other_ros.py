@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 _TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
-_SINGLE = {
+_SINGLE_JOINT = {
     f"{name.lower()}_controllers/Joint{name}Controller": f"{name.lower()}_controllers/JointGroup{name}Controller"
     for name in ("Position", "Velocity", "Effort")
 }
@@ -36,9 +36,9 @@ _TO_ROS_2 = {
         ),
         _TRAJECTORY,
     ),
-    **_SINGLE,
+    **_SINGLE_JOINT,
 }
-"""Types of ros_controllers (Noetic) that ros2_controllers lacks → what takes their place."""
+"""Controller type that exists only in ros_controllers (Noetic) → its replacement in ros2_controllers."""
 
 _TO_ROS_1 = {
     "joint_state_broadcaster/JointStateBroadcaster": "joint_state_controller/JointStateController",
@@ -49,20 +49,21 @@ _TO_ROS_1 = {
     _TRAJECTORY: "position_controllers/JointTrajectoryController",
     "forward_command_controller/ForwardCommandController": "position_controllers/JointGroupPositionController",
 }
-"""Types of ros2_controllers that ros_controllers lacks → what takes their place."""
+"""Controller type that exists only in ros2_controllers → its replacement in ros_controllers."""
 
 _TYPE = r"(?m)(?:^|[{,])[ \t]*type[ \t]*:[ \t]*[\"']?(\w+/\w+)\b"
 
 
 class ControllerOfOtherRos(RobotRule):
-    """A controller has a type of ROS 1 in a package for ROS 2, or the other way round.
+    """A ROS 2 package uses a ROS 1 controller type, or a ROS 1 package a ROS 2 type.
 
     ## What it does
-    Looks at the types of controllers in YAML. That it is for ROS 2 is told by ``ros__parameters`` in the file, or by
-    the build tool in the package.xml of the package it is in; that it is for ROS 1, by catkin.
+    Checks the types of controllers in YAML. A file is for ROS 2 if it contains ``ros__parameters`` or if the
+    package.xml of its package names an ament build tool, and for ROS 1 if the package.xml names catkin.
 
     ## Why is this bad?
-    "Loader for controller 'arm_controller' not found": pluginlib knows no such class; the controller does not start.
+    The controller does not start, because pluginlib does not find the class: "Loader for controller 'arm_controller'
+    not found".
 
     ## Example
     ```yaml
@@ -87,7 +88,7 @@ class ControllerOfOtherRos(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each type of the other ROS, with the one that takes its place."""
+        """Yield a finding for each controller type of the other ROS version."""
         from urdfkit.lint.yaml_tree import yamls
 
         for source in yamls(model):
@@ -97,28 +98,30 @@ class ControllerOfOtherRos(RobotRule):
                 if name not in _TO_ROS_2 and name not in _TO_ROS_1:
                     continue
                 ros = _ros_of(source, model)
-                right = {1: _TO_ROS_1, 2: _TO_ROS_2}.get(ros, {}).get(name)
-                if right is None:
+                replacement = {1: _TO_ROS_1, 2: _TO_ROS_2}.get(ros, {}).get(name)
+                if replacement is None:
                     continue
-                message = f"`{name}` is a controller of ROS {3 - ros}; that of ROS {ros} is `{right}`"
-                help = "it takes `joints`, a list" if name in _SINGLE and ros == 2 else None
+                message = f"`{name}` is a controller type of ROS {3 - ros}, but this file is for ROS {ros}"
+                help = f"write `{replacement}`"
+                if name in _SINGLE_JOINT and ros == 2:
+                    help += " and list the joint in `joints`"
                 yield Finding(self.code, self.name, self.severity, message, span, help=help)
 
 
 def _types(source: Source) -> Iterator[tuple[str, Span]]:
-    """Yield the types of controllers with their places; where there are parameters of ROS 2, those among them."""
+    """Yield the controller types with their spans; with ROS 2 parameters, only those of declared controllers."""
     from urdfkit.lint.launch import uncommented
     from urdfkit.lint.ros2_controllers import PARAMETERS, declared
     from urdfkit.lint.yaml_tree import span_of
 
     if PARAMETERS in source.text:
-        yield from ((one.kind.text, span_of(source, one.kind)) for one in declared(source))
+        yield from ((controller.kind.text, span_of(source, controller.kind)) for controller in declared(source))
     else:
-        yield from ((at[1], source.span(*at.span(1))) for at in re.finditer(_TYPE, uncommented(source)))
+        yield from ((match[1], source.span(*match.span(1))) for match in re.finditer(_TYPE, uncommented(source)))
 
 
 def _ros_of(source: Source, model: Model) -> int:
-    """Return which ROS settings are for; 0 where that is not told."""
+    """Return the ROS version of a parameter file, 1 or 2; 0 if it is unknown."""
     from pathlib import Path
 
     from urdfkit.description.surroundings import package_of
@@ -127,5 +130,5 @@ def _ros_of(source: Source, model: Model) -> int:
         return 2
     package = package_of(Path(source.file))
     manifest = model.manifest(package) if package is not None else ""
-    is_2, is_1 = "ament_" in manifest, ">catkin<" in re.sub(r"\s", "", manifest)
-    return 0 if is_1 == is_2 else 1 if is_1 else 2
+    is_ament, is_catkin = "ament_" in manifest, ">catkin<" in re.sub(r"\s", "", manifest)
+    return 0 if is_catkin == is_ament else 1 if is_catkin else 2

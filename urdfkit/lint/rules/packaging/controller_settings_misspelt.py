@@ -19,22 +19,21 @@ _KEY = r"(?m)^([ \t]*)[\"']?([\w/]+)[\"']?[ \t]*:[ \t]*\r?$"
 _GROUP = r"(?m)(?:^|[{,])[ \t]*[\"']?(ros_*[A-Za-z_]+)[\"']?[ \t]*:[ \t]*(?=\r?$|[{&*])"
 _PARAMETERS = "ros__parameters"
 _TAB = r"(?m)^ *\t[ \t]*(?=[^\s#])"
-_ENDS = 2
-"""Letters that a name may have more or less than the one that is meant."""
+_MAX_LENGTH_DIFFERENCE = 2
+"""Largest accepted difference in length from the suggested name."""
 
 
 class ControllerSettingsMisspelt(RobotRule):
-    """Settings of controllers in YAML are misspelt: their type, their section, or ``ros__parameters``.
+    """A controller type, section or parameter in YAML is misspelt.
 
     ## What it does
-    Looks in the YAML of the robot's package, and of those beside it that depend on it, where controllers have settings:
-    for types that are nearly one of ros_controllers' or ros2_controllers', for sections of ROS 2 that are nearly called
-    like a controller, for keys that are nearly ``ros__parameters`` (with two underscores), for parameters that
-    are nearly one that the controller reads, and for tabs.
+    Checks the controller parameters in the YAML files of the robot's package and of neighbouring packages that depend
+    on it for misspelt controller types of ros_controllers and ros2_controllers, misspelt names of controller sections,
+    misspelt ``ros__parameters`` keys (with two underscores), misspelt parameters, and tabs.
 
     ## Why is this bad?
-    "Loader for controller not found", or a controller that starts without its joints: what is under a key that nobody
-    asks for is not read, and not missed. YAML with tabs is not read at all.
+    Loading fails with "Loader for controller not found", or the controller starts without its joints, because unknown
+    keys are silently ignored. YAML with tabs is rejected.
 
     ## Example
     ```yaml
@@ -65,7 +64,7 @@ class ControllerSettingsMisspelt(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each name that is nearly the right one, and the first tab of a file."""
+        """Yield a finding for each misspelt name, and for the first tab of a file."""
         from urdfkit.lint.controllers import typed
         from urdfkit.lint.launch import uncommented
 
@@ -76,15 +75,15 @@ class ControllerSettingsMisspelt(RobotRule):
             types = list(typed(source))
             if not types and "controller" not in text:
                 continue
-            for named in types:
-                meant = _type_meant(named.name)
-                if meant is not None:
-                    message = f"there is no controller of type `{named.name}`; did you mean `{meant}`?"
-                    yield self._at(source, named.start, named.name, message)
+            for reference in types:
+                suggestion = _suggested_type(reference.name)
+                if suggestion is not None:
+                    message = f"unknown controller type `{reference.name}`; did you mean `{suggestion}`?"
+                    yield self._at(source, reference.start, reference.name, message)
             yield from self._keys(source, text)
             yield from self._parameters(source)
             if (tab := re.search(_TAB, text)) is not None:
-                yield self._at(source, tab.start(), tab[0], "YAML has no tabs: write blanks")
+                yield self._at(source, tab.start(), tab[0], "YAML is indented with a tab", help="indent with spaces")
 
     def _keys(self, source: Source, text: str) -> Iterator[Finding]:
         from urdfkit.lint.controllers import controllers
@@ -93,40 +92,45 @@ class ControllerSettingsMisspelt(RobotRule):
         keys = [(key[2], key.start(2), len(key[1])) for key in re.finditer(_KEY, text)]
         for name, start in ((key[1], key.start(1)) for key in re.finditer(_GROUP, text)):
             if name != _PARAMETERS and nearest(name, [_PARAMETERS], likeness=0.85) is not None:
-                yield self._at(source, start, name, f"`{name}` is read by nobody; did you mean `{_PARAMETERS}`?")
+                yield self._at(source, start, name, f"unknown key `{name}`; did you mean `{_PARAMETERS}`?")
         declared = set(controllers(source))
         sections = [
             (name, name.rpartition("/")[2], start)
             for (name, start, indent), (below, _, _) in pairwise(keys)
             if indent == 0 and below == _PARAMETERS
         ]
-        lost = declared - {called for _, called, _ in sections}
-        for name, called, start in sections:
-            meant = nearest(called, lost, likeness=0.85) if called not in (*declared, "controller_manager") else None
-            if meant is not None:
-                yield self._at(source, start, name, f"no controller is called `{name}`; did you mean `{meant}`?")
+        without_section = declared - {short_name for _, short_name, _ in sections}
+        for name, short_name, start in sections:
+            suggestion = (
+                nearest(short_name, without_section, likeness=0.85)
+                if short_name not in (*declared, "controller_manager")
+                else None
+            )
+            if suggestion is not None:
+                yield self._at(source, start, name, f"unknown controller `{name}`; did you mean `{suggestion}`?")
 
     def _parameters(self, source: Source) -> Iterator[Finding]:
         from urdfkit.lint.controller_settings import misspelt
         from urdfkit.lint.yaml_tree import span_of
 
-        for key, meant, controller in misspelt(source):
-            message = f"`{key.text}` of `{controller.name}` is read by nobody; did you mean `{meant}`?"
+        for key, suggestion, controller in misspelt(source):
+            message = f"unknown parameter `{key.text}` of controller `{controller.name}`; did you mean `{suggestion}`?"
             yield Finding(self.code, self.name, self.severity, message, span_of(source, key))
 
-    def _at(self, source: Source, start: int, written: str, message: str) -> Finding:
-        return Finding(self.code, self.name, self.severity, message, source.span(start, start + len(written)))
+    def _at(self, source: Source, start: int, written: str, message: str, help: str | None = None) -> Finding:
+        span = source.span(start, start + len(written))
+        return Finding(self.code, self.name, self.severity, message, span, help=help)
 
 
-def _type_meant(name: str) -> str | None:
-    """Return the type that one must have meant; None where it is one, or may be somebody's own."""
+def _suggested_type(name: str) -> str | None:
+    """Return the suggestion for a misspelt controller type; None if the type is valid or may be user-defined."""
     from urdfkit.lint.controllers import TYPES
     from urdfkit.lint.edits import nearest
 
     if name in TYPES:
         return None
-    near = nearest(name, TYPES, likeness=0.9)
-    if near is None:
+    suggestion = nearest(name, TYPES, likeness=0.9)
+    if suggestion is None:
         return None
-    parts = zip(name.split("/"), near.split("/"), strict=False)
-    return near if all(abs(len(one) - len(other)) <= _ENDS for one, other in parts) else None
+    parts = zip(name.split("/"), suggestion.split("/"), strict=False)
+    return suggestion if all(abs(len(word) - len(other)) <= _MAX_LENGTH_DIFFERENCE for word, other in parts) else None

@@ -20,20 +20,21 @@ _FRAME = (
     r"(?m)^[ \t]*(robot_base_frame|base_frame(?:_id)?|base_link_frame(?:_id)?|base_link|tip_link|ee_link|root_link)"
     r"[ \t]*:[ \t]*([\"']?)([\w./-]+)\2[ \t]*\r?$"
 )
-"""Settings of controllers, navigation and localisation that are links of the robot."""
+"""Matches parameters of controllers, navigation and localisation that name a link of the robot."""
 
 
 class FrameUndefined(RobotRule):
-    """Settings in YAML name a link that the robot does not have.
+    """A parameter in YAML names a link that the robot does not have.
 
     ## What it does
-    Looks for ``base_frame_id``, ``base_frame``, ``robot_base_frame``, ``base_link_frame`` and, for arms, ``base_link``,
-    ``root_link``, ``tip_link`` and ``ee_link`` in the YAML of the robot's package, and of the packages beside it that
-    depend on it. A name is reported where it is nearly that of a link, and no description around has it; the
-    ``base_frame_id`` of a controller that drives also where no other file around has a frame of that name.
+    Checks ``base_frame_id``, ``base_frame``, ``robot_base_frame`` and ``base_link_frame``, and for arms ``base_link``,
+    ``root_link``, ``tip_link`` and ``ee_link``, in the YAML files of the robot's package and of neighbouring packages
+    that depend on it. A name is reported if it is nearly the name of a link and no description in these packages
+    defines it. The ``base_frame_id`` of a drive controller is also reported if no other file in these packages mentions
+    the frame.
 
     ## Why is this bad?
-    A controller publishes, and navigation waits for, a frame that is not in the tree of transforms.
+    A controller publishes a frame that is not part of the TF tree, or navigation waits for it.
 
     ## Example
     ```yaml
@@ -55,53 +56,53 @@ class FrameUndefined(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each link in settings that no description around can have."""
+        """Yield a finding for each named link that no description in these packages can define."""
         from urdfkit.lint.edits import meant
         from urdfkit.lint.launch import uncommented
 
-        known = model.robot.link_by_name
-        if not known:
+        links_by_name = model.robot.link_by_name
+        if not links_by_name:
             return
-        others: list[str] | None = None
+        defined_elsewhere: list[str] | None = None
         for source in model.around.values():
             if not source.file.endswith((".yaml", ".yml")):
                 continue
-            for at in re.finditer(_FRAME, uncommented(source)):
-                name = at[3].rpartition("/")[2]
-                near, hint = meant(name, known)
-                if name in known or (near is None and not _is_drives(source, at, model)):
+            for match in re.finditer(_FRAME, uncommented(source)):
+                name = match[3].rpartition("/")[2]
+                suggestion, hint = meant(name, links_by_name)
+                if name in links_by_name or (suggestion is None and not _is_drive_frame(source, match, model)):
                     continue
-                others = names_around(model, "link") if others is None else others
-                if any(re.fullmatch(pattern, name) for pattern in others):
+                defined_elsewhere = names_around(model, "link") if defined_elsewhere is None else defined_elsewhere
+                if any(re.fullmatch(pattern, name) for pattern in defined_elsewhere):
                     continue
-                found = Finding(
+                finding = Finding(
                     self.code,
                     self.name,
                     self.severity,
-                    f"`{at[1]}` is `{name}`, which is no link of `{model.robot.name}`{hint}",
-                    source.span(*at.span(3)),
+                    f"`{match[1]}` is `{name}`, but robot `{model.robot.name}` has no such link{hint}",
+                    source.span(*match.span(3)),
                     link=name,
                 )
-                yield from doubted(model, name, near, found)
+                yield from doubted(model, name, suggestion, finding)
 
 
-def _is_drives(source: Source, at: re.Match[str], model: Model) -> bool:
-    """Whether a setting is the base frame of a controller that drives, and no other file around has such a frame."""
+def _is_drive_frame(source: Source, match: re.Match[str], model: Model) -> bool:
+    """Return whether a parameter is the base frame of a drive controller, and no other file mentions the frame."""
     from urdfkit.lint.controller_settings import settings
 
-    if at[1] != "base_frame_id" or any(
-        re.search(rf"(?<![\w-]){re.escape(at[3])}(?![\w-])", other.text)
+    if match[1] != "base_frame_id" or any(
+        re.search(rf"(?<![\w-]){re.escape(match[3])}(?![\w-])", other.text)
         for other in model.around.values()
         if other is not source
     ):
         return False
-    place = source.position(at.start(3))
+    position = source.position(match.start(3))
     return any(
-        value.line == place.line and re.search(_DRIVES, one.kind) is not None
-        for one in settings(source)
-        for key, value in one.group.entries
-        if key.text == at[1]
+        value.line == position.line and re.search(_DRIVE_CONTROLLER, controller.kind) is not None
+        for controller in settings(source)
+        for key, value in controller.group.entries
+        if key.text == match[1]
     )
 
 
-_DRIVES = r"^(?:diff_drive|mecanum_drive|tricycle|\w+_steering)_controller/"
+_DRIVE_CONTROLLER = r"^(?:diff_drive|mecanum_drive|tricycle|\w+_steering)_controller/"

@@ -18,21 +18,22 @@ _BROADCASTERS = (
     "imu_sensor_broadcaster/IMUSensorBroadcaster",
     "range_sensor_broadcaster/RangeSensorBroadcaster",
 )
-"""The types of ros2_controllers that read the sensor of their ``sensor_name`` (Humble to Rolling)."""
+"""Types of ros2_controllers that read the sensor named by ``sensor_name`` (Humble to Rolling)."""
 
 
 class HardwareInterfaceLacking(RobotRule):
-    """A controller of ROS 2 commands or reads an interface that the hardware of a joint does not have.
+    """A ROS 2 controller uses an interface that the hardware of its joint does not provide.
 
     ## What it does
-    Compares what controllers of ros2_controllers want of their joints, by their type and their settings in YAML, with
-    the ``<command_interface>`` and ``<state_interface>`` of these joints in ``<ros2_control>``; and the ``sensor_name``
-    of broadcasters with its sensors, where it is nearly one of theirs. Where arguments, or
-    another description of the package, may make it another hardware, and where the hardware misspells its joint or
-    interface, which is a finding of its own, nothing is said.
+    Compares the interfaces that controllers of ros2_controllers require of their joints, according to their type and
+    their parameters in YAML, with the ``<command_interface>`` and ``<state_interface>`` elements of these joints in
+    ``<ros2_control>``. Also checks the ``sensor_name`` of broadcasters for misspelt sensor names.
+
+    Nothing is reported if arguments or another description of the package may select other hardware, or if
+    ``<ros2_control>`` misspells the joint or interface, which other rules report.
 
     ## Why is this bad?
-    "Not acceptable command interfaces": the controller manager refuses to start the controller.
+    The controller manager refuses to start the controller: "Not acceptable command interfaces".
 
     ## Example
     ```yaml
@@ -61,7 +62,7 @@ class HardwareInterfaceLacking(RobotRule):
     ```
 
     ## References
-    The hardware beside the example has the command interface ``position`` for ``elbow``.
+    In the robot of this example, the hardware has the command interface ``position`` for ``elbow``.
     """
 
     code = "K965"
@@ -70,63 +71,70 @@ class HardwareInterfaceLacking(RobotRule):
     not_for = NOT_GAZEBO | {"ros1"}
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each interface that a controller wants and a joint lacks, where it is written."""
+        """Yield a finding for each interface that a controller requires and its joint lacks."""
         if not model.robot.ros2_control:
             return
         from urdfkit.lint.ros2_controllers import PARAMETERS, declared, offered
         from urdfkit.lint.yaml_tree import yamls
 
         sources = [source for source in yamls(model) if PARAMETERS in source.text]
-        has = offered(model) if sources else None
-        for source in sources if has is not None else ():
+        hardware = offered(model) if sources else None
+        for source in sources if hardware is not None else ():
             for controller in declared(source):
-                yield from self._lacking(source, controller, has or {}, model)
-                yield from self._sensor(source, controller, has or {})
+                yield from self._missing_interfaces(source, controller, hardware or {}, model)
+                yield from self._unknown_sensor(source, controller, hardware or {})
 
-    def _sensor(
-        self, source: Source, controller: Controller, has: dict[str, dict[bool, list[str]]]
+    def _unknown_sensor(
+        self, source: Source, controller: Controller, hardware: dict[str, dict[bool, list[str]]]
     ) -> Iterator[Finding]:
         from urdfkit.lint.edits import nearest
         from urdfkit.lint.yaml_tree import span_of
 
-        named = controller.settings.find("sensor_name") if controller.settings is not None else None
-        if named is None or not named.text or controller.kind.text not in _BROADCASTERS or named.text in has:
+        sensor = controller.settings.find("sensor_name") if controller.settings is not None else None
+        if sensor is None or not sensor.text or controller.kind.text not in _BROADCASTERS or sensor.text in hardware:
             return
-        near = nearest(named.text, has, likeness=0.7)
-        if near is not None:
-            message = f"`{controller.name}` reads `{named.text}`, which no <ros2_control> has; did you mean `{near}`?"
-            yield Finding(self.code, self.name, self.severity, message, span_of(source, named))
+        suggestion = nearest(sensor.text, hardware, likeness=0.7)
+        if suggestion is not None:
+            message = f"unknown sensor `{sensor.text}` of controller `{controller.name}`; did you mean `{suggestion}`?"
+            yield Finding(self.code, self.name, self.severity, message, span_of(source, sensor))
 
-    def _lacking(
-        self, source: Source, controller: Controller, has: dict[str, dict[bool, list[str]]], model: Model
+    def _missing_interfaces(
+        self, source: Source, controller: Controller, hardware: dict[str, dict[bool, list[str]]], model: Model
     ) -> Iterator[Finding]:
         from urdfkit.lint.interfaces import meant_interface, meant_joints
         from urdfkit.lint.ros2_controllers import wanted
         from urdfkit.lint.yaml_tree import span_of
 
-        told: set[tuple[int, int]] = set()
+        reported: set[tuple[int, int]] = set()
         misspelt = meant_joints(model.robot)
-        for one in wanted(controller):
-            interfaces = has.get(one.joint)
-            place = (one.where.line, one.where.column)
-            if place in told or (interfaces is not None and one.interface in interfaces[one.is_command]):
+        for requirement in wanted(controller):
+            interfaces = hardware.get(requirement.joint)
+            position = (requirement.where.line, requirement.where.column)
+            if position in reported or (
+                interfaces is not None and requirement.interface in interfaces[requirement.is_command]
+            ):
                 continue
-            kind = "commands" if one.is_command else "reads"
+            verb = "commands" if requirement.is_command else "reads"
             if interfaces is None:
-                if one.joint not in model.robot.joint_by_name or not one.is_command:
+                if requirement.joint not in model.robot.joint_by_name or not requirement.is_command:
                     continue
-                if one.joint in misspelt:
+                if requirement.joint in misspelt:
                     continue
-            elif one.interface in (meant_interface(name) for name in interfaces[one.is_command]):
+            elif requirement.interface in (meant_interface(name) for name in interfaces[requirement.is_command]):
                 continue
             if interfaces is None:
-                message = f"`{controller.name}` commands `{one.joint}`, which no <ros2_control> has"
-                help = "add it there, with its interfaces"
+                message = (
+                    f"<ros2_control> lacks joint `{requirement.joint}`, which controller `{controller.name}` commands"
+                )
+                help = "add the joint and its interfaces to <ros2_control>"
             else:
-                own = ", ".join(f"`{name}`" for name in interfaces[one.is_command]) or "none"
-                tag = "command_interface" if one.is_command else "state_interface"
-                message = f"`{controller.name}` {kind} the {one.interface} of `{one.joint}`, whose hardware has {own}"
-                help = f'add <{tag} name="{one.interface}"/> there, or change the controller'
-            told.add(place)
-            span = span_of(source, one.where)
-            yield Finding(self.code, self.name, self.severity, message, span, joint=one.joint, help=help)
+                provided = ", ".join(f"`{name}`" for name in interfaces[requirement.is_command]) or "none"
+                tag = "command_interface" if requirement.is_command else "state_interface"
+                message = (
+                    f"controller `{controller.name}` {verb} the {requirement.interface} interface of joint "
+                    f"`{requirement.joint}`, whose hardware provides {provided}"
+                )
+                help = f'add <{tag} name="{requirement.interface}"/> to the hardware, or change the controller'
+            reported.add(position)
+            span = span_of(source, requirement.where)
+            yield Finding(self.code, self.name, self.severity, message, span, joint=requirement.joint, help=help)

@@ -14,15 +14,15 @@ if TYPE_CHECKING:
 
 
 class LaunchNotWellFormed(RobotRule):
-    """A launch file, or the package.xml, cannot be read.
+    """A launch file or package.xml is not well-formed.
 
     ## What it does
-    Reads the launch files in XML and Python of the robot's package, and of those beside it that depend on it, without
-    running anything; also its package.xml.
+    Parses the XML and Python launch files of the robot's package and of neighbouring packages that depend on it, and
+    their package.xml. Nothing is executed.
 
     ## Why is this bad?
-    "Invalid roslaunch XML syntax", or a SyntaxError: nothing is launched. A package whose package.xml is no XML
-    is built by no tool.
+    The launch fails with "Invalid roslaunch XML syntax" or a SyntaxError. A package with a malformed package.xml cannot
+    be built.
 
     ## Example
     ```xml
@@ -43,15 +43,15 @@ class LaunchNotWellFormed(RobotRule):
     name = "launch-not-well-formed"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each launch file or package.xml that is no XML, or no Python, where reading it ends."""
+        """Yield a finding at the first syntax error of each launch file and package.xml."""
         for source in model.around.values():
-            wrong = None
+            error = None
             if source.file.endswith((".launch", ".launch.xml", "package.xml")):
-                wrong = _in_xml(source)
+                error = _in_xml(source)
             elif source.file.endswith(".launch.py"):
-                wrong = _in_python(source)
-            if wrong is not None:
-                line, column, message = wrong
+                error = _in_python(source)
+            if error is not None:
+                line, column, message = error
                 span = source.span(start := source.offset(line, column), min(start + 1, len(source.text)))
                 yield Finding(self.code, self.name, self.severity, message, span)
 
@@ -79,7 +79,7 @@ def _in_python(source: Source) -> tuple[int, int, str] | None:
         except SyntaxError as error:
             last = len(source.line_starts)
             line = min(error.lineno or 1, last)
-            return line, min(error.offset or 1, len(source.line(line)) + 1), f"this is no Python: {error.msg}"
+            return line, min(error.offset or 1, len(source.line(line)) + 1), f"invalid Python: {error.msg}"
         except (ValueError, RecursionError, MemoryError):
             return None
     return None

@@ -17,15 +17,15 @@ if TYPE_CHECKING:
 
 
 class NotInstalled(RobotRule):
-    """A folder that the description names is not installed.
+    """The package does not install a folder that the description uses.
 
     ## What it does
-    Looks for the folders of the robot's own package in ``package://…`` and ``$(find …)`` that are there, and that
-    neither CMakeLists.txt nor setup.py mentions. With catkin it is a note: what is not installed is still found in
-    a development space.
+    Checks ``package://…`` and ``$(find …)`` references for existing folders of the robot's own package that neither
+    CMakeLists.txt nor setup.py mentions. With catkin this is a note, because files that are not installed are still
+    found in the devel space.
 
     ## Why is this bad?
-    After the build the package's share folder lacks it: the meshes, or the included files, are not there.
+    After installation, the share folder of the package lacks these meshes or included files.
 
     ## Example
     ```xml
@@ -46,7 +46,8 @@ class NotInstalled(RobotRule):
     ```
 
     ## References
-    The CMakeLists.txt beside the example has ``install(DIRECTORY urdf meshes DESTINATION share/${PROJECT_NAME})``.
+    In the package of this example, CMakeLists.txt has ``install(DIRECTORY urdf meshes DESTINATION
+    share/${PROJECT_NAME})``.
     """
 
     code = "K957"
@@ -54,39 +55,39 @@ class NotInstalled(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each folder that is named and not installed, where it is named first."""
+        """Yield a finding at the first use of each folder that is not installed."""
         package = model.package
-        own = name_in(model.manifest(package)) if package is not None else ""
-        if package is None or not own:
+        package_name = name_in(model.manifest(package)) if package is not None else ""
+        if package is None or not package_name:
             return
-        name = re.escape(own)
+        name = re.escape(package_name)
         uses = re.compile(rf"(?:package://{name}|\$\(find(?:-pkg-share)?\s+{name}\))/([\w-]+)/")
-        rules: str | None = None
-        known: set[str] = set()
+        install_rules: str | None = None
+        checked: set[str] = set()
         for file, source in model.expanded.sources.items():
             if package not in Path(file).absolute().parents:
                 continue
-            for at in uses.finditer(source.text):
-                folder = at[1]
-                if folder in known or not (package / folder).is_dir():
+            for match in uses.finditer(source.text):
+                folder = match[1]
+                if folder in checked or not (package / folder).is_dir():
                     continue
-                known.add(folder)
-                rules = _install_rules(package) if rules is None else rules
+                checked.add(folder)
+                install_rules = _install_rules(package) if install_rules is None else install_rules
                 word = rf"(?<![\w-]){re.escape(folder)}(?![\w-])"
-                if not rules or re.search(rf"{word}|DIRECTORY\s+(?:\.|\$)|GLOB|foreach", rules):
+                if not install_rules or re.search(rf"{word}|DIRECTORY\s+(?:\.|\$)|GLOB|foreach", install_rules):
                     continue
                 yield Finding(
                     self.code,
                     self.name,
-                    "warning" if "ament" in rules else "info",
-                    f"the folder `{folder}` of this package is not installed",
-                    source.span(at.start(), at.end()),
+                    "warning" if "ament" in install_rules else "info",
+                    f"folder `{folder}` of this package is not installed",
+                    source.span(match.start(), match.end()),
                     help="add it to install(DIRECTORY …) in CMakeLists.txt, or to data_files in setup.py",
                 )
 
 
 def _install_rules(package: Path) -> str:
-    """Return what CMakeLists.txt and setup.py say, comments left out; empty where there is neither."""
+    """Return the text of CMakeLists.txt and setup.py without comments; empty if neither exists."""
     files = [file for name in ("CMakeLists.txt", "setup.py") if (file := package / name).is_file()]
     texts = [file.read_text("utf-8", "replace") for file in files]
     return "\n".join(re.sub(r"#.*", "", text) for text in texts)

@@ -17,19 +17,20 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 _TESTS = frozenset(("test", "tests"))
-"""Folders whose files need nothing to be installed."""
+"""Folders whose files do not add runtime dependencies."""
 
 
 class PackageXmlDependency(RobotRule):
-    """A package is used that package.xml does not name.
+    """A package is used without a dependency in package.xml.
 
     ## What it does
-    Looks in the files of the robot's package for ``$(find …)`` and ``package://…`` of other packages, and in its launch
-    files, and those of the packages beside it that depend on it, for the packages of what they start and include; and
-    compares with the dependencies in package.xml. Each package is reported once; folders of tests are left out.
+    Compares the packages that the files of the robot's package use, by ``$(find …)`` and ``package://…``, with the
+    dependencies in package.xml. Also compares the packages that launch files start or include with the dependencies of
+    their own package. Each package is reported once; test folders are not checked.
 
     ## Why is this bad?
-    It works on machines that happen to have the package. rosdep and the build farm do not install it.
+    The package works only where the dependency happens to be installed: rosdep and the ROS build farm do not install
+    it.
 
     ## Example
     ```xml
@@ -48,7 +49,7 @@ class PackageXmlDependency(RobotRule):
     ```
 
     ## References
-    The package.xml beside the example has ``<exec_depend>mybot_description</exec_depend>``.
+    In the package of this example, package.xml has ``<exec_depend>mybot_description</exec_depend>``.
     """
 
     code = "K956"
@@ -56,40 +57,40 @@ class PackageXmlDependency(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each package that is used and not named, at its first use."""
+        """Yield a finding at the first use of each package without a dependency."""
         package = model.package
         if package is None:
             return
         manifest = model.manifest(package)
-        named = {name_in(manifest), *dependencies_in(manifest)}
+        declared = {name_in(manifest), *dependencies_in(manifest)}
         for file, source in model.expanded.sources.items():
             uses = "$(find" in source.text or "package://" in source.text
             path = Path(file).absolute()
             if not uses or package not in path.parents or not _TESTS.isdisjoint(path.relative_to(package).parts):
                 continue
             comments = model.document(file).comments
-            for at in re.finditer(r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)|package://([\w-]+)/", source.text):
-                name = at[1] or at[2]
-                if name in named or any(start <= at.start() < end for start, end, _ in comments):
+            for match in re.finditer(r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)|package://([\w-]+)/", source.text):
+                name = match[1] or match[2]
+                if name in declared or any(start <= match.start() < end for start, end, _ in comments):
                     continue
-                named.add(name)
-                yield self._missing(name, source, at.start(), at.end())
-        yield from self._check_launch_files(model, {package: named})
+                declared.add(name)
+                yield self._missing(name, source, match.start(), match.end())
+        yield from self._check_launch_files(model, {package: declared})
 
-    def _check_launch_files(self, model: Model, named: dict[Path, set[str]]) -> Iterator[Finding]:
-        """Yield a finding for each package that a launch file needs and that its own package does not name."""
+    def _check_launch_files(self, model: Model, declared: dict[Path, set[str]]) -> Iterator[Finding]:
+        """Yield a finding for each package that a launch file uses without a dependency in its own package."""
         from urdfkit.lint.launch import packages_used
 
         for file, source in model.around.items():
             package = package_of(Path(file)) if file.endswith(LAUNCH) else None
             if package is None or not _TESTS.isdisjoint(Path(file).absolute().relative_to(package).parts):
                 continue
-            if package not in named:
-                written = model.manifest(package)
-                named[package] = {name_in(written, package.name), *dependencies_in(written)}
+            if package not in declared:
+                manifest = model.manifest(package)
+                declared[package] = {name_in(manifest, package.name), *dependencies_in(manifest)}
             for name, start, end in packages_used(source):
-                if name not in named[package]:
-                    named[package].add(name)
+                if name not in declared[package]:
+                    declared[package].add(name)
                     yield self._missing(name, source, start, end)
 
     def _missing(self, name: str, source: Source, start: int, end: int) -> Finding:
@@ -97,7 +98,7 @@ class PackageXmlDependency(RobotRule):
             self.code,
             self.name,
             self.severity,
-            f"package.xml names no dependency on `{name}`",
+            f"missing dependency on `{name}`",
             source.span(start, end),
-            help=f"add <exec_depend>{name}</exec_depend>",
+            help=f"add <exec_depend>{name}</exec_depend> to package.xml",
         )

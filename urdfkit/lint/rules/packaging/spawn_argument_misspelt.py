@@ -24,26 +24,26 @@ _OPTIONS: dict[str, tuple[str, ...]] = {
 """Program → its options (ros_gz_sim Jazzy; gazebo_ros Humble and Noetic)."""
 
 _PACKAGES = ("ros_gz_sim", "ros_ign_gazebo", "gazebo_ros")
-_ELSEWHERE = {
+_SYNONYMS = {
     "create": {"entity": "name", "model": "name", "robot": "name", "yaw": "Y", "pitch": "P", "roll": "R"},
     "spawn_entity.py": {"name": "entity", "model": "entity", "param": "topic", "yaw": "Y", "pitch": "P", "roll": "R"},
     "spawn_model": {"name": "model", "entity": "model", "topic": "param", "yaw": "Y", "pitch": "P", "roll": "R"},
 }
-"""Program → what the others, and people, call an option."""
+"""Spawner → option of another spawner, or common name → the corresponding option."""
 
 _DESCRIPTION = "robot_description"
 
 
 class SpawnArgumentMisspelt(RobotRule):
-    """A launch file hands an option to a spawner of Gazebo that it does not have.
+    """A launch file passes an unknown option to a Gazebo spawner.
 
     ## What it does
-    Looks at the arguments of ``create`` (ros_gz_sim), ``spawn_entity.py`` and ``spawn_model`` (gazebo_ros): for options
-    that are nearly one of theirs, or one of another of the three, and for a topic or parameter that is nearly
-    ``robot_description``. Launch files in Python are read, not run.
+    Checks the arguments of ``create`` (ros_gz_sim), ``spawn_entity.py`` and ``spawn_model`` (gazebo_ros) for misspelt
+    options, for options of another spawner, and for misspellings of the topic or parameter ``robot_description``.
+    Python launch files are parsed, not executed.
 
     ## Why is this bad?
-    The program stops, or waits for a description that never comes: the world is there, the robot is not.
+    The spawner fails, or waits forever for a description, and the robot does not appear in the world.
 
     ## Example
     ```xml
@@ -65,7 +65,7 @@ class SpawnArgumentMisspelt(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each such argument."""
+        """Yield a finding for each invalid argument."""
         from urdfkit.lint.started import launches, started
 
         for source in launches(model):
@@ -73,33 +73,38 @@ class SpawnArgumentMisspelt(RobotRule):
                 continue
             for node in started(source):
                 if node.package in _PACKAGES and node.program in _OPTIONS:
-                    for start, written, message in _wrong(node):
+                    for start, written, message in _invalid_arguments(node):
                         span = source.span(start, start + len(written))
                         yield Finding(self.code, self.name, self.severity, message, span)
 
 
-def _wrong(node: Started) -> Iterator[tuple[int, str, str]]:
-    """Yield the arguments that are wrong: where, what is written, and what to say."""
+def _invalid_arguments(node: Started) -> Iterator[tuple[int, str, str]]:
+    """Yield the offset, text and message of each invalid argument."""
     from urdfkit.lint.edits import nearest
 
-    options, before = _OPTIONS[node.program], ""
+    options, previous = _OPTIONS[node.program], ""
     for word in node.arguments:
         text = word.name if word is not None else ""
         option = re.fullmatch(r"--?([A-Za-z_]\w*)(?:=.*)?", text)
         if text == "--ros-args":
             return
         if word is not None and option is not None and option[1] not in options:
-            meant = _ELSEWHERE[node.program].get(option[1]) or _near(option[1], options)
-            if meant is not None:
-                yield word.start, text, f"`{node.program}` has no option `{text}`; did you mean `-{meant}`?"
-        elif word is not None and before in ("topic", "param"):
+            suggestion = _SYNONYMS[node.program].get(option[1]) or _nearest_option(option[1], options)
+            if suggestion is not None:
+                yield word.start, text, f"unknown option `{text}` of `{node.program}`; did you mean `-{suggestion}`?"
+        elif word is not None and previous in ("topic", "param"):
             name = text.strip("/").rpartition("/")[2]
             if name != _DESCRIPTION and nearest(name, [_DESCRIPTION], likeness=0.88) is not None:
-                yield word.start, text, f"nobody publishes `{text}`; did you mean `{_DESCRIPTION}`?"
-        before = option[1] if option is not None else ""
+                kind = "topic" if previous == "topic" else "parameter"
+                yield word.start, text, f"unknown {kind} `{text}`; did you mean `{_DESCRIPTION}`?"
+        previous = option[1] if option is not None else ""
 
 
-def _near(option: str, options: tuple[str, ...]) -> str | None:
+def _nearest_option(option: str, options: tuple[str, ...]) -> str | None:
     from urdfkit.lint.edits import nearest
 
-    return nearest(option, [one for one in options if len(one) > 1], likeness=0.7) if len(option) > 2 else None
+    return (
+        nearest(option, [candidate for candidate in options if len(candidate) > 1], likeness=0.7)
+        if len(option) > 2
+        else None
+    )

@@ -20,14 +20,14 @@ _SPAWNERS = ("spawner", "spawner.py", "controller_spawner", "controller_spawner.
 
 
 class SpawnedControllerUndefined(RobotRule):
-    """A launch file spawns a controller that no settings define.
+    """A launch file spawns a controller that no parameter file defines.
 
     ## What it does
-    Compares the controllers that launch files hand to the spawner with those that the YAML around gives a type, where
-    one of those has nearly that name. Launch files in Python are read, not run.
+    Checks for controllers passed to the spawner in launch files that are misspellings of a controller with a type in
+    the YAML files of these packages. Python launch files are parsed, not executed.
 
     ## Why is this bad?
-    The spawner waits for the controller, then gives up; the robot does not move.
+    The spawner waits for the controller and then fails, and the robot does not move.
 
     ## Example
     ```xml
@@ -50,38 +50,42 @@ class SpawnedControllerUndefined(RobotRule):
     not_for = NOT_GAZEBO
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each controller that is spawned and, but for a letter or so, defined."""
+        """Yield a finding for each misspelt name of a spawned controller."""
         from urdfkit.errors import did_you_mean
         from urdfkit.lint.controllers import controllers
 
         launches = [file for file in model.around.values() if re.search(r"spawner", file.text)]
-        settings = [file for file in model.around.values() if file.file.endswith((".yaml", ".yml"))]
-        if not launches or not settings:
+        parameter_files = [file for file in model.around.values() if file.file.endswith((".yaml", ".yml"))]
+        if not launches or not parameter_files:
             return
-        known = [name for file in settings for name in controllers(file)]
+        defined = [name for file in parameter_files for name in controllers(file)]
         for source in launches:
-            for named in _spawned(source):
-                written = rf"(?<![\w-]){re.escape(named.name)}[\"']?\s*:"
-                hint = did_you_mean(named.name, known)
-                if named.name in known or not hint or any(re.search(written, file.text) for file in settings):
+            for reference in _spawned(source):
+                key_pattern = rf"(?<![\w-]){re.escape(reference.name)}[\"']?\s*:"
+                hint = did_you_mean(reference.name, defined)
+                if (
+                    reference.name in defined
+                    or not hint
+                    or any(re.search(key_pattern, file.text) for file in parameter_files)
+                ):
                     continue
                 yield Finding(
                     self.code,
                     self.name,
                     self.severity,
-                    f"no controller `{named.name}` has settings{hint}",
-                    source.span(named.start, named.start + len(named.name)),
+                    f"unknown controller `{reference.name}`{hint}",
+                    source.span(reference.start, reference.start + len(reference.name)),
                 )
 
 
 def _spawned(source: Source) -> Iterator[Named]:
-    """Yield what a launch file hands to spawners as constants; what follows an option is left out."""
+    """Yield the literal controller names that a launch file passes to spawners, without the values of options."""
     from urdfkit.lint.started import started
 
     for node in started(source):
         if node.program not in _SPAWNERS:
             continue
-        for before, word in zip([None, *node.arguments], node.arguments, strict=False):
-            is_option = before is not None and before.name.startswith("-")
+        for previous, word in zip([None, *node.arguments], node.arguments, strict=False):
+            is_option = previous is not None and previous.name.startswith("-")
             if word is not None and re.fullmatch(r"[A-Za-z]\w*", word.name) and not is_option:
                 yield word

@@ -16,28 +16,29 @@ if TYPE_CHECKING:
     from urdfkit.lint.yaml_tree import Broken, Node
 
 _TEMPLATE = r"\{%|\{\{|\$\{"
-_BARE = r"\s*(?:-\s+)?([A-Za-z_][\w/.-]*)(?:\s+[^\s:#]\S*)?\s*(?:#.*)?$"
+_WITHOUT_COLON = r"\s*(?:-\s+)?([A-Za-z_][\w/.-]*)(?:\s+[^\s:#]\S*)?\s*(?:#.*)?$"
 _ITEM = r"\s*-\s+[^\s:]+\s*(?:#.*)?$"
-_CLOSE = r"\s*(?:-\s+)?([A-Za-z_][\w/.-]*):[^\s:/]\S*\s*(?:#.*)?$"
-_UNFINISHED = r"mapping values|expected (?:':'|key|block|<block|'?-'? indicator)"
-"""What libyaml says where a line is no ``name: value`` (scanner.c, parser.c)."""
+_WITHOUT_SPACE = r"\s*(?:-\s+)?([A-Za-z_][\w/.-]*):[^\s:/]\S*\s*(?:#.*)?$"
+_NOT_A_MAPPING = r"mapping values|expected (?:':'|key|block|<block|'?-'? indicator)"
+"""Matches the errors of libyaml for a line that is not ``name: value`` (scanner.c, parser.c)."""
 
-_SETTINGS = (
+_PARAMETERS = (
     "type joint joints update_rate use_sim_time publish_rate command_interfaces state_interfaces wheel_separation"
     " wheel_radius left_wheel_names right_wheel_names base_frame_id odom_frame_id"
 )
-"""Parameters that a line without its colon is taken for where it may well be text."""
+"""Parameters that are recognised in a multi-line string, where other words may be ordinary text."""
 
 
 class YamlNotWellFormed(RobotRule):
-    """Settings are no YAML, or their lines run into each other where a colon is missing.
+    """A YAML file is not well-formed, or a missing colon merges a parameter with its value.
 
     ## What it does
-    Reads the YAML of the robot's package, and of those beside it that depend on it. Where that ends it looks for the
-    line that lacks its colon, or the blank behind it. Templates (``{{ … }}``) are left alone.
+    Parses the YAML files of the robot's package and of neighbouring packages that depend on it. For a syntax error, the
+    rule locates the line with a missing colon, or a missing space after it. Templates (``{{ … }}``) are not checked.
 
     ## Why is this bad?
-    "Error parsing yaml file", and nothing is launched; or a parameter and its value become one text that nobody reads.
+    The launch fails with "Error parsing yaml file", or a parameter and its value become a single string that no node
+    reads.
 
     ## Example
     ```yaml
@@ -60,7 +61,7 @@ class YamlNotWellFormed(RobotRule):
     name = "yaml-not-well-formed"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each file that cannot be read, and for each text that was to be a parameter."""
+        """Yield a finding for each malformed file, and for each string that should be a parameter."""
         from urdfkit.lint.yaml_tree import documents, span_of, walk, yamls
 
         for source in yamls(model):
@@ -69,38 +70,41 @@ class YamlNotWellFormed(RobotRule):
             roots, broken = documents(source)
             if broken is not None:
                 has_tab = "\t" in source.line(min(broken.line, len(source.line_starts)))
-                if not has_tab or "controller" not in source.text:  # there controller-settings-misspelt tells of tabs
-                    yield self._where(source, broken)
+                # In files with controllers, tabs are reported by controller-settings-misspelt.
+                if not has_tab or "controller" not in source.text:
+                    yield self._syntax_error(source, broken)
                 continue
             for root in roots:
                 for node in walk(root):
                     for key, value in node.entries:
-                        word = _lost(key, value)
+                        word = _unseparated_parameter(key, value)
                         if word is not None:
-                            message = f"a colon is missing behind `{word}`: `{key.text}` is the text `{value.text}`"
-                            if value.text.startswith(f"{word}:"):
-                                message = (
-                                    f"a blank is missing behind `{word}:`: `{key.text}` is the text `{value.text}`"
-                                )
-                            yield Finding(self.code, self.name, self.severity, message, span_of(source, value))
+                            missing = (
+                                f"space after `{word}:`"
+                                if value.text.startswith(f"{word}:")
+                                else f"colon after `{word}`"
+                            )
+                            message = f"missing {missing}: `{key.text}` is parsed as the string `{value.text}`"
+                            span = span_of(source, value)
+                            yield Finding(self.code, self.name, self.severity, message, span, help=f"write `{word}: …`")
 
-    def _where(self, source: Source, broken: Broken) -> Finding:
-        """Return the finding, at the line that lacks its colon where there is one, else where reading ends."""
+    def _syntax_error(self, source: Source, broken: Broken) -> Finding:
+        """Return the finding at the line that lacks a colon, or else at the position of the syntax error."""
         last = len(source.line_starts)
         line, column = min(broken.line, last), broken.column
-        message = f"this is no YAML: {broken.why}"
-        if re.search(_UNFINISHED, broken.why):
+        message = f"invalid YAML: {broken.why}"
+        if re.search(_NOT_A_MAPPING, broken.why):
             above = range(line, 0, -1)
             lines = [number for number in above if not re.match(_ITEM, source.line(number))]
             for number in lines[:4]:
                 text = source.line(number).rstrip()
-                bare, close = re.match(_BARE, text), re.match(_CLOSE, text)
-                if bare is None and close is None:
+                without_colon, without_space = re.match(_WITHOUT_COLON, text), re.match(_WITHOUT_SPACE, text)
+                if without_colon is None and without_space is None:
                     continue
-                word = (bare or close)[1]  # type: ignore[index]
+                word = (without_colon or without_space)[1]  # type: ignore[index]
                 line, column = number, len(text) - len(text.lstrip()) + 1
-                what = f"a colon behind `{word}`" if bare is not None else f"a blank behind `{word}:`"
-                message = f"this is no YAML: {what} is missing"
+                missing = f"colon after `{word}`" if without_colon is not None else f"space after `{word}:`"
+                message = f"invalid YAML: missing {missing}"
                 break
         start = source.offset(line, min(column, len(source.line(line)) + 1))
         return Finding(
@@ -108,9 +112,9 @@ class YamlNotWellFormed(RobotRule):
         )
 
 
-def _lost(key: Node, value: Node) -> str | None:
-    """Return the name of the parameter that a text on lines of its own was to be; None where it may well be text."""
+def _unseparated_parameter(key: Node, value: Node) -> str | None:
+    """Return the parameter that a string on a separate line should be; None if it may be ordinary text."""
     if not value.is_plain or value.line <= key.line:
         return None
-    at = re.fullmatch(r"([A-Za-z_]\w*)(?::\S+|\s+\S+)", value.text)
-    return at[1] if at is not None and at[1] in _SETTINGS.split() else None
+    match = re.fullmatch(r"([A-Za-z_]\w*)(?::\S+|\s+\S+)", value.text)
+    return match[1] if match is not None and match[1] in _PARAMETERS.split() else None
