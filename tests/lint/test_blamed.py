@@ -65,7 +65,7 @@ def test_a_macro_of_a_broken_file_is_not_missed_and_another_is(tmp_path):
 
 def test_an_argument_under_another_name_is_one_finding(tmp_path):
     told = found(tmp_path, WHEEL + '<xacro:wheel name="a" size="0.1"/>')
-    assert told == [("X107", 7, "macro `wheel` has no parameter `size`, and needs `radius`")]
+    assert told == [("X107", 7, "unknown parameter `size` of macro `wheel`, which requires `radius`")]
     told = found(tmp_path, WHEEL + '<xacro:wheel nam="a" radus="0.1"/>')
     assert sorted(message for *_, message in told) == [
         "macro `wheel` has no parameter `nam`, and needs `name`",
@@ -92,7 +92,7 @@ def test_a_property_that_is_nearly_a_number_is_told_where_it_is_written(tmp_path
 <link name="base"/><link name="a"/><link name="b"/>
 <joint name="j" type="fixed"><parent link="base"/><child link="a"/><origin xyz="0 ${track/2} 0"/></joint>
 <joint name="k" type="fixed"><parent link="base"/><child link="b"/><origin xyz="0 ${-track/2} 0"/></joint>"""
-    assert found(tmp_path, body) == [("X124", 2, "`O.4` is reckoned with and is no number")]
+    assert found(tmp_path, body) == [("X124", 2, "`O.4` is used in an expression, but is not a number")]
     told = found(tmp_path, body.replace("${track/2}", "${track}").replace("${-track/2}", "${track}"))
     assert [(code, line) for code, line, _ in told] == [("E010", 2)]
 

@@ -248,7 +248,7 @@ def test_the_file_whose_include_was_forgotten_is_named(tmp_path):
     text = '<robot name="cart" xmlns:xacro="http://www.ros.org/wiki/xacro">\n  <xacro:wheel/>\n</robot>\n'
     cart.write_text(text)
     (found,) = lint(cart)
-    assert (found.code, found.help) == ("X103", "`wheel` is defined in parts/wheel.xacro: include that file")
+    assert (found.code, found.help) == ("X103", "include parts/wheel.xacro, which defines `wheel`")
     fixed = fix([Entry(cart)], Options(), within=[tmp_path], unsafe=True)
     include = '\n  <xacro:include filename="parts/wheel.xacro"/>\n'
     assert [change.after.decode() for change in fixed.changes] == [text.replace("\n", include, 1)]

@@ -6,13 +6,13 @@ from urdfkit.lint.rule import FaultRule
 
 
 class ConditionalNotBoolean(FaultRule):
-    """The value of ``<xacro:if>`` is neither true nor false.
+    """The condition of ``<xacro:if>`` or ``<xacro:unless>`` is not a Boolean.
 
     ## What it does
-    Reports conditions that come out as something else than ``true``, ``false`` or a number.
+    Checks for conditions whose value is not ``true``, ``false`` or a number.
 
     ## Why is this bad?
-    xacro stops.
+    xacro aborts with an error.
 
     ## Example
     ```xml

@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 
 
 class DeprecatedCall(SourceRule):
-    """A function of xacro is called by a deprecated name.
+    """A xacro function is called without the prefix ``xacro.``.
 
     ## What it does
-    Looks in expressions for ``load_yaml``, ``message``, ``warning`` and ``error`` without ``xacro.`` before them.
+    Checks expressions for calls of ``load_yaml`` without the prefix ``xacro.``.
 
     ## Why is this bad?
-    xacro warns at each run ("Using load_yaml() directly is deprecated"), and will stop to know it.
+    xacro logs a warning at every run ("Using load_yaml() directly is deprecated") and will remove the unprefixed name.
 
     ## Example
     ```xml
@@ -47,7 +47,7 @@ class DeprecatedCall(SourceRule):
     ```
 
     ## Fix safety
-    Safe: both call the same function.
+    Safe: both names refer to the same function.
     """
 
     code = "X117"
@@ -56,14 +56,14 @@ class DeprecatedCall(SourceRule):
     fix = "safe"
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each call by the old name."""
+        """Yield a finding for each call by the deprecated name."""
         text, source = document.source.text, document.source
         if "load_yaml" not in text:
             return
-        for at in re.finditer(r"\$\{[^{}]*?(?<![\w.])(load_yaml)\(", text):
-            if any(start <= at.start() < end for start, end, _ in document.comments):
+        for match in re.finditer(r"\$\{[^{}]*?(?<![\w.])(load_yaml)\(", text):
+            if any(start <= match.start() < end for start, end, _ in document.comments):
                 continue
-            span = source.span(at.start(1), at.end(1))
+            span = source.span(match.start(1), match.end(1))
             yield Finding(
                 self.code,
                 self.name,
@@ -71,5 +71,5 @@ class DeprecatedCall(SourceRule):
                 "`load_yaml()` without `xacro.` is deprecated",
                 span,
                 help="write `xacro.load_yaml()`",
-                fix=Fix("safe", "Write `xacro.load_yaml`", (Edit(span, "xacro.load_yaml"),)),
+                fix=Fix("safe", "Replace with `xacro.load_yaml`", (Edit(span, "xacro.load_yaml"),)),
             )

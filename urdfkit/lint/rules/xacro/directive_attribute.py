@@ -15,16 +15,16 @@ if TYPE_CHECKING:
 
 
 class DirectiveAttribute(FaultRule):
-    """A directive of xacro has no such attribute.
+    """A xacro directive has an unknown attribute.
 
     ## What it does
-    Looks at the attributes of ``<xacro:property>``, ``<xacro:macro>``, ``<xacro:arg>``, ``<xacro:include>`` and of
-    conditions, and for commas between the parameters of a macro. The file is then read as if it were written right, so
-    that nothing follows from it.
+    Checks the attributes of ``<xacro:property>``, ``<xacro:macro>``, ``<xacro:arg>``, ``<xacro:include>`` and
+    conditionals, and checks for commas between the parameters of a macro. The file is then expanded as if the attribute
+    were correct, to avoid follow-up errors.
 
     ## Why is this bad?
-    xacro warns of an unknown attribute and leaves it out: a property with ``vlaue`` has no value, and an expression
-    that uses it fails somewhere else. With a comma behind it a parameter is called ``name,``.
+    xacro warns about an unknown attribute and ignores it. A property with ``vlaue`` then has no value, and expressions
+    that use the property fail. A comma after a parameter becomes part of its name.
 
     ## Example
     ```xml
@@ -43,8 +43,8 @@ class DirectiveAttribute(FaultRule):
     ```
 
     ## Fix safety
-    Unsafe: the attribute is called what its name is nearest to (``default`` for the ``value`` of an argument), and
-    commas become blanks; where nothing is near it is left to you.
+    Unsafe: the fix renames the attribute to the most similar known one (``default`` for the ``value`` of an argument),
+    or replaces commas with spaces. No fix is offered if no known attribute is similar.
     """
 
     code = "X127"
@@ -54,16 +54,16 @@ class DirectiveAttribute(FaultRule):
     kinds = ("directive-attribute",)
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
-        """Yield the finding, with its fix where the name is near another."""
+        """Yield the finding, with a fix if a known attribute is similar."""
         tag, fix = model.tag(fault.position), None
-        written = tag.attributes.get(fault.attribute or "") if tag is not None else None
+        attribute = tag.attributes.get(fault.attribute or "") if tag is not None else None
         source = model.document(fault.position.file).source
-        value = fault.details.get("value")
-        if written is not None and value is not None:
-            edit = Edit(source.span(written.value_start, written.value_end), value)
-            fix = Fix("unsafe", "Separate them by blanks", (edit,))
-        elif written is not None and fault.name is not None:
-            edit = Edit(source.span(written.start, written.start + len(written.name)), fault.name)
-            fix = Fix("unsafe", f"Call it `{fault.name}`", (edit,))
-        severity: Severity = "error" if fault.name is not None or value is not None else "warning"
+        corrected_value = fault.details.get("value")
+        if attribute is not None and corrected_value is not None:
+            edit = Edit(source.span(attribute.value_start, attribute.value_end), corrected_value)
+            fix = Fix("unsafe", "Separate the parameters with spaces", (edit,))
+        elif attribute is not None and fault.name is not None:
+            edit = Edit(source.span(attribute.start, attribute.start + len(attribute.name)), fault.name)
+            fix = Fix("unsafe", f"Rename to `{fault.name}`", (edit,))
+        severity: Severity = "error" if fault.name is not None or corrected_value is not None else "warning"
         yield self.at(model, fault, fault.message, attribute=fault.attribute, fix=fix, severity=severity)

@@ -6,14 +6,14 @@ from urdfkit.lint.rule import FaultRule
 
 
 class ExpansionError(FaultRule):
-    """xacro could not expand the file for another reason.
+    """xacro cannot expand the file.
 
     ## What it does
-    Reports what xacro says about anything no other rule is about: an attribute a directive lacks or does not have, an
-    unknown directive, YAML that cannot be read.
+    Reports the xacro errors that no other rule covers, such as a missing attribute of a directive, an unknown
+    directive, or invalid YAML.
 
     ## Why is this bad?
-    xacro stops.
+    xacro aborts with an error.
 
     ## Example
     ```xml

@@ -18,11 +18,12 @@ class ExpressionError(FaultRule):
     """An expression cannot be evaluated.
 
     ## What it does
-    Reports ``${…}`` that is no Python expression, or fails: a division by zero, a function with a wrong argument. Where
-    it fails because a property or argument is nearly a number (``O.4``, ``0,4``), that is told where it is written.
+    Checks for ``${…}`` expressions that are not valid Python, or that fail, such as a division by zero or a function
+    call with an invalid argument. If the cause is a property or argument that is nearly a number (``O.4``, ``0,4``),
+    the rule reports its definition instead.
 
     ## Why is this bad?
-    xacro stops, or the text reaches the robot as it stands.
+    xacro aborts with an error, or copies the expression to the robot unchanged.
 
     ## Example
     ```xml
@@ -48,15 +49,19 @@ class ExpressionError(FaultRule):
     kinds = ("bad-expression",)
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
-        """Yield the finding; where a property is nearly a number, one for all that use it."""
+        """Yield the finding, at the definition of a malformed number if that is the cause."""
         text = f"${{{fault.expression}}}"
-        place = culprit(model, text, fault.expansions, is_no_number) if fault.expression else None
-        if place is None:
+        cause = culprit(model, text, fault.expansions, is_no_number) if fault.expression else None
+        if cause is None:
             yield from super().check(fault, model)
         else:
-            tag = model.tag(place[0])
-            value = tag.attributes[place[1]].value if tag is not None else ""
-            used = f"it is used at {model.shown(fault.position)}: `{text}`"
+            tag = model.tag(cause[0])
+            value = tag.attributes[cause[1]].value if tag is not None else ""
+            help = f"write a number; `{text}` uses it at {model.shown(fault.position)}"
             yield self.at(
-                model, place[0], f"`{value}` is reckoned with and is no number", attribute=place[1], help=used
+                model,
+                cause[0],
+                f"`{value}` is used in an expression, but is not a number",
+                attribute=cause[1],
+                help=help,
             )

@@ -9,10 +9,10 @@ class IncludeCycle(FaultRule):
     """A file includes itself, or a macro calls itself, without end.
 
     ## What it does
-    Reports chains of includes or macro calls that come back to where they started.
+    Checks for cycles of includes and macro calls.
 
     ## Why is this bad?
-    xacro runs until Python's stack is full.
+    xacro recurses until it exceeds the recursion limit of Python.
 
     ## Example
     ```xml

@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
 
 class IncludeNotFound(FaultRule):
-    """An included file, or the package it is in, is not there.
+    """An included file or its package does not exist.
 
     ## What it does
-    Reports ``<xacro:include>`` whose file does not exist and ``$(find …)`` whose package is found neither in the
-    workspace nor in the environment. The rest is linted without it.
+    Checks for ``<xacro:include>`` with a file that does not exist, and for ``$(find …)`` with a package that is neither
+    in the workspace nor in the environment. The rest of the description is still checked.
 
     ## Why is this bad?
-    xacro stops. What the file would have defined is missing from then on.
+    xacro aborts with an error. Everything that the file defines is undefined.
 
     ## Example
     ```xml
@@ -43,7 +43,8 @@ class IncludeNotFound(FaultRule):
     ```
 
     ## Fix safety
-    Unsafe: the file with the nearest name in that folder is included. A package is left to you.
+    Unsafe: the fix includes the file with the most similar name in the same folder. No fix is offered for a missing
+    package.
     """
 
     code = "X113"
@@ -52,21 +53,21 @@ class IncludeNotFound(FaultRule):
     kinds = ("include-not-found", "package-not-found")
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
-        """Yield the finding; the file may be there under nearly that name."""
+        """Yield the finding, with a fix if a file with a similar name exists."""
         yield self.at(model, fault, fault.message, attribute=fault.attribute, fix=_nearest_file(fault, model))
 
 
 def _nearest_file(fault: Fault, model: Model) -> Fix | None:
-    """Return the fix that names the nearest file of the folder, where the end of the path is written out."""
+    """Return the fix that includes the nearest file of the folder, if the file name is literal text."""
     path = Path(str(fault.details.get("path", "")))
     tag = model.tag(fault.position)
-    written = tag.attributes.get("filename") if tag is not None else None
-    if not path.name or not path.parent.is_dir() or written is None or not written.value.endswith(path.name):
+    attribute = tag.attributes.get("filename") if tag is not None else None
+    if not path.name or not path.parent.is_dir() or attribute is None or not attribute.value.endswith(path.name):
         return None
     files = sorted(file.name for file in path.parent.iterdir() if file.is_file() and file.suffix == path.suffix)
-    near = nearest(path.name, files, likeness=0.75)
-    if near is None or fault.position.file.endswith(near):
+    suggestion = nearest(path.name, files, likeness=0.75)
+    if suggestion is None or fault.position.file.endswith(suggestion):
         return None
-    start = written.value_end - len(path.name)
-    span = model.document(fault.position.file).source.span(start, written.value_end)
-    return Fix("unsafe", f"Include {near}", (Edit(span, near),))
+    start = attribute.value_end - len(path.name)
+    span = model.document(fault.position.file).source.span(start, attribute.value_end)
+    return Fix("unsafe", f"Include {suggestion}", (Edit(span, suggestion),))

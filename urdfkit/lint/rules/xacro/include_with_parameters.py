@@ -15,13 +15,14 @@ if TYPE_CHECKING:
 
 
 class IncludeWithParameters(SourceRule):
-    """An include is given parameters.
+    """An include has macro parameters.
 
     ## What it does
-    Looks for attributes of ``<xacro:include>`` other than ``filename``, ``ns`` and ``optional``.
+    Checks for attributes of ``<xacro:include>`` other than ``filename``, ``ns`` and ``optional``.
 
     ## Why is this bad?
-    An include takes none: xacro ignores them. Parameters belong to the call of a macro that the file defines.
+    xacro ignores the attributes, because an include has no parameters. Parameters belong in the call of a macro that
+    the file defines.
 
     ## Example
     ```xml
@@ -40,7 +41,7 @@ class IncludeWithParameters(SourceRule):
     ```
 
     ## Fix safety
-    Unsafe: the parameters are taken away, as nobody reads them; perhaps a macro was meant to be called.
+    Unsafe: the fix removes attributes without effect, but a macro call may have been intended.
     """
 
     code = "X118"
@@ -49,24 +50,24 @@ class IncludeWithParameters(SourceRule):
     fix = "unsafe"
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each parameter of an include."""
+        """Yield a finding for each unsupported attribute of an include."""
         text, source = document.source.text, document.source
         if "xacro:include" not in text:
             return
         for tag in document.walk():
             if tag.name != "xacro:include":
                 continue
-            place = source.position(tag.start)
+            position = source.position(tag.start)
             faults = (fault for fault in model.expanded.faults if fault.kind == "directive-attribute")
-            spelt = {fault.attribute for fault in faults if fault.position == place}
-            for name, written in tag.attributes.items():
-                if name not in ("filename", "ns", "optional") and not name.startswith("xmlns") and name not in spelt:
-                    start = len(text[: written.start].rstrip())
+            misspelt = {fault.attribute for fault in faults if fault.position == position}
+            for name, attribute in tag.attributes.items():
+                if name not in ("filename", "ns", "optional") and not name.startswith("xmlns") and name not in misspelt:
+                    start = len(text[: attribute.start].rstrip())
                     yield self.at(
                         model,
-                        place,
-                        f"an include takes no parameter `{name}`",
+                        position,
+                        f"<xacro:include> has no attribute `{name}`",
                         attribute=name,
-                        help="give it to the macro that the file defines",
-                        fix=Fix("unsafe", f"Take `{name}` away", (Edit(source.span(start, written.end), ""),)),
+                        help="pass it to a macro that the file defines",
+                        fix=Fix("unsafe", f"Remove `{name}`", (Edit(source.span(start, attribute.end), ""),)),
                     )

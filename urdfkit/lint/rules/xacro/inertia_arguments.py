@@ -16,14 +16,15 @@ if TYPE_CHECKING:
 
 
 class InertiaArguments(SourceRule):
-    """A macro for inertia is given another mass than the link has.
+    """The mass argument of an inertia macro differs from the mass of the link.
 
     ## What it does
-    Compares the ``m`` or ``mass`` that a macro is called with in ``<inertial>`` with the ``<mass>`` beside it,
-    where both are written out.
+    Compares the ``m`` or ``mass`` argument of a macro call in ``<inertial>`` with the ``<mass>`` next to it, if both
+    are literal numbers.
 
     ## Why is this bad?
-    The tensor is that of another body: twice too light it turns twice too fast.
+    The inertia tensor belongs to a body of different mass. With half the mass, for example, the angular acceleration
+    doubles.
 
     ## Example
     ```xml
@@ -56,7 +57,7 @@ class InertiaArguments(SourceRule):
     ```
 
     ## Fix safety
-    Unsafe: the mass of the link is given to the macro, but it may be that mass that is wrong.
+    Unsafe: the fix passes the mass of the link to the macro, but the mass of the link may be the error.
     """
 
     code = "X120"
@@ -65,7 +66,7 @@ class InertiaArguments(SourceRule):
     fix = "unsafe"
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each call with another mass than that beside it."""
+        """Yield a finding for each call whose mass differs from that of the link."""
         source = document.source
         if not any(_may_name_mass(piece) for piece in source.text.split("<inertial")[1:]):
             return
@@ -81,21 +82,25 @@ class InertiaArguments(SourceRule):
             calls = [child for child in tag.children if child.name.removeprefix("xacro:") in macros]
             for call in calls if len(masses) == 1 else ():
                 for name in ("m", "mass"):
-                    given = call.attributes.get(name)
-                    own, other = number(masses[0].value), number(given.value) if given is not None else None
-                    if given is None or own is None or other is None or own == other:
+                    argument = call.attributes.get(name)
+                    link_mass, argument_mass = (
+                        number(masses[0].value),
+                        number(argument.value) if argument is not None else None,
+                    )
+                    if argument is None or link_mass is None or argument_mass is None or link_mass == argument_mass:
                         continue
-                    span = source.span(given.value_start, given.value_end)
+                    span = source.span(argument.value_start, argument.value_end)
                     yield self.at(
                         model,
                         source.position(call.start),
-                        f"`{call.name}` is given the mass {other:g} kg, but the link has {own:g} kg",
+                        f"mass {argument_mass:g} kg passed to `{call.name}` differs from the link mass {link_mass:g} kg",
                         attribute=name,
-                        fix=Fix("unsafe", f"Write {masses[0].value}", (Edit(span, masses[0].value),)),
+                        help=f"write {masses[0].value}",
+                        fix=Fix("unsafe", f"Replace with {masses[0].value}", (Edit(span, masses[0].value),)),
                     )
 
 
 def _may_name_mass(text: str) -> bool:
-    """Whether something between an ``<inertial>`` and its end may have an attribute for the mass."""
+    """Return whether the text before ``</inertial>`` may contain an ``m`` or ``mass`` attribute."""
     words = text.partition("</inertial")[0].split()
     return any(word.startswith(("m=", "mass=")) or word in ("m", "mass") for word in words)

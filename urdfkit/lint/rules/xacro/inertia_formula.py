@@ -15,15 +15,15 @@ if TYPE_CHECKING:
 
 
 class InertiaFormula(SourceRule):
-    """A formula for inertia has a wrong term.
+    """A moment of inertia formula has a wrong term.
 
     ## What it does
-    Compares the formulas of ``<inertia>`` with those of a solid box, cylinder and sphere, whatever their variables
-    are called. Where two of the three moments are those of one shape and the third is not, the third is wrong.
+    Compares the formulas in ``<inertia>`` with those of a solid box, cylinder and sphere, regardless of the names of
+    their variables. If two of the three moments match a shape and the third does not, the third is reported.
 
     ## Why is this bad?
-    The most copied box macro of the web has ``x*x+z*z`` in ``izz``: it is right for cubes only, and every link that
-    uses it turns wrong.
+    A widely copied box macro has ``x*x+z*z`` in ``izz``, which is correct only for cubes. Every link that uses it has a
+    wrong inertia.
 
     ## Example
     ```xml
@@ -48,10 +48,10 @@ class InertiaFormula(SourceRule):
     ```
 
     ## Fix safety
-    Unsafe: the term that fits the other two is written.
+    Unsafe: the fix writes the formula that matches the other two moments.
 
     ## References
-    The moments of solid bodies are in any textbook of mechanics.
+    The moments of inertia of solid bodies are listed in textbooks on mechanics.
     """
 
     code = "X119"
@@ -59,7 +59,7 @@ class InertiaFormula(SourceRule):
     fix = "unsafe"
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each formula with one wrong moment."""
+        """Yield a finding for each wrong moment of inertia."""
         text = document.source.text
         if not any("${" in piece.partition("<")[0] for piece in text.split("<inertia")[1:]):
             return
@@ -68,18 +68,18 @@ class InertiaFormula(SourceRule):
         for tag in document.walk():
             if tag.name != "inertia" or "${" not in text[tag.start : tag.end]:
                 continue
-            written = tag.attributes
-            found = slip({name: attribute.value for name, attribute in written.items()})
-            if found is None:
+            attributes = tag.attributes
+            error = slip({name: attribute.value for name, attribute in attributes.items()})
+            if error is None:
                 continue
-            attribute = written[found.component]
-            right = f"${{{found.right}}}"
+            attribute = attributes[error.component]
+            formula = f"${{{error.right}}}"
             span = document.source.span(attribute.value_start, attribute.value_end)
             yield self.at(
                 model,
                 document.source.position(tag.start),
-                f"{found.component} is not that of a {found.shape}, although the other two moments are",
-                attribute=found.component,
-                help=f"write {right}",
-                fix=Fix("unsafe", f"Write {right}", (Edit(span, right),)),
+                f"wrong formula for {error.component}: the other two moments are those of a {error.shape}",
+                attribute=error.component,
+                help=f"write {formula}",
+                fix=Fix("unsafe", f"Replace with {formula}", (Edit(span, formula),)),
             )

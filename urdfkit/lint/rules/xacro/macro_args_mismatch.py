@@ -15,15 +15,14 @@ if TYPE_CHECKING:
 
 
 class MacroArgsMismatch(FaultRule):
-    """A macro is called with other arguments than it has.
+    """The arguments of a macro call do not match the parameters of the macro.
 
     ## What it does
-    Reports calls that leave out a parameter without default, name a parameter the macro does not have, or bring too few
-    or too many blocks. Where the macro inserts a block that its parameters have without the star, that is said once, at
-    the macro.
+    Checks for macro calls that omit a parameter without a default, pass an unknown parameter, or pass too few or too
+    many blocks. If a macro inserts a block whose parameter lacks the asterisk, this is reported once, at the macro.
 
     ## Why is this bad?
-    xacro stops with "Undefined parameters" and does not say which call is meant.
+    xacro aborts with "Undefined parameters" and does not report which call is wrong.
 
     ## Example
     ```xml
@@ -51,48 +50,51 @@ class MacroArgsMismatch(FaultRule):
     kinds = ("macro-arguments", "undefined-block")
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
-        """Yield the finding; one for a parameter that is written under another name, or that lacks its star."""
-        if (starless := self._starless(fault, model)) is not None:
-            place = model.expanded.macros[fault.name or ""].position
-            message = f"macro `{fault.name}` inserts the block `{starless}`, and has it without the star"
-            yield self.at(model, place, message, attribute="params", help=f"write `*{starless}` into its params")
+        """Yield the finding; a misspelt parameter and a missing asterisk are one finding each."""
+        if (block := self._block_without_asterisk(fault, model)) is not None:
+            position = model.expanded.macros[fault.name or ""].position
+            message = f"macro `{fault.name}` inserts the block `{block}`, but its parameter lacks the asterisk"
+            yield self.at(model, position, message, attribute="params", help=f"write `*{block}` in params")
             return
-        unknown, missing = self._of_call(fault, model)
+        unknown, missing = self._mismatched_parameters(fault, model)
         if not unknown or not missing:
             yield from super().check(fault, model)
             return
-        meant = {name: nearest(name, missing) for name in unknown}
+        suggestions = {name: nearest(name, missing) for name in unknown}
         if len(unknown) == len(missing) == 1:
-            meant[unknown[0]] = missing[0]
-        if fault.attribute in meant and meant[fault.attribute] is not None:
-            macro, name = fault.name, meant[fault.attribute]
-            message = f"macro `{macro}` has no parameter `{fault.attribute}`, and needs `{name}`"
-            yield self.at(model, fault, message, attribute=fault.attribute, help=f"is `{name}` meant?")
+            suggestions[unknown[0]] = missing[0]
+        if fault.attribute in suggestions and suggestions[fault.attribute] is not None:
+            suggestion = suggestions[fault.attribute]
+            message = f"unknown parameter `{fault.attribute}` of macro `{fault.name}`, which requires `{suggestion}`"
+            yield self.at(
+                model, fault, message, attribute=fault.attribute, help=f"rename the attribute to `{suggestion}`"
+            )
         elif fault.attribute is not None:
             yield from super().check(fault, model)
-        elif lacking := [name for name in missing if name not in meant.values()]:
-            names = ", ".join(f"`{name}`" for name in lacking)
-            yield self.at(model, fault, f"macro `{fault.name}` needs {names}")
+        elif unmatched := [name for name in missing if name not in suggestions.values()]:
+            names = ", ".join(f"`{name}`" for name in unmatched)
+            message = f"the call of macro `{fault.name}` lacks {names}"
+            yield self.at(model, fault, message, help=f"pass {names} in the call")
 
-    def _starless(self, fault: Fault, model: Model) -> str | None:
-        """Return the parameter that a call lacks and gives as a block, because the macro has it without its star."""
+    def _block_without_asterisk(self, fault: Fault, model: Model) -> str | None:
+        """Return the parameter that a call passes as a block although the macro declares it without an asterisk."""
         macro = model.expanded.macros.get(fault.name or "")
         tag = model.tag(macro.position) if macro is not None else None
         if macro is None or tag is None or fault.kind != "macro-arguments":
             return None
         inserted = {
-            each.attributes["name"].value
-            for each in tag.walk()
-            if each.name.rpartition(":")[2] == "insert_block" and "name" in each.attributes
+            child.attributes["name"].value
+            for child in tag.walk()
+            if child.name.rpartition(":")[2] == "insert_block" and "name" in child.attributes
         }
-        unknown, missing = self._of_call(fault, model)
+        unknown, missing = self._mismatched_parameters(fault, model)
         call = model.tag(fault.position)
         if unknown or len(missing) != 1 or call is None or not call.children:
             return None
         return missing[0] if missing[0] in inserted and missing[0] in macro.parameters else None
 
-    def _of_call(self, fault: Fault, model: Model) -> tuple[list[str], list[str]]:
-        """Return the parameters that the call of a fault gives too many, and those that it lacks."""
+    def _mismatched_parameters(self, fault: Fault, model: Model) -> tuple[list[str], list[str]]:
+        """Return the unknown and the missing parameters of the call that caused a fault."""
         unknown: list[str] = []
         missing: list[str] = []
         for other in model.expanded.faults:

@@ -21,10 +21,10 @@ class PropertyUsedBeforeDefinition(FaultRule):
     """A property is used before it is defined.
 
     ## What it does
-    Reports names in ``${…}`` that are defined further down, or in a file that is included later.
+    Checks for names in ``${…}`` that are defined later in the file, or in a file that is included later.
 
     ## Why is this bad?
-    xacro reads from top to bottom (the only mode since ROS Melodic) and stops at the first use.
+    xacro evaluates properties from top to bottom (the only mode since ROS Melodic) and aborts at the first use.
 
     ## Example
     ```xml
@@ -43,8 +43,9 @@ class PropertyUsedBeforeDefinition(FaultRule):
     ```
 
     ## Fix safety
-    Unsafe: where the use is in an included file, the include is moved behind the definition, and with it all that the
-    file defines. Within one file the definition is moved above the first use; what it needs itself may come later.
+    Unsafe: if the use is in an included file, the fix moves the include, with everything that the file defines, after
+    the definition. Within one file, the fix moves the definition before its first use, where properties that the
+    definition uses may not be defined yet.
     """
 
     code = "X105"
@@ -53,37 +54,41 @@ class PropertyUsedBeforeDefinition(FaultRule):
     kinds = ("undefined-property",)
 
     def claims(self, fault: Fault) -> bool:
-        """Return whether the property is defined, but too late."""
+        """Return whether the property is defined after its use."""
         return fault.kind == "undefined-property" and fault.defined_at is not None
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
-        """Yield the finding; its help says where the definition is."""
+        """Yield the finding, with the position of the definition in its help."""
         definition = f" ({model.shown(fault.defined_at)})" if fault.defined_at is not None else ""
         yield self.at(
             model,
             fault,
             f"property `{fault.name}` is used before it is defined",
             attribute=fault.attribute,
-            help=f"move the definition{definition} above this use",
-            fix=_later_include(fault, model) or _earlier_definition(fault, model),
+            help=f"move the definition{definition} before this use",
+            fix=_move_include(fault, model) or _move_definition(fault, model),
         )
 
 
-def _later_include(fault: Fault, model: Model) -> Fix | None:
-    """Return the fix that moves the include that the use comes through behind the definition of what it uses."""
-    used, first = fault.position.file, fault.defined_at
-    if first is None or used == first.file:
+def _move_include(fault: Fault, model: Model) -> Fix | None:
+    """Return the fix that moves the include of the file with the use after the definition."""
+    using_file, first = fault.position.file, fault.defined_at
+    if first is None or using_file == first.file:
         return None
-    others = [other for other in model.expanded.faults if other.position.file == used and other.kind == fault.kind]
-    defined = max(at for other in others if (at := other.defined_at) is not None and at.file == first.file)
-    document = model.document(defined.file)
-    definition = model.tag(defined)
+    others = [
+        other for other in model.expanded.faults if other.position.file == using_file and other.kind == fault.kind
+    ]
+    definition_position = max(
+        position for other in others if (position := other.defined_at) is not None and position.file == first.file
+    )
+    document = model.document(definition_position.file)
+    definition = model.tag(definition_position)
     includes = [
         tag
         for tag in document.walk()
         if tag.name == "xacro:include"
-        and (written := tag.attributes.get("filename")) is not None
-        and PurePosixPath(written.value).name == PurePosixPath(used).name
+        and (attribute := tag.attributes.get("filename")) is not None
+        and PurePosixPath(attribute.value).name == PurePosixPath(using_file).name
     ]
     if definition is None or len(includes) != 1:
         return None
@@ -93,19 +98,19 @@ def _later_include(fault: Fault, model: Model) -> Fix | None:
     line = source.line_before(definition.start)
     moved = source.text[include.start : include.close_end]
     text = f"{source.line_end}{line}{moved}" if not line.strip() else moved
-    there = source.span(definition.close_end, definition.close_end)
-    title = f"Include {PurePosixPath(used).name} after what it uses is defined"
-    return Fix("unsafe", title, (removal(document, include), Edit(there, text)))
+    target = source.span(definition.close_end, definition.close_end)
+    title = f"Include {PurePosixPath(using_file).name} after the definition"
+    return Fix("unsafe", title, (removal(document, include), Edit(target, text)))
 
 
-def _earlier_definition(fault: Fault, model: Model) -> Fix | None:
-    """Return the fix that moves a definition above its first use in the same file."""
-    defined = fault.defined_at
-    if defined is None or fault.position.file != defined.file:
+def _move_definition(fault: Fault, model: Model) -> Fix | None:
+    """Return the fix that moves a definition before its first use in the same file."""
+    definition_position = fault.defined_at
+    if definition_position is None or fault.position.file != definition_position.file:
         return None
-    document, definition = model.document(defined.file), model.tag(defined)
-    uses = [other.position for other in model.expanded.faults if other.defined_at == defined]
-    if definition is None or any(use.file != defined.file for use in uses):
+    document, definition = model.document(definition_position.file), model.tag(definition_position)
+    uses = [other.position for other in model.expanded.faults if other.defined_at == definition_position]
+    if definition is None or any(use.file != definition_position.file for use in uses):
         return None
     first = model.tag(min(uses))
     while first is not None and first.parent is not definition.parent:
@@ -115,8 +120,8 @@ def _earlier_definition(fault: Fault, model: Model) -> Fix | None:
     source = document.source
     moved = source.text[definition.start : definition.close_end]
     line = source.line_before(first.start)
-    there = source.span(first.start, first.start)
+    target = source.span(first.start, first.start)
     text = f"{moved}{source.line_end}{line}" if not line.strip() else moved
     return Fix(
-        "unsafe", f"Define `{fault.name}` above its first use", (Edit(there, text), removal(document, definition))
+        "unsafe", f"Define `{fault.name}` before its first use", (Edit(target, text), removal(document, definition))
     )

@@ -24,13 +24,14 @@ _DEFINITION = (
 
 
 class RoundedPi(SourceRule):
-    """π is written with few digits.
+    """An angle or property is a rounded multiple of π.
 
     ## What it does
-    Looks in ``rpy`` for 3.14, 1.57, 0.785 and their like, and for properties that define π.
+    Checks ``rpy`` for rounded multiples of π, such as 3.14, 1.57 and 0.785, and checks for properties that define π.
 
     ## Why is this bad?
-    1.57 is 0.8 mrad short of a right angle: a metre farther on that is nearly a millimetre. xacro has ``pi``.
+    1.57 rad is 0.8 mrad less than a right angle, an error of nearly one millimetre at a distance of one metre. xacro
+    provides ``pi``.
 
     ## Example
     ```xml
@@ -58,7 +59,7 @@ class RoundedPi(SourceRule):
     ```
 
     ## Fix safety
-    Safe: the part turns by less than a thousandth. Definitions are left, as they are used elsewhere.
+    Safe: the rotation changes by less than 2 mrad. Definitions of π are not changed, because other files may use them.
     """
 
     code = "X112"
@@ -67,54 +68,54 @@ class RoundedPi(SourceRule):
     fix = "safe"
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each rounded angle, and for each property that is π."""
+        """Yield a finding for each rounded angle, and for each property that defines π."""
         text = document.source.text
-        for at in re.finditer(_ANGLES, text):
-            value = at[1] or at[2] or ""
+        for match in re.finditer(_ANGLES, text):
+            value = match[1] or match[2] or ""
             words = re.findall(r"\$\{[^{}]*\}|\$\([^()]*\)|[^\s]+", value)
-            exact = [_exact(word, ".xacro" in document.source.file) for word in words]
-            first = next((word for word, better in zip(words, exact, strict=True) if better), None)
+            exact_words = [_exact(word, ".xacro" in document.source.file) for word in words]
+            first = next((word for word, exact in zip(words, exact_words, strict=True) if exact), None)
             if first is None:
                 continue
-            tag = _tag_at(document, at.start())
+            tag = _tag_at(document, match.start())
             if tag is None or "rpy" not in tag.attributes:
                 continue
-            written = tag.attributes["rpy"]
-            right = " ".join(better or word for word, better in zip(words, exact, strict=True))
-            span = document.source.span(written.value_start, written.value_end)
+            attribute = tag.attributes["rpy"]
+            corrected = " ".join(exact or word for word, exact in zip(words, exact_words, strict=True))
+            span = document.source.span(attribute.value_start, attribute.value_end)
             yield self.at(
                 model,
                 document.source.position(tag.start),
-                f"{first} is a multiple of π with few digits",
+                f"angle {first} rad is a rounded multiple of π",
                 attribute="rpy",
-                help=f'write rpy="{right}"',
-                fix=Fix("safe", "Write all digits", (Edit(span, right),)),
+                help=f'write rpy="{corrected}"',
+                fix=Fix("safe", "Write the exact angle", (Edit(span, corrected),)),
             )
         if ":property" not in text and "<property" not in text:
             return
-        for at in re.finditer(_DEFINITION, text):
-            value_of = number(at[2])
+        for match in re.finditer(_DEFINITION, text):
+            value_of = number(match[2])
             if value_of is not None and abs(value_of - pi) < 2e-3:
                 yield self.at(
                     model,
-                    document.source.position(at.start()),
-                    f"`{at[1]}` defines π, which xacro has as `pi`",
-                    help="write ${pi} where it is used",
+                    document.source.position(match.start()),
+                    f"property `{match[1]}` duplicates the built-in `pi` of xacro",
+                    help="replace its uses with ${pi}",
                 )
 
 
 def _exact(word: str, is_xacro: bool) -> str | None:
-    """Return a better way to write an angle; None where it is as good as exact, or no part of π."""
+    """Return the exact form of a rounded angle; None if the angle is exact or not a multiple of π."""
     value = number(word)
     if value is None or not 0.5 <= abs(value) < 100.0:
         return None
     for divisor in (1, 2, 4):
-        turns = round(value * divisor / pi)
-        off = abs(value - turns * pi / divisor)
-        if turns and 1e-6 < off < 2e-3 and len(word.lstrip("+-")) >= 4:
+        multiple = round(value * divisor / pi)
+        deviation = abs(value - multiple * pi / divisor)
+        if multiple and 1e-6 < deviation < 2e-3 and len(word.lstrip("+-")) >= 4:
             if not is_xacro:
-                return f"{turns * pi / divisor:.10g}"
-            sign, count = "-" if turns < 0 else "", abs(turns)
+                return f"{multiple * pi / divisor:.10g}"
+            sign, count = "-" if multiple < 0 else "", abs(multiple)
             return f"${{{sign}{f'{count}*' if count > 1 else ''}pi{f'/{divisor}' if divisor > 1 else ''}}}"
     return None
 

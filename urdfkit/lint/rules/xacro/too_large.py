@@ -6,23 +6,29 @@ from urdfkit.lint.rule import FaultRule
 
 
 class TooLarge(FaultRule):
-    """An expression, or what macros make, grows beyond all measure.
+    """An expression, macro or include exceeds a resource limit.
 
     ## What it does
-    Reports an expression
+    Reports what exceeds a resource limit. xacro expressions are Python from untrusted files, so evaluation is bounded,
+    and nothing beyond a limit is evaluated.
 
-    - that makes an integer of more than 10,000 bits, a text of more than 100,000 characters or lists of more than
-      100,000 elements in all, those of lists in lists counted,
-    - that asks for ``factorial()``, ``comb()`` or ``perm()`` of more than 1,000, or rounds to more than 3,000 digits,
-    - that is longer than 10,000 characters, nested deeper than 200, has functions that call each other more than 60
-      deep, or makes lists nested more than 60 deep,
+    A single expression must not
 
-    expressions of a file that take more than 1,000,000 steps together, or are more than 200,000; YAML of more than
-    500 kB; macros that are called more than 10,000 times, files that are included more than 2,000 times, and macros,
-    blocks and includes that make more than 150,000 elements and attributes. Nothing of it is evaluated.
+    - create an integer of more than 10,000 bits, a string of more than 100,000 characters, or lists of more than
+      100,000 elements in total, including nested lists
+    - call ``factorial()``, ``comb()`` or ``perm()`` with more than 1,000, or round to more than 3,000 digits
+    - be longer than 10,000 characters, be nested more than 200 levels deep, call functions more than 60 levels deep, or
+      create lists nested more than 60 levels deep
+
+    The files of one description must not
+
+    - evaluate more than 200,000 expressions, or take more than 1,000,000 steps to evaluate them
+    - load YAML of more than 500 kB
+    - call macros more than 10,000 times, or include files more than 2,000 times
+    - create more than 150,000 elements and attributes with macros, blocks and includes
 
     ## Why is this bad?
-    xacro goes on until the memory is full, or for ever.
+    xacro runs until the memory is exhausted, or forever.
 
     ## Example
     ```xml

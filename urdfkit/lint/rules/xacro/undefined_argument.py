@@ -6,14 +6,14 @@ from urdfkit.lint.rule import FaultRule
 
 
 class UndefinedArgument(FaultRule):
-    """``$(arg …)`` asks for an argument that was neither declared nor given.
+    """``$(arg …)`` uses an argument without a value.
 
     ## What it does
-    Reports arguments without ``<xacro:arg>`` default that are not given as ``name:=value``. Where an included file is
-    missing, which may declare them, that is only a note.
+    Checks for arguments that have neither a default in ``<xacro:arg>`` nor a value passed as ``name:=value``. If an
+    included file that may declare the argument is missing, this is a note.
 
     ## Why is this bad?
-    The description expands only for those who know which arguments to give.
+    xacro aborts unless every caller passes the argument.
 
     ## Example
     ```xml

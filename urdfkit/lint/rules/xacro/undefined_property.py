@@ -10,13 +10,13 @@ if TYPE_CHECKING:
 
 
 class UndefinedProperty(FaultRule):
-    """An expression uses a property that is not defined.
+    """An expression uses an undefined property.
 
     ## What it does
-    Reports names in ``${…}`` that no property, macro parameter or function has.
+    Checks for names in ``${…}`` that are neither a property, a macro parameter nor a function.
 
     ## Why is this bad?
-    xacro stops; its message names the expression, but neither attribute nor column.
+    xacro aborts with an error that contains the expression, but neither the attribute nor the column.
 
     ## Example
     ```xml
@@ -45,5 +45,5 @@ class UndefinedProperty(FaultRule):
     may_be_elsewhere = True
 
     def claims(self, fault: Fault) -> bool:
-        """Return whether the property is defined nowhere, not just later."""
+        """Return whether the property has no definition, not even a later one."""
         return fault.kind == "undefined-property" and fault.defined_at is None

@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 
 class UnexpandedExpression(RobotRule):
-    """An expression is written so that xacro does not evaluate it.
+    """Malformed ``${…}`` syntax prevents the evaluation of an expression.
 
     ## What it does
-    Looks for ``{$…}``, ``$ {…}`` and ``${…`` without its end in what came out of xacro.
+    Checks the output of xacro for ``{$…}``, ``$ {…}`` and unterminated ``${…``.
 
     ## Why is this bad?
-    xacro copies it as it is: a reader that wants a number refuses the robot, and names are other ones than you
-    meant.
+    xacro copies the expression unchanged. Parsers that expect a number reject the robot, and names differ from the
+    intended ones.
 
     ## Example
     ```xml
@@ -50,7 +50,7 @@ class UnexpandedExpression(RobotRule):
     ```
 
     ## Fix safety
-    Safe for ``{$…}`` and ``$ {…}``, which mean nothing else; an end that is missing is left to you.
+    Safe for ``{$…}`` and ``$ {…}``, which have no other meaning. No fix is offered for an unterminated ``${…``.
     """
 
     code = "X110"
@@ -58,34 +58,38 @@ class UnexpandedExpression(RobotRule):
     fix = "safe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each expression that was copied."""
+        """Yield a finding for each expression that xacro does not evaluate."""
         if not any(is_unexpanded(source.text) for source in model.expanded.sources.values()):
             return
-        handed_on = False
-        for finding in self._handed_on(model):
-            handed_on = True
+        is_reported_at_source = False
+        for finding in self._in_xacro_elements(model):
+            is_reported_at_source = True
             yield finding
         for element in model.robot.element.walk():
             for attribute, value in element.attributes.items():
                 if is_unexpanded(value) and not model.is_unresolved(element, attribute):
-                    if handed_on and model.literal(element, attribute) is None:
-                        continue  # It comes from a property or a parameter, where it is found already.
-                    right = righted(value)
+                    if is_reported_at_source and model.literal(element, attribute) is None:
+                        continue  # Reported at the property or argument that contains it.
+                    corrected = righted(value)
                     fix = (
-                        new_value(model, element, attribute, right, "safe", f"Write `{right}`")
-                        if right != value
+                        new_value(model, element, attribute, corrected, "safe", f"Replace with `{corrected}`")
+                        if corrected != value
                         else None
                     )
-                    message = f'{attribute}="{value}" holds an expression that xacro does not evaluate'
-                    yield self.at(model, element, message, attribute=attribute, help="it is written ${…}", fix=fix)
+                    message = f'xacro does not evaluate the expression in {attribute}="{value}"'
+                    yield self.at(model, element, message, attribute=attribute, help="write ${…}", fix=fix)
             if element.text and is_unexpanded(element.text) and not model.is_unresolved(element):
-                right = righted(element.text)
-                fix = new_text(model, element, right, "safe", f"Write `{right}`") if right != element.text else None
-                message = f"<{element.tag}> holds an expression that xacro does not evaluate: `{element.text}`"
-                yield self.at(model, element, message, help="it is written ${…}", fix=fix)
+                corrected = righted(element.text)
+                fix = (
+                    new_text(model, element, corrected, "safe", f"Replace with `{corrected}`")
+                    if corrected != element.text
+                    else None
+                )
+                message = f"xacro does not evaluate the expression `{element.text}` in <{element.tag}>"
+                yield self.at(model, element, message, help="write ${…}", fix=fix)
 
-    def _handed_on(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each property, and each argument of a macro call, that is handed on as it stands."""
+    def _in_xacro_elements(self, model: Model) -> Iterator[Finding]:
+        """Yield a finding for each malformed expression in a directive or in an argument of a macro call."""
         for file, source in model.expanded.sources.items():
             if not is_unexpanded(source.text):
                 continue
@@ -93,11 +97,11 @@ class UnexpandedExpression(RobotRule):
                 if not tag.name.startswith("xacro:"):
                     continue
                 for attribute, written in tag.attributes.items():
-                    right = righted(written.value)
-                    if right == written.value:
+                    corrected = righted(written.value)
+                    if corrected == written.value:
                         continue
-                    edit = Edit(source.span(written.value_start, written.value_end), right)
-                    fix = Fix("safe", f"Write `{right}`", (edit,))
-                    message = f'{attribute}="{written.value}" holds an expression that xacro does not evaluate'
-                    at = source.position(tag.start)
-                    yield self.at(model, at, message, attribute=attribute, help="it is written ${…}", fix=fix)
+                    edit = Edit(source.span(written.value_start, written.value_end), corrected)
+                    fix = Fix("safe", f"Replace with `{corrected}`", (edit,))
+                    message = f'xacro does not evaluate the expression in {attribute}="{written.value}"'
+                    position = source.position(tag.start)
+                    yield self.at(model, position, message, attribute=attribute, help="write ${…}", fix=fix)

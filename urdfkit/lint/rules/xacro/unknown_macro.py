@@ -18,15 +18,15 @@ if TYPE_CHECKING:
 
 
 class UnknownMacro(FaultRule):
-    """A macro is called that is not defined there.
+    """A macro is called that is not defined.
 
     ## What it does
-    Reports calls of macros that no file defines before the call, and misspelt directives (``<xacro:proprety>``,
-    ``<marco>``), which xacro takes for calls, or for nothing. Where another file of the package, or beside it, defines
-    the macro, its include is missing.
+    Checks for calls of macros that no file defines before the call, and for misspelt directives (``<xacro:proprety>``,
+    ``<marco>``), which xacro treats as macro calls or copies. If another file of the package or of a neighbouring
+    package defines the macro, the rule suggests including that file.
 
     ## Why is this bad?
-    xacro stops; its message names the macro but not the line of the call.
+    xacro aborts with an error that contains the name of the macro, but not the line of the call.
 
     ## Example
     ```xml
@@ -49,8 +49,8 @@ class UnknownMacro(FaultRule):
     ```
 
     ## Fix safety
-    Unsafe: the directive, or the macro with the nearest name, is taken, or the file of the package that defines the
-    macro is included.
+    Unsafe: the fix writes the directive or macro with the most similar name, or includes the file that defines the
+    macro.
     """
 
     code = "X103"
@@ -60,45 +60,45 @@ class UnknownMacro(FaultRule):
     may_be_elsewhere = True
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
-        """Yield the finding; what is misspelt can be mended."""
+        """Yield the finding, with a fix for a misspelt name or a missing include."""
         if fault.kind == "undefined-macro" and is_in_broken_file(model, "macro", fault.name or ""):
-            return  # The file that is broken is a finding of its own.
-        right = fault.name
+            return  # The malformed file is reported instead.
+        correct_name = fault.name
         if fault.kind == "undefined-macro":
-            right = fault.details.get("meant") or nearest(fault.name or "", fault.candidates, likeness=0.7)
-        changed: dict[str, object] = {}
-        fix = self._renamed(model, fault, right) if right and fault.defined_at is None else None
+            correct_name = fault.details.get("meant") or nearest(fault.name or "", fault.candidates, likeness=0.7)
+        changes: dict[str, object] = {}
+        fix = self._renaming_fix(model, fault, correct_name) if correct_name and fault.defined_at is None else None
         if fix is None and fault.kind == "undefined-macro" and fault.defined_at is None:
-            file = _defining(fault.name or "", model)
+            file = _defining_file(fault.name or "", model)
             if file is not None:
-                changed["help"] = f"`{fault.name}` is defined in {file}: include that file"
-                fix = _included(file, fault, model)
+                changes["help"] = f"include {file}, which defines `{fault.name}`"
+                fix = _include_fix(file, fault, model)
         if fix is not None:
-            changed["fix"] = fix
+            changes["fix"] = fix
         for finding in super().check(fault, model):
-            yield Finding(**{**finding.__dict__, **changed}) if changed else finding
+            yield Finding(**{**finding.__dict__, **changes}) if changes else finding
 
-    def _renamed(self, model: Model, fault: Fault, right: str) -> Fix | None:
+    def _renaming_fix(self, model: Model, fault: Fault, correct_name: str) -> Fix | None:
         tag = model.tag(fault.position)
         if tag is None:
             return None
         source = model.document(fault.position.file).source
         ends = [tag.start + 1] if tag.close is None else [tag.start + 1, tag.close + 2]
-        name = f"xacro:{right}"
+        name = f"xacro:{correct_name}"
         edits = tuple(Edit(source.span(end, end + len(tag.name)), name) for end in ends)
-        return Fix("unsafe", f"Call it <{name}>", edits)
+        return Fix("unsafe", f"Replace with <{name}>", edits)
 
 
-def _defining(name: str, model: Model) -> str | None:
-    """Return the one file that nothing includes and that defines a macro, as seen from the entry; None else."""
+def _defining_file(name: str, model: Model) -> str | None:
+    """Return the path, relative to the entry file, of the only file that defines a macro and is not included."""
     files = model.macros_around.get(name, [])
     if len(files) != 1:
         return None
     return os.path.relpath(files[0], model.expanded.path.absolute().parent).replace(os.sep, "/")
 
 
-def _included(file: str, fault: Fault, model: Model) -> Fix | None:
-    """Return the fix that includes a file at the top of the entry, where that is where the macro is called."""
+def _include_fix(file: str, fault: Fault, model: Model) -> Fix | None:
+    """Return the fix that includes a file at the top of the entry file, if the macro is called there."""
     from urdfkit.description.reading import shown_path
 
     entry = fault.position.file

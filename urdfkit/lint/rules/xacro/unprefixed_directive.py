@@ -20,15 +20,15 @@ _CANDIDATE = re.compile(r"<(?:macro|property|include|if|unless|arg|insert_block)
 
 
 class UnprefixedDirective(SourceRule):
-    """A xacro directive lacks its ``xacro:`` prefix.
+    """A xacro directive lacks the ``xacro:`` prefix.
 
     ## What it does
-    Looks for ``<macro>``, ``<property>``, ``<include>``, ``<if>``, ``<unless>``, ``<arg>`` and ``<insert_block>``
+    Checks for ``<macro>``, ``<property>``, ``<include>``, ``<if>``, ``<unless>``, ``<arg>`` and ``<insert_block>``
     without the prefix.
 
     ## Why is this bad?
-    Since ROS Melodic xacro takes them for plain XML: the body of a macro is evaluated where it stands ("name 'm' is not
-    defined"), an include is not read, and the elements themselves end up in the robot.
+    Since ROS Melodic, xacro treats these elements as plain XML. The body of a macro is evaluated in place ("name 'm' is
+    not defined"), an include is not read, and the elements are copied to the robot.
 
     ## Example
     ```xml
@@ -51,8 +51,8 @@ class UnprefixedDirective(SourceRule):
     ```
 
     ## Fix safety
-    Safe: no format that URDF is part of has these elements there. The fix binds the prefix on the root element of the
-    file where it is not bound yet.
+    Safe: neither URDF nor the formats embedded in it have such elements in these places. The fix also declares the
+    prefix in the root element of the file if necessary.
     """
 
     code = "X101"
@@ -60,7 +60,7 @@ class UnprefixedDirective(SourceRule):
     fix = "safe"
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each directive without its prefix."""
+        """Yield a finding for each directive without the prefix."""
         if not _CANDIDATE.search(document.source.text):
             return
         for tag in document.walk():
@@ -68,6 +68,7 @@ class UnprefixedDirective(SourceRule):
                 yield self.at(
                     model,
                     document.source.position(tag.start),
-                    f"`<{tag.name}>` lacks its prefix: xacro obeys `<xacro:{tag.name}>` only",
-                    fix=Fix("safe", f"Write `xacro:{tag.name}`", prefixing(document, tag)),
+                    f"directive `<{tag.name}>` lacks the `xacro:` prefix",
+                    help=f"write `<xacro:{tag.name}>`",
+                    fix=Fix("safe", f"Replace with `xacro:{tag.name}`", prefixing(document, tag)),
                 )

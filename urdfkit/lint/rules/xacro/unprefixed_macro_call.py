@@ -21,15 +21,14 @@ _TRANSPARENT = ("xacro:if", "xacro:unless", "if", "unless")
 
 
 class UnprefixedMacroCall(SourceRule):
-    """An element has the name of a macro, but not the ``xacro:`` prefix that calls it.
+    """A macro call lacks the ``xacro:`` prefix.
 
     ## What it does
-    Looks for elements whose name is that of a macro defined in any of the files, at places where URDF has no element
-    of that name.
+    Checks for elements with the name of a macro that any of the files defines, where URDF has no element of that name.
 
     ## Why is this bad?
-    xacro copies the element into the robot, where every reader skips it without a word: the wheels, or the inertia,
-    are just not there. check_urdf still says "Successfully Parsed".
+    xacro copies the element to the robot, where parsers silently ignore it. The content of the macro, such as the
+    wheels or the inertia, is missing, although check_urdf reports "Successfully Parsed".
 
     ## Example
     ```xml
@@ -52,7 +51,7 @@ class UnprefixedMacroCall(SourceRule):
     ```
 
     ## Fix safety
-    Safe: the element is no URDF, and a macro of that name is there to be called.
+    Safe: the element is not part of URDF, and a macro of that name exists.
     """
 
     code = "X102"
@@ -60,7 +59,7 @@ class UnprefixedMacroCall(SourceRule):
     fix = "safe"
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each call without its prefix."""
+        """Yield a finding for each call without the prefix."""
         sources = model.expanded.sources.values()
         if not any(f"<{name}" in document.source.text for source in sources for name in _near_definitions(source.text)):
             return
@@ -75,35 +74,36 @@ class UnprefixedMacroCall(SourceRule):
                 yield self.at(
                     model,
                     document.source.position(tag.start),
-                    f"`<{tag.name}>` is copied, not expanded: a call of the macro `{tag.name}` is `<xacro:{tag.name}>`",
-                    fix=Fix("safe", f"Write `xacro:{tag.name}`", prefixing(document, tag)),
+                    f"call of macro `{tag.name}` lacks the `xacro:` prefix",
+                    help=f"write `<xacro:{tag.name}>`",
+                    fix=Fix("safe", f"Replace with `xacro:{tag.name}`", prefixing(document, tag)),
                 )
 
 
 def _near_definitions(text: str) -> set[str]:
-    """Return what may be a macro's name: all that quotes cut off behind the word."""
+    """Return candidate names of macros: every piece between quotes after the word ``macro``."""
     heads = [piece.partition("<")[0].replace("'", '"') for piece in text.split("macro")[1:]]
     return {part.removeprefix("xacro:") for head in heads for part in head.split('"')} - {""}
 
 
 def _is_call(tag: Tag, signatures: list[Signature]) -> bool:
-    if tag.name in URDF_ELEMENTS and _is_urdf_there(tag):
+    if tag.name in URDF_ELEMENTS and _is_urdf_element(tag):
         return False
     if tag.parent is None:
         return False
-    if any(above.name in FOREIGN for above in tag.ancestors()):
-        # Other formats have elements of any name there; only one that fits the macro exactly is a call.
-        given = frozenset(tag.attributes)
-        return bool(given) and any(macro.required <= given <= macro.known for macro in signatures)
+    if any(ancestor.name in FOREIGN for ancestor in tag.ancestors()):
+        # Embedded formats may have elements of any name; only an exact match of the parameters is a call.
+        arguments = frozenset(tag.attributes)
+        return bool(arguments) and any(macro.required <= arguments <= macro.known for macro in signatures)
     return True
 
 
-def _is_urdf_there(tag: Tag) -> bool:
-    above = tag.parent
-    while above is not None and above.name in _TRANSPARENT:
-        above = above.parent
-    if above is None:
+def _is_urdf_element(tag: Tag) -> bool:
+    ancestor = tag.parent
+    while ancestor is not None and ancestor.name in _TRANSPARENT:
+        ancestor = ancestor.parent
+    if ancestor is None:
         return False
-    allowed = URDF_CHILDREN.get(above.name)
-    # The content of a macro, or of a block given to one, may land anywhere.
+    allowed = URDF_CHILDREN.get(ancestor.name)
+    # The content of a macro or block may be inserted anywhere.
     return tag.name in (URDF_ELEMENTS if allowed is None else allowed)

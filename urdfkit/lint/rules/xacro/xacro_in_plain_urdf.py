@@ -17,16 +17,16 @@ if TYPE_CHECKING:
 
 
 class XacroInPlainUrdf(SourceRule):
-    """A file called ``.urdf`` has to be run through xacro.
+    """A ``.urdf`` file contains xacro.
 
     ## What it does
-    Looks in files that end in ``.urdf`` for elements with ``xacro:`` and for expressions, and for a bound prefix
-    together with elements that URDF does not have (a macro call that lost its prefix). A prefix that is bound and
-    not used is what xacro itself writes.
+    Checks files with the extension ``.urdf`` for elements with the ``xacro:`` prefix, for expressions, and for unknown
+    elements in a file that declares the prefix, which are probably macro calls that lack the prefix. A declared but
+    unused prefix is accepted, because xacro itself writes it.
 
     ## Why is this bad?
-    By its name nothing has to be expanded: RViz, MoveIt and viewers read it as it is, without macros and with
-    ``${…}`` for numbers.
+    The extension indicates plain URDF. RViz, MoveIt and viewers read the file without expanding it, so macros are
+    missing and ``${…}`` takes the place of numbers.
 
     ## Example
     ```xml
@@ -49,26 +49,28 @@ class XacroInPlainUrdf(SourceRule):
     severity = "warning"
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
-        """Yield a finding for a plain URDF that is none."""
+        """Yield a finding for a ``.urdf`` file that needs xacro."""
         text, source = document.source.text, document.source
         if not source.file.endswith(".urdf") or ("xacro" not in text and "${" not in text) or not document.roots:
             return
         root = document.roots[0]
-        binds = "xmlns:xacro" in root.attributes
+        declares_prefix = "xmlns:xacro" in root.attributes
         for tag in document.walk():
             start_tag = text[tag.start : tag.end]
             allowed = URDF_CHILDREN.get(tag.parent.name) if tag.parent is not None and tag.parent is not root else None
-            is_lost_call = binds and allowed is not None and tag.name not in allowed and ":" not in tag.name
+            is_unprefixed_call = (
+                declares_prefix and allowed is not None and tag.name not in allowed and ":" not in tag.name
+            )
             if (
                 tag.name.startswith("xacro:")
                 or ("${" in start_tag and re.search(r"\$\{[^{}]*\}", start_tag))
-                or (is_lost_call and tag.attributes)
+                or (is_unprefixed_call and tag.attributes)
             ):
                 yield self.at(
                     model,
                     source.position(root.start),
-                    f"this file has to be run through xacro: line {source.position(tag.start).line} has <{tag.name}",
-                    attribute="xmlns:xacro" if binds else None,
-                    help=f"call it {source.file.rpartition('/')[2]}.xacro",
+                    f"file requires xacro because of <{tag.name}> in line {source.position(tag.start).line}",
+                    attribute="xmlns:xacro" if declares_prefix else None,
+                    help=f"rename the file to {source.file.rpartition('/')[2]}.xacro",
                 )
                 return
