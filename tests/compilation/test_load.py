@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import urdfkit
+from urdfkit.compilation.level import level
 
 SCRIPT = """
 import numba, numpy as np
@@ -57,17 +58,19 @@ def test_what_earlier_sources_were_compiled_to_is_removed(tmp_path):
     run(tmp_path, old)
     folder = next((tmp_path / "cache").iterdir())
     kept = [
-        folder / f"other.work_{old}-1.py311.nbi",
-        folder / f"probe.work_{old}-1.py27.nbi",
+        folder / f"other.work_x86_64_v3_{old}-1.py311.nbi",
+        folder / f"probe.work_x86_64_v3_{old}-1.py27.nbi",
         folder / "probe.work.nbi",
     ]
     for path in kept:
         path.touch()
+    stale = folder / f"probe.work_{old}-1.py{sys.version_info[0]}{sys.version_info[1]}.nbi"  # before levels had a name
+    stale.touch()
     assert run(tmp_path, new)[0] == "compiling work"
     assert all(path.exists() for path in kept)
     there = {path.name for path in folder.iterdir()} - {path.name for path in kept}
     assert len(there) == 2
-    assert all(f"probe.work_{new}-" in name for name in there)
+    assert all(f"probe.work_{level().replace('-', '_')}_{new}-" in name for name in there)
 
 
 def test_a_second_process_compiles_nothing(tmp_path):

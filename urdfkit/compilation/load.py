@@ -12,6 +12,8 @@ from typing import Any
 
 import numba
 
+from urdfkit.compilation.level import LEVELS, NATIVE, level
+
 BROKEN_CACHE = (RuntimeError, OSError, EOFError, ValueError, TypeError, AttributeError)
 """What numba raises where it has no writable place for its cache, or finds a broken one."""
 
@@ -22,7 +24,8 @@ def compile_or_load(
     """Compile a function for these types of arguments, or load what was compiled before.
 
     numba finds a function's cache by its name and checks the file it is in, not those of the functions it calls. So the
-    name carries a digest of them all: no change of a source can meet a stale kernel.
+    name carries a digest of them all: no change of a source can meet a stale kernel. It carries the level, too, that
+    the function is compiled for (see `level`): processors that share a folder keep one kernel for each level.
 
     Args:
         function: plain Python, written for numba.
@@ -31,7 +34,7 @@ def compile_or_load(
         options: numba's.
     """
     named = FunctionType(function.__code__, function.__globals__, function.__name__)
-    named.__qualname__ = f"{function.__name__}_{digest[:16]}"
+    named.__qualname__ = f"{function.__name__}_{level().replace('-', '_')}_{digest[:16]}"
     try:
         dispatcher = _compile(named, arguments, cache=True, **options)
         if dispatcher.stats.cache_misses:
@@ -43,12 +46,13 @@ def compile_or_load(
 
 
 def _compile(named: FunctionType, arguments: tuple[Any, ...], **options: Any) -> Any:
-    """Compile as one program; where this numba is not made as we take it to be, as numba does."""
+    """Compile as one program for a fixed level; where this numba is not made as we take it to be, as numba does."""
     try:
+        from urdfkit.compilation.target import fixed_level
         from urdfkit.compilation.whole import whole_program
 
         dispatcher = numba.njit(named, **options)
-        with whole_program(named.__qualname__):
+        with fixed_level(), whole_program(named.__qualname__):
             dispatcher.compile(arguments)
     except OSError:
         raise  # the cache could not be written: nothing is wrong with what was to be there
@@ -62,7 +66,8 @@ def _forget_stale(folder: Path, function: Callable[..., Any], digest: str) -> No
     """Remove what earlier sources of a function were compiled to by this version of Python."""
     stem = re.escape(f"{Path(function.__code__.co_filename).stem}.{function.__name__}")
     version = f"py{sys.version_info[0]}{sys.version_info[1]}{getattr(sys, 'abiflags', '')}"
-    cached = re.compile(rf"{stem}_([0-9a-f]{{16}})-\d+\.{version}\.(nbi|\d+\.nbc)")
+    levels = "|".join(name.replace("-", "_") for name in (*LEVELS, NATIVE))
+    cached = re.compile(rf"{stem}_(?:(?:{levels})_)?([0-9a-f]{{16}})-\d+\.{version}\.(nbi|\d+\.nbc)")
     for path in folder.iterdir():
         found = cached.fullmatch(path.name)
         if found and found[1] != digest[:16]:

@@ -1,0 +1,52 @@
+"""numba's code generator for a fixed level of x86-64, beside the one of the process."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import lru_cache
+from typing import Any
+
+from numba.core.codegen import JITCPUCodegen
+from numba.core.compiler_lock import global_compiler_lock
+from numba.core.registry import cpu_target
+
+from urdfkit.compilation.level import NATIVE, level
+
+
+class LevelCodegen(JITCPUCodegen):  # type: ignore[misc]
+    """numba's code generator, for a level. numba keeps the level in the key of what it caches."""
+
+    def _get_host_cpu_name(self) -> str:
+        """Return the level, which LLVM takes for the name of a processor."""
+        return level()
+
+    def _get_host_cpu_features(self) -> str:
+        """Return no features besides those of the level."""
+        return ""
+
+
+@lru_cache(maxsize=1)
+def codegen() -> Any:
+    """Return the code generator of this process: code lives as long as the generator that made it."""
+    return LevelCodegen("urdfkit")
+
+
+@contextmanager
+def fixed_level() -> Iterator[None]:
+    """Compile for `level` while this lasts, and load from numba's cache what was compiled for it.
+
+    Nobody else in the process compiles meanwhile; functions that others compile stay as numba makes them.
+    """
+    if level() == NATIVE:
+        yield
+        return
+    with global_compiler_lock:
+        target = cpu_target.target_context
+        target.refresh()
+        native, subroutines = target._internal_codegen, target.cached_internal_func
+        target._internal_codegen, target.cached_internal_func = codegen(), {}
+        try:
+            yield
+        finally:
+            target._internal_codegen, target.cached_internal_func = native, subroutines
