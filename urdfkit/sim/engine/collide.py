@@ -11,6 +11,7 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.elementary import sine_cosine
 from urdfkit.sim.engine.spatial import (
     add,
     compose,
@@ -97,8 +98,8 @@ def find_extremes(
         if can_close(point[2] - floor, point, velocity, dt):
             for j in range(DIRECTIONS):
                 # Off the axes, along which edges of parts tend to lie.
-                angle = 2.0 * math.pi * j / DIRECTIONS + 0.2
-                reach = math.cos(angle) * offset[0] + math.sin(angle) * offset[1]
+                sine, cosine = sine_cosine(2.0 * math.pi * j / DIRECTIONS + 0.2)
+                reach = cosine * offset[0] + sine * offset[1]
                 if reach > extreme[j]:
                     extreme[j], extreme_vertex[j] = reach, k - first
             if -offset[2] > extreme[DIRECTIONS]:

@@ -16,6 +16,7 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
+from urdfkit.sim.engine.elementary import sine_cosine
 from urdfkit.sim.engine.lanes import LANES, put, sixteen
 from urdfkit.sim.engine.spatial import (
     IDENTITY,
@@ -88,14 +89,14 @@ def place(floats: Any, integers: Any, tree: int, s: Any, ahead: bool) -> None:
             if ahead:
                 sine, cosine = turned_further(turn[2 * i], turn[2 * i + 1], s[at] - now[at])
             else:
-                sine, cosine = math.sin(s[at]), math.cos(s[at])
+                sine, cosine = sine_cosine(s[at])
                 turn[2 * i], turn[2 * i + 1] = sine, cosine
             R0 = compose(R0, turn_about(ang, sine, cosine))
         elif kind[i] == PRISMATIC:
             r0 = add(r0, rotate(R0, scale(s[at], lin)))
         elif kind[i] == PLANAR:
             r0 = add(r0, rotate(R0, (s[at], s[at + 1], 0.0)))
-            R0 = compose(R0, turn_about((0.0, 0.0, 1.0), math.sin(s[at + 2]), math.cos(s[at + 2])))
+            R0 = compose(R0, turn_about((0.0, 0.0, 1.0), *sine_cosine(s[at + 2])))
             dof += 2 if ahead else 0
         else:
             r0 = add(r0, rotate(R0, (s[at], s[at + 1], s[at + 2])))

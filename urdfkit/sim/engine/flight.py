@@ -8,12 +8,12 @@ it moves in.
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.dynamics import FREE, PLANAR, place, solve_forward, terms
+from urdfkit.sim.engine.elementary import sine_cosine
 from urdfkit.sim.engine.integrate import move, turned_by
 from urdfkit.sim.engine.servo import smooth_motion
 from urdfkit.sim.engine.spatial import add, cross, rotate, scale, turn_of
@@ -100,7 +100,7 @@ def remember_velocities(floats: Any, integers: Any, tree: int) -> None:
             linear = rotate(turn_of(s[at + 3], s[at + 4], s[at + 5], s[at + 6]), (v[d], v[d + 1], v[d + 2]))
             v_first[d], v_first[d + 1], v_first[d + 2] = linear
         elif kind[i] == PLANAR:
-            cosine, sine = math.cos(s[at + 2]), math.sin(s[at + 2])
+            sine, cosine = sine_cosine(s[at + 2])
             v_first[d], v_first[d + 1] = cosine * v[d] - sine * v[d + 1], sine * v[d] + cosine * v[d + 1]
 
 
@@ -125,7 +125,7 @@ def go(floats: Any, integers: Any, tree: int, slope_s: Any, slope_v: Any, ahead:
             s[at + 3], s[at + 4], s[at + 5], s[at + 6] = x, y, z, w
             v[d], v[d + 1], v[d + 2] = rotate(turn_of(-x, -y, -z, w), (v[d], v[d + 1], v[d + 2]))
         elif kind[i] == PLANAR:
-            cosine, sine = math.cos(s[at + 2]), math.sin(s[at + 2])
+            sine, cosine = sine_cosine(s[at + 2])
             v[d], v[d + 1] = cosine * v[d] + sine * v[d + 1], cosine * v[d + 1] - sine * v[d]
 
 
@@ -155,6 +155,6 @@ def find_slopes(floats: Any, integers: Any, tree: int, ahead: float, dt: float) 
         for k in range(d, first_v[i + 1]):
             slope_s[k], slope_v[k] = v[k], u[k] / dt
         if kind[i] == PLANAR:
-            cosine, sine = math.cos(s[at + 2]), math.sin(s[at + 2])
+            sine, cosine = sine_cosine(s[at + 2])
             for one in (slope_s, slope_v):
                 one[d], one[d + 1] = cosine * one[d] - sine * one[d + 1], sine * one[d] + cosine * one[d + 1]

@@ -8,6 +8,7 @@ from typing import Any
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.dynamics import FREE, PLANAR
+from urdfkit.sim.engine.elementary import sine_cosine
 from urdfkit.sim.engine.spatial import SMALL, little_turn, rotate, scale, turn_of
 
 
@@ -20,7 +21,8 @@ def turned_by(x: float, y: float, z: float, w: float, turn: Any) -> Any:
         share, e = little_turn(square)
     else:
         half = math.sqrt(square)
-        share, e = math.sin(half) / half, math.cos(half)
+        sine, e = sine_cosine(half)
+        share = sine / half
     a, b, c = share * turn[0], share * turn[1], share * turn[2]
     x, y, z, w = (
         w * a + x * e + y * c - z * b,
@@ -56,12 +58,12 @@ def move(floats: Any, integers: Any, first: int, beyond: int, s: Any, v: Any, dt
             v[d], v[d + 1], v[d + 2] = rotate(turn_of(-x, -y, -z, w), linear)
         elif kind[i] == PLANAR:
             # The same in the plane.
-            cosine, sine = math.cos(s[at + 2]), math.sin(s[at + 2])
+            sine, cosine = sine_cosine(s[at + 2])
             along, across = cosine * v[d] - sine * v[d + 1], sine * v[d] + cosine * v[d + 1]
             s[at] += dt * along
             s[at + 1] += dt * across
             s[at + 2] += dt * v[d + 2]
-            cosine, sine = math.cos(s[at + 2]), math.sin(s[at + 2])
+            sine, cosine = sine_cosine(s[at + 2])
             v[d], v[d + 1] = cosine * along + sine * across, cosine * across - sine * along
         else:
             s[at] += dt * v[d]

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.dynamics import factor, solve_transposed
+from urdfkit.sim.engine.elementary import exponential
 from urdfkit.sim.engine.rows import friction_beside_motor
 
 SERVO_ATTEMPTS = 8
@@ -95,7 +95,7 @@ def late_share(z: float) -> float:
     """
     if z < 0.1:
         return 0.5 + z / 12.0 - z**3 / 720.0 + z**5 / 30240.0
-    return 1.0 / (1.0 - math.exp(-z)) - 1.0 / z
+    return 1.0 / (1.0 - exponential(-z)) - 1.0 / z
 
 
 @inlined

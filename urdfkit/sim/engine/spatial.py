@@ -8,10 +8,10 @@ chapter 2; the order of the two parts is Pinocchio's.
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from urdfkit.sim.engine.compilation import inlined
+from urdfkit.sim.engine.elementary import sine_cosine
 
 Vector = tuple[float, float, float]
 Spatial = tuple[Vector, Vector]
@@ -121,7 +121,7 @@ def turned_further(sine: float, cosine: float, angle: float) -> tuple[float, flo
         share, c = little_turn(angle * angle)
         s = share * angle
     else:
-        s, c = math.sin(angle), math.cos(angle)
+        s, c = sine_cosine(angle)
     return sine * c + cosine * s, cosine * c - sine * s
 
 

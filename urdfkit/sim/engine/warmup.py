@@ -14,6 +14,7 @@ KERNEL_MODULES = (
     "compilation",
     "contact_rows",
     "dynamics",
+    "elementary",
     "exchange",
     "flight",
     "friction",

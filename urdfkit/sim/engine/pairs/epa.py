@@ -11,6 +11,7 @@ import math
 from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
+from urdfkit.sim.engine.elementary import sine_cosine
 from urdfkit.sim.engine.pairs.gjk import put, support_of_difference, triangle_weights
 from urdfkit.sim.engine.pairs.memory import (
     DIFFERENCE,
@@ -99,8 +100,8 @@ def fill_simplex(count: int, a: Any, b: Any, numbers: Any, indices: Any, work: A
             if count == 1:
                 direction = (sign if j < 2 else 0.0, sign if 2 <= j < 4 else 0.0, sign if j >= 4 else 0.0)
             elif count == 2:
-                angle = math.pi * j / 3.0
-                direction = add(scale(math.cos(angle), normal), scale(math.sin(angle), side))
+                sine, cosine = sine_cosine(math.pi * j / 3.0)
+                direction = add(scale(cosine, normal), scale(sine, side))
             w, on_a = support_of_difference(a, b, numbers, indices, direction)
             off = off_simplex(count, work, w)
             if off > most:

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from urdfkit.sim.engine.compilation import compiled, inlined
+from urdfkit.sim.engine.elementary import sine_cosine
 from urdfkit.sim.engine.pairs.gjk import put
 from urdfkit.sim.engine.pairs.memory import MOST_CORNERS
 from urdfkit.sim.engine.pairs.shapes import (
@@ -75,8 +76,8 @@ def rim(size: Vector, R: Any, p: Vector, d: Vector, work: Any, at: int, ids: Any
     if level > UPRIGHT * math.sqrt(dot(d, d)):
         x, y = d[0] / level, d[1] / level
     for corner in range(RIM):
-        angle = 2.0 * math.pi * corner / RIM
-        c, s = size[0] * math.cos(angle), size[0] * math.sin(angle)
+        s, c = sine_cosine(2.0 * math.pi * corner / RIM)
+        s, c = size[0] * s, size[0] * c
         put(work, at, corner, add(p, rotate(R, (c * x - s * y, s * x + c * y, sign * size[1]))))
         ids[id_at + corner] = corner + (RIM if sign > 0.0 else 0)
     return scale(sign, column(R, 2))
