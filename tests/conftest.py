@@ -1,7 +1,6 @@
-"""What every test shares: how hypothesis searches, and the real sdformat."""
+"""What all tests share: settings of hypothesis, markers for system packages, and the real sdformat."""
 
 import os
-import shutil
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -9,13 +8,42 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+from tests import system_packages
 from urdfkit.description.world.library import FOLDER
+from urdfkit.scene.gl.probe import probe
 
 # Machines are shared and noisy, so no example has a deadline. A developer's every run tries new examples; in CI
 # the examples are the same each time, so that a change is judged by itself.
 settings.register_profile("developer", deadline=None)
 settings.register_profile("ci", deadline=None, derandomize=True)
 settings.load_profile("ci" if os.environ.get("CI") else "developer")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    for group in system_packages.GROUPS:
+        config.addinivalue_line("markers", f"{group}: needs the packages of this group in tests/system_packages.txt")
+
+
+@pytest.hookimpl(trylast=True)  # only the tests that -m and -k have selected
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Skip each test whose system packages are missing; in CI, stop before the first test instead."""
+    for item in items:
+        if reason := reason_to_skip({mark.name for mark in item.iter_markers()}):
+            if os.environ.get("CI") and reason.startswith("missing"):
+                raise pytest.UsageError(reason)
+            item.add_marker(pytest.mark.skip(reason=reason))
+
+
+def reason_to_skip(markers: set[str]) -> str:
+    """Return why a test with these markers cannot run here; an empty string if it can."""
+    if "opengl" in markers:  # any driver will do
+        found = probe()
+        if found.works:
+            markers = markers - {"opengl"}
+        elif not system_packages.missing(["opengl"]):
+            return f"OpenGL does not work: {found.name}"
+    packages = system_packages.missing(markers)
+    return system_packages.message(packages) if packages else ""
 
 
 @pytest.fixture(autouse=True)
@@ -27,15 +55,8 @@ def _own_findings(monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.Temp
 @pytest.fixture(scope="session")
 def sdformat(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., list[list[str]]]:
     """Return what the real sdformat reads in files; see description/worlds/sdformat.cc."""
-    flags = ""
-    if shutil.which("pkg-config") and shutil.which("g++"):
-        asking = ["pkg-config", "--cflags", "--libs", "sdformat12"]
-        asked = subprocess.run(asking, capture_output=True, text=True, check=False)
-        flags = "" if asked.returncode else asked.stdout
-    if not flags:
-        if os.environ.get("CI"):
-            pytest.fail("g++, pkg-config or libsdformat-dev is not installed")
-        pytest.skip("g++, pkg-config or libsdformat-dev is not installed")
+    asked = ["pkg-config", "--cflags", "--libs", "sdformat12"]
+    flags = subprocess.run(asked, stdout=subprocess.PIPE, text=True, check=True).stdout
     program = tmp_path_factory.mktemp("sdformat") / "sdformat"
     source = Path(__file__).parent / "description" / "worlds" / "sdformat.cc"
     subprocess.run(["g++", "-O0", "-o", program, source, *flags.split()], check=True)

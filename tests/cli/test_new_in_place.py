@@ -62,6 +62,7 @@ def test_in_a_folder_with_something_in_it_there_are_packages_only(place):
     }
 
 
+@pytest.mark.git
 def test_in_a_fresh_clone_what_is_there_stays(place):
     subprocess.run(["git", "init", "-q"], check=True)
     (place / "README.md").write_text("mine")

@@ -11,7 +11,7 @@ from PIL import Image
 
 from urdfkit.cli import main
 from urdfkit.cli.sim.pictures import png
-from urdfkit.scene.gl.probe import Found, probe
+from urdfkit.scene.gl.probe import Found
 from urdfkit.sim.sensors.optics import depth_image, image
 
 Capture = pytest.CaptureFixture[str]
@@ -27,7 +27,7 @@ def test_the_last_picture_is_saved(tmp_path: Path, capsys: Capture) -> None:
         assert len(np.unique(np.asarray(found).reshape(-1, 3), axis=0)) > 5
 
 
-@pytest.mark.skipif(not probe().works, reason="no OpenGL")
+@pytest.mark.opengl
 def test_both_renderers_save_the_same_picture(tmp_path: Path) -> None:
     found = []
     for renderer in ("ray", "gl"):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -173,7 +172,7 @@ def test_drawings(capsys: pytest.CaptureFixture[str], limited: str, tmp_path: Pa
         assert ElementTree.parse(target).getroot().tag == "{http://www.w3.org/2000/svg}svg"
 
 
-@pytest.mark.skipif(shutil.which("dot") is None, reason="Graphviz is not installed")
+@pytest.mark.graphviz
 def test_a_pdf_by_graphviz(capsys: pytest.CaptureFixture[str], limited: str, tmp_path: Path) -> None:
     target = tmp_path / "frames.pdf"
     assert ran(capsys, limited, "--tree", "-q", "-o", str(target)) == (0, "", "")

@@ -46,7 +46,7 @@ def everything(model: WorldModel, prefix: str, around: Pose) -> Iterator[tuple[s
         yield from everything(nested, f"{prefix}{nested.name}::", compose(around, nested.pose))
 
 
-@pytest.mark.ros
+@pytest.mark.sdformat
 @pytest.mark.parametrize("name", TRICKY)
 @pytest.mark.parametrize("saved", [False, True])
 def test_everything_is_where_sdformat_has_it(sdformat: Sdformat, name: str, saved: bool, tmp_path: Path) -> None:
@@ -67,7 +67,7 @@ def test_everything_is_where_sdformat_has_it(sdformat: Sdformat, name: str, save
             assert value == theirs[key], key
 
 
-@pytest.mark.ros
+@pytest.mark.sdformat
 def test_sdformat_accepts_what_we_ship_and_what_we_save(sdformat: Sdformat, tmp_path: Path) -> None:
     files = sorted(FOLDER.glob("*/*.sdf")) + sorted(FOLDER.glob("models/*/model.sdf"))
     assert len(files) == len(world_names()) + len(model_names())
@@ -77,7 +77,7 @@ def test_sdformat_accepts_what_we_ship_and_what_we_save(sdformat: Sdformat, tmp_
     assert [line for line in sdformat(*files) if line[0] == "error"] == []
 
 
-@pytest.mark.ros
+@pytest.mark.sdformat
 def test_the_check_by_sdformat_can_fail(sdformat: Sdformat, tmp_path: Path) -> None:
     file = tmp_path / "bad.sdf"
     file.write_text('<sdf version="1.9"><model name="m"><link name="l"><colision/></link></model></sdf>')

@@ -185,7 +185,7 @@ def test_what_is_saved_reads_back_equal(world: World, tmp_path_factory: pytest.T
     assert to_sdf(again) == to_sdf(world)
 
 
-@pytest.mark.ros
+@pytest.mark.sdformat
 @settings(max_examples=20)
 @given(world=worlds)
 def test_sdformat_accepts_what_is_saved(

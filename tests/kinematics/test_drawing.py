@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 import subprocess
 from collections.abc import Callable
 from itertools import combinations
@@ -126,7 +125,7 @@ def test_names_are_escaped(robot_of: Callable[[str], Robot]) -> None:
     assert_tidy(as_svg(tree))
 
 
-@pytest.mark.skipif(shutil.which("dot") is None, reason="Graphviz is not installed")
+@pytest.mark.graphviz
 def test_graphviz_reads_the_dot(tree: TransformTree, robot_of: Callable[[str], Robot]) -> None:
     for drawn in (tree, TransformTree(robot_of(HOSTILE))):
         done = subprocess.run(["dot", "-Tplain"], input=as_dot(drawn).encode(), capture_output=True, check=True)

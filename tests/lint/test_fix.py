@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 import subprocess
 from pathlib import Path
 
@@ -275,7 +274,7 @@ def test_what_names_the_names_that_a_fix_took_away_is_caused_by_it(write, monkey
     assert "was not fixed: that would have caused T202 at r.urdf:13, " in note
 
 
-@pytest.mark.skipif(shutil.which("git") is None, reason="no git")
+@pytest.mark.git
 @pytest.mark.parametrize("end", ["\n", "\r\n"])
 def test_git_applies_what_is_shown(write, end):
     path = write("urdf/r.xacro", BAD.replace("\n", end).encode())

@@ -1,5 +1,3 @@
-import os
-import shutil
 import subprocess
 
 import pytest
@@ -76,11 +74,6 @@ def debian(tmp_path):
     system = "/usr/sbin:/usr/bin:/sbin:/bin"  # a Python of the user's own breaks them
 
     def run(command):
-        program = command.split()[0]
-        if program != "." and shutil.which(program, path=system) is None:
-            if os.environ.get("CI"):
-                pytest.fail(f"{program} is not installed")
-            pytest.skip(f"{program} is not installed")
         env = {"PATH": system, "HOME": str(tmp_path), "ROS_HOME": str(tmp_path / "ros"), "LANG": "C.UTF-8"}
         done = subprocess.run(
             ["/bin/bash", "-c", command], cwd=tmp_path, env=env, capture_output=True, text=True, check=False

@@ -230,7 +230,7 @@ def test_nothing_is_overwritten(place, capsys):
     assert not (place / "rover_control").exists()
 
 
-@pytest.mark.ros
+@pytest.mark.catkin
 def test_the_package_builds(place, debian):
     robot(place / "src", ROVER + ARM, "catkin")
     (place / "src/rover_description/CMakeLists.txt").write_text(

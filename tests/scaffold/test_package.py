@@ -22,7 +22,7 @@ def new(name, *options):
     return main(["new", "package", name, "--into", "src", *options, "--yes"])
 
 
-@pytest.mark.ros
+@pytest.mark.catkin
 def test_catkin(workspace, debian):
     for kind in KINDS:
         assert new(f"scout_{kind}", "--kind", kind, "--ros", "noetic", "--depends", "std_msgs,roscpp,nav_msgs") == 0
@@ -33,7 +33,7 @@ def test_catkin(workspace, debian):
     assert (workspace / "install/share/scout_description/launch/display.launch").is_file()
 
 
-@pytest.mark.ros
+@pytest.mark.colcon
 def test_colcon(workspace, debian):
     assert new("base", "--ros", "humble") == 0
     for kind in KINDS:

@@ -5,7 +5,6 @@ every drive with every arm.
 """
 
 import json
-import os
 import re
 import shutil
 import subprocess
@@ -18,19 +17,7 @@ from urdfkit.description import load
 from urdfkit.resources import robots_dir
 from urdfkit.scaffold import create
 
-pytestmark = pytest.mark.ros
-
 SYSTEM = "/usr/sbin:/usr/bin:/sbin:/bin"  # a Python of the user's own breaks Debian's tools
-
-
-def require(packages, *programs, modules=()):
-    missing = [program for program in programs if shutil.which(program, path=SYSTEM) is None]
-    missing += [m for m in modules if subprocess.run(["/usr/bin/python3", "-c", f"import {m}"], check=False).returncode]
-    if missing:
-        reason = f"{', '.join(missing)} not installed: apt-get install {packages}"
-        if os.environ.get("CI"):
-            pytest.fail(reason)
-        pytest.skip(reason)
 
 
 def run(folder, command, given="", **environment):
@@ -96,12 +83,9 @@ def launches(share, names, new):
     return [path for path in found if path in whole or not path.parents[1].name.startswith(tuple(new))]
 
 
+@pytest.mark.catkin
 def test_catkin_make(robot_template, workspace):
     """New robots and all robots of ROS 1 that we ship, in one workspace: linted, built, tested, installed, launched."""
-    require(
-        "catkin catkin-lint python3-nose python3-roslaunch liburdfdom-tools",
-        *("catkin_make", "catkin_lint", "roslaunch", "nosetests3", "check_urdf"),
-    )
     src = workspace / "src"
     new = written(robot_template, "noetic")
     robots = shipped("catkin")
@@ -140,9 +124,9 @@ def test_catkin_make(robot_template, workspace):
 DUMP = Path(__file__).with_name("dump_params.py")
 
 
+@pytest.mark.catkin
 def test_catkin_build(robot_template, workspace):
     """The other build tool of ROS 1, which builds each package by itself."""
-    require("catkin-tools", "catkin", "gcc")
     new = written(robot_template, "noetic")
     count = len(list((workspace / "src").iterdir()))
     run(workspace, f"catkin config --init --install --env-cache --cmake-args {without_compilers()} >/dev/null")
@@ -153,14 +137,9 @@ def test_catkin_build(robot_template, workspace):
             assert (workspace / f"install/share/{name}_{package}/package.xml").is_file()
 
 
+@pytest.mark.colcon
 def test_colcon(robot_template, workspace):
     """New robots and all robots of ROS 2 that we ship, in one workspace: built, tested, installed, found, launched."""
-    require(
-        "colcon python3-colcon-{ros,cmake,recursive-crawl,output,test-result} ament-cmake ament-cmake-pytest "
-        "liburdfdom-tools",
-        *("colcon", "cmake", "check_urdf"),
-        modules=("colcon_ros", "colcon_cmake", "colcon_recursive_crawl", "colcon_test_result", "ament_package"),
-    )
     new = written(robot_template, "jazzy")
     robots = shipped("ament_cmake")
     assert len(robots) >= 3

@@ -257,7 +257,7 @@ def test_what_was_wrapped_can_be_added_to(export, ros):
     assert "camera_optical_frame" in robot.link_by_name
 
 
-@pytest.mark.ros
+@pytest.mark.catkin
 def test_the_packages_build(export, debian):
     assert main(["import", "export/urdf/arm.urdf", "--ros", "noetic", "--into", "src"]) == 0
     assert "found 0 problems" in debian("catkin_lint -W2 --strict --offline src")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.scene.gl.test_same_picture import DEVICE, agree, both, table_of
+from tests.scene.gl.test_same_picture import agree, both, table_of
 from tests.scene.test_image import lit
 from tests.scene.test_paint import mesh_of, opaque
 from urdfkit.description.robot import Pose
@@ -60,7 +60,7 @@ def test_smaller_copies_are_means_down_to_one_texel() -> None:
     assert (last == 7).all()
 
 
-@pytest.mark.skipif(not DEVICE.works, reason=f"no OpenGL: {DEVICE.name}")
+@pytest.mark.opengl
 @pytest.mark.parametrize("repeats", [4.0, 60.0, 600.0])
 def test_opengl_sees_the_same(repeats: float) -> None:
     gl, rays = both(table_of(mesh_of(floor(checkers(), repeats))), lit(ambient=(1.0, 1.0, 1.0)))

@@ -130,7 +130,7 @@ def test_solids_are_closed_and_face_outwards(geometry) -> None:
     assert mesh.uv.max() <= 1 + 1e-6
 
 
-@pytest.mark.skipif(not DEVICE.works, reason=f"no OpenGL: {DEVICE.name}")
+@pytest.mark.opengl
 def test_opengl_sees_the_same(robot_of, quarters: Path) -> None:
     from urdfkit.scene.gl.painter import GlPainter
 

@@ -25,7 +25,7 @@ from urdfkit.scene.rays import RayTable
 from urdfkit.sim.surroundings import world_scene
 
 DEVICE = probe()
-pytestmark = pytest.mark.skipif(not DEVICE.works, reason=f"no OpenGL: {DEVICE.name}")
+pytestmark = pytest.mark.opengl
 
 SUN = Light("sun", "directional", direction=(0.4, 0.3, -1.0), diffuse=(0.8, 0.7, 0.6, 1.0), cast_shadows=True)
 LAMP = Light("lamp", "point", Pose((0.0, -1.0, 2.5)), diffuse=(0.5, 0.5, 0.9, 1), attenuation=(20.0, 0.6, 0.2, 0.05))

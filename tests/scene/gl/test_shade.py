@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.scene.gl.test_same_picture import DEVICE, EYE, LENS, SUN, agree, both, table_of, zoo
+from tests.scene.gl.test_same_picture import EYE, LENS, SUN, agree, both, table_of, zoo
 from tests.scene.test_image import lit
 from urdfkit.description.robot import Pose
 from urdfkit.scene.gl.shade import shaded, union
@@ -50,7 +50,7 @@ def test_what_is_behind_the_camera_and_its_shadow_too_asks_for_nothing() -> None
     assert union([found]) == found
 
 
-@pytest.mark.skipif(not DEVICE.works, reason=f"no OpenGL: {DEVICE.name}")
+@pytest.mark.opengl
 @pytest.mark.parametrize("samples", [1, 4])
 def test_only_that_part_of_the_picture_is_drawn_twice_and_it_is_the_same(monkeypatch, samples: int) -> None:
     from urdfkit.scene.gl import painter
