@@ -93,7 +93,7 @@ class InertiaArguments(SourceRule):
                     yield self.at(
                         model,
                         source.position(call.start),
-                        f"mass {argument_mass:g} kg passed to `{call.name}` differs from the link mass {link_mass:g} kg",
+                        f"mass {argument_mass:g} kg of `{call.name}` differs from the link mass, {link_mass:g} kg",
                         attribute=name,
                         help=f"write {masses[0].value}",
                         fix=Fix("unsafe", f"Replace with {masses[0].value}", (Edit(span, masses[0].value),)),
