@@ -68,13 +68,13 @@ def test_an_argument_under_another_name_is_one_finding(tmp_path):
     assert told == [("X107", 7, "unknown parameter `size` of macro `wheel`, which requires `radius`")]
     told = found(tmp_path, WHEEL + '<xacro:wheel nam="a" radus="0.1"/>')
     assert sorted(message for *_, message in told) == [
-        "macro `wheel` has no parameter `nam`, and needs `name`",
-        "macro `wheel` has no parameter `radus`, and needs `radius`",
+        "unknown parameter `nam` of macro `wheel`, which requires `name`",
+        "unknown parameter `radus` of macro `wheel`, which requires `radius`",
     ]
     told = found(tmp_path, WHEEL + '<xacro:wheel nam="a"/>')
     assert sorted(message for *_, message in told) == [
-        "macro `wheel` has no parameter `nam`, and needs `name`",
-        "macro `wheel` needs `radius`",
+        "unknown parameter `nam` of macro `wheel`, which requires `name`",
+        "the call of macro `wheel` lacks `radius`",
     ]
 
 

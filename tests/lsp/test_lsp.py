@@ -279,7 +279,8 @@ def test_fixes_are_quick(cart):
         "context": {"diagnostics": []},
     }
     (action,) = cart.ask("textDocument/codeAction", asked)
-    assert (action["title"], action["isPreferred"], action["kind"]) == ("Replace with `xacro:wheel` [X102]", True, "quickfix")
+    title = "Replace with `xacro:wheel` [X102]"
+    assert (action["title"], action["isPreferred"], action["kind"]) == (title, True, "quickfix")
     assert applied(text, action["edit"]["changes"][cart.uri("cart.urdf.xacro")]) == ROBOT
 
 

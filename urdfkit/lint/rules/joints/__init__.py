@@ -1,1 +1,4 @@
-"""Rules on joints, axes and limits."""
+"""Rules for joints: types, axes, limits, dynamics and mimic joints.
+
+They read the expanded robot and yield a finding for each defect of a joint.
+"""

@@ -17,7 +17,7 @@ class AxisOrLimitOnFixed(RobotRule):
     """A fixed joint has an ``<axis>`` or a ``<limit>``.
 
     ## What it does
-    Checks for ``<limit>`` and nonzero ``<axis>`` elements in ``fixed`` joints. A zero axis is accepted, because
+    Checks for ``<limit>`` and nonzero ``<axis>`` elements in ``fixed`` joints. A zero axis is accepted, because some
     exporters write it.
 
     ## Why is this bad?

@@ -21,8 +21,8 @@ class LimitEqual(RobotRule):
     than 0 are reported as a note, because they are probably intended.
 
     ## Why is this bad?
-    The joint cannot move. Usually the limits were forgotten. If the joint is meant to be rigid, the type ``fixed``
-    states this and saves solvers a constraint.
+    The joint cannot move. Usually the limits were not set. If the joint is meant to be rigid, the type ``fixed`` states
+    this and saves solvers a constraint.
 
     ## Example
     ```xml

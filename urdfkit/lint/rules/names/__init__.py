@@ -1,1 +1,4 @@
-"""Rules on the names of links and joints."""
+"""Rules for the names of links and joints.
+
+They read the expanded robot and yield a finding for each name that ROS or Gazebo does not accept.
+"""

@@ -21,8 +21,8 @@ class ControllerJointUndefined(RobotRule):
 
     ## What it does
     Compares the joints of controllers in the YAML files of the robot's package and of neighbouring packages that depend
-    on it with the joints of the robot. Nothing is reported if another description in these packages, other arguments or
-    other conditions may define the joint.
+    on it with the joints of the robot. Nothing is reported if the joint may be defined by another description in these
+    packages, or under other arguments or conditions.
 
     ## Why is this bad?
     The controller does not start, because it cannot claim the joint.

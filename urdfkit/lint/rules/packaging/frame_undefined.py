@@ -29,12 +29,13 @@ class FrameUndefined(RobotRule):
     ## What it does
     Checks ``base_frame_id``, ``base_frame``, ``robot_base_frame`` and ``base_link_frame``, and for arms ``base_link``,
     ``root_link``, ``tip_link`` and ``ee_link``, in the YAML files of the robot's package and of neighbouring packages
-    that depend on it. A name is reported if it is nearly the name of a link and no description in these packages
-    defines it. The ``base_frame_id`` of a drive controller is also reported if no other file in these packages mentions
-    the frame.
+    that depend on it. The rule reports misspelt link names, unless another description in these packages defines a link
+    of that name. For the ``base_frame_id`` of a drive controller, it also reports names that no other file in these
+    packages mentions.
 
     ## Why is this bad?
-    A controller publishes a frame that is not part of the TF tree, or navigation waits for it.
+    The controller publishes a frame that is not part of the TF tree, or navigation waits for a frame that never
+    appears.
 
     ## Example
     ```yaml

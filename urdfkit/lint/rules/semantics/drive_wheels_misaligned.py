@@ -25,9 +25,8 @@ class DriveWheelsMisaligned(RobotRule):
     """The left and right wheels of a drive do not match.
 
     ## What it does
-    Compares the position, height and axis direction of the joints that a drive names as left and right, in pairs. The
-    rule reports a joint that is named for both sides, two wheels in the same place, different heights, and opposite
-    axes.
+    Compares the position, height and axis direction of each pair of left and right wheels. The rule reports a joint
+    that is used for both sides, two wheels in the same place, different heights, and opposite axes.
 
     ## Why is this bad?
     A drive commands the same velocity to both wheels to move straight ahead. If the axes point in opposite directions,

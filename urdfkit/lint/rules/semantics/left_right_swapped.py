@@ -110,7 +110,11 @@ class LeftRightSwapped(RobotRule):
                     f"left wheel `{left.joint.name}` is on the right side, at y = {left.place[1]:g} m",
                     joint=left.joint.name,
                     help="swap the two joint names"
-                    + ("; only ROS Indigo, and Kinetic with legacyMode, swap the sides" if is_legacy else ""),
+                    + (
+                        "; not for ROS Indigo, or Kinetic with legacyMode, which swap the sides themselves"
+                        if is_legacy
+                        else ""
+                    ),
                     fix=_swap_sides(model, drive),
                 )
             wheels = (*drive.left, *drive.right)

@@ -17,7 +17,7 @@ TOLERANCE = 0.05
 
 
 class WheelDiameter(RobotRule):
-    """The configured wheel diameter or radius of a drive differs from the wheels.
+    """The configured wheel diameter or radius of a drive differs from that of the wheels.
 
     ## What it does
     Compares the parameter of the drive with the cylinders and spheres of its wheels. A deviation of 5 % is accepted.

@@ -21,7 +21,7 @@ SKID_STEER_RATIO = 2.0
 
 
 class WheelSeparation(RobotRule):
-    """The configured wheel separation of a drive differs from the wheels.
+    """The configured wheel separation of a drive differs from the distance between its wheels.
 
     ## What it does
     Compares the parameter with the lateral distance between the wheel joints and between the wheel shapes, with every

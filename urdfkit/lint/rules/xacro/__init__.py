@@ -1,1 +1,4 @@
-"""Rules on what xacro makes of the files."""
+"""Rules for xacro: directives, macros, properties, arguments, includes and expressions.
+
+They read the source files and the errors of their expansion, and yield a finding at the place in the source.
+"""

@@ -22,7 +22,8 @@ class DeprecatedCall(SourceRule):
     Checks expressions for calls of ``load_yaml`` without the prefix ``xacro.``.
 
     ## Why is this bad?
-    xacro logs a warning at every run ("Using load_yaml() directly is deprecated") and will remove the unprefixed name.
+    xacro logs a warning at every run ("Using load_yaml() directly is deprecated"), and a future version will remove the
+    unprefixed name.
 
     ## Example
     ```xml

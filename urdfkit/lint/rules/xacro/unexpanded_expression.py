@@ -22,8 +22,8 @@ class UnexpandedExpression(RobotRule):
     Checks the output of xacro for ``{$…}``, ``$ {…}`` and unterminated ``${…``.
 
     ## Why is this bad?
-    xacro copies the expression unchanged. Parsers that expect a number reject the robot, and names differ from the
-    intended ones.
+    xacro copies the expression unchanged. Parsers that expect a number reject the robot, and names contain the literal
+    text of the expression.
 
     ## Example
     ```xml

@@ -20,9 +20,9 @@ class XacroInPlainUrdf(SourceRule):
     """A ``.urdf`` file contains xacro.
 
     ## What it does
-    Checks files with the extension ``.urdf`` for elements with the ``xacro:`` prefix, for expressions, and for unknown
-    elements in a file that declares the prefix, which are probably macro calls that lack the prefix. A declared but
-    unused prefix is accepted, because xacro itself writes it.
+    Checks files with the extension ``.urdf`` for elements with the ``xacro:`` prefix and for expressions. If the file
+    declares the prefix, unknown elements are reported as well, because they are probably macro calls without the
+    prefix. A declared but unused prefix is accepted, because xacro itself writes it.
 
     ## Why is this bad?
     The extension indicates plain URDF. RViz, MoveIt and viewers read the file without expanding it, so macros are
