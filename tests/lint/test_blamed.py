@@ -73,8 +73,8 @@ def test_an_argument_under_another_name_is_one_finding(tmp_path):
     ]
     told = found(tmp_path, WHEEL + '<xacro:wheel nam="a"/>')
     assert sorted(message for *_, message in told) == [
-        "unknown parameter `nam` of macro `wheel`, which requires `name`",
         "the call of macro `wheel` lacks `radius`",
+        "unknown parameter `nam` of macro `wheel`, which requires `name`",
     ]
 
 

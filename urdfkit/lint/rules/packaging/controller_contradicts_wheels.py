@@ -141,8 +141,8 @@ def _wheels(controller: Settings, model: Model, side: str) -> list[tuple[Node, W
     nodes = [node for node in (names, *names.items) if node.text] if names is not None else []
     joints = [model.robot.joint_by_name.get(node.text) for node in nodes]
     wheels = [wheel_of(model, joint, None) if joint is not None else None for joint in joints]
-    found = [(node, wheel) for node, wheel in zip(nodes, wheels, strict=True) if wheel is not None]
-    return found if len(found) == len(nodes) else []
+    named_wheels = [(node, wheel) for node, wheel in zip(nodes, wheels, strict=True) if wheel is not None]
+    return named_wheels if len(named_wheels) == len(nodes) else []
 
 
 def _positive_number(controller: Settings, name: str) -> Iterator[tuple[Node, float]]:

@@ -117,8 +117,8 @@ class ControllerSettingsMisspelt(RobotRule):
             message = f"unknown parameter `{key.text}` of controller `{controller.name}`; did you mean `{suggestion}`?"
             yield Finding(self.code, self.name, self.severity, message, span_of(source, key))
 
-    def _at(self, source: Source, start: int, written: str, message: str, help: str | None = None) -> Finding:
-        span = source.span(start, start + len(written))
+    def _at(self, source: Source, start: int, text: str, message: str, help: str | None = None) -> Finding:
+        span = source.span(start, start + len(text))
         return Finding(self.code, self.name, self.severity, message, span, help=help)
 
 

@@ -63,8 +63,8 @@ def _in_xml(source: Source) -> tuple[int, int, str] | None:
     try:
         document_of(source)
     except XmlError as error:
-        at = error.position
-        return (at.line, at.column, error.message) if at is not None else (1, 1, error.message)
+        position = error.position
+        return (position.line, position.column, error.message) if position is not None else (1, 1, error.message)
     return None
 
 

@@ -73,8 +73,8 @@ class SpawnArgumentMisspelt(RobotRule):
                 continue
             for node in started(source):
                 if node.package in _PACKAGES and node.program in _OPTIONS:
-                    for start, written, message in _invalid_arguments(node):
-                        span = source.span(start, start + len(written))
+                    for start, text, message in _invalid_arguments(node):
+                        span = source.span(start, start + len(text))
                         yield Finding(self.code, self.name, self.severity, message, span)
 
 

@@ -96,12 +96,12 @@ class UnexpandedExpression(RobotRule):
             for tag in model.document(file).walk():
                 if not tag.name.startswith("xacro:"):
                     continue
-                for attribute, written in tag.attributes.items():
-                    corrected = righted(written.value)
-                    if corrected == written.value:
+                for attribute, written_value in tag.attributes.items():
+                    corrected = righted(written_value.value)
+                    if corrected == written_value.value:
                         continue
-                    edit = Edit(source.span(written.value_start, written.value_end), corrected)
+                    edit = Edit(source.span(written_value.value_start, written_value.value_end), corrected)
                     fix = Fix("safe", f"Replace with `{corrected}`", (edit,))
-                    message = f'xacro does not evaluate the expression in {attribute}="{written.value}"'
+                    message = f'xacro does not evaluate the expression in {attribute}="{written_value.value}"'
                     position = source.position(tag.start)
                     yield self.at(model, position, message, attribute=attribute, help="write ${…}", fix=fix)
