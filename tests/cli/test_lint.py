@@ -34,7 +34,7 @@ def test_exit_codes_and_output(package, capsys):
     assert capsys.readouterr().out == "All checks passed.\n"
     assert main(["lint"]) == 1
     out = capsys.readouterr().out
-    assert "urdf/bad.urdf.xacro:2:1: X101 [*] `<macro>`" in out
+    assert "urdf/bad.urdf.xacro:2:1: X101 [*] directive `<macro>`" in out
     assert out.endswith("Found 3 errors (2 fixable with --fix).\n")
     assert main(["lint", "--ignore", "X,T", "."]) == 0
     assert main(["lint", "--select", "T203", "urdf"]) == 1
