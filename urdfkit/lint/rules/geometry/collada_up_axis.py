@@ -17,13 +17,14 @@ if TYPE_CHECKING:
 
 
 class ColladaUpAxis(RobotRule):
-    """A COLLADA mesh says that y is up.
+    """A COLLADA mesh has an up axis other than z, or a unit other than the metre.
 
     ## What it does
-    Reads ``<up_axis>`` at the beginning of COLLADA files. A ``<unit>`` other than the metre is a note.
+    Reads ``<up_axis>`` and ``<unit>`` at the beginning of COLLADA files. A unit other than the metre is a note.
 
     ## Why is this bad?
-    RViz and Gazebo do not turn the mesh, other readers do: it stands in one program and lies in the next.
+    RViz and Gazebo do not rotate the mesh, other readers do: the mesh is upright in one program and lies on its side in
+    another.
 
     ## Example
     ```xml
@@ -49,26 +50,27 @@ class ColladaUpAxis(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each COLLADA file with another axis or unit than URDF's."""
-        known: dict[str, tuple[str, float]] = {}
+        """Yield a finding for each COLLADA file whose up axis or unit differs from URDF."""
+        assets: dict[str, tuple[str, float]] = {}
         for mesh, element, link in meshes(model):
             uri = mesh.uri.strip()
             if not uri.lower().endswith(".dae"):
                 continue
-            if uri not in known:
-                known[uri] = _asset(path_of(mesh, model))
-            axis, unit = known[uri]
+            if uri not in assets:
+                assets[uri] = _asset(path_of(mesh, model))
+            axis, unit = assets[uri]
             if axis not in ("", "Z_UP"):
-                message = f"the mesh `{uri}` has {axis[0].lower()} up, which some readers turn and some do not"
-                help = "export it with z up"
+                message = f"mesh `{uri}` has {axis[0].lower()} up, which only some readers convert to z up"
+                help = "export the mesh with z up"
                 yield self.at(model, element, message, attribute="filename", link=link.name, help=help)
             elif abs(unit - 1.0) > 1e-6:
-                message = f"the mesh `{uri}` is in units of {unit:g} m, which some readers ignore"
-                yield self.at(model, element, message, attribute="filename", link=link.name, severity="info")
+                message = f"mesh `{uri}` is in units of {unit:g} m, which some readers ignore"
+                help = "export the mesh in metres"
+                yield self.at(model, element, message, attribute="filename", link=link.name, help=help, severity="info")
 
 
 def _asset(path: Path | None) -> tuple[str, float]:
-    """Return the upward axis of a file, empty where none is written, and its unit [m]."""
+    """Return the up axis of a file, empty if it has none, and its unit [m]."""
     if path is None:
         return "", 1.0
     try:

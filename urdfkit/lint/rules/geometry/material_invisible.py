@@ -16,18 +16,19 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-_MEANT = re.compile(r"invis|transparen|hidden|clear|none|ghost|empty", re.IGNORECASE)
+_INTENTIONAL = re.compile(r"invis|transparen|hidden|clear|none|ghost|empty", re.IGNORECASE)
 
 
 class MaterialInvisible(RobotRule):
-    """A colour has the alpha 0: what it is on cannot be seen.
+    """A material has an alpha of 0, so its shapes are invisible.
 
     ## What it does
-    Looks for materials with an alpha of 0 that a box, cylinder or sphere has. Those whose name tells that it is meant
-    (``invisible``, ``transparent``), and black ones, are left alone; so are meshes, which have colours of their own.
+    Checks the materials of boxes, cylinders and spheres for an alpha of 0. Black materials, and materials whose name
+    indicates the intent (``invisible``, ``transparent``), are accepted. Meshes are not checked, because they have their
+    own colours.
 
     ## Why is this bad?
-    The fourth number is the opacity, not the transparency: 1 is solid. The link is there, collides, and is not drawn.
+    The fourth number is the opacity, not the transparency: 1 is opaque. The link exists and collides, but is not drawn.
 
     ## Example
     ```xml
@@ -54,7 +55,7 @@ class MaterialInvisible(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the colour becomes solid.
+    Unsafe: the fix makes the colour opaque, although the shapes may be invisible on purpose.
     """
 
     code = "G616"
@@ -63,7 +64,7 @@ class MaterialInvisible(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each such colour."""
+        """Yield a finding for each invisible colour."""
         used = set()
         for link in model.robot.links:
             for visual in link.visuals:
@@ -76,16 +77,16 @@ class MaterialInvisible(RobotRule):
             rgba = numbers(color.get("rgba") or "") if color is not None else None
             if color is None or rgba is None or len(rgba) != 4 or rgba[3] != 0.0 or not any(rgba[:3]):
                 continue
-            if name not in used or _MEANT.search(name):
+            if name not in used or _INTENTIONAL.search(name):
                 continue
-            solid = f"{(color.get('rgba') or '').rsplit(None, 1)[0]} 1"
+            opaque = f"{(color.get('rgba') or '').rsplit(None, 1)[0]} 1"
             yield self.at(
                 model,
                 color,
-                f"material `{name}` has the alpha 0: nothing of it is seen"
+                f"material `{name}` has an alpha of 0: its shapes are invisible"
                 if name
-                else "the alpha 0 lets nothing be seen",
+                else "colour has an alpha of 0: the shape is invisible",
                 attribute="rgba",
-                help="the fourth number is the opacity: 1 is solid",
-                fix=new_value(model, color, "rgba", solid, "unsafe", "Make it solid"),
+                help="set the fourth number, the opacity, to 1",
+                fix=new_value(model, color, "rgba", opaque, "unsafe", "Make the colour opaque"),
             )

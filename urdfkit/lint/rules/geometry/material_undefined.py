@@ -27,17 +27,17 @@ _COLOURS = {
     "brown": "0.5 0.3 0.1 1",
     "silver": "0.75 0.75 0.75 1",
 }
-"""Usual names (blanks and underscores left out) and what they look like."""
+"""Colour names, without spaces and underscores → typical RGBA values."""
 
 
 class MaterialUndefined(RobotRule):
-    """A material is used that is defined nowhere.
+    """A material is used but not defined.
 
     ## What it does
-    Looks for ``<material name="…"/>`` without colour and texture whose name no other material of the robot defines.
+    Checks for ``<material name="…"/>`` without colour or texture whose name no other material of the robot defines.
 
     ## Why is this bad?
-    check_urdf warns, RViz shows the part in a colour of its own, others refuse the robot.
+    check_urdf warns, RViz shows the shape in a default colour, and other readers reject the robot.
 
     ## Example
     ```xml
@@ -67,7 +67,8 @@ class MaterialUndefined(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: a material called as a usual colour gets that colour where it is used first; others are left to you.
+    Unsafe: if the material is named after a colour, the fix adds a typical value of that colour to its first use. No
+    fix is offered for other materials.
     """
 
     code = "G612"
@@ -76,7 +77,7 @@ class MaterialUndefined(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each use of a material that is defined nowhere."""
+        """Yield a finding for each use of an undefined material."""
         if model.missing_file:
             return
         used = [visual.material for link in model.robot.links for visual in link.visuals if visual.material is not None]
@@ -92,14 +93,14 @@ class MaterialUndefined(RobotRule):
                 continue
             from urdfkit.errors import did_you_mean
 
-            nearest = did_you_mean(name, [known for known in defined if known]).removeprefix("; ")
+            suggestion = did_you_mean(name, [known for known in defined if known]).removeprefix("; ")
             yield self.at(
                 model,
                 material.element,
-                f"the material `{name}` is defined nowhere",
+                f"undefined material `{name}`",
                 attribute="name",
-                fix=_coloured(model, material),
-                help=nearest or f'add <material name="{name}"><color rgba="…"/></material> to the robot',
+                fix=_with_colour(model, material),
+                help=suggestion or f'add <material name="{name}"><color rgba="…"/></material> to the robot',
             )
 
 
@@ -107,7 +108,7 @@ def _is_definition(material: Material) -> bool:
     return any(child.tag in ("color", "texture") for child in material.element.children)
 
 
-def _coloured(model: Model, material: Material) -> Fix | None:
+def _with_colour(model: Model, material: Material) -> Fix | None:
     name = (material.name or "").lower().replace("_", "").replace(" ", "").replace("grey", "gray")
     rgba, position = _COLOURS.get(name), material.element.origin.position
     tag = model.tag(position)
@@ -116,6 +117,6 @@ def _coloured(model: Model, material: Material) -> Fix | None:
     source = model.document(position.file).source
     color = f'<color rgba="{rgba}"/>'
     if tag.close is not None:
-        return Fix("unsafe", f"Make it {name}", (Edit(source.span(tag.end, tag.close), color),))
+        return Fix("unsafe", f"Add the colour {name}", (Edit(source.span(tag.end, tag.close), color),))
     end = len(source.text[: tag.end - 2].rstrip())
-    return Fix("unsafe", f"Make it {name}", (Edit(source.span(end, tag.end), f">{color}</material>"),))
+    return Fix("unsafe", f"Add the colour {name}", (Edit(source.span(end, tag.end), f">{color}</material>"),))

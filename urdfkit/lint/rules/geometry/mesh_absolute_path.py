@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 
 class MeshAbsolutePath(RobotRule):
-    r"""A mesh is named by a path that only one machine has.
+    r"""A mesh is referenced by an absolute path.
 
     ## What it does
-    Looks for ``/…``, ``file:///…`` and ``C:\…`` written out in ``filename``. ``file://$(find …)/…`` is found anew
-    on every machine and fine.
+    Checks for ``/…``, ``file:///…`` and ``C:\…`` written literally in ``filename``. ``file://$(find …)/…`` is accepted,
+    because it is resolved on every machine.
 
     ## Why is this bad?
-    On any other machine, and for any other user, the mesh is not there.
+    The path does not exist on other machines or for other users.
 
     ## Example
     ```xml
@@ -45,7 +45,8 @@ class MeshAbsolutePath(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: ``package://`` and the folder before ``meshes`` are written, where the path has one.
+    Unsafe: the fix writes ``package://`` and the folder before ``meshes``, if the path has one. That folder may not be
+    a package.
     """
 
     code = "G603"
@@ -54,19 +55,21 @@ class MeshAbsolutePath(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each absolute path that is written out."""
+        """Yield a finding for each literal absolute path."""
         for mesh, element, link in meshes(model):
             uri = mesh.uri.strip()
             if not is_absolute(uri) or model.literal(element, "filename") is None:
                 continue
-            inside = re.search(r"([\w.-]+)/((?:meshes|mesh|models)/.+)$", uri.replace("\\", "/"))
-            better = f"package://{inside[1]}/{inside[2]}" if inside else "package://…"
+            match = re.search(r"([\w.-]+)/((?:meshes|mesh|models)/.+)$", uri.replace("\\", "/"))
+            package_uri = f"package://{match[1]}/{match[2]}" if match else "package://…"
             yield self.at(
                 model,
                 element,
-                f"the mesh `{uri}` is named by a path that only one machine has",
+                f"mesh `{uri}` is referenced by an absolute path",
                 attribute="filename",
                 link=link.name,
-                help=f"write {better}",
-                fix=new_value(model, element, "filename", better, "unsafe", f"Write {better}") if inside else None,
+                help=f"write {package_uri}",
+                fix=new_value(model, element, "filename", package_uri, "unsafe", f"Replace with {package_uri}")
+                if match
+                else None,
             )

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 _LARGE = 64 * 2**20
-"""Files of more bytes are not searched for triangles."""
+"""Size in bytes above which files are not searched for triangles."""
 
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")
 
@@ -24,18 +24,18 @@ _FACES = {
     ".obj": re.compile(rb"^[ \t]*(f|fo|l|p|curv|surf)[ \t]", re.MULTILINE),
     ".dae": re.compile(rb"<(\w+:)?(triangles|polylist|polygons|trifans|tristrips|lines|linestrips)\b"),
 }
-"""Ending → what some part of the mesh begins with."""
+"""Suffix → pattern of the start of a face, line or curve."""
 
 
 class MeshCorrupt(RobotRule):
-    """A mesh file is there, but holds no mesh.
+    """A mesh file exists but contains no mesh.
 
     ## What it does
-    Looks into mesh files: empty ones, pointers of Git LFS, STL files shorter than they say, COLLADA and glTF files
-    that are none, files without a triangle, or with all of them in one point.
+    Checks for empty mesh files, Git LFS pointers, truncated STL files, invalid COLLADA and glTF files, files without
+    triangles, and meshes with all triangles in one point.
 
     ## Why is this bad?
-    Viewers show nothing and simulators stop, with a message about the reader instead of the file.
+    Viewers show nothing, and simulators stop with an error of the mesh reader that does not name the cause.
 
     ## Example
     ```xml
@@ -60,56 +60,56 @@ class MeshCorrupt(RobotRule):
     name = "mesh-corrupt-or-lfs-pointer"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each file that cannot be a mesh."""
-        known: dict[str, str] = {}
+        """Yield a finding for each file that contains no mesh."""
+        faults: dict[str, str] = {}
         for mesh, element, link in meshes(model):
-            if mesh.uri not in known:
+            if mesh.uri not in faults:
                 path = path_of(mesh, model)
-                known[mesh.uri] = _fault(path) if path is not None and path.is_file() else ""
-                box = model.box_of(mesh) if path is not None and not known[mesh.uri] and any(mesh.scale) else None
+                faults[mesh.uri] = _fault(path) if path is not None and path.is_file() else ""
+                box = model.box_of(mesh) if path is not None and not faults[mesh.uri] and any(mesh.scale) else None
                 if box is not None and not any(box[1]):
-                    known[mesh.uri] = "has all its triangles in one point"
-            if known[mesh.uri]:
+                    faults[mesh.uri] = "has all triangles in one point"
+            if faults[mesh.uri]:
                 yield self.at(
                     model,
                     element,
-                    f"the mesh `{mesh.uri.strip()}` {known[mesh.uri]}",
+                    f"mesh `{mesh.uri.strip()}` {faults[mesh.uri]}",
                     attribute="filename",
                     link=link.name,
                 )
 
 
 def _fault(path: Path) -> str:
-    """Return what is wrong with a file, empty where nothing is seen."""
+    """Return what is wrong with a file; empty if no fault is found."""
     try:
         size = path.stat().st_size
         with path.open("rb") as file:
             head = file.read(1024)
     except OSError as error:
         return f"cannot be read: {error.strerror}"
-    ending = path.suffix.lower()
+    suffix = path.suffix.lower()
     if not size:
         return "is empty"
     if head.startswith(LFS):
-        return "is a pointer of Git LFS: run `git lfs pull`"
-    if ending == ".stl":
-        return _fault_of_stl(path, head, size)
-    if ending == ".dae" and b"<COLLADA" not in head.replace(b"\0", b"") and b"<?xml" not in head.replace(b"\0", b""):
-        return "is no COLLADA file"
-    if ending == ".glb" and not head.startswith(b"glTF"):
-        return "is no binary glTF file"
-    faces = _FACES.get(ending)
+        return "is a Git LFS pointer: run `git lfs pull`"
+    if suffix == ".stl":
+        return _stl_fault(path, head, size)
+    if suffix == ".dae" and b"<COLLADA" not in head.replace(b"\0", b"") and b"<?xml" not in head.replace(b"\0", b""):
+        return "is not a COLLADA file"
+    if suffix == ".glb" and not head.startswith(b"glTF"):
+        return "is not a binary glTF file"
+    faces = _FACES.get(suffix)
     if faces is not None and size <= _LARGE and not head.startswith(_UTF16) and not faces.search(path.read_bytes()):
-        return "holds no triangles"
+        return "contains no triangles"
     return ""
 
 
-def _fault_of_stl(path: Path, head: bytes, size: int) -> str:
+def _stl_fault(path: Path, head: bytes, size: int) -> str:
     if head.lstrip().startswith(b"solid") and (b"facet" in head or (size <= _LARGE and b"facet" in path.read_bytes())):
         return ""
     if head.lstrip().startswith(b"solid") and size < 84:
-        return "holds no triangles"
+        return "contains no triangles"
     triangles = int.from_bytes(head[80:84], "little")
     if size < 84 or size < 84 + 50 * triangles:
-        return f"is cut off: {size} bytes, but {triangles} triangles take {84 + 50 * triangles}"
-    return "" if triangles else "holds no triangles"
+        return f"is truncated: {size} bytes, but {triangles} triangles need {84 + 50 * triangles}"
+    return "" if triangles else "contains no triangles"

@@ -17,15 +17,15 @@ if TYPE_CHECKING:
 
 
 class MeshFileMissing(RobotRule):
-    """A mesh file is not there.
+    """A mesh file does not exist.
 
     ## What it does
-    Resolves the ``filename`` of every mesh (``package://``, ``model://``, ``file://``, paths) and looks whether it
-    exists; upper and lower case count, and the nearest name is given.
+    Resolves the ``filename`` of every mesh (``package://``, ``model://``, ``file://`` and paths) and checks that the
+    file exists. The comparison is case-sensitive, and the message suggests the nearest name.
 
     ## Why is this bad?
-    check_urdf does not look. Viewers show nothing, simulators stop, and what was named with the wrong case works on
-    the machine it was made on only.
+    check_urdf does not check mesh files. Viewers show nothing, and simulators stop. A name in the wrong case works only
+    on file systems that ignore case.
 
     ## Example
     ```xml
@@ -46,7 +46,7 @@ class MeshFileMissing(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the file with the nearest name in the same folder is taken.
+    Unsafe: the fix writes the nearest file name in the same folder, which may not be the intended one.
     """
 
     code = "G601"
@@ -54,28 +54,30 @@ class MeshFileMissing(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each mesh that is not there."""
-        known: dict[str, tuple[str, str] | None] = {}
+        """Yield a finding for each missing mesh file."""
+        failures: dict[str, tuple[str, str] | None] = {}
         for mesh, element, link in meshes(model):
             if model.is_unresolved(element, "filename") or "$" in mesh.uri:
                 continue
-            if mesh.uri not in known:
-                known[mesh.uri] = missing(mesh, model)
-            lack = known[mesh.uri]
-            if lack is None or lack[0] != "file":
+            if mesh.uri not in failures:
+                failures[mesh.uri] = missing(mesh, model)
+            failure = failures[mesh.uri]
+            if failure is None or failure[0] != "file":
                 continue
             if is_absolute(mesh.uri) and model.literal(element, "filename") is not None:
-                continue  # That it is on nobody else's machine is the matter.
-            near = re.search(r"did you mean `([^`]+)`", lack[1])
+                continue  # Reported by G603.
+            near = re.search(r"did you mean `([^`]+)`", failure[1])
             uri = f"{mesh.uri.strip().rpartition('/')[0]}/{near[1]}".lstrip("/") if near else ""
-            is_name = (
+            has_same_suffix = (
                 near is not None and near[1].rpartition(".")[2].lower() == mesh.uri.strip().rpartition(".")[2].lower()
             )
             yield self.at(
                 model,
                 element,
-                f"the mesh `{mesh.uri.strip()}` is not there{f'; did you mean `{near[1]}`?' if near else ''}",
+                f"mesh `{mesh.uri.strip()}` not found{f'; did you mean `{near[1]}`?' if near else ''}",
                 attribute="filename",
                 link=link.name,
-                fix=new_value(model, element, "filename", uri, "unsafe", f"Write `{uri}`") if is_name else None,
+                fix=new_value(model, element, "filename", uri, "unsafe", f"Replace with `{uri}`")
+                if has_same_suffix
+                else None,
             )

@@ -19,18 +19,18 @@ _FORMATS = {
     "ros1": frozenset(("stl", "stlb", "dae", "obj", "mesh", "ply")),
     "drake": frozenset(("obj", "gltf", "vtk", "stl", "dae")),
 }
-"""Endings by target, from the documentation of each (drake 1.x warns of STL and COLLADA, and is not strict)."""
+"""Target → suffixes, by its documentation (drake 1.x only warns about STL and COLLADA)."""
 
 
 class MeshFormatUnsupported(RobotRule):
-    """A mesh is in a format that the consumer does not read.
+    """A mesh has an unsupported format.
 
     ## What it does
-    Looks at the ending of mesh files. Without ``--target`` STL, COLLADA, OBJ, glTF and PLY pass; MuJoCo reads STL,
-    OBJ and MSH only, Gazebo classic STL, COLLADA and OBJ.
+    Checks the suffix of mesh files. Without ``--target``, STL, COLLADA, OBJ, glTF and PLY are accepted. MuJoCo reads
+    only STL, OBJ and MSH, Gazebo classic only STL, COLLADA and OBJ.
 
     ## Why is this bad?
-    The part is not shown, or the model is refused.
+    The mesh is not shown, or the model is rejected.
 
     ## Example
     ```xml
@@ -56,16 +56,16 @@ class MeshFormatUnsupported(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each mesh of another format."""
+        """Yield a finding for each mesh of an unsupported format."""
         formats = _FORMATS.get(model.target or "", _USUAL)
         for mesh, element, link in meshes(model):
-            ending = mesh.uri.strip().rpartition("/")[2].rpartition(".")[2].lower()
-            if ending not in formats and "$" not in ending and not model.is_unresolved(element, "filename"):
-                who = f"{model.target} does" if model.target in _FORMATS else "most readers do"
+            suffix = mesh.uri.strip().rpartition("/")[2].rpartition(".")[2].lower()
+            if suffix not in formats and "$" not in suffix and not model.is_unresolved(element, "filename"):
+                reader = f"{model.target} does" if model.target in _FORMATS else "most readers do"
                 yield self.at(
                     model,
                     element,
-                    f"the mesh of link `{link.name}` is a .{ending} file, which {who} not read",
+                    f"mesh of link `{link.name}` is a .{suffix} file, which {reader} not read",
                     attribute="filename",
                     link=link.name,
                     help=f"convert it to one of {', '.join(sorted(formats))}",

@@ -14,15 +14,15 @@ if TYPE_CHECKING:
 
 
 class MeshPackageUnknown(RobotRule):
-    """A mesh is in a package that is not there.
+    """The package of a mesh is not found.
 
     ## What it does
-    Looks for the packages of ``package://`` and ``model://`` in the workspace and in the environment; each is
+    Looks up the packages of ``package://`` and ``model://`` in the workspace and the environment. Each package is
     reported once.
 
     ## Why is this bad?
-    The robot is shown without its meshes. The package may be spelt wrong, or missing on this machine only: pass its
-    folder with ``--package-path`` then.
+    The robot is shown without its meshes. The package name may be misspelt, or the package may be missing on this
+    machine only. In the latter case, pass its folder with ``--package-path``.
 
     ## Example
     ```xml
@@ -48,7 +48,7 @@ class MeshPackageUnknown(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each package, at the first mesh that is in it."""
+        """Yield a finding for each missing package, at its first mesh."""
         reported: set[str] = set()
         for mesh, element, link in meshes(model):
             name = mesh.uri.strip().partition("://")[2].partition("/")[0]
@@ -59,8 +59,8 @@ class MeshPackageUnknown(RobotRule):
                 yield self.at(
                     model,
                     element,
-                    f"the package `{name}` of this mesh is neither in the workspace nor in the environment",
+                    f"package `{name}` of the mesh not found in workspace or environment",
                     attribute="filename",
                     link=link.name,
-                    help="give the folder it is in with --package-path",
+                    help="pass the folder that contains it with --package-path",
                 )

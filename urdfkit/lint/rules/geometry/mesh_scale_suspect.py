@@ -19,27 +19,27 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-FAR = 50.0
-"""Parts of one robot may well be of such different sizes."""
+MAX_RATIO = 50.0
+"""Largest plausible ratio between the sizes of parts of one robot."""
 
-HUGE = 50.0
-"""[m] across: ships and halls are, but then their other parts tell."""
+LARGE = 50.0
+"""[m] Larger meshes are compared with sizes that do not depend on meshes."""
 
-ALONE = 100.0
-"""[m] across: too much where nothing else tells how large things are."""
+MAX_SIZE = 100.0
+"""[m] Largest plausible size if the robot has no other size to compare with."""
 
 
 class MeshScaleSuspect(RobotRule):
-    """A mesh is about a thousand times as large, or small, as the robot around it.
+    """A mesh is about a thousand times larger or smaller than the rest of the robot.
 
     ## What it does
-    Compares the size of a mesh, scale included, with the middle of the distances between joints and of the other
-    shapes. Where all meshes may be wrong alike, one of more than 50 m is compared with what else tells how large
-    things are: the distances between joints, boxes, cylinders and spheres, else the radius of gyration √(I/m) of its
-    link. Where nothing does, 100 m are too much.
+    Compares the scaled size of a mesh with the median of the distances between joints and the sizes of the other
+    shapes. If all meshes may be wrong alike, a mesh of more than 50 m is compared with sizes that do not depend on
+    meshes: distances between joints, boxes, cylinders and spheres, or else the radius of gyration √(I/m) of its link.
+    Without any such size, meshes of more than 100 m are reported.
 
     ## Why is this bad?
-    CAD programs write millimetres, URDF means metres: the part fills the sky, or cannot be seen.
+    CAD programs export millimetres, URDF expects metres: the part is huge, or too small to see.
 
     ## Example
     ```xml
@@ -76,7 +76,7 @@ class MeshScaleSuspect(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the scale is divided, or multiplied, by 1000.
+    Unsafe: the fix divides or multiplies the scale by 1000, but the mesh may be correct.
     """
 
     code = "G604"
@@ -85,21 +85,21 @@ class MeshScaleSuspect(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each mesh that is far too large or small."""
-        found = [(mesh, element, link, _diagonal(model, mesh)) for mesh, element, link in meshes(model)]
-        if not any(size for *_, size in found):
+        """Yield a finding for each mesh that is far too large or too small."""
+        sized_meshes = [(mesh, element, link, _size(model, mesh)) for mesh, element, link in meshes(model)]
+        if not any(size for *_, size in sized_meshes):
             return
-        sure = _lengths(model)
-        for mesh, element, link, size in found:
-            middle = _middle([*sure, *(other for m, *_, other in found if m.uri != mesh.uri)])
-            if size > HUGE and not _is_far(size, middle):
-                middle = _middle(sure) or _gyration(link)
-            is_alone = not middle and size > ALONE
-            if not (is_alone or _is_far(size, middle)):
+        references = _reference_sizes(model)
+        for mesh, element, link, size in sized_meshes:
+            median = _median([*references, *(other for m, *_, other in sized_meshes if m.uri != mesh.uri)])
+            if size > LARGE and not _is_other_unit(size, median):
+                median = _median(references) or _radius_of_gyration(link)
+            is_alone = not median and size > MAX_SIZE
+            if not (is_alone or _is_other_unit(size, median)):
                 continue
-            beside = "" if is_alone else f" in a robot of parts of about {middle:.2g} m"
-            factor, what = (0.001, "large") if size > middle else (1000.0, "small")
-            if what == "large" and set(mesh.scale) == {100.0}:
+            comparison = "" if is_alone else f"; parts of the robot have a median size of {median:.2g} m"
+            factor, defect = (0.001, "large") if size > median else (1000.0, "small")
+            if defect == "large" and set(mesh.scale) == {100.0}:
                 factor = 0.01
             scale = " ".join(f"{part * factor:g}" for part in mesh.scale)
             fix = (
@@ -110,45 +110,45 @@ class MeshScaleSuspect(RobotRule):
             yield self.at(
                 model,
                 element,
-                f"the mesh of link `{link.name}` is {size:.3g} m across{beside}",
+                f"mesh of link `{link.name}` has a size of {size:.3g} m{comparison}",
                 attribute="scale",
                 link=link.name,
-                help=f'too {what} by {max(factor, 1.0 / factor):g}? URDF means metres: scale="{scale}"',
+                help=f'set scale="{scale}" if the mesh is too {defect} by {max(factor, 1.0 / factor):g}',
                 fix=fix,
             )
 
 
-def _is_far(size: float, middle: float) -> bool:
-    """Whether a size is so far from the middle of the others that only another unit explains it."""
-    return bool(size and middle) and (FAR < size / middle < 10000.0 or FAR < middle / size < 10000.0)
+def _is_other_unit(size: float, median: float) -> bool:
+    """Whether a size differs so much from the median that only another unit explains it."""
+    return bool(size and median) and (MAX_RATIO < size / median < 10000.0 or MAX_RATIO < median / size < 10000.0)
 
 
-def _middle(sizes: list[float]) -> float:
-    known = sorted(size for size in sizes if size > 1e-4)
-    return known[len(known) // 2] if known else 0.0
+def _median(sizes: list[float]) -> float:
+    ordered = sorted(size for size in sizes if size > 1e-4)
+    return ordered[len(ordered) // 2] if ordered else 0.0
 
 
-def _lengths(model: Model) -> list[float]:
-    """Return how far joints are from each other, and how large the links without meshes are [m]."""
+def _reference_sizes(model: Model) -> list[float]:
+    """Return the distances between joints and the sizes of shapes other than meshes [m]."""
     sizes = [sum(part * part for part in joint.origin.xyz) ** 0.5 for joint in model.robot.joints]
     for link in model.robot.links:
-        plain = [shape for shape in shapes_of(link) if not isinstance(shape.geometry, Mesh)]
-        if link.name in model.extents and len(plain) == len(shapes_of(link)):
+        primitives = [shape for shape in shapes_of(link) if not isinstance(shape.geometry, Mesh)]
+        if link.name in model.extents and len(primitives) == len(shapes_of(link)):
             sizes.append(model.extents[link.name].diagonal)
-        elif plain:  # What stands beside a mesh is about as large as that.
-            corners = (box_around(shape.geometry, shape.origin) for shape in plain if shape.geometry is not None)
+        elif primitives:  # A shape next to a mesh has about the same size.
+            corners = (box_around(shape.geometry, shape.origin) for shape in primitives if shape.geometry is not None)
             sizes += [dist(low, high) for low, high in corners]
     return sizes
 
 
-def _gyration(link: Link) -> float:
-    """Return the largest radius of gyration of a link [m]; 0 where that is not known."""
+def _radius_of_gyration(link: Link) -> float:
+    """Return the largest radius of gyration of a link [m]; 0 if unknown."""
     mass = link.inertial.mass if link.inertial is not None else None
     largest = max((moments[2] for moments, _ in principal_moments(link)), default=0.0)
     return sqrt(largest / mass) if mass is not None and mass > 0.0 and largest > 0.0 else 0.0
 
 
-def _diagonal(model: Model, mesh: Mesh) -> float:
-    """Return how large a mesh is [m]; 0 where that is not known."""
+def _size(model: Model, mesh: Mesh) -> float:
+    """Return the diagonal of the bounding box of a mesh [m]; 0 if unknown."""
     box = model.box_of(mesh)
     return 0.0 if box is None else sum(part * part for part in box[1]) ** 0.5

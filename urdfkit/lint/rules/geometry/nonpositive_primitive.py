@@ -24,13 +24,14 @@ _SIZES = {
 
 
 class NonpositivePrimitive(RobotRule):
-    """A box, cylinder, sphere or capsule has no size.
+    """A box, cylinder, sphere or capsule has a size that is not positive.
 
     ## What it does
-    Looks for sizes, radii and lengths that are zero or negative.
+    Checks for sizes, radii and lengths that are zero or negative.
 
     ## Why is this bad?
-    MuJoCo and physics engines refuse it ("size must be positive"); elsewhere the shape cannot be seen or touched.
+    MuJoCo and physics engines reject the shape ("size must be positive"); elsewhere it is invisible and does not
+    collide.
 
     ## Example
     ```xml
@@ -55,8 +56,8 @@ class NonpositivePrimitive(RobotRule):
     name = "nonpositive-primitive"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each size that is not positive, one for a property or argument that several have."""
-        told: set[tuple[Position, str]] = set()
+        """Yield a finding for each size that is not positive, once per property or argument that several shapes use."""
+        reported: set[tuple[Position, str]] = set()
         for link in model.robot.links:
             for shape in shapes_of(link):
                 geometry = shape.element.find("geometry")
@@ -65,11 +66,11 @@ class NonpositivePrimitive(RobotRule):
                         text = element.get(attribute, "") or ""
                         values = numbers(text) or []
                         if any(value <= 0.0 for value in values) and not model.is_unresolved(element, attribute):
-                            message = f'link `{link.name}`: {attribute}="{text}" of a {element.tag} has to be positive'
+                            message = f'link `{link.name}`: {attribute}="{text}" of <{element.tag}> must be positive'
                             place = blamed(model, element, attribute, is_not_positive)
                             if place is None:
                                 yield self.at(model, element, message, attribute=attribute, link=link.name)
-                            elif place not in told:
-                                told.add(place)
-                                used = f"it is used at {model.shown(element.origin.position)}"
-                                yield self.at(model, place[0], message, attribute=place[1], link=link.name, help=used)
+                            elif place not in reported:
+                                reported.add(place)
+                                help = f"the value is used at {model.shown(element.origin.position)}"
+                                yield self.at(model, place[0], message, attribute=place[1], link=link.name, help=help)

@@ -13,16 +13,17 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 ROUNDING = 0.01
+"""Tolerance for rounded components."""
 
 
 class RgbaOutOfRange(RobotRule):
-    """A colour has components beyond 0 to 1.
+    """A colour has components outside the range 0 to 1.
 
     ## What it does
-    Looks at ``rgba``.
+    Checks the ``rgba`` of all materials.
 
     ## Why is this bad?
-    Colours are not written as 0 to 255: what is above 1 counts as 1, and the part is white.
+    URDF colours range from 0 to 1, not from 0 to 255: a component above 1 counts as 1, and the shape is white.
 
     ## Example
     ```xml
@@ -45,8 +46,8 @@ class RgbaOutOfRange(RobotRule):
     ```
 
     ## Fix safety
-    Safe where the components are within 0 to 255 and one is above 2: they are divided by 255. Others are left to
-    you.
+    Safe: the fix divides the components by 255 if all are within 0 to 255 and one is above 2. No fix is offered for
+    other colours.
     """
 
     code = "G614"
@@ -55,7 +56,7 @@ class RgbaOutOfRange(RobotRule):
     fix = "safe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each colour that is out of range."""
+        """Yield a finding for each colour out of range."""
         inside = [visual.material for link in model.robot.links for visual in link.visuals]
         for material in (*model.robot.materials, *inside):
             rgba = material.rgba if material is not None else None
@@ -66,11 +67,12 @@ class RgbaOutOfRange(RobotRule):
             if min(rgba) >= 0.0 and 2.0 < max(rgba) <= 255.0:
                 alpha = rgba[3] if rgba[3] <= 1.0 else rgba[3] / 255.0
                 value = " ".join(f"{part:.4g}" for part in (*(part / 255.0 for part in rgba[:3]), alpha))
-                fix = new_value(model, color, "rgba", value, "safe", f"Write {value}")
+                fix = new_value(model, color, "rgba", value, "safe", f"Replace with {value}")
             yield self.at(
                 model,
                 color,
-                f'rgba="{color.get("rgba")}" has components beyond 0 to 1',
+                f'rgba="{color.get("rgba")}" has components outside the range 0 to 1',
                 attribute="rgba",
+                help="write each component as a number from 0 to 1",
                 fix=fix,
             )

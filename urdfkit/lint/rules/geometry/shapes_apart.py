@@ -14,20 +14,20 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-_HALF = 0.5
-"""Of a colour's last number: what has less is seen through."""
+_MIN_ALPHA = 0.5
+"""Visuals with a smaller alpha are translucent."""
 
 
 class ShapesApart(RobotRule):
-    """A shape of a link is far away from the others.
+    """A shape of a link is far from the other shapes of the link.
 
     ## What it does
-    Looks for shapes that reach ten times farther from the centre of mass than the others of their link, and so far that
-    the inertia denies it (as of I508). Meshes that are too large are G604's, and what is more than half transparent
-    only shows something: what a camera sees, for one.
+    Checks for shapes that extend ten times farther from the centre of mass than the other shapes of their link, and so
+    far that the inertia contradicts them (by the criterion of I508). Meshes that are too large are reported by G604.
+    Visuals that are more than half transparent are not checked, because they often show the view of a sensor.
 
     ## Why is this bad?
-    What is seen is not what is hit: mostly a point has been lost, or metres were taken for something else.
+    The visible shape differs from the collision shape. The usual cause is a missing decimal point or a wrong unit.
 
     ## Example
     ```xml
@@ -69,7 +69,7 @@ class ShapesApart(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each shape that is elsewhere, or far larger, than the rest of its link."""
+        """Yield a finding for each shape that is far from the other shapes of its link, or far larger."""
         for link in model.robot.links:
             extent = model.extents.get(link.name)
             if extent is None or all(shape == extent.shapes[0] for shape in extent.shapes):
@@ -79,26 +79,26 @@ class ShapesApart(RobotRule):
             shapes, far, near = apart(model, link)
             for shape in shapes:
                 if isinstance(shape, Visual) and _is_translucent(model, shape):
-                    continue  # It shows what a sensor sees.
+                    continue  # It probably shows the view of a sensor.
                 box = model.box_of(shape.geometry) if isinstance(shape.geometry, Mesh) else None
                 if box is not None and dist(box[1], (0.0, 0.0, 0.0)) > TIMES * near:
-                    continue  # It is its scale.
+                    continue  # Reported by G604.
                 origin = shape.element.find("origin")
                 is_moved = any(shape.origin.xyz) and dist(shape.origin.xyz, (0.0, 0.0, 0.0)) > far / 2.0
                 yield self.at(
                     model,
                     (origin if is_moved else None) or shape.element.find("geometry") or shape.element,
-                    f"a {shape.element.tag} of link `{link.name}` reaches {far:.3g} m from the centre of mass, the "
+                    f"<{shape.element.tag}> of link `{link.name}` extends {far:.3g} m from the centre of mass, the "
                     f"other shapes {near:.3g} m",
                     attribute="xyz" if is_moved else None,
                     link=link.name,
-                    help="is a point or a unit missing?",
+                    help="check the decimal points and units of the shape",
                 )
 
 
 def _is_translucent(model: Model, visual: Visual) -> bool:
-    """Whether more is seen of what is behind a visual than of itself."""
+    """Whether a visual is more than half transparent."""
     material = visual.material
     if material is not None and material.rgba is None:
-        material = next((one for one in model.robot.materials if one.name == material.name), None)
-    return material is not None and material.rgba is not None and material.rgba[3] < _HALF
+        material = next((known for known in model.robot.materials if known.name == material.name), None)
+    return material is not None and material.rgba is not None and material.rgba[3] < _MIN_ALPHA

@@ -14,14 +14,15 @@ if TYPE_CHECKING:
 
 
 class VisualWithoutCollision(RobotRule):
-    """A link can be seen but not touched.
+    """A link has a visual but no collision shape.
 
     ## What it does
-    Looks for links with ``<visual>`` and without ``<collision>`` in robots where other links have one. It is a warning
-    for wheels that a plugin drives.
+    Checks for links with ``<visual>`` and without ``<collision>`` in robots where other links have one. The finding is
+    a warning for wheels that a plugin drives.
 
     ## Why is this bad?
-    Planners and simulators let everything pass through it, and such a wheel sinks into the ground.
+    Planners and simulators let everything pass through the link, and a wheel without collision shape sinks into the
+    ground.
 
     ## Example
     ```xml
@@ -64,14 +65,15 @@ class VisualWithoutCollision(RobotRule):
     severity = "info"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each link that is seen only, at its first visual."""
+        """Yield a finding for each link without a collision shape, at its first visual."""
         if not any(link.collisions for link in model.robot.links):
             return
         driven = {wheel.joint.child for drive in drives(model) for wheel in (*drive.left, *drive.right)}
         for link in model.robot.links:
             if link.visuals and not link.collisions:
-                message = f"link `{link.name}` has a visual shape and none for collisions"
+                message = f"link `{link.name}` has a visual but no collision shape"
                 if link.name in driven:
-                    message = f"the driven wheel `{link.name}` has no shape for collisions: it sinks into the ground"
+                    message = f"driven wheel `{link.name}` has no collision shape and sinks into the ground"
                 severity: Severity | None = "warning" if link.name in driven else None
-                yield self.at(model, link.visuals[0].element, message, link=link.name, severity=severity)
+                element = link.visuals[0].element
+                yield self.at(model, element, message, link=link.name, help="add <collision>", severity=severity)

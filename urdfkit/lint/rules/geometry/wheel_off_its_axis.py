@@ -17,15 +17,16 @@ if TYPE_CHECKING:
 
 
 class WheelOffItsAxis(RobotRule):
-    """A wheel is drawn beside the axis it turns about.
+    """A wheel is drawn off its axis of rotation.
 
     ## What it does
-    Looks at links that a joint turns (or whose joint has no type) and that show one cylinder along the axis, or one
-    sphere: its middle has to lie on the axis. A sphere whose collision shape has the same offset is let be: it is a
-    caster that swivels.
+    Checks links of continuous joints, or of joints without a type, whose visual is a single cylinder along the axis or
+    a single sphere. The centre of the shape must lie on the axis. A sphere with the same offset in its collision shape
+    is accepted, because it is a swivel caster.
 
     ## Why is this bad?
-    The wheel goes round like the moon. Mostly the origin was copied from another link; it belongs into the joint.
+    The wheel orbits its axis instead of rolling. The usual cause is an origin that was copied from another link; the
+    offset belongs to the joint.
 
     ## Example
     ```xml
@@ -65,7 +66,7 @@ class WheelOffItsAxis(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the origin becomes zero, but perhaps it is the joint that is elsewhere.
+    Unsafe: the fix sets the origin to zero, but the origin of the joint may be the wrong one.
     """
 
     code = "G615"
@@ -85,25 +86,25 @@ class WheelOffItsAxis(RobotRule):
             if isinstance(shape, Cylinder) and shape.length < 2.0 * shape.radius and axis is not None:
                 along = tuple(row[2] for row in rotation(visual.origin.rpy))
                 if abs(sum(a * b for a, b in zip(along, axis, strict=True))) < 0.985:
-                    continue  # It swivels, or J414 says what is wrong.
+                    continue  # A swivel caster, or reported by J414.
             elif not isinstance(shape, Sphere) or any(c.origin.xyz == offset for c in wheel.collisions):
                 continue
-            distance = _from(axis, offset)
+            distance = _distance(axis, offset)
             if distance > 0.1 * shape.radius:
                 origin = visual.element.find("origin") or visual.element
                 yield self.at(
                     model,
                     origin,
-                    f"`{wheel.name}` is drawn {distance:.3g} m beside the axis of joint `{joint.name}`",
+                    f"wheel `{wheel.name}` is drawn {distance:.3g} m off the axis of joint `{joint.name}`",
                     attribute="xyz",
                     link=wheel.name,
                     joint=joint.name,
-                    help="the offset belongs into the <origin> of the joint",
-                    fix=new_value(model, origin, "xyz", "0 0 0", "unsafe", "Put it on the axis"),
+                    help="move the offset to the <origin> of the joint",
+                    fix=new_value(model, origin, "xyz", "0 0 0", "unsafe", "Centre the wheel on its axis"),
                 )
 
 
-def _from(axis: Vector | None, offset: Vector) -> float:
-    """Return how far a point is from an axis through the origin, or from the origin [m]."""
+def _distance(axis: Vector | None, offset: Vector) -> float:
+    """Return the distance of a point from an axis through the origin, or from the origin [m]."""
     along = sum(a * b for a, b in zip(axis, offset, strict=True)) if axis is not None else 0.0
     return float(max(sum(part * part for part in offset) - along * along, 0.0) ** 0.5)
