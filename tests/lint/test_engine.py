@@ -115,7 +115,7 @@ def test_unprefixed_macros_are_looked_into_and_their_loss_is_named(write):
     found = lint(path)
     assert sorted(codes(found)) == ["I503", "X101", "X102", "Z802"]
     z802 = next(f for f in found if f.code == "Z802")
-    assert z802.help == "`<wheel>` (r.xacro:8) would make it, but lacks its `xacro:` prefix"
+    assert z802.help == "add the prefix `xacro:` to `<wheel>` (r.xacro:8), which defines the joint"
 
 
 def test_the_same_file_twice_is_reported_once(write):

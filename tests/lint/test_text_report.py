@@ -37,7 +37,7 @@ def test_a_whole_report(write):
         f"4 |     {INERTIA}\n"
         f"  |     {'^' * len(INERTIA)}\n"
         "  = in 2 expansions of macro `wheel` (r.xacro:7, :8)\n"
-        "  = help: compute it from shape and mass; placeholders for products of inertia should be 0"
+        "  = help: compute it from shape and mass; set placeholders for products of inertia to 0"
     )
 
 

@@ -93,10 +93,11 @@ class UnknownElement(RobotRule):
 
     def _check_control(self, model: Model) -> Iterator[Finding]:
         robot = model.robot
-        for block in (*robot.transmissions, *robot.ros2_control):
+        elements = [block.element for block in robot.transmissions]
+        for element in (*elements, *(block.element for block in robot.ros2_control)):
             from urdfkit.lint.interfaces import misspelt_parts
 
-            for parent, child, tag in misspelt_parts(block.element, block.element.tag):
+            for parent, child, tag in misspelt_parts(element, element.tag):
                 fix = new_tag(model, child, tag, "unsafe", f"Rename to <{tag}>")
                 yield self.at(model, child, _message(parent, child), help=f"did you mean `{tag}`?", fix=fix)
 

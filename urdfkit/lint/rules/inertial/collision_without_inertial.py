@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 
 class CollisionWithoutInertial(RobotRule):
-    """A link that can be bumped into has no mass.
+    """A link has a collision shape but no mass.
 
     ## What it does
-    Looks for links with ``<collision>`` and without ``<inertial>`` in robots that have masses elsewhere or are
-    simulated.
+    Checks for links with ``<collision>`` and without ``<inertial>`` that are fixed to another link, in robots that have
+    masses elsewhere or are simulated.
 
     ## Why is this bad?
-    Gazebo keeps such a link only where a fixed joint lumps it into another one.
+    Gazebo keeps such a link only if it merges the link into another one at a fixed joint.
 
     ## Example
     ```xml
@@ -71,7 +71,7 @@ class CollisionWithoutInertial(RobotRule):
     severity = "info"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each link with a collision and without mass that is fixed to another."""
+        """Yield a finding for each fixed link with a collision shape and without a mass."""
         robot = model.robot
         if all(link.inertial is None for link in robot.links) and not is_simulated(model):
             return
@@ -81,6 +81,7 @@ class CollisionWithoutInertial(RobotRule):
                 yield self.at(
                     model,
                     link.collisions[0].element,
-                    f"link `{link.name}` has a collision shape and no mass",
+                    f"link `{link.name}` has a collision shape but no mass",
                     link=link.name,
+                    help="add <inertial> with <mass> and <inertia>",
                 )

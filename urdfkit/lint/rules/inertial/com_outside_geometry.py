@@ -11,30 +11,30 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-FRACTION = 0.1
-"""Of the diagonal of the box around the shapes: simplified shapes leave parts out."""
+TOLERANCE = 0.1
+"""Tolerance relative to the diagonal of the bounding box; simplified shapes omit parts of the body."""
 
-LEAST = 0.005
-"""[m]"""
+MIN_TOLERANCE = 0.005
+"""[m] Smallest tolerance."""
 
-UNSEEN = 1.0
-"""Of that diagonal, where a link is seen nowhere: collision shapes alone often cover a part of the body."""
+TOLERANCE_WITHOUT_VISUALS = 1.0
+"""Tolerance for links without visuals, whose collision shapes often cover only a part of the body."""
 
-LIGHT = 0.01
-"""[kg]: less stands for "none" where a link is seen nowhere."""
+MIN_MASS = 0.01
+"""[kg] Smaller masses of links without visuals are placeholders."""
 
 
 class ComOutsideGeometry(RobotRule):
-    """The centre of mass of a link is outside of its shapes.
+    """The centre of mass of a link is outside its shapes.
 
     ## What it does
-    Compares the ``<origin>`` of the ``<inertial>`` with the box around all shapes of the link, visual and
-    collision. Collision shapes alone, of a link that is seen nowhere, often cover a part of the body: there it has to
-    be farther out than the box is long. Links with a mesh that cannot be read are left alone.
+    Compares the ``<origin>`` of ``<inertial>`` with the bounding box of all visual and collision shapes of the link.
+    Collision shapes alone often cover only a part of the body, so for links without visuals only a distance of more
+    than the diagonal of the box is reported. Links with an unreadable mesh are not checked.
 
     ## Why is this bad?
-    The robot tips over, or swings, as if its weight hung beside it. Mostly the origin of the shape was not copied
-    to the inertial.
+    The robot tips over, or swings as if its mass hung next to it. The usual cause is an origin of the shape that was
+    not copied to ``<inertial>``.
 
     ## Example
     ```xml
@@ -75,7 +75,7 @@ class ComOutsideGeometry(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each centre of mass that is clearly outside."""
+        """Yield a finding for each centre of mass outside the shapes."""
         for link in model.robot.links:
             inertial = link.inertial
             if inertial is None or not inertial.mass or inertial.mass < 0.0:
@@ -83,16 +83,20 @@ class ComOutsideGeometry(RobotRule):
             extent = model.extents.get(link.name)
             if extent is None:
                 continue
-            if not link.visuals and inertial.mass < LIGHT:
+            if not link.visuals and inertial.mass < MIN_MASS:
                 continue
-            away = extent.outside(inertial.origin.xyz)
-            if away > max((FRACTION if link.visuals else UNSEEN) * extent.diagonal, LEAST):
+            distance = extent.outside(inertial.origin.xyz)
+            if distance > max(
+                (TOLERANCE if link.visuals else TOLERANCE_WITHOUT_VISUALS) * extent.diagonal, MIN_TOLERANCE
+            ):
                 origin = inertial.element.find("origin")
                 yield self.at(
                     model,
                     origin or inertial.element,
-                    f"the centre of mass of link `{link.name}` is {away:.3g} m outside of its shapes",
+                    f"centre of mass of link `{link.name}` is {distance:.3g} m outside its shapes",
                     attribute="xyz" if origin is not None else None,
                     link=link.name,
-                    help=None if any(inertial.origin.xyz) else "give <inertial> the <origin> that the shape has",
+                    help="correct the <origin> of <inertial>"
+                    if any(inertial.origin.xyz)
+                    else "copy the <origin> of the shape to <inertial>",
                 )

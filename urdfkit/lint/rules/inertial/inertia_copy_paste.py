@@ -20,10 +20,10 @@ class InertiaCopyPaste(RobotRule):
     """Links of different size have the same inertia tensor.
 
     ## What it does
-    Looks for one tensor on three links or more whose shapes differ in size by more than a tenth.
+    Checks for a tensor that three or more links share although the sizes of their shapes differ by more than a tenth.
 
     ## Why is this bad?
-    A tensor belongs to one shape and mass: it was copied and never computed.
+    A tensor depends on shape and mass, so a shared tensor was copied instead of computed.
 
     ## Example
     ```xml
@@ -81,7 +81,7 @@ class InertiaCopyPaste(RobotRule):
     severity = "info"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each tensor that several unlike links share, at the first of them."""
+        """Yield a finding for each tensor that several links of different size share, at the first link."""
         groups: dict[tuple[float, ...], list[Link]] = {}
         for link in model.robot.links:
             inertia = link.inertial.inertia if link.inertial is not None else None
@@ -93,15 +93,15 @@ class InertiaCopyPaste(RobotRule):
             sizes = sorted(
                 {round(model.extents[link.name].diagonal, 6) for link in links if link.name in model.extents}
             )
-            unlike = [a for a, b in pairwise(sizes) if b > 1.1 * a]
+            size_steps = [a for a, b in pairwise(sizes) if b > 1.1 * a]
             inertial = links[0].inertial
-            if len(links) < 3 or not unlike or inertial is None or inertial.inertia is None:
+            if len(links) < 3 or not size_steps or inertial is None or inertial.inertia is None:
                 continue
             names = ", ".join(link.name for link in links[:3])
             yield self.at(
                 model,
                 inertial.inertia.element,
-                f"{len(links)} links of different size have this inertia: {names}{' …' if len(links) > 3 else ''}",
+                f"{len(links)} links of different size share this inertia: {names}{' …' if len(links) > 3 else ''}",
                 link=links[0].name,
-                help="compute each from shape and mass",
+                help="compute each tensor from shape and mass",
             )

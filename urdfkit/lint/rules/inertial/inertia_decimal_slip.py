@@ -13,22 +13,22 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-AGREE = 1.7
-"""Moments within this factor of those of an evenly filled body agree with it."""
+AGREEMENT = 1.7
+"""Factor within which a moment agrees with that at uniform density."""
 
-CLOSE = 1.5
-"""So near to it a moment comes by a power of ten."""
+SCALED_AGREEMENT = 1.5
+"""Factor within which a moment agrees after scaling by a power of ten."""
 
 
 class InertiaDecimalSlip(RobotRule):
     """One moment of inertia is off by a power of ten.
 
     ## What it does
-    Compares the diagonal of the tensor with that of the link's shapes, filled evenly. Where two moments agree and
-    the third is off by ten, a hundred or a thousand, a zero was lost.
+    Compares the diagonal of the tensor with that of the link's shapes at uniform density. If two moments agree and the
+    third is off by a factor of 10, 100 or 1000, its decimal point is wrong.
 
     ## Why is this bad?
-    The link turns about one axis as if it were much lighter, or heavier, than it is.
+    The link rotates about one axis as if it were much lighter or heavier than it is.
 
     ## Example
     ```xml
@@ -57,7 +57,7 @@ class InertiaDecimalSlip(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the moment is multiplied, but the others may be as wrong.
+    Unsafe: the fix scales the moment, but the other moments may be the wrong ones.
     """
 
     code = "I506"
@@ -66,7 +66,7 @@ class InertiaDecimalSlip(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each moment that is a power of ten off, the others being right."""
+        """Yield a finding for each moment that is off by a power of ten."""
         for link in model.robot.links:
             inertial = link.inertial
             if inertial is None or not inertial.mass or inertial.mass < 0.0 or inertial.inertia is None:
@@ -81,20 +81,22 @@ class InertiaDecimalSlip(RobotRule):
                 continue
             expected = {"ixx": values[0], "iyy": values[3], "izz": values[5]}
             ratios = {name: written[name] / expected[name] for name in written}
-            off = [name for name, ratio in ratios.items() if not 1.0 / AGREE < ratio < AGREE]
-            if len(off) != 1:
+            outliers = [name for name, ratio in ratios.items() if not 1.0 / AGREEMENT < ratio < AGREEMENT]
+            if len(outliers) != 1:
                 continue
-            name = off[0]
+            name = outliers[0]
             powers = (-3, -2, -1, 1, 2, 3)
-            power = next((k for k in powers if 1.0 / CLOSE < ratios[name] * 10.0**k < CLOSE), None)
+            power = next(
+                (k for k in powers if 1.0 / SCALED_AGREEMENT < ratios[name] * 10.0**k < SCALED_AGREEMENT), None
+            )
             if power is not None:
-                right = f"{written[name] * 10.0**power:.6g}"
+                corrected = f"{written[name] * 10.0**power:.6g}"
                 yield self.at(
                     model,
                     inertia.element,
-                    f"link `{link.name}`: {name}={written[name]:g} is off by {10 ** abs(power)} beside the others",
+                    f"link `{link.name}`: {name}={written[name]:g} kg·m² is off by a factor of {10 ** abs(power)}",
                     attribute=name,
                     link=link.name,
-                    help=f"shape and mass give {written[name] / ratios[name]:.3g}: is {right} meant?",
-                    fix=new_value(model, inertia.element, name, right, "unsafe", f"Write {right}"),
+                    help=f"shape and mass give {written[name] / ratios[name]:.3g} kg·m²; did you mean {corrected}?",
+                    fix=new_value(model, inertia.element, name, corrected, "unsafe", f"Replace with {corrected}"),
                 )

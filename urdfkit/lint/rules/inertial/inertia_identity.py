@@ -15,19 +15,19 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-LEAST, MOST = 0.1, 25.0
-"""[kg·m²]: what the largest moment of the link's shapes, filled evenly, may be for an identity to be meant."""
+MIN_MOMENT, MAX_MOMENT = 0.1, 25.0
+"""[kg·m²] Range of the largest moment at uniform density for which an identity tensor is plausible."""
 
 
 class InertiaIdentity(RobotRule):
-    """The inertia of a link is the identity, which stands for "not computed yet".
+    """The inertia tensor of a link is the identity matrix, which is usually a placeholder.
 
     ## What it does
-    Looks for ixx = iyy = izz = 1 without products of inertia, unless the link's shapes are large enough for it
-    and, filled evenly with its mass, have a largest moment between 0.1 and 25 kg·m².
+    Checks for ixx = iyy = izz = 1 with zero products of inertia. The tensor is accepted if the link's shapes are large
+    enough for it and, at uniform density, have a largest moment between 0.1 and 25 kg·m².
 
     ## Why is this bad?
-    One kilogram times square metre is the inertia of a fridge. Wheels and fingers with it do not get moving.
+    1 kg·m² is the inertia of a refrigerator. Wheels and fingers with this inertia hardly accelerate.
 
     ## Example
     ```xml
@@ -56,7 +56,8 @@ class InertiaIdentity(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the tensor is computed for the link's shapes, filled evenly.
+    Unsafe: the fix computes the tensor of the link's shapes at uniform density, but the real mass distribution may
+    differ.
     """
 
     code = "I509"
@@ -76,14 +77,14 @@ class InertiaIdentity(RobotRule):
                 extent = model.extents.get(link.name)
                 if extent is not None and sqrt(1.0 / mass) < extent.radius(link.inertial.origin.xyz):
                     values = tensor_of(link, extent, mass)
-                    if values is None or LEAST <= max(values) <= MOST:
+                    if values is None or MIN_MOMENT <= max(values) <= MAX_MOMENT:
                         continue
                 if extent is None and not link.visuals and not link.collisions:
-                    continue  # Nothing says how large the link is.
+                    continue  # The size of the link is unknown.
                 yield self.at(
                     model,
                     element,
-                    f"inertia of link `{link.name}` is the identity: a placeholder",
+                    f"inertia of link `{link.name}` is the identity matrix, a placeholder",
                     link=link.name,
                     help="compute it from shape and mass",
                     fix=computed(model, link, element),

@@ -13,19 +13,19 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 TOLERANCE = 1e-9
-"""Relative to the largest principal moment; rounding leaves about 1e-15."""
+"""Tolerance relative to the largest principal moment; rounding errors are about 1e-15."""
 
 
 class InertiaNotPositiveDefinite(RobotRule):
     """An inertia tensor has a principal moment that is zero or negative.
 
     ## What it does
-    Computes the principal moments (eigenvalues) of every tensor whose link has a mass. A tensor that is zero throughout
-    is another matter.
+    Computes the principal moments (eigenvalues) of the inertia tensor of every link with a mass. Tensors of zeros are
+    reported by I504.
 
     ## Why is this bad?
-    About no axis can a body with mass and size be turned for free, let alone gain energy. check_urdf and Pinocchio
-    accept such a tensor and the simulation blows up; MuJoCo and Gazebo refuse it.
+    A body with mass and size has a positive moment of inertia about every axis. check_urdf and Pinocchio accept the
+    tensor and the simulation diverges; MuJoCo and Gazebo reject it.
 
     ## Example
     ```xml
@@ -62,15 +62,15 @@ class InertiaNotPositiveDefinite(RobotRule):
             if mass is None or mass <= 0.0:
                 continue
             for moments, element in principal_moments(link):
-                size = max(abs(moments[0]), abs(moments[2]))
-                if size == 0.0 or moments[0] > TOLERANCE * size or reordered(element) is not None:
+                largest = max(abs(moments[0]), abs(moments[2]))
+                if largest == 0.0 or moments[0] > TOLERANCE * largest or reordered(element) is not None:
                     continue
                 listed = ", ".join(f"{moment:.3g}" for moment in moments)
-                wrong = "negative" if moments[0] < -TOLERANCE * size else "zero"
+                sign = "negative" if moments[0] < -TOLERANCE * largest else "zero"
                 yield self.at(
                     model,
                     element,
-                    f"inertia of link `{link.name}` is impossible: principal moments {listed} kg·m²: one is {wrong}",
+                    f"inertia of link `{link.name}` is impossible: principal moments {listed} kg·m², one is {sign}",
                     link=link.name,
-                    help="compute it from shape and mass; products of inertia are small beside the diagonal",
+                    help="compute it from shape and mass; products of inertia are small compared with the diagonal",
                 )

@@ -18,23 +18,25 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 MARGIN = 1.2
-"""Simplified shapes may be a little smaller than the body."""
+"""Largest plausible ratio; simplified shapes may be slightly smaller than the body."""
 
-UNSEEN = 3.0
-"""Collision shapes alone, of a link that is seen nowhere, often cover a part of the body."""
+MARGIN_WITHOUT_VISUALS = 3.0
+"""Largest plausible ratio for links without visuals, whose collision shapes often cover only a part of the body."""
 
 
 class InertiaTooLarge(RobotRule):
     """The inertia of a link is larger than its shapes allow.
 
     ## What it does
-    Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of all
-    the link's shapes, visual and collision. Collision shapes alone, of a link that is seen nowhere, often cover a
-    part of the body: there it has to be three times as large. Links with a mesh that cannot be read are left alone.
+    Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of all visual
+    and collision shapes of the link. Collision shapes alone often cover only a part of the body, so for links without
+    visuals only a radius of more than three times the distance is reported. Links with an unreadable mesh are not
+    checked.
 
     ## Why is this bad?
-    However the mass is spread inside the shapes, √(I/m) cannot exceed that distance. The link turns as if it were
-    much larger: wheels do not speed up, arms swing like flywheels. Often the tensor was copied, or is in g·mm².
+    However the mass is distributed inside the shapes, √(I/m) cannot exceed that distance. The link rotates as if it
+    were much larger: wheels do not accelerate and arms swing like flywheels. Often the tensor was copied, or is in
+    g·mm².
 
     ## Example
     ```xml
@@ -63,7 +65,8 @@ class InertiaTooLarge(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the tensor is computed for the link's shapes, filled evenly.
+    Unsafe: the fix computes the tensor of the link's shapes at uniform density, but the real mass distribution may
+    differ.
     """
 
     code = "I507"
@@ -73,8 +76,8 @@ class InertiaTooLarge(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each tensor that is too large for the shapes."""
-        right: list[Element] = []
-        wrong: list[tuple[Link, Element, str]] = []
+        plausible: list[Element] = []
+        implausible: list[tuple[Link, Element, str]] = []
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None
             if link.inertial is None or mass is None or mass <= 0.0:
@@ -83,27 +86,27 @@ class InertiaTooLarge(RobotRule):
             if extent is None:
                 continue
             reach = extent.radius(link.inertial.origin.xyz)
-            margin = MARGIN if link.visuals else UNSEEN
+            margin = MARGIN if link.visuals else MARGIN_WITHOUT_VISUALS
             for moments, element in principal_moments(link):
                 gyration = sqrt(max(moments[2], 0.0) / mass)
                 if gyration > margin * reach and not is_identity(element):
                     from urdfkit.lint.algebra import has_slip
 
                     if has_slip(model, element):
-                        continue  # X119 says what is wrong with it.
+                        continue  # Reported by X119.
                     message = (
                         f"inertia of link `{link.name}` is too large: radius of gyration {gyration:.3g} m, "
-                        f"but its shapes reach {reach:.3g} m from the centre of mass"
+                        f"but its shapes extend only {reach:.3g} m from the centre of mass"
                     )
-                    wrong.append((link, element, message))
+                    implausible.append((link, element, message))
                 else:
-                    right.append(element)
-        for link, element, message in wrong:
+                    plausible.append(element)
+        for link, element, message in implausible:
             from urdfkit.lint.blamed import call_of
 
-            call = call_of(element, right) if element.origin.expansions else None
+            call = call_of(element, plausible) if element.origin.expansions else None
             help = "compute it from shape and mass"
             if call is not None:
-                help = "other calls of the macro are right: look at the arguments of this one"
+                help = "check the arguments of this macro call; other calls give plausible tensors"
             fix = computed(model, link, element)
             yield self.at(model, call or element, message, link=link.name, help=help, fix=fix)

@@ -19,25 +19,25 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-SMALL = 0.05
-"""A solid ball has 0.63, a rod 0.58 of its reach; motors at one end bring it down, but not so far."""
+MIN_RATIO = 0.05
+"""Smallest plausible ratio; a solid ball has 0.63, a rod 0.58, and links with a motor at one end have less."""
 
-LEAST = 0.01
-"""[kg]: less stands for "none" where a link is seen nowhere."""
+MIN_MASS = 0.01
+"""[kg] Smaller masses of links without visuals are placeholders."""
 
-MILLIMETRES = 25.0
-"""[m]: meshes that reach farther are in millimetres, and not the inertia is to blame."""
+MAX_REACH = 25.0
+"""[m] Links with a mesh that extend farther have an incorrect mesh scale, which G604 reports."""
 
 
 class InertiaTooSmall(RobotRule):
     """The inertia of a link is much smaller than its shapes suggest.
 
     ## What it does
-    Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of the
-    link's shapes: less than a twentieth of it would put nearly all the mass into one point.
+    Compares the radius of gyration √(I/m) with the distance from the centre of mass to the farthest point of the link's
+    shapes. A radius below a twentieth of that distance concentrates nearly all the mass in one point.
 
     ## Why is this bad?
-    Light parts with strong joints make simulations jitter, and the integrator needs tiny steps.
+    Light parts on strong joints make simulations jitter, and the integrator needs tiny steps.
 
     ## Example
     ```xml
@@ -66,7 +66,8 @@ class InertiaTooSmall(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the tensor is computed for the link's shapes, filled evenly.
+    Unsafe: the fix computes the tensor of the link's shapes at uniform density, but the real mass distribution may
+    differ.
     """
 
     code = "I508"
@@ -76,43 +77,43 @@ class InertiaTooSmall(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each tensor that is too small for the shapes."""
-        right: list[Element] = []
-        wrong: list[tuple[Link, Element, str]] = []
+        plausible: list[Element] = []
+        implausible: list[tuple[Link, Element, str]] = []
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None
             if link.inertial is None or mass is None or mass <= 0.0:
                 continue
             extent = model.extents.get(link.name)
             if extent is None or extent.outside(link.inertial.origin.xyz) > 0.0:
-                continue  # Where the centre of mass is outside, that is what is wrong.
-            if not link.visuals and mass < LEAST:
+                continue  # Reported by I513.
+            if not link.visuals and mass < MIN_MASS:
                 continue
             reach = extent.radius(link.inertial.origin.xyz)
-            if reach > MILLIMETRES and any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
-                continue  # It is the scale of the mesh that is wrong.
+            if reach > MAX_REACH and any(isinstance(shape.geometry, Mesh) for shape in shapes_of(link)):
+                continue  # Reported by G604.
             for moments, element in principal_moments(link):
                 gyration = sqrt(max(moments[2], 0.0) / mass)
-                if 0.0 < gyration < SMALL * reach and not _is_apart(model, link):
+                if 0.0 < gyration < MIN_RATIO * reach and not _has_detached_shape(model, link):
                     message = (
-                        f"inertia of link `{link.name}` is very small: radius of gyration {gyration:.3g} m, "
-                        f"its shapes reach {reach:.3g} m from the centre of mass"
+                        f"inertia of link `{link.name}` is too small: radius of gyration {gyration:.3g} m, "
+                        f"but its shapes extend {reach:.3g} m from the centre of mass"
                     )
-                    wrong.append((link, element, message))
+                    implausible.append((link, element, message))
                 else:
-                    right.append(element)
-        for link, element, message in wrong:
+                    plausible.append(element)
+        for link, element, message in implausible:
             from urdfkit.lint.blamed import call_of
 
-            call = call_of(element, right) if element.origin.expansions else None
+            call = call_of(element, plausible) if element.origin.expansions else None
             help = "compute it from shape and mass"
             if call is not None:
-                help = "other calls of the macro are right: look at the arguments of this one"
+                help = "check the arguments of this macro call; other calls give plausible tensors"
             fix = computed(model, link, element)
             yield self.at(model, call or element, message, link=link.name, help=help, fix=fix)
 
 
-def _is_apart(model: Model, link: Link) -> bool:
-    """Whether one of the shapes is to blame, not the inertia."""
+def _has_detached_shape(model: Model, link: Link) -> bool:
+    """Whether a detached shape explains the ratio."""
     from urdfkit.lint.apart import apart
 
     return bool(apart(model, link)[0])

@@ -16,15 +16,15 @@ if TYPE_CHECKING:
 
 
 class InertiaTransposed(RobotRule):
-    """The entries of an inertia tensor are in another order than URDF's.
+    """The entries of an inertia tensor are in the wrong order.
 
     ## What it does
-    Looks at tensors that no body can have, and tries the orders other programs write them in. Where one of them
-    alone gives a tensor that a body can have, that is what was meant.
+    Checks tensors that no body can have, and reorders their entries by the conventions of other programs. Reports the
+    tensor if exactly one of these orders gives a possible tensor.
 
     ## Why is this bad?
-    URDF wants ixx, ixy, ixz, iyy, iyz, izz. A moment in the place of a product makes the tensor impossible: MuJoCo
-    and sdformat refuse it, others simulate nonsense.
+    URDF expects ixx, ixy, ixz, iyy, iyz, izz. A moment in the place of a product makes the tensor impossible: MuJoCo
+    and sdformat reject it, and other simulators compute a wrong motion.
 
     ## Example
     ```xml
@@ -51,7 +51,7 @@ class InertiaTransposed(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the entries are put where that order has them.
+    Unsafe: the fix moves the entries to the order of URDF, but the values may be wrong for another reason.
     """
 
     code = "I505"
@@ -59,19 +59,19 @@ class InertiaTransposed(RobotRule):
     fix = "unsafe"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each tensor that is right in another order."""
+        """Yield a finding for each tensor that is possible in another order."""
         for link in model.robot.links:
             for element in link.inertial.element.find_all("inertia") if link.inertial is not None else ():
-                found = reordered(element)
-                if found is None:
+                reordering = reordered(element)
+                if reordering is None:
                     continue
-                order, values = found
-                texts = {name: f"{value:g}" for name, value in zip(COMPONENTS, values, strict=True)}
+                order, values = reordering
+                entries = {name: f"{value:g}" for name, value in zip(COMPONENTS, values, strict=True)}
                 yield self.at(
                     model,
                     element,
-                    f"inertia of link `{link.name}` is impossible, but not if its entries were given {order}",
+                    f"inertia of link `{link.name}` is impossible; its entries appear to be given {order}",
                     link=link.name,
-                    help=f"then it is {', '.join(f'{name}={text}' for name, text in texts.items())}",
-                    fix=new_values(model, element, texts, "unsafe", "Put the entries in URDF's order"),
+                    help=f"write {', '.join(f'{name}={text}' for name, text in entries.items())}",
+                    fix=new_values(model, element, entries, "unsafe", "Reorder the entries"),
                 )

@@ -13,22 +13,22 @@ if TYPE_CHECKING:
     from urdfkit.lint.model import Model
 
 TOLERANCE = 1e-3
-"""Violations up to this fraction of the largest moment come from rounded numbers: `info`."""
+"""Violations up to this fraction of the largest moment result from rounded numbers and are notes."""
 
 NOISE = 1e-6
-"""Violations up to this fraction are not reported: six digits are all many CAD programs write."""
+"""Violations up to this fraction are not reported: many CAD programs write only six digits."""
 
 
 class InertiaTriangleInequality(RobotRule):
-    """The principal moments of an inertia tensor belong to no body.
+    """The principal moments of an inertia tensor violate the triangle inequality.
 
     ## What it does
     Computes the principal moments A ≤ B ≤ C of every tensor and checks that A + B ≥ C.
 
     ## Why is this bad?
-    Every body made of matter fulfils it: A + B - C is twice the second moment of mass along the third axis
-    (Wittenburg, Dynamics of Multibody Systems, 3.1). A tensor that does not is positive definite and gets through most
-    parsers, and then joints shake and wheels hop. MuJoCo refuses it.
+    Every physical body satisfies the inequality: A + B - C is twice the second moment of mass along the third axis
+    (Wittenburg, Dynamics of Multibody Systems, 3.1). A tensor that violates it can be positive definite and pass most
+    parsers, but then joints shake and wheels hop. MuJoCo rejects it.
 
     ## Example
     ```xml
@@ -68,7 +68,7 @@ class InertiaTriangleInequality(RobotRule):
                 from urdfkit.lint.algebra import has_slip
 
                 if reordered(element) is not None or has_slip(model, element):
-                    continue  # I505 or X119 says what is wrong with it.
+                    continue  # Reported by I505 or X119.
                 a, b, c = shown(moments)
                 yield self.at(
                     model,
@@ -76,6 +76,6 @@ class InertiaTriangleInequality(RobotRule):
                     f"inertia of link `{link.name}` is impossible: principal moments {a}, {b}, {c} kg·m²: "
                     f"{a} + {b} < {c}",
                     link=link.name,
-                    help="compute it from shape and mass; placeholders for products of inertia should be 0",
+                    help="compute it from shape and mass; set placeholders for products of inertia to 0",
                     severity="error" if large - small - middle > TOLERANCE * large else "info",
                 )

@@ -15,14 +15,14 @@ if TYPE_CHECKING:
 
 
 class InertiaZero(RobotRule):
-    """A link has a mass but no inertia.
+    """A link has a mass but zero inertia.
 
     ## What it does
-    Looks for tensors of zeros beside a mass. It is an error where the link is moved by a joint; on links that are
-    fixed to others it is a note: there it makes a point mass.
+    Checks for tensors of zeros on links with a mass. The finding is an error if a joint moves the link, and a note if
+    the link is fixed to others and so represents a point mass.
 
     ## Why is this bad?
-    Nothing resists its turning: simulators divide by zero, MuJoCo refuses the model.
+    Nothing resists the rotation of the link: simulators divide by zero, and MuJoCo rejects the model.
 
     ## Example
     ```xml
@@ -61,7 +61,8 @@ class InertiaZero(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the tensor is computed for the link's shapes, filled evenly.
+    Unsafe: the fix computes the tensor of the link's shapes at uniform density, but the real mass distribution may
+    differ.
     """
 
     code = "I504"
@@ -70,7 +71,7 @@ class InertiaZero(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each tensor of zeros."""
-        bodies: set[str] | None = None
+        moving: set[str] | None = None
         for link in model.robot.links:
             inertial = link.inertial
             inertia = inertial.inertia if inertial is not None else None
@@ -78,13 +79,14 @@ class InertiaZero(RobotRule):
                 continue
             if any(getattr(inertia, name) for name in COMPONENTS):
                 continue
-            if bodies is None:
-                bodies = {body.name for body, joint in massless(model.robot, floating=False) if joint is not None}
+            if moving is None:
+                moving = {body.name for body, joint in massless(model.robot, floating=False) if joint is not None}
             yield self.at(
                 model,
                 inertia.element,
-                f"link `{link.name}` has a mass of {inertial.mass:g} kg, but its inertia is zero",
+                f"link `{link.name}` has a mass of {inertial.mass:g} kg but zero inertia",
                 link=link.name,
+                help="compute the inertia from shape and mass",
                 fix=computed(model, link, inertia.element),
-                severity=None if link.name in bodies else "info",
+                severity=None if link.name in moving else "info",
             )

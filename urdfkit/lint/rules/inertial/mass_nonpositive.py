@@ -13,17 +13,20 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
+_HELP = "set a mass greater than 0 kg"
+
 
 class MassNonpositive(RobotRule):
-    """A link that moves has no mass, or a link has a negative one.
+    """A moving link has no mass, or a link has a negative mass.
 
     ## What it does
-    Looks for ``<mass>`` below zero, and for a mass of zero where a link is moved by a joint and no link fixed to it
-    has one, or where a link with shapes that is fixed to no other has an inertia beside it. Zero is a warning
-    for robots that are not simulated.
+    Checks for a negative ``<mass>``. Also checks for a mass of zero where a joint moves the link and no link fixed to
+    it has a mass, and where a link that is not fixed to another one has a shape and an inertia. A mass of zero is a
+    warning for robots that are not simulated.
 
     ## Why is this bad?
-    Simulators divide by the mass. check_urdf accepts it, Gazebo drops the link, MuJoCo refuses the model.
+    Simulators divide by the mass. check_urdf accepts a mass of zero, Gazebo drops the link, and MuJoCo rejects the
+    model.
 
     ## Example
     ```xml
@@ -54,7 +57,7 @@ class MassNonpositive(RobotRule):
     name = "mass-nonpositive"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each mass that cannot be."""
+        """Yield a finding for each negative mass and each mass of zero of a moving link."""
         moved: dict[str, str] | None = None
         fixed = {joint.child for joint in model.robot.joints if joint.type == "fixed"}
         for link in model.robot.links:
@@ -63,17 +66,19 @@ class MassNonpositive(RobotRule):
                 continue
             element = link.inertial.element.find("mass") or link.inertial.element
             if mass < 0.0:
-                yield self.at(model, element, f"mass of link `{link.name}` is negative: {mass:g} kg", link=link.name)
+                message = f"mass of link `{link.name}` is negative: {mass:g} kg"
+                yield self.at(model, element, message, link=link.name, help=_HELP)
                 continue
             tensor = link.inertial.inertia
-            is_turned = tensor is not None and min(tensor.ixx, tensor.iyy, tensor.izz) > 0.0
-            if is_turned and (link.visuals or link.collisions) and link.name not in fixed:
+            has_inertia = tensor is not None and min(tensor.ixx, tensor.iyy, tensor.izz) > 0.0
+            if has_inertia and (link.visuals or link.collisions) and link.name not in fixed:
                 yield self.at(
                     model,
                     element,
-                    f"link `{link.name}` has an inertia and no mass",
+                    f"link `{link.name}` has an inertia but no mass",
                     attribute="value",
                     link=link.name,
+                    help=_HELP,
                     severity=None if is_simulated(model) else "warning",
                 )
                 continue
@@ -84,8 +89,9 @@ class MassNonpositive(RobotRule):
                 yield self.at(
                     model,
                     element,
-                    f"link `{link.name}` is moved by joint `{moved[link.name]}` and has no mass",
+                    f"link `{link.name}` is moved by joint `{moved[link.name]}` but has no mass",
                     attribute="value",
                     link=link.name,
+                    help=_HELP,
                     severity=None if is_simulated(model) else "warning",
                 )

@@ -11,23 +11,23 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-LIGHT, HEAVY = 1.0, 25000.0
-"""[kg/m³]"""
+MIN_DENSITY, MAX_DENSITY = 1.0, 25000.0
+"""[kg/m³] Range of plausible densities."""
 
-LEAST = 0.01
-"""[kg]"""
+PLACEHOLDER = 0.01
+"""[kg] Masses up to this value are placeholders."""
 
 
 class MassVsVolume(RobotRule):
-    """The density of a link is that of no material.
+    """The density of a link is implausible.
 
     ## What it does
-    Divides the mass by the volume of the link's shapes: less than 1 kg/m³ (air) by the smaller of visual and
-    collision volume, or more than 25000 kg/m³ (the heaviest metals have 22600) by the larger one. Masses under ten
-    grams stand for "none", and links with meshes are left alone.
+    Divides the mass by the volume of the link's shapes. Reports less than 1 kg/m³ (air) for the smaller of the visual
+    and collision volumes, and more than 25000 kg/m³ (the heaviest metals have 22600 kg/m³) for the larger one. Masses
+    of at most 10 g are placeholders and are not checked, and neither are links with meshes.
 
     ## Why is this bad?
-    Grams were written for kilograms, or millimetres for metres.
+    Usually the mass was written in grams instead of kilograms, or the size in millimetres instead of metres.
 
     ## Example
     ```xml
@@ -61,22 +61,23 @@ class MassVsVolume(RobotRule):
     severity = "warning"
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each mass that no material of that volume has."""
+        """Yield a finding for each link with an implausible density."""
         for link in model.robot.links:
             mass = link.inertial.mass if link.inertial is not None else None
-            if link.inertial is None or mass is None or mass <= LEAST:
+            if link.inertial is None or mass is None or mass <= PLACEHOLDER:
                 continue
             extent = model.extents.get(link.name)
             if extent is None or not extent.volumes or min(extent.volumes) <= 0.0:
                 continue
             lightest, heaviest = mass / max(extent.volumes), mass / min(extent.volumes)
-            if heaviest < LIGHT or lightest > HEAVY:
-                density = heaviest if heaviest < LIGHT else lightest
+            if heaviest < MIN_DENSITY or lightest > MAX_DENSITY:
+                density = heaviest if heaviest < MIN_DENSITY else lightest
+                litres = mass / density * 1000.0
                 yield self.at(
                     model,
                     link.inertial.element.find("mass") or link.inertial.element,
-                    f"link `{link.name}`: {mass:g} kg in {mass / density * 1000:.3g} litres are {density:.3g} kg/m³",
+                    f"link `{link.name}` has a density of {density:.3g} kg/m³: {mass:g} kg in {litres:.3g} litres",
                     attribute="value",
                     link=link.name,
-                    help="is the mass in kg, and are the sizes in m?",
+                    help="check that the mass is in kg and the sizes are in m",
                 )

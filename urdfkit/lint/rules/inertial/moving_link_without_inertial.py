@@ -20,13 +20,13 @@ class MovingLinkWithoutInertial(RobotRule):
     """A link that moves has no mass or no inertia.
 
     ## What it does
-    Looks for links with a shape that are moved by a joint and for which no link fixed to them has a mass and a
-    tensor. It is an error for simulators: with ``--target gz``, ``classic``, ``mujoco``, ``isaac`` or ``drake``, or
-    where the robot brings plugins for Gazebo. For other robots it is a note. Where no link has a mass it is said
-    once, and only for robots that are simulated.
+    Checks for links with a shape that a joint moves, where neither the link nor any link fixed to it has a mass and a
+    tensor. The finding is an error for simulators: with ``--target gz``, ``classic``, ``mujoco``, ``isaac`` or
+    ``drake``, or if the robot contains Gazebo plugins. For other robots it is a note. A robot without any mass is
+    reported once, and only if it is simulated.
 
     ## Why is this bad?
-    Gazebo drops the link, and all that hangs on it, without a word; MuJoCo refuses the model.
+    Gazebo silently drops the link and everything attached to it; MuJoCo rejects the model.
 
     ## Example
     ```xml
@@ -79,20 +79,20 @@ class MovingLinkWithoutInertial(RobotRule):
     not_for = frozenset(("moveit",))
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield a finding for each body that cannot be moved; one for a robot without any mass."""
+        """Yield a finding for each moving body without a mass or inertia; one for a robot without any mass."""
         robot = model.robot
         if model.is_incomplete:
             return
         shaped = [link.name for link in robot.links if link.visuals or link.collisions]
         severity: Severity = "error" if is_simulated(model) else "info"
         if all(link.inertial is None for link in robot.links):
-            moved = {joint.child for joint in robot.joints if _moves(joint)}
+            moved = {joint.child for joint in robot.joints if _is_moving(joint)}
             first = next((link for link in robot.links if link.name in moved and link.name in shaped), None)
             if first is not None and severity == "error":
                 yield self.at(
                     model,
                     first.element,
-                    f"no link of the robot has a mass, yet `{first.name}` and others are moved by joints",
+                    f"no link of the robot has a mass, but joints move `{first.name}` and other links",
                     attribute="name",
                     link=first.name,
                     help="add <inertial> with <mass> and <inertia> to every link that moves",
@@ -104,17 +104,17 @@ class MovingLinkWithoutInertial(RobotRule):
                 continue
             inertial = link.inertial
             if inertial is not None and inertial.mass is not None and inertial.inertia is not None:
-                continue  # Both are there, but zero: that is said elsewhere.
+                continue  # Both exist but are zero: reported by I501 and I504.
             if inertial is not None and any(
                 model.is_unresolved(child, name) or (child.tag in ("mass", "inertia") and number(value) is None)
                 for child in inertial.element.children
                 for name, value in child.attributes.items()
             ):
-                continue  # They are there, but could not be computed, or read.
+                continue  # They exist, but could not be computed or read.
             yield self.at(
                 model,
                 link.element,
-                f"link `{link.name}` is moved by joint `{joint.name}` and has no mass or no inertia",
+                f"link `{link.name}` is moved by joint `{joint.name}` but has no mass or no inertia",
                 attribute="name",
                 link=link.name,
                 joint=joint.name,
@@ -123,5 +123,5 @@ class MovingLinkWithoutInertial(RobotRule):
             )
 
 
-def _moves(joint: Joint) -> bool:
+def _is_moving(joint: Joint) -> bool:
     return joint.is_movable or (joint.type is None and joint.element.find("axis") is not None)
