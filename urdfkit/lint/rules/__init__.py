@@ -1,7 +1,7 @@
 """The rules, by layer and family. `RULES` is all of them in the order of their codes.
 
-They are imported when they are asked for, by the `table`: a clean file needs neither the pages of the catalogue nor
-the fault rules, and a robot without ``<gazebo>`` needs none of those on Gazebo.
+Rules are imported on demand, as the `table` selects them: a clean file needs neither the pages of the catalogue nor
+the fault rules, and a robot without ``<gazebo>`` needs no rules for Gazebo.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 
 
 def source_rules(sources: Mapping[str, Source] | None = None) -> tuple[type[SourceRule], ...]:
-    """Return the rules on the text of each file.
+    """Return the rules for the text of each file.
 
     Args:
-        sources: leave out the rules that have nothing to look at in these; without them all are returned.
+        sources: skip the rules that cannot apply to these files; None returns all rules.
     """
     if sources is None:
         return tuple(_rules(SOURCE))
@@ -41,33 +41,33 @@ def source_rules(sources: Mapping[str, Source] | None = None) -> tuple[type[Sour
 
 
 def fault_rules() -> tuple[type[FaultRule], ...]:
-    """Return the rules on what xacro could not expand."""
+    """Return the rules for parts that xacro could not expand."""
     return tuple(_rules(FAULTS))
 
 
 def around_rules() -> tuple[type[RobotRule], ...]:
-    """Return the rules on launch files and YAML around the description."""
+    """Return the rules for launch and YAML files of the package."""
     return tuple(_rules(AROUND))
 
 
 def robot_rules(robot: Robot | None = None, target: str | None = None) -> tuple[type[RobotRule], ...]:
-    """Return the rules on the expanded robot.
+    """Return the rules for the expanded robot.
 
     Args:
-        robot: leave out the rules that have nothing to look at in this one; without it all are returned.
-        target: leave out those for other targets, where a robot is given.
+        robot: skip the rules that cannot apply to this robot; None returns all rules.
+        target: with a robot, None skips the rules that apply only to some targets.
     """
     if robot is None:
         return tuple(_rules((*ROBOT, *AROUND, *TARGETED)))
     from urdfkit.lint.glance import traits
 
-    found = traits(robot)
+    features = traits(robot)
     rows = ROBOT if target is None else (*ROBOT, *TARGETED)
-    return tuple(_rules(row for row in rows if not row[0] or not found.isdisjoint(row[0].split())))
+    return tuple(_rules(row for row in rows if not row[0] or not features.isdisjoint(row[0].split())))
 
 
 def suppression_rules() -> tuple[type[Rule], ...]:
-    """Return the rules on the comments that suppress findings."""
+    """Return the rules for comments that suppress findings."""
     return tuple(_rules(SUPPRESSION))
 
 

@@ -18,8 +18,8 @@ class HardwareInterfaceUnknown(RobotRule):
     """A transmission names an unknown hardware interface.
 
     ## What it does
-    Checks for ``<hardwareInterface>`` values that are nearly the name of an interface of the hardware_interface
-    package. Interfaces of other packages are accepted.
+    Checks for ``<hardwareInterface>`` values that nearly match an interface of the hardware_interface package.
+    Interfaces of other packages are accepted.
 
     ## Why is this bad?
     Loading fails with "No suitable hardware interface", and controllers for the joint do not start.

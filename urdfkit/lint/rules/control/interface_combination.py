@@ -18,8 +18,8 @@ class InterfaceCombination(RobotRule):
 
     ## What it does
     Checks the ``<command_interface>`` and ``<state_interface>`` elements of each joint for duplicate names, and for
-    names that are nearly ``position``, ``velocity``, ``acceleration`` or ``effort``. Other names are accepted, because
-    hardware may define its own interfaces.
+    names that nearly match ``position``, ``velocity``, ``acceleration`` or ``effort``. Other names are accepted,
+    because hardware may define its own interfaces.
 
     ## Why is this bad?
     The controller manager stops, or the controller finds no interface to claim.

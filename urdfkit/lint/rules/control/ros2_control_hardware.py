@@ -31,7 +31,7 @@ class HardwareMismatch(RobotRule):
     ## What it does
     Each plugin that runs the controller manager in Gazebo has its own hardware: gazebo_ros2_control has
     ``gazebo_ros2_control/GazeboSystem``, gz_ros2_control ``gz_ros2_control/GazeboSimSystem`` and ign_ros2_control
-    ``ign_ros2_control/IgnitionSystem``. The rule reports hardware of another plugin, and names that are nearly one of
+    ``ign_ros2_control/IgnitionSystem``. The rule reports hardware of another plugin, and names that nearly match one of
     these or ``mock_components/GenericSystem``. Other hardware is accepted.
 
     ROS 2 from Jazzy on (``--target ros2-jazzy``) and Gazebo Sim (``--target gz``) have no

@@ -23,7 +23,7 @@ class TransmissionTypeUnknown(RobotRule):
 
     ## What it does
     Checks the ``<type>`` of transmissions, and the ``<plugin>`` of transmissions in ``<ros2_control>``, for names that
-    are nearly a class of transmission_interface. Transmissions of other packages are accepted.
+    nearly match a class of transmission_interface. Transmissions of other packages are accepted.
 
     ## Why is this bad?
     pluginlib does not find the class, so the hardware does not load its transmissions.

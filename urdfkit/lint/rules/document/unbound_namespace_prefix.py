@@ -57,7 +57,7 @@ class UnboundNamespacePrefix(SourceRule):
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
         """Yield one finding for each unbound prefix, at the root element.
 
-        Xacro's namespace as the default namespace counts as one, even if no prefix is used yet.
+        A default namespace that is xacro's own is reported even if no prefix is used yet.
         """
         text = document.source.text
         if "xmlns=" in text and has_xacro_as_default(document) and not declares_xacro(document):

@@ -26,7 +26,7 @@ class UnknownElement(RobotRule):
     Elements with a prefix are accepted as extensions.
 
     The root element must be ``<robot>``. It may contain extensions of any name, so its children are reported only if
-    their name is nearly that of a link, a joint or another known element. The same applies to ``<transmission>`` and
+    their name nearly matches ``link``, ``joint`` or another known element. The same applies to ``<transmission>`` and
     ``<ros2_control>``.
 
     ## Why is this bad?

@@ -22,7 +22,7 @@ class UnknownSuppression(Rule):
     every rule.
 
     ## Why is this bad?
-    The comment does not suppress the intended finding, and may suppress another one once a new rule has this code.
+    The comment does not suppress the intended finding, and may later suppress a new rule that has this code.
 
     ## Example
     ```xml
@@ -37,7 +37,7 @@ class UnknownSuppression(Rule):
     <robot name="arm">
       <link name="base"/>
       <link name="arm"/>
-      <joint name="shoulder" type="hinge"> <!-- urdfkit: ignore J402 our own reader knows it -->
+      <joint name="shoulder" type="hinge"> <!-- urdfkit: ignore J402 our reader supports it -->
         <parent link="base"/>
         <child link="arm"/>
       </joint>

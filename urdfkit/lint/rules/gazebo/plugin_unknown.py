@@ -19,9 +19,9 @@ class PluginUnknown(RobotRule):
     """A plugin library or class is unknown.
 
     ## What it does
-    Checks for file names that are nearly those of a library of gazebo_ros_pkgs, Gazebo Sim or another widely used
-    package. For libraries of Gazebo Sim, also checks that ``name`` is a class of the library. Names that resemble no
-    known library are accepted, because they may be custom libraries.
+    Checks for file names that nearly match a library of gazebo_ros_pkgs, Gazebo Sim or another widely used package. For
+    libraries of Gazebo Sim, also checks that ``name`` is a class of the library. Names that resemble no known library
+    are accepted, because they may be custom libraries.
 
     ## Why is this bad?
     Gazebo reports "Failed to load plugin", and the robot has no drive or sensor. Gazebo Sim looks up a plugin by the

@@ -37,8 +37,8 @@ class SensorTypeUnknown(RobotRule):
     """A sensor has an unknown type.
 
     ## What it does
-    Checks for a ``type`` of a ``<sensor>`` that is nearly an SDF type or a common misnomer, and, for Gazebo classic,
-    for types that only Gazebo Sim has. Other types are accepted, because plugins may define their own.
+    Checks for a ``type`` of a ``<sensor>`` that nearly matches an SDF type or is a common misnomer, and, for Gazebo
+    classic, for types that only Gazebo Sim has. Other types are accepted, because plugins may define their own.
 
     ## Why is this bad?
     Gazebo reports "Unable to create sensor" and publishes nothing.
