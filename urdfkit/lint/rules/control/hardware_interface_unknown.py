@@ -71,10 +71,10 @@ class HardwareInterfaceUnknown(RobotRule):
             package, slash, name = text.rpartition("/")
             if name in INTERFACES and package in ("", PACKAGE):
                 continue
-            known = name if name in INTERFACES else nearest(name, INTERFACES, likeness=0.85)
-            if known is None or (slash and package != PACKAGE and nearest(package, [PACKAGE], likeness=0.7) is None):
+            match = name if name in INTERFACES else nearest(name, INTERFACES, likeness=0.85)
+            if match is None or (slash and package != PACKAGE and nearest(package, [PACKAGE], likeness=0.7) is None):
                 continue
-            qualified = f"{PACKAGE}/{known}"
+            qualified = f"{PACKAGE}/{match}"
             yield self.at(
                 model,
                 element,

@@ -67,7 +67,7 @@ class HardwareMismatch(RobotRule):
     ```
 
     ## Fix safety
-    Unsafe: the fix writes the hardware of the Gazebo plugin, but the plugin may be the one that is wrong.
+    Unsafe: the fix writes the hardware of the Gazebo plugin, but the plugin itself may be wrong.
     """
 
     code = "C709"

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model import Model
 
-_KNOWN = {tag: frozenset(names) for tag, names in URDF_ATTRIBUTES.items()}
+_ALLOWED = {tag: frozenset(names) for tag, names in URDF_ATTRIBUTES.items()}
 _FOREIGN_NAMES = {
     ("limit", "min"): "lower",
     ("limit", "max"): "upper",
@@ -80,14 +80,14 @@ class UnknownAttribute(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each unknown attribute."""
         for element in model.elements:
-            known = URDF_ATTRIBUTES.get(element.tag)
-            if known is not None and not element.attributes.keys() <= _KNOWN[element.tag]:
-                yield from self._check_attributes(model, element, known)
+            allowed = URDF_ATTRIBUTES.get(element.tag)
+            if allowed is not None and not element.attributes.keys() <= _ALLOWED[element.tag]:
+                yield from self._check_attributes(model, element, allowed)
 
-    def _check_attributes(self, model: Model, element: Element, known: tuple[str, ...]) -> Iterator[Finding]:
+    def _check_attributes(self, model: Model, element: Element, allowed: tuple[str, ...]) -> Iterator[Finding]:
         for attribute in element.attributes:
-            if attribute not in known and ":" not in attribute and attribute != "xmlns":
-                suggestion = _FOREIGN_NAMES.get((element.tag, attribute)) or nearest(attribute, known)
+            if attribute not in allowed and ":" not in attribute and attribute != "xmlns":
+                suggestion = _FOREIGN_NAMES.get((element.tag, attribute)) or nearest(attribute, allowed)
                 if suggestion is None or suggestion in element.attributes:
                     suggestion, fix = None, None
                     if attribute in _ALL:
@@ -101,7 +101,7 @@ class UnknownAttribute(RobotRule):
                     attribute=attribute,
                     help=f"did you mean `{suggestion}`?"
                     if suggestion
-                    else f"known attributes: {', '.join(known) or 'none'}",
+                    else f"known attributes: {', '.join(allowed) or 'none'}",
                     fix=fix,
                     severity=None if suggestion or attribute in _ALL else "info",
                 )

@@ -53,7 +53,7 @@ class UnknownSuppression(Rule):
         """Yield a finding for each malformed suppression and each unknown code."""
         from urdfkit.errors import did_you_mean
 
-        known = tuple(codes)
+        rule_codes = tuple(codes)
         for suppression in suppressions:
             if suppression.verb not in ("ignore", "ignore-file"):
                 message = f"unknown suppression `urdfkit: {suppression.verb}`{did_you_mean(suppression.verb, _VERBS)}"
@@ -61,8 +61,8 @@ class UnknownSuppression(Rule):
                     model, suppression.position, message, help="write ignore or ignore-file, followed by rule codes"
                 )
             for code in suppression.codes:
-                if code not in known:
-                    message = f"unknown rule `{code}` in suppression{did_you_mean(code, known)}"
+                if code not in rule_codes:
+                    message = f"unknown rule `{code}` in suppression{did_you_mean(code, rule_codes)}"
                     yield self.at(model, suppression.position, message)
 
 

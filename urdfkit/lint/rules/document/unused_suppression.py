@@ -22,7 +22,7 @@ class UnusedSuppression(Rule):
     is used if it matches a finding of any linted robot.
 
     ## Why is this bad?
-    An unused comment hides future findings that nobody has reviewed.
+    An unused comment hides future findings.
 
     ## Example
     ```xml

@@ -93,7 +93,7 @@ class MaterialUndefined(RobotRule):
                 continue
             from urdfkit.errors import did_you_mean
 
-            suggestion = did_you_mean(name, [known for known in defined if known]).removeprefix("; ")
+            suggestion = did_you_mean(name, [other for other in defined if other]).removeprefix("; ")
             yield self.at(
                 model,
                 material.element,

@@ -80,7 +80,7 @@ class MeshCorrupt(RobotRule):
 
 
 def _fault(path: Path) -> str:
-    """Return what is wrong with a file; empty if no fault is found."""
+    """Return the fault of a mesh file; empty if none is found."""
     try:
         size = path.stat().st_size
         with path.open("rb") as file:

@@ -100,5 +100,5 @@ def _is_translucent(model: Model, visual: Visual) -> bool:
     """Whether a visual is more than half transparent."""
     material = visual.material
     if material is not None and material.rgba is None:
-        material = next((known for known in model.robot.materials if known.name == material.name), None)
+        material = next((defined for defined in model.robot.materials if defined.name == material.name), None)
     return material is not None and material.rgba is not None and material.rgba[3] < _MIN_ALPHA

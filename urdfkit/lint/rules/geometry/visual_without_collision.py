@@ -21,7 +21,7 @@ class VisualWithoutCollision(RobotRule):
     a warning for wheels that a plugin drives.
 
     ## Why is this bad?
-    Planners and simulators let everything pass through the link, and a wheel without collision shape sinks into the
+    In planners and simulators, other bodies pass through the link, and a wheel without collision shape sinks into the
     ground.
 
     ## Example

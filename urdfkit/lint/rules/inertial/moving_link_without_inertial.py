@@ -26,7 +26,7 @@ class MovingLinkWithoutInertial(RobotRule):
     reported once, and only if it is simulated.
 
     ## Why is this bad?
-    Gazebo silently drops the link and everything attached to it; MuJoCo rejects the model.
+    Gazebo silently drops the link and all links attached to it; MuJoCo rejects the model.
 
     ## Example
     ```xml
