@@ -86,8 +86,14 @@ def panel(page: Page, name: str) -> None:
     page.wait_for_selector(f"#panel-{name}:visible")
 
 
+def sized(page: Page) -> None:
+    """Wait until the camera has the shape of its pane, which changes one picture later when a panel opens."""
+    page.wait_for_function("urdfkit.stage.aspect === urdfkit.stage.pane.clientWidth / urdfkit.stage.pane.clientHeight")
+
+
 def drawn(page: Page) -> None:
     """Wait until everything there is to see has been drawn."""
+    sized(page)
     page.evaluate(
         """() => new Promise((done) => {
           const look = () => (urdfkit.stage.viewer.needs_render ? requestAnimationFrame(look) : done());
@@ -98,6 +104,7 @@ def drawn(page: Page) -> None:
 
 def at(page: Page, link: str, local: tuple[float, float, float] = (0, 0, 0)) -> tuple[float, float]:
     """Return where a point of a link is in the window [pixels]."""
+    sized(page)
     x, y = page.evaluate(
         """([link, local]) => { const { labels, stage } = urdfkit.page;
             stage.viewer.render();

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import Visits
-from tests.cli.lab import drawn
+from tests.cli.lab import drawn, sized
 
 pytest.importorskip("meshcat")
 pytest.importorskip("numba")
@@ -54,12 +54,6 @@ def page(opened, until):
     assert visits.problems == []
 
 
-@pytest.fixture
-def until(until):
-    """As everywhere, with patience for a busy machine."""
-    return lambda condition, seconds=60.0: until(condition, seconds)
-
-
 def order(page, order: str, /, **values):
     return page.evaluate("([name, values]) => urdfkit.connection.order(name, values)", [order, values])
 
@@ -77,6 +71,7 @@ def put_down(page) -> None:
 
 def spot(page, x: float, y: float, z: float = 0.0) -> tuple[float, float]:
     """Return where in the window a place of the world is seen."""
+    sized(page)
     found = page.evaluate(
         """([x, y, z]) => {
           const { stage } = urdfkit;

@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("pinocchio")
 pytest.importorskip("meshcat")
 
-from tests.cli.lab import ROBOT, TWINS, at, panel, values, write
+from tests.cli.lab import ROBOT, TWINS, at, drawn, panel, values, write
 
 pytestmark = pytest.mark.browser
 
@@ -88,21 +88,26 @@ def test_a_robot_that_outgrows_the_view_is_fitted_again_but_not_against_a_person
     for size in (2.0, 0.5):
         grow(size)
         until(lambda size=size: radius() == pytest.approx(0.75**0.5 * size))
-    model = page.evaluate("urdfkit.scene.model")
-    grow(0.55)
-    until(lambda: page.evaluate("urdfkit.scene.model") != model)
-    page.wait_for_timeout(200)
+
+    def placed(size: float) -> None:
+        poses = page.evaluate(frames)
+        grow(size)
+        until(lambda: page.evaluate(frames) > poses)
+        page.evaluate("urdfkit.scene.settled()")
+        drawn(page)
+
+    frames = "Number(document.body.dataset.frames)"
+    placed(0.55)
     assert radius() == pytest.approx(0.75**0.5 * 0.5)
     middle = page.locator("#pane").bounding_box()
     page.mouse.move(middle["x"] + middle["width"] / 2, middle["y"] + middle["height"] / 2)
+    place = "urdfkit.stage.viewer.camera.position.toArray()"
+    before = page.evaluate(place)
     page.mouse.wheel(0, 300)
-    page.wait_for_timeout(200)
-    camera = page.evaluate("urdfkit.stage.viewer.camera.position.toArray()")
-    model = page.evaluate("urdfkit.scene.model")
-    grow(3.0)
-    until(lambda: page.evaluate("urdfkit.scene.model") != model)
-    page.wait_for_timeout(200)
-    assert page.evaluate("urdfkit.stage.viewer.camera.position.toArray()") == pytest.approx(camera)
+    until(lambda: page.evaluate(place) != before)
+    camera = page.evaluate(place)
+    placed(3.0)
+    assert page.evaluate(place) == pytest.approx(camera)
 
 
 def test_a_finding_in_a_macro_marks_every_link_it_made(serve, visits, until, tmp_path: Path) -> None:
