@@ -1,4 +1,4 @@
-"""What all tests share: settings of hypothesis, markers for system packages, and the real sdformat."""
+"""What all tests share: settings of hypothesis, time limits, markers for system packages, the real sdformat."""
 
 import os
 import subprocess
@@ -11,6 +11,8 @@ from hypothesis import settings
 from tests import system_packages
 from urdfkit.description.world.library import FOLDER
 from urdfkit.scene.gl.probe import probe
+
+pytest_plugins = ("tests.leftover_processes", "tests.time_limit")
 
 # Machines are shared and noisy, so no example has a deadline. A developer's every run tries new examples; in CI
 # the examples are the same each time, so that a change is judged by itself.

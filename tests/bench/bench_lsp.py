@@ -6,13 +6,14 @@ change sent to the diagnostics received. CPU is that of the server, where the sy
 
 from __future__ import annotations
 
-import importlib.util
 import sys
 import tempfile
 import time
 from pathlib import Path
 
-HERE = Path(__file__).parent
+sys.path.insert(0, str(Path(__file__).parents[2]))
+
+from tests.lsp.conftest import connected
 
 HEAD = (
     '<robot name="chain" xmlns:xacro="http://www.ros.org/wiki/xacro">\n  <xacro:property name="size" value="0.05"/>\n'
@@ -59,29 +60,23 @@ def robot(links: int, mass: str, *, form: str) -> str:
 def main() -> int:
     links = int(sys.argv[1]) if len(sys.argv) > 1 else 100
     edits = int(sys.argv[2]) if len(sys.argv) > 2 else 60
-    found = importlib.util.spec_from_file_location("client", HERE.parent / "lsp" / "conftest.py")
-    assert found is not None
-    assert found.loader is not None
-    module = importlib.util.module_from_spec(found)
-    found.loader.exec_module(module)
     for form in ("plain", "written", "macro"):
         name = "chain.urdf" if form == "plain" else "chain.urdf.xacro"
         with tempfile.TemporaryDirectory() as folder:
             place = Path(folder).resolve()
             (place / name).write_text(robot(links, "1.0", form=form))
-            client = module.Client(place)
-            client.open(name)
-            client.published(name)
-            walls, cpus = [], []
-            for edit in range(edits):
-                mass = f"{1.0 + edit / 1000:.3f}" if edit % 5 else "-1.0"
-                before, start = cpu_of(client.process.pid), time.perf_counter()
-                client.change(name, robot(links, mass, form=form))
-                diagnostics = client.published(name)
-                walls.append(time.perf_counter() - start)
-                cpus.append(cpu_of(client.process.pid) - before)
-                assert bool(diagnostics) is (mass == "-1.0")
-            client.close()
+            with connected(place) as client:
+                client.open(name)
+                client.published(name)
+                walls, cpus = [], []
+                for edit in range(edits):
+                    mass = f"{1.0 + edit / 1000:.3f}" if edit % 5 else "-1.0"
+                    before, start = cpu_of(client.process.pid), time.perf_counter()
+                    client.change(name, robot(links, mass, form=form))
+                    diagnostics = client.published(name)
+                    walls.append(time.perf_counter() - start)
+                    cpus.append(cpu_of(client.process.pid) - before)
+                    assert bool(diagnostics) is (mass == "-1.0")
         print(f"{form:8s} {links} links  wall {spread(walls)}   cpu {spread(cpus)}")
     return 0
 

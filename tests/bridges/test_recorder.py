@@ -10,6 +10,7 @@ import pytest
 
 pytest.importorskip("rosbags.rosbag2")
 
+from tests.processes import signals
 from urdfkit.bridges.recorder import Recorder
 from urdfkit.bus import Bus
 from urdfkit.cli import main
@@ -103,11 +104,12 @@ def test_ctrl_c_waits_until_a_message_is_written(tmp_path: Path, monkeypatch: py
         write(*words)
 
     monkeypatch.setattr(recorder._writer, "write", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        bus.publish("/x", FLOAT, number(1.0))
+    with signals():
+        with pytest.raises(KeyboardInterrupt):
+            bus.publish("/x", FLOAT, number(1.0))
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
     recorder.close()
     assert [message.data for _, _, message in read(tmp_path / "a.mcap")] == [1.0]
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 def test_a_run_is_recorded_and_the_same_run_gives_the_same_bytes(

@@ -7,9 +7,8 @@ import re
 import signal
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,6 +16,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from tests.cli.lab import write
+from tests.processes import running
+from tests.time_limit import PATIENCE
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, Page
@@ -35,8 +36,6 @@ FLAGS = [
 READY = "body[data-ready=true]:is([data-mode=view], [data-running=true])"
 """The robot is seen, and what moves it is there."""
 ARTIFACTS = Path(__file__).parents[2] / "artifacts"
-FIRST_USE = 180.0
-"""Seconds until a robot is on the page; on first use the physics kernel is compiled."""
 
 
 @dataclass
@@ -53,7 +52,7 @@ class Served:
 
     def end(self, how: signal.Signals = signal.SIGINT) -> int:
         self.process.send_signal(how)
-        return self.process.wait(timeout=20)
+        return self.process.wait(timeout=PATIENCE)
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -67,36 +66,36 @@ def own_folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 @contextmanager
 def serving(folder: Path) -> Iterator[Callable[..., Served]]:
     """Yield what starts ``urdfkit …`` and waits for the address on its first line; Ctrl-C at the end must be clean."""
-    running: list[Served] = []
+    started: list[Served] = []
 
-    def start(*words: str) -> Served:
-        errors = folder / f"stderr-{len(running)}"
+    def start(*words: str, ignored: Sequence[signal.Signals] = ()) -> Served:
+        errors = folder / f"stderr-{len(started)}"
         command = [sys.executable, "-m", "urdfkit", *words, "--port", "0", "--no-browser"]
         with errors.open("w") as stderr:
-            process = subprocess.Popen(
+            program = running(
                 command,
+                ignored=ignored,
                 stdout=subprocess.PIPE,
                 stderr=stderr,
                 text=True,
                 cwd=folder,
                 env=os.environ | {"XDG_RUNTIME_DIR": str(folder)},  # what is noted of it is not the user's
             )
+            process = programs.enter_context(program)
         line = process.stdout.readline().strip() if process.stdout else ""
         served = Served(process, line, errors)
-        running.append(served)
+        started.append(served)
         assert re.fullmatch(r"http://127\.0\.0\.1:\d+/\?token=[\w-]{32}", line), errors.read_text()
         return served
 
-    try:
+    with ExitStack() as programs:
         yield start
-    finally:
-        codes = [served.end() if served.process.poll() is None else served.process.returncode for served in running]
-    for served in running:
-        assert "Traceback" not in served.errors.read_text()
-        if served.process.stdout:
-            assert served.process.stdout.read() == ""
-            served.process.stdout.close()
-    assert set(codes) <= {0, 130}
+        codes = [served.end() if served.process.poll() is None else served.process.returncode for served in started]
+        for served in started:
+            assert "Traceback" not in served.errors.read_text()
+            if served.process.stdout:
+                assert served.process.stdout.read() == ""
+        assert set(codes) <= {0, 130}, [(served.process.args, served.errors.read_text()) for served in started]
 
 
 @pytest.fixture
@@ -136,6 +135,7 @@ class Visits:
 
     def open(self, url: str, *, ready: bool = True, **context: object) -> Page:
         made = self.browser.new_context(**{"viewport": {"width": 1280, "height": 800}} | context)
+        made.set_default_timeout(PATIENCE * 1000)
         self.contexts.append(made)
         page = made.new_page()
         page.on("pageerror", lambda error: self.problems.append(str(error)))
@@ -143,7 +143,7 @@ class Visits:
         page.on("request", lambda request: self.requests.append(request.url))
         page.goto(url)
         if ready:
-            page.wait_for_selector(READY, timeout=FIRST_USE * 1000)
+            page.wait_for_selector(READY)
         return page
 
     def _heard(self, kind: str, text: str) -> None:
@@ -206,17 +206,3 @@ def keep(request: pytest.FixtureRequest) -> Callable[[Page, str], None]:
         page.screenshot(path=ARTIFACTS / f"{request.module.__name__.split('.')[-1].removeprefix('test_')}-{name}.png")
 
     return screenshot
-
-
-@pytest.fixture
-def until() -> Callable[..., object]:
-    """Waits until a condition holds and returns its value; fails the test when it takes too long."""
-
-    def wait(condition: Callable[[], object], seconds: float = 60.0) -> object:
-        end = time.monotonic() + seconds
-        while not (found := condition()):
-            assert time.monotonic() < end, f"waited {seconds} s in vain"
-            time.sleep(0.02)
-        return found
-
-    return wait

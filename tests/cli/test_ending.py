@@ -3,13 +3,14 @@ import signal
 
 import pytest
 
+from tests.processes import signals
 from urdfkit.cli import main
 from urdfkit.cli.ending import ended_by_signals
 
 
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_ends_the_block_and_what_it_did_before_is_back(how):
-    before, undone = signal.getsignal(how), []
+    undone = []
 
     def write():
         with ended_by_signals():
@@ -19,11 +20,12 @@ def test_a_signal_ends_the_block_and_what_it_did_before_is_back(how):
                 signal.raise_signal(how)
                 undone.append("undone")
 
-    with pytest.raises(SystemExit) as ended:
-        write()
+    with signals():
+        with pytest.raises(SystemExit) as ended:
+            write()
+        assert signal.getsignal(how) == signal.SIG_DFL
     assert ended.value.code == 128 + how
     assert undone == ["undone"]
-    assert signal.getsignal(how) == before
 
 
 def test_ctrl_c_at_a_question_leaves_the_line(tmp_path, monkeypatch):

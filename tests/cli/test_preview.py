@@ -1,16 +1,19 @@
 """`urdfkit new robot` on a terminal: it asks, and the page in the browser follows the answers."""
 
 import asyncio
+import codecs
 import os
 import re
 import select
 import signal
-import subprocess
 import sys
 import time
+from contextlib import ExitStack
 
 import pytest
 
+from tests.processes import running
+from tests.time_limit import PATIENCE
 from urdfkit.cli.preview import Preview, can_preview
 from urdfkit.description import load
 from urdfkit.errors import ResourceError
@@ -20,25 +23,14 @@ from urdfkit.scaffold import load_template
 
 pty = pytest.importorskip("pty")
 TEMPLATE = load_template(templates_dir() / "robot")
-PATIENCE = 40.0
 
 
 class Terminal:
-    """urdfkit at work on a terminal of its own."""
+    """urdfkit at work on a terminal of its own, of which `master` is our end."""
 
-    def __init__(self, folder, *words):
-        self.master, slave = pty.openpty()
-        env = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")}
-        env |= {
-            "HOME": str(folder),
-            "GIT_CONFIG_NOSYSTEM": "1",
-            "GIT_CONFIG_GLOBAL": "/dev/null",
-            "TMPDIR": str(folder),
-        }
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "urdfkit", *words], stdin=slave, stdout=slave, stderr=slave, cwd=folder, env=env
-        )
-        os.close(slave)
+    def __init__(self, master, process):
+        self.master, self.process = master, process
+        self.decoder = codecs.getincrementaldecoder("utf-8")()
         self.said = ""
 
     def until(self, pattern):
@@ -48,7 +40,7 @@ class Terminal:
             assert time.monotonic() < end, self.said
             if select.select([self.master], [], [], 0.2)[0]:
                 try:
-                    self.said += os.read(self.master, 65536).decode()
+                    self.said += self.decoder.decode(os.read(self.master, 65536))
                 except OSError:  # the other side is closed
                     raise AssertionError(self.said) from None
         self.said = self.said[found.end() :]
@@ -57,24 +49,29 @@ class Terminal:
     def type(self, line):
         os.write(self.master, f"{line}\n".encode())
 
-    def close(self):
-        if self.process.poll() is None:
-            self.process.terminate()
-        self.process.wait(PATIENCE)
-        os.close(self.master)
-
 
 @pytest.fixture
 def terminal(tmp_path):
-    made = []
+    env = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")}
+    env |= {
+        "HOME": str(tmp_path),
+        "GIT_CONFIG_NOSYSTEM": "1",
+        "GIT_CONFIG_GLOBAL": "/dev/null",
+        "TMPDIR": str(tmp_path),
+    }
+    with ExitStack() as programs:
 
-    def start(*words):
-        made.append(Terminal(tmp_path, *words))
-        return made[-1]
+        def start(*words):
+            master, slave = pty.openpty()
+            programs.callback(os.close, master)
+            ends = dict.fromkeys(("stdin", "stdout", "stderr"), slave)
+            program = running([sys.executable, "-m", "urdfkit", *words], cwd=tmp_path, env=env, **ends)
+            try:
+                return Terminal(master, programs.enter_context(program))
+            finally:
+                os.close(slave)
 
-    yield start
-    for each in made:
-        each.close()
+        yield start
 
 
 def links_on(url):
@@ -91,7 +88,7 @@ def links_on(url):
     return asyncio.run(ask())
 
 
-def test_the_page_follows_the_answers(terminal, tmp_path):
+def test_the_page_follows_the_answers(terminal, until, tmp_path):
     asking = terminal("new", "robot")
     url = asking.until(r"preview: (http://127\.0\.0\.1:\d+/\?token=\S+)")[1]
     assert "left_wheel" in " ".join(links_on(url))  # before anything was asked
@@ -102,10 +99,7 @@ def test_the_page_follows_the_answers(terminal, tmp_path):
     asking.until(r"Drive [^\n]*: ")
     asking.type("skid")
     asking.until(r"Length of the base[^\n]*: ")
-    end = time.monotonic() + PATIENCE
-    while "front_left_wheel" not in " ".join(links_on(url)):
-        assert time.monotonic() < end
-        time.sleep(0.2)
+    until(lambda: "front_left_wheel" in " ".join(links_on(url)))
     for _ in range(30):
         asking.type("")
     asking.until(r"rover_description +\d+ files")

@@ -28,14 +28,14 @@ def test_an_arm_is_moved_by_its_sliders_and_a_depth_camera_gives_a_cloud(serve, 
     assert not page.locator("#position, #heading, #velocity").filter(visible=True).count()
     until(lambda: page.locator("#panel-arms").is_visible())  # nothing drives: the arms come first
     page.locator(".unfold").first.click()  # it has many controllers
-    until(lambda: page.locator(".real").first.inner_text().startswith("is at"), 60)
+    until(lambda: page.locator(".real").first.inner_text().startswith("is at"))
     row = page.locator(".controller li").first
     joint = row.get_attribute("data-joint")
     unit = page.locator(".controller .unit").first.inner_text()
     assert unit in ("rad", "m")
     row.locator("input.number").fill("0.4")
     row.locator("input.number").press("Enter")
-    until(lambda: abs(float(row.locator(".real").inner_text().split()[2]) - 0.4) < 0.1, 60)
+    until(lambda: abs(float(row.locator(".real").inner_text().split()[2]) - 0.4) < 0.1)
     keep(page, "arms")
     assert joint
     page.evaluate("urdfkit.page.panels.open('sensors')")
@@ -43,7 +43,7 @@ def test_an_arm_is_moved_by_its_sliders_and_a_depth_camera_gives_a_cloud(serve, 
     assert page.evaluate(f"{clouds}.length") >= 1
     assert not page.evaluate(f"{clouds}[0].on")  # a camera's cloud waits until it is asked for
     page.evaluate(f"{clouds}[0].box.click()")
-    until(lambda: page.evaluate(f"{clouds}[0].on && {clouds}[0].count > 200"), 60)
+    until(lambda: page.evaluate(f"{clouds}[0].on && {clouds}[0].count > 200"))
     assert page.evaluate(f"{clouds}[0].cloud.colored")
     drawn(page)
     keep(page, "cloud")
@@ -88,10 +88,10 @@ def test_a_page_comes_back_when_the_server_does(visits, until, keep, tmp_path, m
     first = served(port, "first")
     page = seen(visits, first.url)
     first.stop()
-    until(lambda: page.locator("#state").inner_text() in ("urdfkit is not running", "reconnecting"), 60)
+    until(lambda: page.locator("#state").inner_text() in ("urdfkit is not running", "reconnecting"))
     second = served(port, "second")
     try:
-        until(lambda: page.locator("#robot-name").inner_text() == "second", 60)
+        until(lambda: page.locator("#robot-name").inner_text() == "second")
         assert page.locator("#state").inner_text() == "connected"
         assert page.evaluate("urdfkit.scene.nodes.length") == 1
     finally:
@@ -99,7 +99,7 @@ def test_a_page_comes_back_when_the_server_does(visits, until, keep, tmp_path, m
     (tmp_path / "urdfkit" / f"page-{port}.json").unlink()
     third = served(port, "third")
     try:
-        until(lambda: "open its new address" in page.locator("#state").inner_text(), 60)
+        until(lambda: "open its new address" in page.locator("#state").inner_text())
         keep(page, "new-key")
     finally:
         third.stop()

@@ -182,7 +182,7 @@ def test_frames_tell_sensor_kind_and_time() -> None:
 def test_the_page_shows_points_and_pictures(serve_for_all, visits, keep, until) -> None:
     server = serve_for_all("sim", "teleop", LASER, "--world", "cylinders")
     page = visits.open(server.url, viewport={"width": 1100, "height": 700})
-    page.wait_for_selector("#progress", state="hidden", timeout=180_000)
+    page.wait_for_selector("#progress", state="hidden")
     until(lambda: page.evaluate("urdfkit.sensors.shown[0]?.count ?? 0") > 50)
     keep(page, "scan")
     page.get_by_label("/scan").first.click()
@@ -209,7 +209,7 @@ def test_the_page_shows_points_and_pictures(serve_for_all, visits, keep, until) 
 def test_the_page_shows_what_the_camera_sees(serve_for_all, visits, keep, until) -> None:
     server = serve_for_all("sim", "teleop", "simpleton", "--world", "house")
     page = visits.open(server.url, viewport={"width": 1100, "height": 700})
-    page.wait_for_selector("#progress", state="hidden", timeout=180_000)
+    page.wait_for_selector("#progress", state="hidden")
     until(lambda: page.evaluate("urdfkit.sensors.shown[0]?.image?.naturalWidth ?? 0") == 320)
     keep(page, "camera")
     assert visits.problems == []
@@ -248,6 +248,6 @@ def test_the_page_shows_labels_in_colours_that_are_not_mixed(serve, visits, keep
     page = visits.open(
         serve("sim", "teleop", str(robot), "--world", str(world)).url, viewport={"width": 1000, "height": 640}
     )
-    until(lambda: len(page.evaluate(COLORS)) == 3, 60)  # two labels, and what has none
+    until(lambda: len(page.evaluate(COLORS)) == 3)  # two labels, and what has none
     keep(page, "labels")
     assert visits.problems == []

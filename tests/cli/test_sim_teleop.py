@@ -52,7 +52,7 @@ def simpleton(serve_for_all):
 def driving(simpleton, visits, until):
     """Simpleton on the page, where it starts."""
     page = visits.open(simpleton.url, viewport={"width": 960, "height": 600})
-    page.wait_for_selector("#progress", state="hidden", timeout=180_000)
+    page.wait_for_selector("#progress", state="hidden")
     page.get_by_role("button", name="Reset").click()
     until(lambda: max(map(abs, at(page))) < 1e-3)
     return simpleton, page
@@ -414,7 +414,7 @@ def test_a_ride_is_recorded_until_it_is_interrupted(serve, tmp_path, until) -> N
     from rosbags.rosbag2 import Reader
 
     served = serve("sim", "teleop", "simpleton", "--record", "ride.mcap")
-    until(lambda: "Drive with" in served.errors.read_text(), 180.0)
+    until(lambda: "Drive with" in served.errors.read_text())
     echo = [sys.executable, "-m", "urdfkit", "topic", "echo", "/clock", "-n", "20"]  # finds it by its note
     env = os.environ | {"XDG_RUNTIME_DIR": str(tmp_path)}
     until(lambda: subprocess.run(echo, env=env, stdout=subprocess.DEVNULL, check=False).returncode == 0)

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Iterator
+from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Any
 
 import pytest
 import yaml
@@ -20,6 +18,8 @@ import yaml
 pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
+from tests.processes import running
+from tests.time_limit import PATIENCE
 from urdfkit.cli import main
 from urdfkit.cli.sim.ride.loop import Ride
 from urdfkit.cli.sim.ride.pace import FRAME
@@ -195,9 +195,9 @@ def test_a_simulation_that_is_starting_is_found_and_says_what_it_does(tmp_path: 
         assert capsys.readouterr().err == "urdfkit: the simulation says: no such wheel\n"
 
 
-def start(*words: str) -> subprocess.Popen[str]:
+def start(*words: str) -> AbstractContextManager[subprocess.Popen[str]]:
     command = [sys.executable, "-m", "urdfkit", "topic", *words]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ})
+    return running(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
 def test_ctrl_c_ends_it_quietly(ride, until) -> None:
@@ -205,7 +205,7 @@ def test_ctrl_c_ends_it_quietly(ride, until) -> None:
         assert echo.stdout is not None
         assert "clock" in echo.stdout.readline()
         echo.send_signal(signal.SIGINT)
-        assert echo.communicate(timeout=20)[1] == ""
+        assert echo.communicate(timeout=PATIENCE)[1] == ""
         assert echo.returncode == 0
     until(lambda: listeners(ride, "/clock") == 0)
 
@@ -215,7 +215,7 @@ def test_a_closed_pipe_ends_it_quietly(ride, until) -> None:
         assert echo.stdout is not None
         assert echo.stdout.readline() == "clock:\n"
         echo.stdout.close()
-        assert echo.wait(timeout=20) == 141
+        assert echo.wait(timeout=PATIENCE) == 141
         assert echo.stderr is not None
         assert echo.stderr.read() == ""
     until(lambda: listeners(ride, "/clock") == 0)
@@ -225,19 +225,6 @@ def test_nothing_heavy_is_imported_for_the_help() -> None:
     code = "import sys; from urdfkit.cli import main\ntry: main(['topic', '--help'])\nexcept SystemExit: pass\n"
     code += "heavy = {'numpy', 'pinocchio', 'tornado', 'yaml'} & set(sys.modules); assert not heavy, heavy"
     subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
-
-
-@pytest.fixture
-def until():
-    """Waits until a condition holds."""
-
-    def wait(condition: Any) -> None:
-        end = time.monotonic() + 60
-        while not condition():
-            assert time.monotonic() < end, "waited a minute in vain"
-            time.sleep(0.01)
-
-    return wait
 
 
 # Without a simulation

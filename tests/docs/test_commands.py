@@ -11,6 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.processes import running
+from tests.time_limit import PATIENCE
+
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 SERVES = ("view", "sim teleop")
@@ -40,17 +43,12 @@ def shown_commands(page: Path) -> list[str]:
 def run(command: str, folder: Path) -> None:
     words = [sys.executable, "-m", "urdfkit", *shlex.split(command)[1:]]
     if command.startswith(tuple(f"urdfkit {name}" for name in SERVES)):
-        process = subprocess.Popen(
-            [*words, "--no-browser", "--port", "0"],
-            cwd=folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        assert process.stdout is not None
-        line = process.stdout.readline()
-        process.terminate()
-        _, errors = process.communicate(timeout=30)
+        served = [*words, "--no-browser", "--port", "0"]
+        with running(served, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            assert process.stdout is not None
+            line = process.stdout.readline()
+            process.terminate()
+            _, errors = process.communicate(timeout=PATIENCE)
         assert "http://127.0.0.1:" in line, errors
         return
     done = subprocess.run(

@@ -20,7 +20,7 @@ from tf2_msgs.msg import TFMessage
 
 PUBLISHER = "/usr/lib/robot_state_publisher/robot_state_publisher"
 STAMP_STEP = 0.05  # [s] robot_state_publisher drops states whose stamps are less than 20 ms apart
-PATIENCE = 30.0  # [s] for anything to start
+PATIENCE = 180.0  # [s] for anything to start or to end
 
 
 class Listener:
@@ -63,7 +63,7 @@ def running(command):
     finally:
         process.send_signal(signal.SIGINT)
         try:
-            process.wait(10)
+            process.wait(PATIENCE)
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import signal
 import socket
 import subprocess
 from pathlib import Path
@@ -14,6 +13,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+from tests.processes import running
 from urdfkit.description import load
 from urdfkit.description.expand import expand
 from urdfkit.kinematics import TransformTree
@@ -77,26 +77,8 @@ def test_robot_state_publisher_agrees(model: Path, ros: dict[str, str]) -> None:
 
 def _published(urdf: str, states: list[dict[str, float]], environment: dict[str, str]) -> list[Any]:
     """Return what robot_state_publisher makes of these joint states; nothing is left running."""
-    process = subprocess.Popen(
-        ["/usr/bin/python3", str(SCRIPT)],
-        env=environment,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    try:
-        out, err = process.communicate(json.dumps({"urdf": urdf, "states": states}), timeout=120)
-    finally:
-        _end(process)
+    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+    with running(["/usr/bin/python3", str(SCRIPT)], env=environment, text=True, **pipes) as process:
+        out, err = process.communicate(json.dumps({"urdf": urdf, "states": states}))
     assert process.returncode == 0, err
     return list(json.loads(out))
-
-
-def _end(process: subprocess.Popen[str]) -> None:
-    try:
-        os.killpg(process.pid, signal.SIGKILL)
-    except ProcessLookupError:
-        return
-    process.wait()

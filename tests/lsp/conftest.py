@@ -6,29 +6,27 @@ import json
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from tests.processes import running
+from tests.time_limit import PATIENCE
+
 
 class Client:
-    """Starts ``urdfkit lsp`` in a folder and talks to it.
+    """Talks to ``urdfkit lsp``.
 
     Args:
         folder: the working folder of the server.
-        words: further arguments.
+        process: the server.
     """
 
-    def __init__(self, folder: Path, *words: str) -> None:
+    def __init__(self, folder: Path, process: subprocess.Popen[bytes]) -> None:
         self.folder = folder
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "urdfkit", "lsp", *words],
-            cwd=folder,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-        )
+        self.process = process
         self._number = 0
         self._versions: dict[str, int] = {}
         self.diagnostics: dict[str, list[dict[str, Any]]] = {}
@@ -112,18 +110,27 @@ class Client:
         position = {"line": before.count("\n"), "character": column}
         return {"textDocument": {"uri": self.uri(name)}, "position": position}
 
-    def close(self) -> None:
-        """End the server as an editor does."""
+    def close(self) -> str:
+        """End the server as an editor does; return what it has written to standard error."""
         self.ask("shutdown", {})
         self.tell("exit", {})
-        self.process.wait(timeout=30)
-        for pipe in (self.process.stdin, self.process.stdout, self.process.stderr):
-            assert pipe is not None
-            pipe.close()
+        assert self.process.wait(timeout=PATIENCE) == 0
+        assert self.process.stderr is not None
+        return self.process.stderr.read().decode()
+
+
+@contextmanager
+def connected(folder: Path, *words: str) -> Iterator[Client]:
+    """Run ``urdfkit lsp`` with these arguments in a folder, and talk to it."""
+    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+    with running([sys.executable, "-m", "urdfkit", "lsp", *words], cwd=folder, **pipes) as process:
+        client = Client(folder, process)
+        yield client
+        if process.poll() is None:
+            client.close()
 
 
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Client]:
-    found = Client(tmp_path_factory.mktemp("project"), "--target", "any")
-    yield found
-    found.close()
+    with connected(tmp_path_factory.mktemp("project"), "--target", "any") as found:
+        yield found

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.lsp.conftest import Client
+from tests.lsp.conftest import connected
 
 TEXT = '<robot name="r">\n<link name="a"/>\n<link name="b"/>\n</robot>\n'
 JOINT = '<joint name="j" type="revolute"><parent link="a"/><child link="b"/></joint>'
@@ -16,21 +16,8 @@ JOINT = '<joint name="j" type="revolute"><parent link="a"/><child link="b"/></jo
 @pytest.fixture
 def client(tmp_path):
     (tmp_path / "r.urdf").write_text(TEXT)
-    one = Client(tmp_path)
-    yield one
-    if one.process.poll() is None:
-        one.close()
-
-
-def said_at_the_end(client):
-    """Return what the server has written to standard error."""
-    client.ask("shutdown", {})
-    client.tell("exit", {})
-    assert client.process.wait(timeout=30) == 0
-    said = client.process.stderr.read().decode()
-    for pipe in (client.process.stdin, client.process.stdout, client.process.stderr):
-        pipe.close()
-    return said
+    with connected(tmp_path) as one:
+        yield one
 
 
 def test_what_is_refused_leaves_nothing_on_standard_error(client):
@@ -43,7 +30,7 @@ def test_what_is_refused_leaves_nothing_on_standard_error(client):
         with pytest.raises(AssertionError, match=r"should be in range \[0:2147483647\], but was"):
             client.ask("textDocument/hover", place)
     assert client.ask("textDocument/hover", at) is not None
-    assert said_at_the_end(client) == ""
+    assert client.close() == ""
 
 
 def test_a_change_that_makes_no_sense_is_one_line(client):
@@ -52,7 +39,7 @@ def test_a_change_that_makes_no_sense_is_one_line(client):
     document = {"uri": client.uri("r.urdf"), "version": 2}
     client.tell("textDocument/didChange", {"textDocument": document, "contentChanges": [change]})
     assert client.ask("textDocument/hover", client.at("r.urdf", TEXT, 'link name="|a')) is not None
-    said = said_at_the_end(client).splitlines()
+    said = client.close().splitlines()
     assert len(said) == 1
     assert "Position.line should be in range" in said[0]
 
@@ -71,7 +58,7 @@ def test_an_element_typed_key_by_key_is_answered_at_every_key(client):
     client.change("r.urdf", f"{before}{JOINT[:typed]}\n</robot>{after}")
     at = {"textDocument": {"uri": client.uri("r.urdf")}, "position": {**place, "character": typed}}
     assert {"a", "b"} <= {item["label"] for item in client.ask("textDocument/completion", at)}
-    assert said_at_the_end(client) == ""
+    assert client.close() == ""
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no FIFOs here")
@@ -87,4 +74,4 @@ def test_what_is_no_regular_file_is_not_waited_for(client):
         client.tell("textDocument/didSave", {"textDocument": {"uri": uri}})
         client.tell("textDocument/didClose", {"textDocument": {"uri": uri}})
         assert client.ask("textDocument/hover", at) is None
-    assert said_at_the_end(client) == ""
+    assert client.close() == ""

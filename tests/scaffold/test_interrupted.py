@@ -5,35 +5,40 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
+from contextlib import contextmanager
 
 import pytest
 
+from tests.processes import running
+from tests.time_limit import PATIENCE
 from urdfkit.cli import main
 
-NEW = [
-    sys.executable,
-    "-m",
-    "urdfkit",
-    "new",
-    "robot",
-    "scout",
-    "--arm",
-    "6",
-    "--sensor",
-    "lidar,camera",
-    "--yes",
-    "-q",
-]
+SCOUT = ["new", "robot", "scout", "--arm", "6", "--sensor", "lidar,camera", "--yes", "-q"]
+NEW = [sys.executable, "-m", "urdfkit", *SCOUT]
+HELD = """
+from urdfkit import atomic
+
+def held(staged, folder):
+    print("written", flush=True)
+    input()
+    return move(staged, folder)
+
+move, atomic.move_into_place = atomic.move_into_place, held
+from urdfkit.cli import program
+program()
+"""
+"""urdfkit, which waits for a line on standard input when a robot is written and not yet moved into place."""
 
 
-def started(folder, *options):
-    """Start to write a robot; return the process when it has begun to write."""
-    process = subprocess.Popen([*NEW, *options], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    while process.poll() is None and not list(folder.glob("**/.urdfkit-*/*")):
-        time.sleep(0.005)
-    assert process.poll() is None, "too quick to be interrupted"
-    return process
+@contextmanager
+def writing(folder, *options, ignored=()):
+    """Start to write a robot; yield the process when it has written and waits."""
+    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+    command = [sys.executable, "-c", HELD, *SCOUT, *options]
+    with running(command, ignored=ignored, cwd=folder, text=True, **pipes) as process:
+        assert process.stdout.readline() == "written\n"
+        assert list(folder.glob("**/.urdfkit-*/*"))
+        yield process
 
 
 @pytest.fixture
@@ -43,9 +48,9 @@ def folder(tmp_path):
 
 
 def test_ctrl_c_leaves_nothing(folder):
-    process = started(folder)
-    process.send_signal(signal.SIGINT)
-    _, said = process.communicate(timeout=60)
+    with writing(folder) as process:
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130
     assert "Traceback" not in said
     assert [path.name for path in folder.iterdir()] == ["mine"]
@@ -53,34 +58,31 @@ def test_ctrl_c_leaves_nothing(folder):
 
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGHUP])
 def test_being_told_to_end_leaves_nothing_not_even_the_folder_it_made(folder, how):
-    process = started(folder, "--into", "src")
-    process.send_signal(how)
-    _, said = process.communicate(timeout=60)
+    with writing(folder, "--into", "src") as process:
+        process.send_signal(how)
+        _, said = process.communicate(timeout=PATIENCE)
     assert process.returncode == 128 + how
     assert said == ""
     assert [path.name for path in folder.iterdir()] == ["mine"]
 
 
-def test_a_closed_terminal_does_not_end_what_was_told_not_to_mind(folder):
-    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup does
-    try:
-        process = started(folder)
-    finally:
-        signal.signal(signal.SIGHUP, before)
-    process.send_signal(signal.SIGHUP)
-    process.communicate(timeout=60)
+@pytest.mark.parametrize("how", [signal.SIGHUP, signal.SIGINT])  # as nohup does, and a script for a background job
+def test_an_ignored_signal_stays_ignored(folder, how):
+    with writing(folder, ignored=[how]) as process:
+        process.send_signal(how)
+        process.communicate("\n", timeout=PATIENCE)
     assert process.returncode == 0
     assert (folder / "scout_description").is_dir()
 
 
 def test_what_a_killed_run_leaves_is_hidden_and_gone_with_the_next(folder):
-    process = started(folder)
-    process.kill()
-    process.communicate(timeout=60)
+    with writing(folder) as process:
+        process.kill()
+        process.communicate(timeout=PATIENCE)
     left = sorted(path.name for path in folder.iterdir())
     assert len(left) == 2
     assert left[0].startswith(".urdfkit-")
-    assert subprocess.run(NEW, cwd=folder, capture_output=True, check=False, timeout=120).returncode == 0
+    assert subprocess.run(NEW, cwd=folder, capture_output=True, check=False).returncode == 0
     assert sorted(path.name for path in folder.iterdir()) == [
         "mine",
         *(f"scout_{package}" for package in ("bringup", "control", "description", "gazebo")),
@@ -88,16 +90,12 @@ def test_what_a_killed_run_leaves_is_hidden_and_gone_with_the_next(folder):
 
 
 def test_the_folder_of_a_run_that_goes_on_stays(folder):
-    process = started(folder)
-    process.send_signal(signal.SIGSTOP)
-    try:
+    with writing(folder) as process:
         (stage,) = folder.glob(".urdfkit-*")
         other = [word.replace("scout", "other") for word in NEW]
-        assert subprocess.run(other, cwd=folder, capture_output=True, check=False, timeout=120).returncode == 0
+        assert subprocess.run(other, cwd=folder, capture_output=True, check=False).returncode == 0
         assert stage.is_dir()
-    finally:
-        process.send_signal(signal.SIGCONT)
-    process.communicate(timeout=120)
+        process.communicate("\n", timeout=PATIENCE)
     assert process.returncode == 0
     assert (folder / "scout_description").is_dir()
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import http.client
 import json
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from urllib.parse import urlsplit
@@ -13,6 +12,7 @@ import numpy as np
 import pytest
 import websocket
 
+from tests.time_limit import PATIENCE
 from urdfkit.description.robot import Box, Cylinder
 from urdfkit.scene import Scene, Shape
 from urdfkit.view.nodes import draw, link_path
@@ -79,7 +79,7 @@ class Client:
         return f"127.0.0.1:{self.server.port}"
 
     def get(self, path: str, *, method: str = "GET", **headers: str | None) -> Answer:
-        connection = http.client.HTTPConnection("127.0.0.1", self.server.port, timeout=10)
+        connection = http.client.HTTPConnection("127.0.0.1", self.server.port, timeout=PATIENCE)
         try:
             own = {"Host": self.host, "Cookie": self.cookie} | {k.replace("_", "-"): v for k, v in headers.items()}
             connection.putrequest(method, path, skip_host=True, skip_accept_encoding=True)
@@ -101,7 +101,7 @@ class Client:
     def socket(self, **options: str | None) -> websocket.WebSocket:
         connected = websocket.create_connection(
             f"ws://127.0.0.1:{self.server.port}/ws",
-            timeout=10,
+            timeout=PATIENCE,
             **{"origin": f"http://{self.host}", "cookie": self.cookie, "host": self.host} | options,
         )
         self.sockets.append(connected)
@@ -146,17 +146,3 @@ def poses() -> Callable[[websocket.WebSocket], bytes]:
                 return frame
 
     return next_poses
-
-
-@pytest.fixture
-def until() -> Callable[[Callable[[], object]], object]:
-    """Waits until a condition holds and returns its value; fails the test after ten seconds."""
-
-    def wait(condition: Callable[[], object]) -> object:
-        end = time.monotonic() + 10
-        while not (found := condition()):
-            assert time.monotonic() < end, "waited ten seconds in vain"
-            time.sleep(0.005)
-        return found
-
-    return wait

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import umsgpack
 
+from tests.time_limit import PATIENCE
 from urdfkit.errors import UsageError
 from urdfkit.view.protocol import Axes
 from urdfkit.view.server import Server
@@ -134,7 +135,7 @@ def test_pages_are_said_goodbye_to(scene) -> None:
     with Server("view", port=0) as server:
         connected = websocket.create_connection(
             f"ws://127.0.0.1:{server.port}/ws",
-            timeout=10,
+            timeout=PATIENCE,
             origin=f"http://127.0.0.1:{server.port}",
             cookie=f"{server.gate.cookie}={server.gate.session}",
         )

@@ -13,6 +13,7 @@ from urllib.parse import urlsplit
 import pytest
 import websocket
 
+from tests.time_limit import PATIENCE
 from urdfkit.view import protocol, web
 
 ZEROS = "0" * 64
@@ -150,7 +151,7 @@ def test_only_reading_is_possible(client) -> None:
 
 
 def test_an_oversized_body_is_refused(client, server) -> None:
-    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=10)
+    connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=PATIENCE)
     connection.putrequest("POST", "/")
     connection.putheader("Content-Length", str(10**9))
     connection.endheaders()

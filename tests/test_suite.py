@@ -1,0 +1,75 @@
+"""How the tests themselves are run: what they start ends with them, and none of them waits for ever."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.leftover_processes import descendants
+from tests.processes import running
+from tests.time_limit import PATIENCE, limit
+
+ROOT = Path(__file__).parents[1]
+PLUGINS = ("-p", "tests.leftover_processes", "-p", "tests.time_limit")
+LEAVES_ONE = """
+import subprocess, sys
+import tests.leftover_processes
+tests.leftover_processes.PATIENCE = 0.1
+SLEEP = [sys.executable, "-c", "import time; time.sleep(3600)"]
+
+def test_it():
+    subprocess.run([sys.executable, "-c", f"import subprocess; subprocess.Popen({SLEEP!r}, start_new_session=True)"])
+"""
+WAITS = """
+import sys
+from tests.processes import running
+
+def test_it():
+    with running([sys.executable, "-c", "import time; print(flush=True); time.sleep(3600)"]) as process:
+        process.wait()
+"""
+
+
+def run(file: Path, text: str) -> list[object]:
+    file.write_text(text)
+    return [sys.executable, "-m", "pytest", "-q", "-s", "--rootdir", file.parent, *PLUGINS, file]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux names the descendants of a process")
+def test_a_run_that_leaves_a_process_behind_fails_and_names_the_test(tmp_path: Path) -> None:
+    command = run(tmp_path / "test_leaves_one.py", LEAVES_ONE)
+    with running(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as process:
+        said = process.communicate(timeout=PATIENCE)[0]
+    assert process.returncode == 1, said
+    assert "ERROR test_leaves_one.py::test_it (call): process " in said
+    assert not [line for _, line in descendants() if "test_leaves_one" in line]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux names the descendants of a process")
+def test_a_run_that_is_told_to_end_ends_what_its_tests_have_started(tmp_path: Path) -> None:
+    command = run(tmp_path / "test_waits.py", WAITS)
+    with running(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        while process.stdout.readline() != "\n":  # of the program that the test has started
+            pass
+        process.send_signal(signal.SIGTERM)
+        said = process.communicate(timeout=PATIENCE)[0]
+    assert process.returncode == 143, said
+    assert not [line for _, line in descendants() if "test_waits" in line]
+
+
+def test_what_takes_too_long_fails() -> None:
+    with pytest.raises(pytest.fail.Exception, match=r"^waiting: not done after 0.05 s$"), limit(0.05, "waiting"):
+        time.sleep(PATIENCE)
+
+
+def test_signals_are_handled_as_in_a_terminal_unless_ignored() -> None:
+    code = "import signal; print([signal.getsignal(n) == signal.SIG_IGN for n in (signal.SIGINT, signal.SIGHUP)])"
+    for ignored in ((), (signal.SIGHUP,)):
+        with running([sys.executable, "-c", code], ignored=ignored, stdout=subprocess.PIPE, text=True) as process:
+            assert process.communicate()[0] == f"{[False, bool(ignored)]}\n"
