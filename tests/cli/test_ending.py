@@ -1,9 +1,11 @@
 import io
 import signal
+import sys
 
 import pytest
 
-from tests.processes import signals
+from tests.processes import running, signals
+from tests.time_limit import PATIENCE
 from urdfkit.cli import main
 from urdfkit.cli.ending import ended_by_signals
 
@@ -26,6 +28,20 @@ def test_a_signal_ends_the_block_and_what_it_did_before_is_back(how):
         assert signal.getsignal(how) == signal.SIG_DFL
     assert ended.value.code == 128 + how
     assert undone == ["undone"]
+
+
+def test_ctrl_c_that_is_caught_leaves_the_exit_code_alone():
+    code = """
+import signal
+from urdfkit.cli.ending import ended_by_signals
+try:
+    with ended_by_signals():
+        exec("signal.raise_signal(signal.SIGINT)")
+except KeyboardInterrupt:
+    raise SystemExit(7)
+"""
+    with running([sys.executable, "-c", code]) as process:
+        assert process.wait(PATIENCE) == 7
 
 
 def test_ctrl_c_at_a_question_leaves_the_line(tmp_path, monkeypatch):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -10,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.processes import running
+from tests.time_limit import PATIENCE
 from urdfkit.cli import main
 
 Capture = pytest.CaptureFixture[str]
@@ -301,17 +304,25 @@ def test_ctrl_c_ends_it_without_a_word(tmp_path: Path) -> None:
         'ixz="0" iyz="0"/></inertial></link><gazebo><plugin name="g" filename="libgazebo_ros_vacuum_gripper.so"/>'
         "</gazebo></robot>"
     )
-    with subprocess.Popen(
-        command(str(brick), "--world", "void", "--for", "1e6"),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
+    words = command(str(brick), "--world", "void", "--for", "1e6")
+    with running(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert process.stderr is not None
         assert "libgazebo_ros_vacuum_gripper.so: not simulated yet" in process.stderr.readline()  # it is about to begin
         process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=30)
+        out, err = process.communicate(timeout=PATIENCE)
     assert (process.returncode, out, err) == (130, "", "")
+
+
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGHUP])
+def test_a_run_that_is_told_to_end_keeps_its_recording(tmp_path: Path, until, how: signal.Signals) -> None:
+    words = command("simpleton", "--for", "1e6", "--record", "ride.mcap")
+    with running(words, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
+        until(lambda: [path for path in tmp_path.glob(".urdfkit-*/*/*.mcap") if path.stat().st_size > 100_000])
+        process.send_signal(how)
+        said = process.communicate(timeout=PATIENCE)[1]
+    assert process.returncode == 128 + how
+    assert re.fullmatch(r"urdfkit: recorded \d+ messages of \d+ topics to ride.mcap\n", said.splitlines(True)[-1])
+    assert [path.name for path in tmp_path.iterdir()] == ["ride.mcap"]
 
 
 def test_a_reader_that_goes_away_is_no_error() -> None:

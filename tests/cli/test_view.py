@@ -4,6 +4,7 @@ import signal
 import socket
 import subprocess
 import sys
+from http.client import HTTPConnection
 from pathlib import Path
 
 import pytest
@@ -233,13 +234,24 @@ def test_the_page_is_found_again_after_the_line_broke(arm_served, visits, until)
     until(lambda: page.evaluate(Y_OF_UPPER) == pytest.approx(math.sin(0.2), abs=1e-6))
 
 
-@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_ending_is_clean_and_leaves_nothing_behind(serve, arm: Path, how: signal.Signals) -> None:
     served = serve("view", str(arm))
     assert served.end(how) in (0, 130)
     assert served.errors.read_text().strip() == ""
     with socket.socket() as probe:
         assert probe.connect_ex(("127.0.0.1", int(served.origin.rsplit(":", 1)[1]))) != 0
+
+
+def test_a_background_job_of_a_script_ignores_ctrl_c_and_ends_with_sigterm(serve, arm: Path) -> None:
+    served = serve("view", str(arm), ignored=[signal.SIGINT, signal.SIGHUP])
+    for how in (signal.SIGINT, signal.SIGHUP):
+        served.process.send_signal(how)
+    page = HTTPConnection(served.origin.removeprefix("http://"))
+    page.request("GET", "/")
+    assert page.getresponse().status == 403  # it runs; who has no token is not let in
+    page.close()
+    assert served.end(signal.SIGTERM) == 0
 
 
 @pytest.mark.parametrize(

@@ -5,15 +5,13 @@ The same simulation gives the same bytes: times are simulated, and nothing of th
 
 from __future__ import annotations
 
-import signal
-import threading
 from collections.abc import Callable
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.atomic import staging
+from urdfkit.atomic import staging, undisturbed
 from urdfkit.errors import MissingDependencyError, ResourceError, UsageError
 
 if TYPE_CHECKING:
@@ -143,24 +141,6 @@ class Recorder:
             t = self._last
         self._last = t
         data = self._types.serialize_cdr(message, kind)
-        _uninterrupted(lambda: self._writer.write(connection, round(t * 1e9), data))
+        with undisturbed():  # half a message would spoil the whole recording
+            self._writer.write(connection, round(t * 1e9), data)
         self.count += 1
-
-
-def _uninterrupted(call: Callable[[], None]) -> None:
-    """Call, and let Ctrl-C wait meanwhile: half a message would spoil the whole recording."""
-    if threading.current_thread() is not threading.main_thread():
-        call()
-        return
-    came: list[int] = []
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-    held = [number for number, handler in before.items() if callable(handler)]
-    for number in held:
-        signal.signal(number, lambda number, _: came.append(number))
-    try:
-        call()
-    finally:
-        for number in held:
-            signal.signal(number, before[number])
-    for missed in came:
-        signal.raise_signal(missed)

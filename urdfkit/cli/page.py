@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import signal
 import sys
 import threading
 import time
@@ -13,11 +12,10 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from urdfkit.cli.ending import ended_by_signals
 from urdfkit.errors import MissingDependencyError, UrdfkitError
 
 if TYPE_CHECKING:
-    from types import FrameType
-
     from urdfkit.view.screen import Board
     from urdfkit.view.server import Server
 
@@ -120,19 +118,12 @@ def note(text: str) -> None:
 
 @contextmanager
 def until_interrupted() -> Iterator[None]:
-    """Run a block that Ctrl-C and SIGTERM end quietly, as a server's way to be done."""
-
-    def stop(_signal: int, _frame: FrameType | None) -> None:
-        raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGTERM, stop) if threading.current_thread() is threading.main_thread() else None
+    """Run a block that Ctrl-C, SIGTERM and a closed terminal end quietly, as a server's way to be done."""
     try:
-        yield
-    except KeyboardInterrupt:
+        with ended_by_signals():
+            yield
+    except (KeyboardInterrupt, SystemExit):
         note("")  # the terminal shows ^C
-    finally:
-        if before is not None:
-            signal.signal(signal.SIGTERM, before)
 
 
 def _has_screen() -> bool:

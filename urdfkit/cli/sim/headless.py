@@ -11,6 +11,7 @@ from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from urdfkit.cli.ending import ended_by_signals
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim import values
 from urdfkit.cli.sim.controllers import add_controllers
@@ -116,6 +117,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
 
 
+@ended_by_signals()
 def run(arguments: argparse.Namespace) -> int:
     """Simulate and report."""
     if arguments.cmd_ramp is not None and arguments.cmd_vel is None:
