@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 
+from tests.processes import running
+from tests.time_limit import PATIENCE, limit
 from urdfkit.cli import main
+from urdfkit.cli.lint_watch import watch
 
 BAD = '<robot name="r">\n<link name="a" kind="x"/>\n<link name="b"/>\n</robot>\n'
 
@@ -130,32 +131,34 @@ def test_the_cache_may_be_left_alone(package, monkeypatch, tmp_path):
 
 
 def test_watching_lints_again_when_a_file_changes(package):
-    process = subprocess.Popen(
-        [sys.executable, "-u", "-m", "urdfkit", "lint", "--watch", "--target", "any"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        env={**os.environ, "PYTHONUNBUFFERED": "1"},
-    )
-    assert process.stdout is not None
-
     def until(text: str) -> None:
         for line in process.stdout:  # type: ignore[union-attr]
             if text in line:
                 return
         raise AssertionError(text)
 
-    try:
+    command = [sys.executable, "-u", "-m", "urdfkit", "lint", "--watch", "--target", "any"]
+    with running(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
         until("Found 1 error, 1 note")
         until("waiting for changes")
-        time.sleep(0.05)
         file = package / "urdf" / "bad.urdf"
         file.write_text('<robot name="r"><link name="a"/></robot>')
         until("All checks passed.")
         until("waiting for changes")
         file.write_text("<robo")
         until("waiting for changes")
-    finally:
-        process.kill()
-        process.wait()
-        process.stdout.close()
+
+
+def test_a_file_that_is_saved_while_it_is_linted_is_linted_again(tmp_path):
+    file, seen = tmp_path / "bad.urdf", []
+    file.write_text(BAD)
+
+    def lint():
+        seen.append(file.read_text())
+        if len(seen) == 2:
+            raise KeyboardInterrupt
+        file.write_text("<robot/>")
+
+    with pytest.raises(KeyboardInterrupt), limit(PATIENCE, "linting again"):
+        watch(lint, [file])
+    assert seen == [BAD, "<robot/>"]

@@ -27,17 +27,20 @@ def watch(lint: Callable[[], Outcome | None], paths: Iterable[Path]) -> None:
         paths: files and folders named by the user: what comes into them is seen too.
     """
     named = list(paths)
+    files: set[Path] = set()
     while True:
+        seen = _state(files, named)  # before they are read: a file that is saved meanwhile is linted again
         if sys.stdout.isatty():
             print("\x1b[2J\x1b[3J\x1b[H", end="")
         before = time.time()
         outcome = lint()
-        files = set(outcome.files.values()) if outcome is not None else set()
+        read = set(outcome.files.values()) if outcome is not None else set()
         print(f"[{time.strftime('%H:%M:%S')}] {time.time() - before:.2f} s; waiting for changes", file=sys.stderr)
         sys.stdout.flush()
-        state = _state(files, named)
-        while _state(files, named) == state:
+        state = _state(read | files, named) | seen
+        while _state(read | files, named) == state:
             time.sleep(INTERVAL)
+        files = read
 
 
 def _state(files: Iterable[Path], named: Iterable[Path]) -> dict[str, tuple[int, int]]:
