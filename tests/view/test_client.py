@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from tests.time_limit import PATIENCE
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.view.client import Client, connect
 from urdfkit.view.orders import Schema, text
@@ -15,7 +16,7 @@ from urdfkit.view.server import Server
 def talk(url: str, work: Callable[[Client], Awaitable[Any]]) -> Any:
     async def all_of_it() -> Any:
         async with await connect(url) as client:
-            return await asyncio.wait_for(work(client), 20)
+            return await asyncio.wait_for(work(client), PATIENCE)
 
     return asyncio.run(all_of_it())
 
@@ -27,7 +28,7 @@ def test_what_is_wanted_comes_and_what_is_not_does_not(server: Server) -> None:
             await asyncio.sleep(0.005)
         server.stream("field:b", "samples", of="b")
         server.stream("field:a", "samples", of="a")
-        while (found := await client.text(20)) is not None and found["type"] != "samples":
+        while (found := await client.text(PATIENCE)) is not None and found["type"] != "samples":
             pass
         assert found is not None
         return found
@@ -46,7 +47,7 @@ def test_an_order_is_answered_and_what_came_meanwhile_is_not_lost(server: Server
         server.answer(found[0], hello="you")
         values = await order
         seen = []
-        while "status" not in seen and (message := await client.text(20)) is not None:
+        while "status" not in seen and (message := await client.text(PATIENCE)) is not None:
             seen.append(message["type"])
         return values, seen
 
@@ -73,7 +74,7 @@ def test_who_is_no_server_or_has_another_key_is_said(server: Server) -> None:
 
 def test_the_end_of_the_server_is_noticed(server: Server) -> None:
     async def work(client: Client) -> None:
-        while (found := await client.text(20)) is not None:
+        while (found := await client.text(PATIENCE)) is not None:
             if found["type"] == "model":
                 await asyncio.to_thread(server.stop)
 

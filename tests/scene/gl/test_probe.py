@@ -10,6 +10,7 @@ import pytest
 
 from tests.scene.gl.test_same_picture import table_of, zoo
 from tests.scene.test_image import lit
+from tests.time_limit import PATIENCE
 from urdfkit.description.world import Light
 from urdfkit.errors import SimulationError
 from urdfkit.scene import renderer as renderer_module
@@ -91,7 +92,7 @@ def test_a_driver_that_takes_long_is_spoken_of(monkeypatch: pytest.MonkeyPatch) 
         told.set()
 
     def slow() -> Found:
-        assert told.wait(10.0)
+        assert told.wait(PATIENCE)
         return Found(True, "no such backend", "llvmpipe")
 
     assert isinstance(painter_of(table_of(*zoo()), lit(SUN), "auto", note, slow), Painter)
