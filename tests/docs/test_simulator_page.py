@@ -50,27 +50,30 @@ def test_threads_give_the_same_bytes_as_one_after_the_other() -> None:
         assert list(pool.map(drive, turns)) == one_by_one
 
 
-def test_the_kernel_lets_go_of_the_lock(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_kernel_lets_go_of_the_lock() -> None:
     """Where threads are never switched by force, another one runs during a call of the engine only if that lets it."""
     simulator = Simulator("simpleton", note=lambda _: None)
     simulator.command((0.5, 0, 0), (0, 0, 0.2))
     simulator.run(0.1)
-    begun, done = Event(), []
 
-    def advance() -> None:
-        begun.set()
-        simulator.step(100_000)
-        done.append(True)
+    def runs_meanwhile() -> bool:
+        begun, done = Event(), Event()
 
-    before = sys.getswitchinterval()
-    sys.setswitchinterval(1000.0)
-    try:
-        thread = Thread(target=advance)
-        thread.start()
-        begun.wait()
-        was_done = bool(done)
-    finally:
-        sys.setswitchinterval(before)
-        thread.join()
-    assert done
-    assert not was_done
+        def advance() -> None:
+            begun.set()
+            simulator.step(100_000)
+            done.set()
+
+        before = sys.getswitchinterval()
+        sys.setswitchinterval(1000.0)
+        try:
+            thread = Thread(target=advance)
+            thread.start()
+            begun.wait()
+            return not done.is_set()
+        finally:
+            sys.setswitchinterval(before)
+            thread.join()
+            assert done.is_set()
+
+    assert any(runs_meanwhile() for _ in range(10))  # a busy machine may have no processor for it at once
