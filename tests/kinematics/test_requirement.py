@@ -43,11 +43,21 @@ def test_another_package_called_pinocchio_is_recognised(monkeypatch: pytest.Monk
         require_pinocchio("tf")
 
 
-@pytest.mark.parametrize("words", [["tf", "simpleton"], ["tf", "simpleton", "--tree"]])
-def test_the_command_prints_one_line(words: list[str], tmp_path: Path) -> None:
-    (tmp_path / "pinocchio.py").write_text("raise ImportError('no such module')\n", encoding="utf-8")
+OPENMP = "the library libgomp.so.1: apt-get install libgomp1 on Debian and Ubuntu, dnf install libgomp on Fedora"
+
+
+@pytest.mark.parametrize(
+    ("words", "error", "needed"),
+    [
+        (["tf", "simpleton"], "no such module", "pinocchio: pip install 'urdfkit[view]'"),
+        (["tf", "simpleton", "--tree"], "no such module", "pinocchio: pip install 'urdfkit[view]'"),
+        (["tf", "simpleton"], "libgomp.so.1: cannot open shared object file: No such file or directory", OPENMP),
+    ],
+)
+def test_the_command_prints_one_line(words: list[str], error: str, needed: str, tmp_path: Path) -> None:
+    (tmp_path / "pinocchio.py").write_text(f"raise ImportError({error!r})\n", encoding="utf-8")
     command = [sys.executable, "-c", f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n"]
     command[-1] += f"from urdfkit.cli import main; sys.exit(main({words!r}))"
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "urdfkit: tf needs pinocchio: pip install 'urdfkit[view]'\n"
+    assert done.stderr == f"urdfkit: tf needs {needed}\n"

@@ -18,13 +18,16 @@ def require_pinocchio(needed_by: str = "tf, view and sim") -> Any:
         needed_by: the subject of the error message.
 
     Raises:
-        MissingDependencyError: Pinocchio is not installed, has no wheel for this platform, or another package of that
-            name shadows it.
+        MissingDependencyError: Pinocchio is not installed, has no wheel for this platform, a shared library that its
+            wheel uses is missing, or another package of that name shadows it.
     """
     verb = "need" if " and " in needed_by else "needs"
     try:
         import pinocchio
     except ImportError as error:
+        if "libgomp.so.1" in str(error):  # its wheel leaves OpenMP to the system
+            remedy = "apt-get install libgomp1 on Debian and Ubuntu, dnf install libgomp on Fedora"
+            raise MissingDependencyError(f"{needed_by} {verb} the library libgomp.so.1: {remedy}") from error
         raise MissingDependencyError(f"{needed_by} {verb} pinocchio: {_remedy()}") from error
     if not hasattr(pinocchio, "SE3"):
         raise MissingDependencyError(
