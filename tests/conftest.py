@@ -26,14 +26,13 @@ def pytest_configure(config: pytest.Config) -> None:
         config.addinivalue_line("markers", f"{group}: needs the packages of this group in tests/system_packages.txt")
 
 
-@pytest.hookimpl(trylast=True)  # only the tests that -m and -k have selected
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Skip each test whose system packages are missing; in CI, stop before the first test instead."""
-    for item in items:
-        if reason := reason_to_skip({mark.name for mark in item.iter_markers()}):
-            if os.environ.get("CI") and reason.startswith("missing"):
-                raise pytest.UsageError(reason)
-            item.add_marker(pytest.mark.skip(reason=reason))
+@pytest.hookimpl(tryfirst=True)  # before the fixtures of the test
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Skip a test whose system packages are missing; in CI, where none may be missing, fail it."""
+    if reason := reason_to_skip({mark.name for mark in item.iter_markers()}):
+        if os.environ.get("CI") and reason.startswith("missing"):
+            pytest.fail(reason, pytrace=False)
+        pytest.skip(reason)
 
 
 def reason_to_skip(markers: set[str]) -> str:

@@ -13,6 +13,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterable
 from functools import cache
+from itertools import groupby
 from pathlib import Path
 from typing import NamedTuple
 
@@ -80,7 +81,7 @@ def _succeeds(*command: str) -> bool:
 KINDS: dict[str, tuple[str, Callable[[str], bool]]] = {
     "command": ("command", _is_command),
     "file": ("file", _is_file),
-    "python": ("module of Debian's Python", _is_python_module),
+    "python": ("Python module", _is_python_module),
     "cmake": ("CMake package", _is_cmake_package),
     "pkg-config": ("pkg-config module", _is_pkg_config_module),
     "library": ("shared library", _is_library),
@@ -110,20 +111,20 @@ def message(packages: Iterable[Package], *, with_users: bool = False) -> str:
         packages: the missing packages.
         with_users: whether to name the test files that use each package.
     """
-    named, names = [], []
-    for package in packages:
-        users = f", used by {', '.join(used_by(package))}" if with_users else ""
-        named.append(f"{package.name} ({KINDS[package.kind][0]} {package.provided}{users})")
-        names.append(package.name)
-    return f"missing system packages: {'; '.join(named)}; install: {INSTALL} {' '.join(names)}"
+    listed = list(packages)
+    parts = []
+    for groups, of_groups in groupby(listed, key=lambda package: package.groups):
+        part = ", ".join(f"{package.name} ({KINDS[package.kind][0]} {package.provided})" for package in of_groups)
+        parts.append(f"{part}, used by {', '.join(used_by(groups))}" if with_users else part)
+    return f"missing system packages: {'; '.join(parts)}; install: {INSTALL} {' '.join(p.name for p in listed)}"
 
 
-def used_by(package: Package) -> list[str]:
-    """Return the test files with a marker of a group of the package."""
-    marker = re.compile(rf"^(?:\s*@|pytestmark = )pytest\.mark\.(?:{'|'.join(package.groups)})\b", re.MULTILINE)
+def used_by(groups: Iterable[str]) -> list[str]:
+    """Return the test files that have a marker of one of these groups."""
+    marker = re.compile(rf"^(?:\s*@|pytestmark = )pytest\.mark\.(?:{'|'.join(groups)})\b", re.MULTILINE)
     files = [path for path in sorted(TESTS.rglob("test_*.py")) if marker.search(path.read_text(encoding="utf-8"))]
     named = [path.relative_to(TESTS.parent).as_posix() for path in files]
-    return ["make test", *named] if SETUP in package.groups else named
+    return ["make test", *named] if SETUP in groups else named
 
 
 def main() -> int:
