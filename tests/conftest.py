@@ -9,8 +9,8 @@ import pytest
 from hypothesis import settings
 
 from tests import system_packages
-from urdfkit.description.world.library import FOLDER
-from urdfkit.scene.gl.probe import probe
+from urdfkit.description.sdf.model_library import FOLDER
+from urdfkit.scene.gl.driver_probe import probe
 
 pytest_plugins = ("tests.leftover_processes", "tests.time_limit")
 

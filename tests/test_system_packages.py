@@ -9,17 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests import conftest, system_packages
-from tests.system_packages import (
-    GROUPS,
-    INSTALL,
-    PACKAGES,
-    SETUP,
-    TESTS,
-    message,
-    missing,
-    read_table,
-    used_by,
-)
+from tests.system_packages import GROUPS, INSTALL, PACKAGES, SETUP, TESTS, message, missing, read_table, used_by
 
 ROOT = TESTS.parent
 DOT = "dottool graphviz command:no-such-program\n"
@@ -52,7 +42,7 @@ def test_the_message_names_package_use_tests_and_command() -> None:
     line = message(read_table(DOT), with_users=True)
     assert line == (
         "missing system packages: dottool (command no-such-program), used by tests/cli/test_tf.py, "
-        f"tests/kinematics/test_drawing.py; install: {INSTALL} dottool"
+        f"tests/kinematics/test_frame_tree_drawing.py; install: {INSTALL} dottool"
     )
 
 

@@ -25,7 +25,7 @@ from collections.abc import Iterable
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from urdfkit.description.source import Position
+    from urdfkit.description.xml.source import Position
 
 
 class UrdfkitError(Exception):

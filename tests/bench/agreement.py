@@ -19,14 +19,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description import load
-from urdfkit.description.world import load_world
+from urdfkit.description.sdf import load_world
 from urdfkit.kinematics import Kinematics
 from urdfkit.resources import find_model, robot_names
 from urdfkit.scene import lowest_point, scene_of
+from urdfkit.sim.construction.rigid_bodies import bodies_of
+from urdfkit.sim.construction.surface_parameters import surfaces_of
 from urdfkit.sim.engine import Engine, Ground
-from urdfkit.sim.rotation import from_rpy
-from urdfkit.sim.surfaces import surfaces_of
-from urdfkit.sim.things import bodies_of
+from urdfkit.sim.state.quaternion import from_rpy
 
 Array = NDArray[np.float64]
 

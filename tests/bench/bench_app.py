@@ -66,9 +66,9 @@ class Running:
     """A ride in a thread of its own, as the command runs it."""
 
     def __init__(self, robot: Any, **options: Any) -> None:
-        from urdfkit.cli.sim.ride.loop import Ride
+        from urdfkit.app.simulation.loop import Ride
         from urdfkit.sim import Simulator
-        from urdfkit.view.server import Server
+        from urdfkit.view.server.server import Server
 
         self.server = Server("sim", port=0)
         self.ride = Ride(Simulator(robot, note=lambda _: None, **options), self.server)
@@ -79,7 +79,7 @@ class Running:
         self._thread.start()
 
     def _run(self) -> None:
-        from urdfkit.cli.sim.ride.pace import FRAME
+        from urdfkit.app.simulation.clock_rate import FRAME
 
         self.ride.pace.begin(0.0)
         due = time.monotonic()

@@ -17,13 +17,13 @@ import coal
 import numpy as np
 import trimesh
 
+from urdfkit.sim.engine.collision.collide_pair import MOST, WORK, WORK_INDICES, collide_pair
+from urdfkit.sim.engine.collision.convex_hull import convex_hull
+from urdfkit.sim.engine.collision.geometry_arrays import Geometry
+from urdfkit.sim.engine.collision.pair_contacts import Placed, contacts
+from urdfkit.sim.engine.collision.support_points import BOX, CAPSULE, CYLINDER, HULL, MESH, SPHERE
 from urdfkit.sim.engine.compilation import compiled
-from urdfkit.sim.engine.pairs.collide_pair import MOST, WORK, WORK_INDICES, collide_pair
-from urdfkit.sim.engine.pairs.contacts import Placed, contacts
-from urdfkit.sim.engine.pairs.geometry import Geometry
-from urdfkit.sim.engine.pairs.hull import convex_hull
-from urdfkit.sim.engine.pairs.shapes import BOX, CAPSULE, CYLINDER, HULL, MESH, SPHERE
-from urdfkit.sim.engine.spatial import load_rotation, load_vector
+from urdfkit.sim.engine.math.spatial_algebra import load_rotation, load_vector
 
 PLACES, PASSES, MARGIN = 1000, 5, 0.002
 NAMES = {SPHERE: "sphere", BOX: "box", CYLINDER: "cylinder", CAPSULE: "capsule", HULL: "hull", MESH: "mesh"}

@@ -20,16 +20,16 @@ os.environ.setdefault("MUJOCO_GL", "egl")
 
 import numpy as np
 
-from urdfkit.description.robot import Box, Cylinder, Pose, Sphere
-from urdfkit.description.world import load_world
+from urdfkit.description.sdf import load_world
+from urdfkit.description.urdf.robot import Box, Cylinder, Pose, Sphere
 from urdfkit.scene import Scene
-from urdfkit.scene.gl.probe import probe
-from urdfkit.scene.image import Painter
-from urdfkit.scene.lens import Lens
+from urdfkit.scene.camera_model import Lens
+from urdfkit.scene.gl.driver_probe import probe
 from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.placement import pose_matrices, pose_matrix
+from urdfkit.scene.ray_images import Painter
 from urdfkit.scene.rays import RayTable, warmup
-from urdfkit.sim.surroundings import world_scene
+from urdfkit.sim.world.scene_view import world_scene
 
 EYE = Pose((-4.5, -3.5, 1.7), (0.0, 0.35, 0.7))
 LENS = Lens(640, 480, 1.2)
@@ -46,7 +46,7 @@ def ours(scene: Scene, poses: np.ndarray, renderer: str, *, shadows: bool, sampl
     lighting.lights[:, 11] = float(shadows)
     lighting.lights[:, 1:4] = -SUN / np.linalg.norm(SUN)
     if renderer == "gl":
-        from urdfkit.scene.gl.painter import GlPainter
+        from urdfkit.scene.gl.gl_renderer import GlPainter
 
         painter: Any = GlPainter(table, lighting, probe().backend)
     else:

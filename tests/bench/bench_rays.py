@@ -17,15 +17,15 @@ from typing import Any
 
 import numpy as np
 
-from urdfkit.description.robot import Box, Cylinder, Pose, Sphere
-from urdfkit.description.world import Plane, load_world
+from urdfkit.description.sdf import Plane, load_world
+from urdfkit.description.urdf.robot import Box, Cylinder, Pose, Sphere
 from urdfkit.scene import Scene, Shape
-from urdfkit.scene.image import Painter
-from urdfkit.scene.lens import Lens
+from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.placement import pose_matrices, pose_matrix
+from urdfkit.scene.ray_images import Painter
 from urdfkit.scene.rays import RayTable, warmup
-from urdfkit.sim.surroundings import world_scene
+from urdfkit.sim.world.scene_view import world_scene
 
 ORIGIN = np.array([0.3, 0.2, 0.4])
 FAR = 30.0

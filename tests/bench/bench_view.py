@@ -11,7 +11,7 @@ import time
 
 import numpy as np
 
-from urdfkit.view.server import Server
+from urdfkit.view.server.server import Server
 
 LINKS, RATE, SECONDS = 30, 60.0, 5.0
 WATCHER = """

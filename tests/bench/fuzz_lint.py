@@ -21,8 +21,8 @@ from collections import Counter
 from pathlib import Path
 
 from urdfkit.errors import UrdfkitError
-from urdfkit.lint.engine import Options, run
-from urdfkit.lint.entries import Entry
+from urdfkit.lint.engine.run import Options, run
+from urdfkit.lint.project.entry_files import Entry
 from urdfkit.resources import robots_dir
 
 SECONDS = 5.0

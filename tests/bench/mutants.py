@@ -17,10 +17,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from urdfkit.lint.engine import Options, model_of, run
-from urdfkit.lint.entries import Entry
-from urdfkit.lint.model import Model
-from urdfkit.lint.syntax import Document, Tag
+from urdfkit.lint.engine.run import Options, model_of, run
+from urdfkit.lint.model.model import Model
+from urdfkit.lint.model.tags import Document, Tag
+from urdfkit.lint.project.entry_files import Entry
 from urdfkit.resources import find_model
 
 ROBOTS = (

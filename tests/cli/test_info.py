@@ -68,7 +68,7 @@ def test_without_pinocchio(model: Path, capsys: pytest.CaptureFixture[str], monk
     def missing(_: str) -> None:
         raise MissingDependencyError("info needs pinocchio: pip install 'urdfkit[view]'")
 
-    monkeypatch.setattr("urdfkit.kinematics.requirement.require_pinocchio", missing)
+    monkeypatch.setattr("urdfkit.kinematics.pinocchio_requirement.require_pinocchio", missing)
     assert main(["info", str(model), "--json"]) == 0
     captured = capsys.readouterr()
     facts = json.loads(captured.out)

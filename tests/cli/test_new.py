@@ -340,7 +340,7 @@ def test_a_wrong_file_is_one_line(place, capsys, text, message):
 
 def test_the_checker_finds_what_the_linter_does(place):
     # No answer the questions allow brings a finding about, so a result is spoiled by hand.
-    from urdfkit.cli.updating import findings
+    from urdfkit.cli.new.update import findings
     from urdfkit.resources import templates_dir
     from urdfkit.scaffold import load_template
 

@@ -14,7 +14,7 @@ import pytest
 
 from tests.processes import running
 from tests.time_limit import PATIENCE
-from urdfkit.cli.preview import Preview, can_preview
+from urdfkit.app.viewer.preview import Preview, can_preview
 from urdfkit.description import load
 from urdfkit.errors import ResourceError
 from urdfkit.lint import lint
@@ -76,7 +76,7 @@ def terminal(tmp_path):
 
 def links_on(url):
     """Return the links that a page shows."""
-    from urdfkit.view.client import connect
+    from urdfkit.view.protocol.client import connect
 
     async def ask():
         async with await connect(url) as client:

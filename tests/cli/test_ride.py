@@ -13,17 +13,18 @@ import pytest
 pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
-from urdfkit.cli.sim.ride import listening, loop
-from urdfkit.cli.sim.ride.loop import PARTS, Ride
-from urdfkit.cli.sim.ride.pace import FRAME, Pace
-from urdfkit.cli.sim.ride.part import Part
-from urdfkit.cli.sim.ride.values import as_json, number_at, numbers_in
-from urdfkit.cli.sim.ride.walls import walls
+from urdfkit.app.simulation import loop
+from urdfkit.app.simulation.clock_rate import FRAME, Pace
+from urdfkit.app.simulation.features import topic_stream
+from urdfkit.app.simulation.features.feature import Part
+from urdfkit.app.simulation.features.message_values import as_json, number_at, numbers_in
+from urdfkit.app.simulation.features.wall_model import walls
+from urdfkit.app.simulation.loop import PARTS, Ride
 from urdfkit.errors import SimulationError, UsageError
 from urdfkit.messages import from_fields
 from urdfkit.sim import Simulator
-from urdfkit.view.orders import check
-from urdfkit.view.protocol import Axes, Do
+from urdfkit.view.protocol.page_requests import check
+from urdfkit.view.protocol.websocket_messages import Axes, Do
 
 
 class Wall:
@@ -37,8 +38,8 @@ class Page:
     """A server that keeps what it is told, and one page that wants what a test says."""
 
     def __init__(self) -> None:
-        from urdfkit.view.driver import Driver
-        from urdfkit.view.inbox import Inbox
+        from urdfkit.view.server.drive_lock import Driver
+        from urdfkit.view.server.request_inbox import Inbox
 
         self.inbox, self.driver, self.orders = Inbox(), Driver(), {}
         self.wanted: set[str] = set()
@@ -328,7 +329,7 @@ def test_objects_come_move_and_go(ride) -> None:
 
 
 def test_what_comes_and_goes_for_an_hour_leaves_nothing_behind() -> None:
-    from urdfkit.view.server import Server
+    from urdfkit.view.server.server import Server
 
     server = Server("sim", port=0)  # not started: nobody looks, but what is kept for pages is kept
     ride = Ride(Simulator("simpleton", note=lambda _: None), server, clock=Wall())
@@ -352,7 +353,7 @@ def test_what_comes_and_goes_for_an_hour_leaves_nothing_behind() -> None:
 
 
 def test_a_pose_frame_of_thirty_links_is_below_a_kilobyte() -> None:
-    from urdfkit.view.protocol import pack_poses
+    from urdfkit.view.protocol.websocket_messages import pack_poses
 
     assert len(pack_poses(1, 0.0, np.zeros((30, 7)))) == 856
 
@@ -524,9 +525,9 @@ def test_a_recording_ends_when_something_comes_or_time_begins_anew(ride) -> None
 
 
 def test_a_tape_has_an_end(ride, monkeypatch) -> None:
-    from urdfkit.cli.sim.ride import tape
+    from urdfkit.app.simulation.features import replay
 
-    monkeypatch.setattr(tape, "MOST_BYTES", 20_000)
+    monkeypatch.setattr(replay, "MOST_BYTES", 20_000)
     do(ride, "record", on=True)
     spend(ride, 3.0)
     assert "the tape is full" in ride.page.said["notice"]["text"]
@@ -629,7 +630,7 @@ def test_random_orders_never_break_the_loop(ride) -> None:
             return [chance.uniform(-2, 2) for _ in range(chance.choice([2, 3, 7]))]
         return {} if kind == 4 else [[0, 0], [chance.uniform(-3, 3), 1]]
 
-    from urdfkit.view.protocol import ProtocolError
+    from urdfkit.view.protocol.websocket_messages import ProtocolError
 
     done = 0
     for _ in range(3000):
@@ -699,7 +700,7 @@ def test_messages_for_which_there_is_no_time_are_counted(ride, monkeypatch) -> N
         ride.wall.now += 0.01
         return {"long": long}
 
-    monkeypatch.setattr(listening, "as_json", slowly)
+    monkeypatch.setattr(topic_stream, "as_json", slowly)
     odom = next(topic for topic in ride.simulator.bus.topics if topic.name == "/simpleton/odom")
     ride.page.wanted.add("whole:/simpleton/odom")
     ride.tick()
@@ -711,4 +712,4 @@ def test_messages_for_which_there_is_no_time_are_counted(ride, monkeypatch) -> N
     missed = sum(part["missed"] for part in ride.page.streamed)
     assert len(rows) + missed == odom.count - count
     assert len(rows) * 0.01 == pytest.approx(0.25 * (ride.wall.now - begin), rel=0.1)
-    assert rows[0][2] == {"long": listening.ALL}
+    assert rows[0][2] == {"long": topic_stream.ALL}

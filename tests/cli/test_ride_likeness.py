@@ -8,14 +8,14 @@ import pytest
 pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
-from urdfkit.cli.page import told_of_faults
-from urdfkit.cli.sim.ride.figures import Figures
-from urdfkit.cli.sim.ride.likeness import Likeness
-from urdfkit.description.world import load_world
+from urdfkit.app.page import told_of_faults
+from urdfkit.app.simulation.placeholder import Likeness
+from urdfkit.app.simulation.scene_bodies import Figures
+from urdfkit.description.sdf import load_world
 from urdfkit.errors import SimulationError
 from urdfkit.sim import Simulator
-from urdfkit.sim.loading import load_robot
-from urdfkit.view.geometry import GeometryStore
+from urdfkit.sim.construction.loading import load_robot
+from urdfkit.view.content.mesh_store import GeometryStore
 
 
 class Page:
@@ -54,7 +54,7 @@ def test_it_stands_where_the_simulation_starts(name: str) -> None:
 
 
 def test_a_page_that_is_open_is_told_why_the_server_ends(monkeypatch) -> None:
-    monkeypatch.setattr("urdfkit.cli.page.LAST_WORDS", 0.0)
+    monkeypatch.setattr("urdfkit.app.page.LAST_WORDS", 0.0)
     page = Page()
 
     def fail() -> None:

@@ -400,7 +400,7 @@ def test_walls_with_a_door_are_drawn_and_the_world_is_saved(page, keep, until, t
         page.locator("#save-world").click()
     file = tmp_path / "saved.sdf"
     download.value.save_as(file)
-    from urdfkit.description.world import load_world
+    from urdfkit.description.sdf import load_world
 
     saved = load_world(file)
     walls = next(model for model in saved.models if model.name == "walls")

@@ -61,10 +61,10 @@ def free_port() -> int:
 
 
 def served(port: int, name: str):
-    from urdfkit.description.robot import Box
+    from urdfkit.description.urdf.robot import Box
     from urdfkit.scene import Scene, Shape
-    from urdfkit.view.nodes import draw, link_path
-    from urdfkit.view.server import Server
+    from urdfkit.view.content.meshcat_objects import draw, link_path
+    from urdfkit.view.server.server import Server
 
     server = Server("sim", port=port)
     shape = Shape("base/visual/0", "base", "visual", Box((0.4, 0.2, 0.1)), np.eye(4), (1.0, 0.5, 0.0, 1.0), True)

@@ -12,10 +12,10 @@ import pytest
 from urdfkit.cli import main
 from urdfkit.cli.sim import bench
 from urdfkit.cli.sim.bench_table import table
-from urdfkit.sim.bench import memory, scenes
-from urdfkit.sim.bench.check import Check
+from urdfkit.sim.bench import memory_use, scenes
 from urdfkit.sim.bench.comparison import Compared, Scaled, Speed
-from urdfkit.sim.bench.memory import Memory
+from urdfkit.sim.bench.correctness_checks import Check
+from urdfkit.sim.bench.memory_use import Memory
 from urdfkit.sim.bench.report import Report, as_json
 from urdfkit.sim.bench.scene import Servo
 from urdfkit.sim.bench.scenes import SCENES
@@ -241,12 +241,12 @@ def test_colours_only_where_they_are_wanted(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_memory_is_that_of_a_fresh_process() -> None:
-    found = memory.measure()
-    assert 20e6 < found.resident <= found.peak < memory.MOST
+    found = memory_use.measure()
+    assert 20e6 < found.resident <= found.peak < memory_use.MOST
 
 
 def test_memory_that_cannot_be_measured_is_left_out(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(memory.sys, "executable", "/bin/false")
+    monkeypatch.setattr(memory_use.sys, "executable", "/bin/false")
     assert main(["sim", "bench", "--scene", "memory", "--json"]) == 0
     out, err = capsys.readouterr()
     assert json.loads(out)["memory"] is None

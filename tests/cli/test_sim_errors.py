@@ -366,6 +366,8 @@ def test_a_joint_that_a_controller_commands_is_not_held_as_well(capsys: Capture)
 def test_nothing_is_compiled_for_a_typing_error(
     words: list[str], capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("urdfkit.cli.sim.kernel.prepare_kernel", lambda _: pytest.fail("it is compiled first"))
+    monkeypatch.setattr(
+        "urdfkit.app.simulation.kernel_compilation.prepare_kernel", lambda _: pytest.fail("it is compiled first")
+    )
     assert main(["sim", "run", *words, "--for", "1"]) == 2
     assert "did you mean" in capsys.readouterr().err

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from urdfkit.app.simulation.image_files import png
 from urdfkit.cli import main
-from urdfkit.cli.sim.pictures import png
-from urdfkit.scene.gl.probe import Found
-from urdfkit.sim.sensors.optics import depth_image, image
+from urdfkit.scene.gl.driver_probe import Found
+from urdfkit.sim.plugins.sensors.cameras.camera_optics import depth_image, image
 
 Capture = pytest.CaptureFixture[str]
 TOPIC = "/simpleton/camera1/image_raw"

@@ -291,7 +291,7 @@ def test_warmup_makes_the_kernel_ready(capsys: Capture) -> None:
 
 
 def test_the_ramp_publishes_what_the_drive_will_hold() -> None:
-    from urdfkit.cli.sim.headless import ramp
+    from urdfkit.cli.sim.run_command import ramp
     from urdfkit.messages import TWIST
     from urdfkit.sim import Simulator
 

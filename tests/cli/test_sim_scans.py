@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from urdfkit.cli import main
-from urdfkit.cli.sim import scans
-from urdfkit.sim.sensors import clouds
+from urdfkit.cli.sim import scan_files
+from urdfkit.sim.plugins.sensors import cloud_messages
 
 Capture = pytest.CaptureFixture[str]
 ROBOT = Path(__file__).parents[2] / "robots/diff_wheeled_robot/diff_wheeled_robot_description/urdf"
@@ -21,7 +21,7 @@ LASER = str(ROBOT / "diff_wheeled_robot_with_laser.urdf.xacro")
 
 def saved_by(message: Any) -> tuple[Path, bytes]:
     bus = SimpleNamespace(latest=lambda topic: message)
-    (found,) = scans.contents(SimpleNamespace(bus=bus, t=0.0), [("/points", Path("x.csv"))])  # type: ignore[arg-type]
+    (found,) = scan_files.contents(SimpleNamespace(bus=bus, t=0.0), [("/points", Path("x.csv"))])  # type: ignore[arg-type]
     return found
 
 
@@ -95,7 +95,7 @@ def test_what_cannot_be_saved_is_said(
     "option", ["--save-scan=/scan={}.json", "--save-image=/image={}.png", "--save-world={}.sdf", "--record={}.mcap"]
 )
 def test_places_are_looked_at_before_anything_runs(tmp_path: Path, capsys: Capture, monkeypatch, option: str) -> None:
-    monkeypatch.setattr("urdfkit.cli.sim.headless.load", lambda _: pytest.fail("the run has started"))
+    monkeypatch.setattr("urdfkit.cli.sim.run_command.load", lambda _: pytest.fail("the run has started"))
     (tmp_path / "seen").mkdir()
     wrong = option.format(tmp_path / "sene" / "x")
     assert main(["sim", "run", LASER, "--for", "9", f"--save-scan=/scan={tmp_path / 'v.csv'}", wrong]) == 2
@@ -126,7 +126,7 @@ def test_nothing_is_written_where_one_has_not_come(tmp_path: Path, capsys: Captu
 def test_colours_of_points_are_columns() -> None:
     points = {name: np.array([1.0, np.nan]) for name in "xyz"}
     packed = np.array([0x010203, 0xFA8000], dtype=np.uint32).view(np.float32)
-    layout = ((*clouds.XYZ, ("rgb", "f4", 16)), 32)
-    (file, content) = saved_by(clouds.cloud(0.0, "eye", layout, {**points, "rgb": packed}, width=2))
+    layout = ((*cloud_messages.XYZ, ("rgb", "f4", 16)), 32)
+    (file, content) = saved_by(cloud_messages.cloud(0.0, "eye", layout, {**points, "rgb": packed}, width=2))
     assert file == Path("x.csv")
     assert content.decode().splitlines() == ["x,y,z,r,g,b", "1.0,1.0,1.0,1,2,3", "nan,nan,nan,250,128,0"]

@@ -14,16 +14,16 @@ pytest.importorskip("meshcat")
 
 from PIL import Image
 
-from urdfkit.cli.sim.sights import MOST_POINTS, OPTICAL, Sights, picture, points
+from urdfkit.app.simulation.features.sensor_views import MOST_POINTS, OPTICAL, Sights, picture, points
 from urdfkit.description import load
-from urdfkit.scene.lens import Lens
+from urdfkit.scene.camera_model import Lens
 from urdfkit.sim import Simulator
-from urdfkit.sim.sensors.camera import Eye
-from urdfkit.sim.sensors.clouds import GZ, cloud, old_cloud
-from urdfkit.sim.sensors.depth import points as depth_points
-from urdfkit.sim.sensors.optics import depth_image, image
-from urdfkit.view import protocol
-from urdfkit.view.protocol import COLORED, PICTURE, POINTS
+from urdfkit.sim.plugins.sensors.cameras.camera import Eye
+from urdfkit.sim.plugins.sensors.cameras.camera_optics import depth_image, image
+from urdfkit.sim.plugins.sensors.cameras.depth_points import points as depth_points
+from urdfkit.sim.plugins.sensors.cloud_messages import GZ, cloud, old_cloud
+from urdfkit.view.protocol import websocket_messages
+from urdfkit.view.protocol.websocket_messages import COLORED, PICTURE, POINTS
 
 LASER = str(
     Path(__file__).parents[2]
@@ -173,8 +173,8 @@ def test_the_colours_of_a_segmentation_are_not_blurred() -> None:
 
 
 def test_frames_tell_sensor_kind_and_time() -> None:
-    frame = protocol.pack_sensed(3, 1.5, PICTURE, b"jpeg")
-    assert protocol.POSE_HEADER.unpack(frame[:16]) == (0x02, 1, 3, 0, 1.5)
+    frame = websocket_messages.pack_sensed(3, 1.5, PICTURE, b"jpeg")
+    assert websocket_messages.POSE_HEADER.unpack(frame[:16]) == (0x02, 1, 3, 0, 1.5)
     assert frame[16:] == b"jpeg"
 
 

@@ -12,10 +12,10 @@ pytest.importorskip("pinocchio")
 pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
+from urdfkit.app.simulation.clock_rate import BEHIND, FRAME
+from urdfkit.app.simulation.loop import Ride
 from urdfkit.cli import main
-from urdfkit.cli.sim.ride.loop import Ride
-from urdfkit.cli.sim.ride.pace import BEHIND, FRAME
-from urdfkit.view.protocol import Axes
+from urdfkit.view.protocol.websocket_messages import Axes
 
 X = "urdfkit.link().position.x"
 SPEED = "parseFloat(document.getElementById('velocity').textContent)"
@@ -284,7 +284,7 @@ class Wall:
 @pytest.fixture
 def ride():
     from urdfkit.sim import Simulator
-    from urdfkit.view.server import Server
+    from urdfkit.view.server.server import Server
 
     wall = Wall()
     server = Server("sim", port=0)  # not started: nobody looks
@@ -359,7 +359,7 @@ def test_a_simulation_that_diverges_pauses_and_says_so(ride: Ride, capfd, monkey
 
 def test_what_is_spawned_appears_on_the_page_and_what_is_removed_vanishes() -> None:
     from urdfkit.sim import Simulator
-    from urdfkit.view.server import Server
+    from urdfkit.view.server.server import Server
 
     simulator = Simulator("simpleton", note=lambda text: None)
     with Server("sim", port=0) as server:

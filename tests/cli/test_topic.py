@@ -20,16 +20,16 @@ pytest.importorskip("numba")
 
 from tests.processes import running
 from tests.time_limit import PATIENCE
+from urdfkit.app.simulation.clock_rate import FRAME
+from urdfkit.app.simulation.loop import Ride
 from urdfkit.cli import main
-from urdfkit.cli.sim.ride.loop import Ride
-from urdfkit.cli.sim.ride.pace import FRAME
 from urdfkit.cli.topic.echo import as_yaml, part
 from urdfkit.cli.topic.pub import message_of
 from urdfkit.cli.topic.rates import Window, report
 from urdfkit.errors import UsageError
 from urdfkit.sim import Simulator
-from urdfkit.view.running import noted
-from urdfkit.view.server import Server
+from urdfkit.view.server.running_simulations import noted
+from urdfkit.view.server.server import Server
 
 ODOM, COMMAND = "/simpleton/odom", "/simpleton/cmd_vel"
 
@@ -184,7 +184,7 @@ def test_a_simulation_that_is_starting_is_found_and_says_what_it_does(tmp_path: 
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     with Server("sim", port=0) as server, noted(server.port, server.url, "simpleton"):
         server.declare("progress", label="compiling …")
-        monkeypatch.setattr("urdfkit.cli.topic.session.READY", 0.3)
+        monkeypatch.setattr("urdfkit.cli.topic.connection.READY", 0.3)
         assert main(["topic", "list"]) == 2
         first, second = capsys.readouterr().err.splitlines()
         assert first == "urdfkit: the simulation is starting: compiling …"

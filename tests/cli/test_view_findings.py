@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.lab import TWINS
-from urdfkit.cli.findings import Findings
+from urdfkit.app.viewer.findings_panel import Findings
 from urdfkit.description import load
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.resources import find_model

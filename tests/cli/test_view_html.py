@@ -13,7 +13,7 @@ from urdfkit.cli import main
 from urdfkit.description import load
 from urdfkit.kinematics import Kinematics
 from urdfkit.resources import find_model
-from urdfkit.view.inspection import inspection
+from urdfkit.view.content.inspector import inspection
 
 ROBOT = """<robot name="every joint">
   <link name="base"><visual><geometry><box size="0.4 0.3 0.1"/></geometry></visual></link>

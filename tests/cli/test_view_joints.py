@@ -9,8 +9,8 @@ pytest.importorskip("meshcat")
 
 from tests.cli.lab import at, drawn, values
 from urdfkit.kinematics import Kinematics
-from urdfkit.sim.loading import load_robot
-from urdfkit.view.inspection import inspection
+from urdfkit.sim.construction.loading import load_robot
+from urdfkit.view.content.inspector import inspection
 
 pytestmark = pytest.mark.browser
 
@@ -151,7 +151,7 @@ def test_a_decimal_comma_is_as_good_as_a_point_and_words_are_refused(page, until
     keep(page, "no-number")
     number.press("ArrowUp")
     until(lambda: values(page)["bend"] == pytest.approx(0.51))
-    read = """async () => { const { readNumber } = await import("/app/number.js");
+    read = """async () => { const { readNumber } = await import("/app/page/number_field.js");
         return ["0,5", "-1", " 2.5 ", "−3", "1e-3", ".5", "1 000", "1,234.5", "1.234,5", "0x10", "", "1,2,3"].map(
           (text) => { const found = readNumber(text); return Number.isNaN(found) ? null : found; }); }"""
     assert page.evaluate(read) == [0.5, -1, 2.5, -3, 0.001, 0.5, 1000, None, None, None, None, None]

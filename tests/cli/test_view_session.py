@@ -9,14 +9,14 @@ import pytest
 pytest.importorskip("pinocchio")
 pytest.importorskip("meshcat")
 
-from urdfkit.cli.findings import Findings
+from urdfkit.app.viewer.findings_panel import Findings
 from urdfkit.cli.view import CLICKED_POINT, Figure, Session, orders
 from urdfkit.errors import UrdfkitError
 from urdfkit.resources import find_model
-from urdfkit.view.export import Recording
-from urdfkit.view.inbox import Wishes
-from urdfkit.view.orders import Order, check
-from urdfkit.view.protocol import Do, ProtocolError
+from urdfkit.view.html_export import Recording
+from urdfkit.view.protocol.page_requests import Order, check
+from urdfkit.view.protocol.websocket_messages import Do, ProtocolError
+from urdfkit.view.server.request_inbox import Wishes
 
 ROBOT = """<robot name="lab">
   <link name="base"/><link name="arm"/><link name="kite"/>

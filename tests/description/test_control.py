@@ -8,10 +8,10 @@ import pytest
 
 from urdfkit.description import load
 from urdfkit.description.control import Settings, find_configuration, node_settings, read_settings
-from urdfkit.description.control.launch import read_launch
-from urdfkit.description.control.settings import parse_settings
-from urdfkit.description.packages import Packages
-from urdfkit.description.source import Source
+from urdfkit.description.control.parameter_yaml import parse_settings
+from urdfkit.description.control.ros1_launch import read_launch
+from urdfkit.description.packages.resolver import Packages
+from urdfkit.description.xml.source import Source
 from urdfkit.errors import DescriptionError
 
 

@@ -13,10 +13,10 @@ import xacro
 from xacro import substitution_args
 
 from urdfkit.description import load
-from urdfkit.description.expand import expand, expand_leniently
-from urdfkit.description.expanded import Expanded
-from urdfkit.description.packages import Packages
-from urdfkit.description.source import Position
+from urdfkit.description.packages.resolver import Packages
+from urdfkit.description.xacro.expand import expand, expand_leniently
+from urdfkit.description.xacro.expanded import Expanded
+from urdfkit.description.xml.source import Position
 from urdfkit.errors import UrdfkitError
 
 SHARED = Path(__file__).parents[2].parent / "shared"

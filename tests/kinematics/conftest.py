@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.description import load
-from urdfkit.description.robot import Robot
+from urdfkit.description.urdf.robot import Robot
 
 ARM = """<robot name="arm">
   <link name="world"/>

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfkit.description.robot import Robot
+from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import KinematicsError, UrdfkitError
 from urdfkit.kinematics import JointLimitError, Kinematics
 
@@ -50,9 +50,9 @@ def test_a_continuous_joint_wraps(turns: float) -> None:
 
 
 def _wheel() -> Robot:
-    from urdfkit.description.element import Element
-    from urdfkit.description.robot import Joint, Link, Pose
-    from urdfkit.description.source import Origin, Position
+    from urdfkit.description.urdf.robot import Joint, Link, Pose
+    from urdfkit.description.xml.element import Element
+    from urdfkit.description.xml.source import Origin, Position
 
     element = Element("x", {}, [], "", Origin(Position("wheel.urdf", 1, 1)))
     links = tuple(Link(name, None, (), (), element) for name in ("a", "b"))
@@ -196,7 +196,7 @@ def test_limits_are_checked_when_asked(kinematics: Kinematics) -> None:
 def _wider(robot: Robot) -> Robot:
     from dataclasses import replace
 
-    from urdfkit.description.robot import Limit
+    from urdfkit.description.urdf.robot import Limit
 
     def widen(joint: Any) -> Any:
         if joint.name != "bend":

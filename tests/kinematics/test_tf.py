@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from urdfkit.description import load
-from urdfkit.description.robot import Robot
+from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import KinematicsError
 from urdfkit.kinematics import Kinematics, TransformTree
 from urdfkit.resources import find_model
@@ -40,7 +40,7 @@ def test_placements_are_those_of_pinocchio(tree: TransformTree, arm_xml: str) ->
 @settings(max_examples=20)
 @given(left=st.floats(-100, 100), right=st.floats(-100, 100))
 def test_simpleton_is_what_pinocchio_says(left: float, right: float) -> None:
-    from urdfkit.description.expand import expand
+    from urdfkit.description.xacro.expand import expand
 
     path = find_model(["simpleton"]).path
     tree = TransformTree(load(path))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import socket
 import subprocess
 from pathlib import Path
@@ -15,7 +14,7 @@ import pytest
 
 from tests.processes import running
 from urdfkit.description import load
-from urdfkit.description.expand import expand
+from urdfkit.description.xacro.expand import expand
 from urdfkit.kinematics import TransformTree
 from urdfkit.resources import find_model
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from urdfkit.description.element import Element
+from urdfkit.description.xml.element import Element
 from urdfkit.lint import edits
-from urdfkit.lint.engine import Options, model_of
+from urdfkit.lint.engine.run import Options, model_of
 from urdfkit.lint.finding import Fix
 
 TEXT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">

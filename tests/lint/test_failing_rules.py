@@ -7,8 +7,8 @@ import json
 import pytest
 
 from urdfkit.cli import main
-from urdfkit.lint.editor.project import Project
-from urdfkit.lint.engine import Options, lint
+from urdfkit.lint.editor.open_files import Project
+from urdfkit.lint.engine.run import Options, lint
 from urdfkit.lint.rules.joints.axis_zero import AxisZero
 
 JOINT = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>'
@@ -63,7 +63,7 @@ def test_where_nobody_wants_to_go_on_it_is_raised(write):
 
 
 def test_what_fails_before_the_rules_is_said_too(write, capsys, monkeypatch):
-    from urdfkit.lint import checker
+    from urdfkit.lint.engine import checker
 
     def parse(root, **more):
         if root.origin.position.file == "bad.urdf":

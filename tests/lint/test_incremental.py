@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 
-from urdfkit.description.memory import Memory
-from urdfkit.description.parse import parse
-from urdfkit.description.reading import document_of
-from urdfkit.description.source import Source
-from urdfkit.lint.editor.project import Project
-from urdfkit.lint.engine import Checker, Options, merged
+from urdfkit.description.urdf.parser import parse
+from urdfkit.description.xacro.fast.incremental import Memory
+from urdfkit.description.xml.reader import document_of
+from urdfkit.description.xml.source import Source
+from urdfkit.lint.editor.open_files import Project
+from urdfkit.lint.engine.run import Checker, Options, merged
 from urdfkit.resources import find_model, robot_names
 
 PIECES = (

@@ -11,9 +11,9 @@ import pytest
 
 from urdfkit.lint import RULES, lint
 from urdfkit.lint.catalogue import SECTIONS, page, sections, title
-from urdfkit.lint.engine import Options
-from urdfkit.lint.entries import Entry
-from urdfkit.lint.fix import fix
+from urdfkit.lint.engine.run import Options
+from urdfkit.lint.fixes.apply import fix
+from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.rule import Rule
 
 HERE = Path(__file__).parent / "rules"
@@ -142,7 +142,8 @@ def test_codes_and_names_are_unique_and_well_formed():
 
 @pytest.mark.parametrize("path", files("bad"))
 def test_rules_left_out_by_the_table_would_find_nothing(path, monkeypatch):
-    from urdfkit.lint import checker, rules
+    from urdfkit.lint import rules
+    from urdfkit.lint.engine import checker
 
     few = lint(path, target=target(BY_NAME[path.parent.name]))
     monkeypatch.setattr(checker, "source_rules", lambda _: rules.source_rules())

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from urdfkit.lint import Finding, lint
-from urdfkit.lint.engine import Options, run
-from urdfkit.lint.entries import Entry
+from urdfkit.lint.engine.run import Options, run
+from urdfkit.lint.project.entry_files import Entry
 
 SHARED = Path(__file__).parents[2].parent / "shared"
 

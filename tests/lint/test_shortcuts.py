@@ -10,9 +10,10 @@ import sys
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from urdfkit.description import patterns
-from urdfkit.lint import entries, expressions
-from urdfkit.lint.prefix import signatures
+from urdfkit.description.xacro.fast import templates
+from urdfkit.lint.facts import escaped_expressions
+from urdfkit.lint.model.xacro_prefix import signatures
+from urdfkit.lint.project import entry_files
 from urdfkit.lint.rules.document import stray_quote, unbound_namespace_prefix
 from urdfkit.lint.rules.xacro import inertia_arguments, unprefixed_macro_call
 
@@ -32,8 +33,8 @@ TEXTS = st.lists(st.sampled_from(PIECES), max_size=14).map("".join)
 @example("$ {a}")
 @example("${a{b}")
 def test_unexpanded_expressions(text: str) -> None:
-    found = re.search(expressions._BROKEN, text) or re.search(expressions._INSIDE_OUT, text)
-    assert expressions.is_unexpanded(text) == (found is not None)
+    found = re.search(escaped_expressions._BROKEN, text) or re.search(escaped_expressions._INSIDE_OUT, text)
+    assert escaped_expressions.is_unexpanded(text) == (found is not None)
 
 
 @settings(max_examples=300, deadline=None)
@@ -73,11 +74,11 @@ def test_masses_that_are_given_are_not_overlooked(text: str) -> None:
 @given(st.sampled_from(["<robot ", "<?xml ?><robot ", " <robot ", "<!-- -->"]), TEXTS)
 @example("<robot ", 'a="x> name="b" c="">')
 def test_what_begins_with_a_robot_is_found_to_be_one(begin: str, text: str) -> None:
-    if entries._begins_with_robot(begin + text):
-        root = re.search(entries._ROOT, begin + text)
+    if entry_files._begins_with_robot(begin + text):
+        root = re.search(entry_files._ROOT, begin + text)
         assert root is not None
         assert root[1] == "robot"
-        assert re.search(entries._NAMED, root[2])
+        assert re.search(entry_files._NAMED, root[2])
 
 
 @settings(max_examples=300, deadline=None)
@@ -85,12 +86,12 @@ def test_what_begins_with_a_robot_is_found_to_be_one(begin: str, text: str) -> N
 @example("a ${b} c ${d}")
 def test_texts_are_cut_at_their_expressions(text: str) -> None:
     pieces = re.split(r"\$\{([^}]*)\}", text)
-    assert patterns._cut(text) == ([] if any("$" in piece for piece in pieces) else pieces)
+    assert templates._cut(text) == ([] if any("$" in piece for piece in pieces) else pieces)
 
 
 def test_what_xacro_imports_later_is_the_module_itself() -> None:
     code = (
-        "import sys; from urdfkit.description.expand import _stock; x = _stock();"
+        "import sys; from urdfkit.description.xacro.expand import _stock; x = _stock();"
         "assert not {'ast', 'glob', 'xacro.cli'} & set(sys.modules), sys.modules.keys();"
         "assert x.is_valid_name('a') and not x.is_valid_name('if') and x.glob.glob('nothing*') == [];"
         "import ast, glob; assert x.ast.parse is ast.parse; assert x.glob.glob is glob.glob;"
@@ -102,7 +103,7 @@ def test_what_xacro_imports_later_is_the_module_itself() -> None:
 
 def test_names_of_properties() -> None:
     xacro = importlib.import_module("xacro")
-    from urdfkit.description.quick import QuickRun
+    from urdfkit.description.xacro.fast.expansion import QuickRun
 
     run = QuickRun.__new__(QuickRun)
     run.stock = {"is_valid_name": xacro.is_valid_name}

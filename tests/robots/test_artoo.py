@@ -5,7 +5,7 @@ import math
 import pytest
 
 from urdfkit.description import load
-from urdfkit.description.world import load_world
+from urdfkit.description.sdf import load_world
 from urdfkit.kinematics import Kinematics
 from urdfkit.messages import FLOAT, from_fields
 from urdfkit.resources import find_model, robots_dir

@@ -3,7 +3,7 @@
 import pytest
 
 from urdfkit.description import load
-from urdfkit.description.expand import expand
+from urdfkit.description.xacro.expand import expand
 from urdfkit.lint import lint
 from urdfkit.resources import find_model
 from urdfkit.teleop import MOVES

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from urdfkit.description import load
-from urdfkit.description.expand import expand
-from urdfkit.description.world import load_world
+from urdfkit.description.sdf import load_world
+from urdfkit.description.xacro.expand import expand
 from urdfkit.kinematics import Kinematics
 from urdfkit.lint import lint
 from urdfkit.resources import find_model, robot_names, robots_dir

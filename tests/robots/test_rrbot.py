@@ -7,7 +7,7 @@ import pinocchio
 import pytest
 
 from urdfkit.description import load
-from urdfkit.description.expand import expand
+from urdfkit.description.xacro.expand import expand
 from urdfkit.messages import FLOAT, from_fields
 from urdfkit.resources import find_model
 from urdfkit.sim import Simulator, Spawn

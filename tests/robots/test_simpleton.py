@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from urdfkit.description import load
-from urdfkit.description.expand import expand
+from urdfkit.description.xacro.expand import expand
 from urdfkit.kinematics import Kinematics, TransformTree
 from urdfkit.lint import lint
 from urdfkit.resources import find_model, robots_dir, templates_dir

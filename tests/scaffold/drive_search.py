@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from urdfkit.description import load
-from urdfkit.description.robot import Robot
+from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import UsageError
 from urdfkit.resources import find_model
 from urdfkit.scaffold import create
-from urdfkit.scaffold.template import Template
+from urdfkit.scaffold.templates.template import Template
 from urdfkit.sim import Simulator
 
 LATERAL = 0.4

@@ -12,9 +12,9 @@ from urdfkit.description import load
 from urdfkit.lint import lint
 from urdfkit.messages import TRAJECTORY, from_fields
 from urdfkit.resources import robots_dir
-from urdfkit.scaffold.control import controllers
-from urdfkit.scaffold.gains import gains
-from urdfkit.scaffold.joint_roles import Roles, roles
+from urdfkit.scaffold.additions.controller_gains import gains
+from urdfkit.scaffold.additions.joint_controllers import controllers
+from urdfkit.scaffold.additions.joint_roles import Roles, roles
 from urdfkit.sim import Simulator
 
 INERTIAL = '<inertial><mass value="{0}"/><inertia ixx="{1}" ixy="0" ixz="0" iyy="{1}" iyz="0" izz="{1}"/></inertial>'

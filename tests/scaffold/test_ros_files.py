@@ -13,7 +13,7 @@ import yaml
 
 from urdfkit.cli import main
 from urdfkit.description import load
-from urdfkit.description.world import load_world
+from urdfkit.description.sdf import load_world
 from urdfkit.resources import robots_dir
 from urdfkit.scaffold import create
 

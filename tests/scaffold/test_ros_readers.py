@@ -5,7 +5,7 @@ import subprocess
 import pytest
 
 from urdfkit.description import load
-from urdfkit.description.expand import expand
+from urdfkit.description.xacro.expand import expand
 from urdfkit.resources import find_model
 from urdfkit.scaffold import create
 

@@ -7,7 +7,7 @@ import pytest
 import trimesh
 
 from urdfkit.description import load
-from urdfkit.description.robot import Robot
+from urdfkit.description.urdf.robot import Robot
 
 
 @pytest.fixture

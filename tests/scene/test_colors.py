@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 
 from urdfkit.description import load
-from urdfkit.description.robot import Robot
+from urdfkit.description.urdf.robot import Robot
 from urdfkit.resources import find_model
 from urdfkit.scene import scene_of
 from urdfkit.scene.colors import DEFAULT, GAZEBO

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from urdfkit.description import load
-from urdfkit.description.robot import Box, Capsule, Cylinder, Geometry, Mesh, Pose, Sphere
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Mesh, Pose, Sphere
 from urdfkit.kinematics import Kinematics
 from urdfkit.resources import find_model
 from urdfkit.scene import Scene, Shape, TriMesh, bounds, lowest_point, scene_of

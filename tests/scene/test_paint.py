@@ -9,14 +9,14 @@ import pytest
 import trimesh
 from PIL import Image
 
-from tests.scene.test_image import DOWN, FLOOR, lit, painter, visual
-from urdfkit.description.robot import Box, Mesh, Pose, Sphere
-from urdfkit.description.world import Light
+from tests.scene.test_ray_images import DOWN, FLOOR, lit, painter, visual
+from urdfkit.description.sdf import Light
+from urdfkit.description.urdf.robot import Box, Mesh, Pose, Sphere
 from urdfkit.scene import MeshLoader, Shape, TriMesh
-from urdfkit.scene.image import Picture
-from urdfkit.scene.lens import Lens, spread
+from urdfkit.scene.camera_model import Lens, spread
+from urdfkit.scene.meshes.textures import Texture
 from urdfkit.scene.placement import pose_matrix
-from urdfkit.scene.texture import Texture
+from urdfkit.scene.ray_images import Picture
 
 AIR = lit(ambient=(1.0, 1.0, 1.0))
 ABOVE = pose_matrix(DOWN)

@@ -5,7 +5,7 @@ import pinocchio as pin
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfkit.description.robot import Pose
+from urdfkit.description.urdf.robot import Pose
 from urdfkit.scene.placement import pose_matrices, pose_matrix
 
 angle = st.floats(-10, 10)

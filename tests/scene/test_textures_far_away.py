@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from tests.scene.gl.test_same_picture import agree, both, table_of
-from tests.scene.test_image import lit
 from tests.scene.test_paint import mesh_of, opaque
-from urdfkit.description.robot import Pose
+from tests.scene.test_ray_images import lit
+from urdfkit.description.urdf.robot import Pose
 from urdfkit.scene import TriMesh
-from urdfkit.scene.image import Painter
-from urdfkit.scene.lens import Lens
+from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.placement import pose_matrix
-from urdfkit.scene.rays.paint import copies
+from urdfkit.scene.ray_images import Painter
+from urdfkit.scene.rays.shading.materials import copies
 
 LENS = Lens(80, 60, 1.0)
 EYE = pose_matrix(Pose((-30.0, 0.3, 1.5), (0.0, 0.05, 0.1)))

@@ -2,7 +2,7 @@ from math import inf
 
 import pytest
 
-from urdfkit.sim.drives.pid import Pid
+from urdfkit.sim.plugins.drives.gazebo_pid import Pid
 
 
 def test_the_error_is_what_is_minus_what_should_be() -> None:

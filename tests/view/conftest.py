@@ -13,10 +13,10 @@ import pytest
 import websocket
 
 from tests.time_limit import PATIENCE
-from urdfkit.description.robot import Box, Cylinder
+from urdfkit.description.urdf.robot import Box, Cylinder
 from urdfkit.scene import Scene, Shape
-from urdfkit.view.nodes import draw, link_path
-from urdfkit.view.server import Server
+from urdfkit.view.content.meshcat_objects import draw, link_path
+from urdfkit.view.server.server import Server
 
 JOINTS = [
     {"name": "lift", "type": "prismatic", "lower": 0.0, "upper": 0.3, "position": 0.1, "unit": "m", "mimic": None},

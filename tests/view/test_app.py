@@ -1,12 +1,14 @@
 """The page's own files, read as text: small modules, nothing that makes code of words."""
 
+import os
 import re
+from pathlib import Path
 
 import pytest
 
-from urdfkit.view.web import APP
+from urdfkit.view.server.http_handlers import APP
 
-MODULES = sorted(APP.glob("*.js"))
+MODULES = sorted(APP.rglob("*.js"))
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: path.name)
@@ -22,8 +24,8 @@ def test_a_module_is_small_says_what_it_is_and_makes_no_code_of_words(path) -> N
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: path.name)
 def test_every_import_is_there(path) -> None:
     text = path.read_text("utf-8")
-    for names, module in re.findall(r'import\s*(?:\{([^}]*)\}\s*from\s*)?"\./([\w.-]+)"', text):
-        other = (APP / module).read_text("utf-8")
+    for names, module in re.findall(r'import\s*(?:\{([^}]*)\}\s*from\s*)?"(\.[\w./-]+)"', text):
+        other = Path(os.path.normpath(path.parent / module)).read_text("utf-8")
         for name in filter(None, (part.strip() for part in names.split(","))):
             assert re.search(rf"export (?:async )?(?:function\*?|class|const) {name}\b", other), f"{module}: {name}"
 

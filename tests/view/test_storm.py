@@ -8,7 +8,7 @@ import random
 
 import websocket
 
-from urdfkit.view.orders import Schema, number, text, tree
+from urdfkit.view.protocol.page_requests import Schema, number, text, tree
 
 FRAMES = 10_000
 KINDS = ("joints", "axes", "control", "ack", "seen", "watch", "do", "hello", "", "__proto__", None, 7)

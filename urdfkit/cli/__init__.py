@@ -107,7 +107,7 @@ def program() -> None:
 
 def _run(arguments: list[str]) -> int:
     if arguments[:1] == ["lint"]:
-        from urdfkit.cli.plain import plain
+        from urdfkit.cli.fast_lint_arguments import plain
 
         if (parsed := plain(arguments[1:])) is not None:
             return int(_module("lint").run(parsed))

@@ -60,7 +60,7 @@ def _add_completers(parser: argparse.ArgumentParser) -> None:
     """Complete arguments by the names that urdfkit knows: robots, worlds, rules; and by files, as other arguments."""
     from argcomplete.completers import FilesCompleter
 
-    from urdfkit.description.world.library import world_names
+    from urdfkit.description.sdf.model_library import world_names
     from urdfkit.lint.catalogue import rules
     from urdfkit.resources import robot_names
 

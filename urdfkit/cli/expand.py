@@ -7,12 +7,12 @@ import sys
 from pathlib import Path
 
 from urdfkit.cli.parser import add_model
-from urdfkit.cli.unused import unused
+from urdfkit.cli.unused_arguments import unused
 from urdfkit.errors import ResourceError, UsageError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from urdfkit.description.expanded import Expanded
+    from urdfkit.description.xacro.expanded import Expanded
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -28,8 +28,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Expand and print, or write the file."""
-    from urdfkit.description.expand import expand
-    from urdfkit.description.packages import Packages
+    from urdfkit.description.packages.resolver import Packages
+    from urdfkit.description.xacro.expand import expand
     from urdfkit.resources import find_model
 
     model = find_model(arguments.model, package_path=arguments.package_path)

@@ -14,7 +14,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from urdfkit.scaffold.template import Template
+    from urdfkit.scaffold.templates.template import Template
 
 _SUFFIXES = ("_description", "_gazebo", "_bringup", "_urdf", ".sldasm", ".SLDASM")
 
@@ -69,11 +69,11 @@ def run(arguments: argparse.Namespace) -> int:
     Raises:
         UrdfkitError: it could not be done; nothing was written then.
     """
-    from urdfkit.cli.ending import ended_by_signals
-    from urdfkit.cli.identity import identity
+    from urdfkit.app.termination import ended_by_signals
+    from urdfkit.cli.git_identity import identity
     from urdfkit.resources import templates_dir
     from urdfkit.scaffold import load_template
-    from urdfkit.scaffold.wrap import wrap
+    from urdfkit.scaffold.wrap.urdf_packages import wrap
 
     file = _file(arguments.file)
     template = load_template(templates_dir() / "package")
@@ -133,7 +133,7 @@ def _folder(word: str) -> Path:
 
 def _name(template: Template, asked: str | None, file: Path) -> str:
     """Return the name asked for, checked, or the robot's as ROS would have it."""
-    from urdfkit.description.expand import expand_leniently
+    from urdfkit.description.xacro.expand import expand_leniently
     from urdfkit.scaffold import check_package_name, sanitised
 
     if asked is not None:
@@ -147,9 +147,9 @@ def _name(template: Template, asked: str | None, file: Path) -> str:
 
 def _mended(stage: Path) -> Sequence[str]:
     """Apply the safe fixes of the linter in a folder; return what was mended and what is left, a line each."""
-    from urdfkit.lint.engine import Options
-    from urdfkit.lint.entries import find_entries
-    from urdfkit.lint.fix import fix
+    from urdfkit.lint.engine.run import Options
+    from urdfkit.lint.fixes.apply import fix
+    from urdfkit.lint.project.entry_files import find_entries
 
     fixed = fix(find_entries([stage]), Options(package_path=(stage,), guess_target=True), within=[stage])
     for change in fixed.changes:

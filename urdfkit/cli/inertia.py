@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import Any
 
-    from urdfkit.description.robot import Inertial, Link
-    from urdfkit.lint.engine import Options
-    from urdfkit.lint.entries import Entry
+    from urdfkit.description.urdf.robot import Inertial, Link
+    from urdfkit.lint.engine.run import Options
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.inertia import Right
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.fixes.inertia_edits import Right
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.project.entry_files import Entry
 
 FAR = 10.0
 """Factor beside the moments of evenly filled shapes that is called wrong: motors and batteries explain less."""
@@ -77,8 +77,8 @@ def run(arguments: argparse.Namespace) -> int:
         UsageError: an argument makes no sense.
         UrdfkitError: there is no such model or link, its inertia cannot be computed, or cannot be written.
     """
-    from urdfkit.lint.engine import Options, model_of
-    from urdfkit.lint.entries import Entry
+    from urdfkit.lint.engine.run import Options, model_of
+    from urdfkit.lint.project.entry_files import Entry
     from urdfkit.resources import find_model
 
     plain = [word for word in arguments.words if ":=" not in word]
@@ -133,8 +133,8 @@ def _chosen(model: Model, name: str | None) -> list[Link]:
 
 def _wrong(path: Path, options: Options) -> dict[str, list[Finding]]:
     """Return what the linter says of the masses and inertia of each link, notes left out."""
-    from urdfkit.lint.engine import run as lint
-    from urdfkit.lint.entries import Entry
+    from urdfkit.lint.engine.run import run as lint
+    from urdfkit.lint.project.entry_files import Entry
 
     found: dict[str, list[Finding]] = {}
     for finding in lint([Entry(path)], options).findings:
@@ -146,8 +146,8 @@ def _wrong(path: Path, options: Options) -> dict[str, list[Finding]]:
 def _row(
     arguments: argparse.Namespace, model: Model, link: Link, findings: list[Finding], *, alone: bool
 ) -> tuple[dict[str, Any], Right | None]:
-    from urdfkit.lint.inertia import right
-    from urdfkit.lint.tensor import COMPONENTS
+    from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
+    from urdfkit.lint.fixes.inertia_edits import right
 
     at = (link.inertial.element if link.inertial is not None else link.element).origin.position
     row: dict[str, Any] = {
@@ -195,7 +195,7 @@ def _off(present: dict[str, Any] | None, computed: dict[str, Any]) -> list[dict[
 
 
 def _present(inertial: Inertial | None) -> dict[str, Any] | None:
-    from urdfkit.lint.tensor import COMPONENTS
+    from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
 
     if inertial is None:
         return None
@@ -212,9 +212,9 @@ def _write(
     entry: Entry, options: Options, model: Model, writes: Sequence[tuple[Link, Right, dict[str, Any]]], *, alone: bool
 ) -> None:
     """Write what was computed: checked in memory first, then each file replaced in one move."""
-    from urdfkit.lint.engine import Options, model_of
-    from urdfkit.lint.fix import changes, may_be_changed
-    from urdfkit.lint.inertia import edits, right
+    from urdfkit.lint.engine.run import Options, model_of
+    from urdfkit.lint.fixes.apply import changes, may_be_changed
+    from urdfkit.lint.fixes.inertia_edits import edits, right
 
     wanted = []
     for link, value, row in writes:
@@ -246,7 +246,7 @@ def _write(
 
 
 def _agree(inertial: Inertial | None, value: Right) -> bool:
-    from urdfkit.lint.tensor import COMPONENTS
+    from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
 
     if inertial is None or inertial.inertia is None or inertial.mass is None:
         return False

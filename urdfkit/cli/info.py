@@ -9,11 +9,11 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.cli.parser import add_model
-from urdfkit.cli.unused import note_unused
+from urdfkit.cli.unused_arguments import note_unused
 from urdfkit.errors import MissingDependencyError, UrdfkitError
 
 if TYPE_CHECKING:
-    from urdfkit.description.robot import Robot
+    from urdfkit.description.urdf.robot import Robot
 
 _FREEDOMS = {"revolute": 1, "continuous": 1, "prismatic": 1, "planar": 3, "floating": 6}
 
@@ -46,7 +46,7 @@ def facts_of(robot: Robot) -> dict[str, Any]:
     Lengths are in metres, masses in kilograms; centre of mass and bounding box (of visuals and collisions) are in the
     root frame with all joints at zero, null where they cannot be computed: ``note`` says why.
     """
-    from urdfkit.description.queries import mass
+    from urdfkit.description.urdf.queries import mass
 
     facts: dict[str, Any] = {
         "robot": robot.name,
@@ -89,7 +89,7 @@ def _joint(joint: Any) -> dict[str, Any]:
 
 def _drives(robot: Robot) -> list[dict[str, Any]]:
     from urdfkit.description.plugins import match, read_all
-    from urdfkit.description.plugins.drives import DRIVES
+    from urdfkit.description.plugins.drives.table import DRIVES
 
     found = []
     for plugin in (plugin for block in robot.gazebo for plugin in block.plugins):
@@ -103,7 +103,7 @@ def _drives(robot: Robot) -> list[dict[str, Any]]:
 
 
 def _sensors(robot: Robot) -> list[dict[str, Any]]:
-    from urdfkit.description.numbers import number
+    from urdfkit.description.xml.numbers import number
 
     found = []
     for block in robot.gazebo:
@@ -126,13 +126,13 @@ def _extent(robot: Robot, mass: float) -> dict[str, Any]:
     Raises:
         MissingDependencyError: Pinocchio is not installed.
     """
-    from urdfkit.kinematics.requirement import require_pinocchio
+    from urdfkit.kinematics.pinocchio_requirement import require_pinocchio
 
     require_pinocchio("info")
     from urdfkit.kinematics import Kinematics
     from urdfkit.scene.extent import bounds
     from urdfkit.scene.placement import pose_matrices
-    from urdfkit.scene.scene import scene_of
+    from urdfkit.scene.scene_table import scene_of
 
     kinematics = Kinematics(robot)
     poses = kinematics.link_poses(kinematics.neutral())

@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
 
-    from urdfkit.lint.engine import Options, Outcome
-    from urdfkit.lint.entries import Entry
+    from urdfkit.lint.engine.run import Options, Outcome
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.fix import Fixed
-    from urdfkit.lint.settings import Settings
+    from urdfkit.lint.fixes.apply import Fixed
+    from urdfkit.lint.project.entry_files import Entry
+    from urdfkit.lint.project.settings import Settings
 
 _EPILOG = """examples:
   urdfkit lint urdf/robot.urdf.xacro use_camera:=true
@@ -127,7 +127,7 @@ class _Run:
 
     def run(self) -> tuple[int, Outcome]:
         """Lint, and fix where asked to; return the exit code and what is left."""
-        from urdfkit.lint.engine import run as lint
+        from urdfkit.lint.engine.run import run as lint
 
         arguments = self.arguments
         entries = self._entries()
@@ -143,18 +143,18 @@ class _Run:
         if arguments.no_config:
             return None
         if arguments.config is not None:
-            from urdfkit.lint.settings import read
+            from urdfkit.lint.project.settings import read
 
             return read(arguments.config)
         start = Path(self.paths[0]) if Path(self.paths[0]).exists() else Path.cwd()
         if not _has_settings(start):
             return None
-        from urdfkit.lint.settings import find
+        from urdfkit.lint.project.settings import find
 
         return find(start)
 
     def _options(self, xacro_arguments: dict[str, str]) -> Options:
-        from urdfkit.lint.engine import Options
+        from urdfkit.lint.engine.run import Options
 
         arguments, settings = self.arguments, self.settings
         folders = tuple(_folder(word) for word in arguments.package_path)
@@ -169,7 +169,7 @@ class _Run:
         return Options(select, ignore, named, xacro_arguments, folders, guess_target=target is None)
 
     def _entries(self) -> list[Entry]:
-        from urdfkit.lint.entries import find_each
+        from urdfkit.lint.project.entry_files import find_each
 
         entries, self.refused = find_each(self.paths)
         settings = self.settings
@@ -200,7 +200,7 @@ class _Run:
         )
 
     def _fix(self, entries: Sequence[Entry]) -> tuple[int, Outcome]:
-        from urdfkit.lint.fix import fix, may_be_changed
+        from urdfkit.lint.fixes.apply import fix, may_be_changed
 
         arguments = self.arguments
         within = may_be_changed(Path(path) for path in self.paths)
@@ -237,7 +237,7 @@ class _Run:
 
     def _left(self, outcome: Outcome) -> Outcome:
         """Return what is to be reported: neither against the settings nor known by the baseline."""
-        from urdfkit.lint.engine import Outcome
+        from urdfkit.lint.engine.run import Outcome
 
         arguments = self.arguments
         file = arguments.baseline or (self.settings.baseline if self.settings is not None else None)
@@ -245,7 +245,7 @@ class _Run:
             return outcome
         findings = [finding for finding in outcome.findings if self._is_wanted(finding)]
         if file is not None and arguments.write_baseline is None:
-            from urdfkit.lint.baseline import read, unknown
+            from urdfkit.lint.engine.baseline import read, unknown
 
             findings, known, gone = unknown(findings, read(file))
             if not arguments.quiet:
@@ -260,7 +260,7 @@ class _Run:
             print(f"urdfkit: {note}", file=sys.stderr)
         refused = self._refuse(outcome)
         if arguments.write_baseline is not None:
-            from urdfkit.lint.baseline import write
+            from urdfkit.lint.engine.baseline import write
 
             count = write(arguments.write_baseline, outcome.findings)
             if not arguments.quiet:
@@ -293,7 +293,7 @@ def _split(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
 def _folder(word: str) -> Path:
     folder = Path(word).expanduser()
     if not folder.is_dir():
-        from urdfkit.description.packages import near_path
+        from urdfkit.description.packages.resolver import near_path
         from urdfkit.errors import ResourceError
 
         raise ResourceError(f"--package-path {word}: no such folder{near_path(folder)}")
@@ -301,7 +301,7 @@ def _folder(word: str) -> Path:
 
 
 def _has_settings(start: Path) -> bool:
-    """Whether there may be settings above a path; `urdfkit.lint.settings` knows which."""
+    """Whether there may be settings above a path; `urdfkit.lint.project.settings` knows which."""
     folder = os.path.abspath(start)  # noqa: PTH100 - a dozen look-ups before every run
     while True:
         if os.path.exists(f"{folder}/urdfkit.toml") or os.path.exists(f"{folder}/pyproject.toml"):  # noqa: PTH110

@@ -9,7 +9,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from urdfkit.lint.engine import Outcome
+    from urdfkit.lint.engine.run import Outcome
     from urdfkit.lint.finding import Finding
 
 FORMATS = ("text", "json", "sarif", "github", "junit")

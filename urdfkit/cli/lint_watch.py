@@ -11,7 +11,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from urdfkit.lint.engine import Outcome
+    from urdfkit.lint.engine.run import Outcome
 
 INTERVAL = 0.3
 """Seconds between two looks at the files."""

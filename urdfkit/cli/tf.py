@@ -12,7 +12,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from urdfkit.cli.unused import note_unused
+from urdfkit.cli.unused_arguments import note_unused
 from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, did_you_mean
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def run(arguments: argparse.Namespace) -> int:
             raise UsageError(f"tf: -o {arguments.output}: draws {', '.join(_DRAWINGS)} files{hint}")
     positions = _positions(arguments.joint)
 
-    from urdfkit.kinematics.requirement import require_pinocchio
+    from urdfkit.kinematics.pinocchio_requirement import require_pinocchio
 
     require_pinocchio("tf")
     from urdfkit.description import load
@@ -177,7 +177,7 @@ def _number(number: float, digits: int = 6) -> str:
 
 def _show_tree(tree: TransformTree, *, output: Path | None, as_json: bool) -> None:
     from urdfkit.atomic import write_bytes, write_text
-    from urdfkit.kinematics.drawing import as_dot, as_svg, as_text
+    from urdfkit.kinematics.frame_tree_drawing import as_dot, as_svg, as_text
 
     if output is None and not as_json:
         try:

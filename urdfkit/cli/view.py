@@ -8,21 +8,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from urdfkit.cli.page import Page, add_page_options, note, require_page, until_interrupted
+from urdfkit.app.page import Page, add_page_options, note, require_page, until_interrupted
 from urdfkit.cli.parser import add_model
-from urdfkit.cli.unused import note_unused
+from urdfkit.cli.unused_arguments import note_unused
 from urdfkit.errors import UrdfkitError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from urdfkit.cli.findings import Findings
+    from urdfkit.app.viewer.findings_panel import Findings
     from urdfkit.kinematics import Kinematics
     from urdfkit.resources import ModelArgument
     from urdfkit.scene import Scene
-    from urdfkit.view.export import Recording
-    from urdfkit.view.orders import Order, Schema
-    from urdfkit.view.server import Server
+    from urdfkit.view.html_export import Recording
+    from urdfkit.view.protocol.page_requests import Order, Schema
+    from urdfkit.view.server.server import Server
 
 LOOK = 0.15
 """Seconds between looks at the files."""
@@ -50,11 +50,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Serve until interrupted, or write the page."""
     require_page("view", "view", beside=("rosbags",))
-    from urdfkit.cli.findings import Findings
-    from urdfkit.cli.sim.saved import check_places
+    from urdfkit.app.simulation.saved_topics import check_places
+    from urdfkit.app.viewer.findings_panel import Findings
     from urdfkit.resources import find_model
-    from urdfkit.view.security import is_loopback
-    from urdfkit.view.server import Server
+    from urdfkit.view.server.access_control import is_loopback
+    from urdfkit.view.server.server import Server
 
     check_places("--html", [Path(arguments.html)] if arguments.html is not None else [])
     model = find_model(arguments.model, package_path=arguments.package_path)
@@ -79,7 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def orders() -> dict[str, Schema]:
     """Return what the page may order: a fix by the number of its finding, a point in a link's frame."""
-    from urdfkit.view.orders import Schema, numbers, text, whole
+    from urdfkit.view.protocol.page_requests import Schema, numbers, text, whole
 
     return {
         "fix": Schema({"finding": whole()}),
@@ -89,9 +89,9 @@ def orders() -> dict[str, Schema]:
 
 def export(model: ModelArgument, path: Path, *, quiet: bool = False) -> int:
     """Write the page in one file."""
+    from urdfkit.app.viewer.findings_panel import Findings
     from urdfkit.atomic import write_text
-    from urdfkit.cli.findings import Findings
-    from urdfkit.view.export import Recording
+    from urdfkit.view.html_export import Recording
 
     figure = Figure.read(model)
     note_unused(model.arguments, figure.files, quiet=quiet)
@@ -134,7 +134,7 @@ class Session:
 
     def __init__(self, server: Server | Recording, model: ModelArgument, figure: Figure, findings: Findings) -> None:
         from urdfkit.bus import Bus
-        from urdfkit.view.files import Watch
+        from urdfkit.view.file_watch import Watch
 
         self.server = server
         self.model = model
@@ -225,9 +225,9 @@ class Session:
 
     def show(self) -> None:
         """Put the robot on the page, its joints where they were by name."""
-        from urdfkit.view.inspection import inspection
-        from urdfkit.view.joints import home, joint_rows
-        from urdfkit.view.nodes import draw, link_path
+        from urdfkit.view.content.inspector import inspection
+        from urdfkit.view.content.joint_panel import home, joint_rows
+        from urdfkit.view.content.meshcat_objects import draw, link_path
 
         kinematics, scene = self.figure.kinematics, self.figure.scene
         self.positions = {name: self.positions.get(name, at) for name, at in home(kinematics).items()}

@@ -1,9 +1,9 @@
 """The instruction set that kernels are compiled for: a level of x86-64, whatever else the processor has.
 
 numba compiles for the processor it runs on. Compiled for a level instead, and with every operation rounded as IEEE 754
-has it, kernels compute the same bytes on every processor: wider registers and other instructions change how many numbers
-are computed at once, not how one is rounded. `LEVELS` are those of the x86-64 ABI. All give the same bytes: a processor
-below the first only runs slower.
+defines it, kernels compute the same bytes on every processor: wider registers and other instructions change how many
+numbers are computed at once, not how one is rounded. `LEVELS` are those of the x86-64 ABI. All give the same bytes; a
+processor below the first level only runs slower.
 
 The user's settings come first: with ``NUMBA_CPU_NAME`` or ``NUMBA_CPU_FEATURES`` kernels are compiled as these say, and
 with ``NUMBA_ENABLE_AVX=0`` for the level without AVX. For other architectures they are compiled as numba does.

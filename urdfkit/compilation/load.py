@@ -49,7 +49,7 @@ def _compile(named: FunctionType, arguments: tuple[Any, ...], **options: Any) ->
     """Compile as one program for a fixed level; where this numba is not made as we take it to be, as numba does."""
     try:
         from urdfkit.compilation.target import fixed_level
-        from urdfkit.compilation.whole import whole_program
+        from urdfkit.compilation.whole_program import whole_program
 
         dispatcher = numba.njit(named, **options)
         with fixed_level(), whole_program(named.__qualname__):

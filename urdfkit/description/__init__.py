@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.description.robot import Robot
+from urdfkit.description.urdf.robot import Robot
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-from urdfkit.description.element import Element
-from urdfkit.description.expand import expand, is_xacro
-from urdfkit.description.expanded import Expanded
-from urdfkit.description.packages import Packages
-from urdfkit.description.parse import parse
-from urdfkit.description.robot import Joint, Link, Problem, Robot
+from urdfkit.description.packages.resolver import Packages
+from urdfkit.description.urdf.parser import parse
+from urdfkit.description.urdf.robot import Joint, Link, Problem, Robot
+from urdfkit.description.xacro.expand import expand, is_xacro
+from urdfkit.description.xacro.expanded import Expanded
+from urdfkit.description.xml.element import Element
 from urdfkit.errors import ModelError, did_you_mean
 
 _HARMLESS = frozenset({"unknown-value", "missing"})
@@ -210,6 +210,6 @@ def _loop_links(loop: list[Joint]) -> list[str]:
 
 
 def _error(message: str, element: Element) -> ModelError:
-    from urdfkit.description.diagnosis import chain_words
+    from urdfkit.description.xacro.diagnosis import chain_words
 
     return ModelError(message + chain_words(element.origin.expansions), position=element.origin.position)

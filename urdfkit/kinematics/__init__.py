@@ -6,14 +6,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from urdfkit.kinematics.limits import JointLimitError
+    from urdfkit.kinematics.joint_limits import JointLimitError
     from urdfkit.kinematics.mimic import Coupling
     from urdfkit.kinematics.model import Kinematics
     from urdfkit.kinematics.tf import TransformTree
 
 __all__ = ["Coupling", "JointLimitError", "Kinematics", "TransformTree"]
 
-_HOMES = {"Coupling": "mimic", "JointLimitError": "limits", "Kinematics": "model", "TransformTree": "tf"}
+_HOMES = {"Coupling": "mimic", "JointLimitError": "joint_limits", "Kinematics": "model", "TransformTree": "tf"}
 
 
 def __getattr__(name: str) -> Any:

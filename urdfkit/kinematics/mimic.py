@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from urdfkit.description.robot import Joint, Robot
+from urdfkit.description.urdf.robot import Joint, Robot
 from urdfkit.errors import KinematicsError, did_you_mean
 
 _SINGLE = ("revolute", "continuous", "prismatic")

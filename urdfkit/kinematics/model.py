@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.description.robot import Robot
+from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import KinematicsError, did_you_mean
-from urdfkit.kinematics.build import build_model, pin
-from urdfkit.kinematics.limits import JointLimitError, position_limits
+from urdfkit.kinematics.joint_limits import JointLimitError, position_limits
+from urdfkit.kinematics.joint_variables import PARTS, Array, finite, index_variables, rates, unit_pose
 from urdfkit.kinematics.mimic import Coupling, couplings
-from urdfkit.kinematics.variables import PARTS, Array, finite, index_variables, rates, unit_pose
+from urdfkit.kinematics.pinocchio_model import build_model, pin
 
 
 class Kinematics:

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from urdfkit.description.robot import Joint, Robot
-from urdfkit.kinematics.build import pin
+from urdfkit.description.urdf.robot import Joint, Robot
+from urdfkit.kinematics.joint_variables import Array
 from urdfkit.kinematics.model import Kinematics
-from urdfkit.kinematics.variables import Array
+from urdfkit.kinematics.pinocchio_model import pin
 
 
 @dataclass(frozen=True, slots=True)

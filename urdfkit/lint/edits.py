@@ -14,10 +14,10 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from urdfkit.description.element import Element
+    from urdfkit.description.xml.element import Element
     from urdfkit.lint.finding import Safety
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.syntax import Document, Tag
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Document, Tag
 
 
 def new_value(model: Model, element: Element, attribute: str, value: str, safety: Safety, title: str) -> Fix | None:

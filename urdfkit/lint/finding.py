@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.description.source import Expansion, Span
+from urdfkit.description.xml.source import Expansion, Span
 from urdfkit.record import record
 
 TYPE_CHECKING = False

@@ -6,7 +6,7 @@ not expand, `RobotRule` the robot that came out. All of them yield findings at t
 
 from __future__ import annotations
 
-from urdfkit.description.source import Position
+from urdfkit.description.xml.source import Position
 from urdfkit.lint.finding import Finding
 
 TYPE_CHECKING = False
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from typing import Any, ClassVar, Literal
 
-    from urdfkit.description.element import Element
-    from urdfkit.description.faults import Fault
-    from urdfkit.description.source import Origin
+    from urdfkit.description.xacro.faults import Fault
+    from urdfkit.description.xml.element import Element
+    from urdfkit.description.xml.source import Origin
     from urdfkit.lint.finding import Fix, Severity
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.syntax import Document
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Document
 
 NOT_GAZEBO = frozenset(("mujoco", "isaac", "drake", "moveit"))
 """Targets that read neither ``<gazebo>`` nor what belongs to controllers."""

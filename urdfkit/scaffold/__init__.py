@@ -1,16 +1,16 @@
 """Write packages from templates: questions, answers, files, all or nothing."""
 
-from urdfkit.scaffold.computed import computed
-from urdfkit.scaffold.filling import fill
-from urdfkit.scaffold.names import check_package_name, sanitised
-from urdfkit.scaffold.new import create, is_fresh
-from urdfkit.scaffold.outcome import Fault
-from urdfkit.scaffold.question import Question, applies
-from urdfkit.scaffold.reading import load_template
-from urdfkit.scaffold.recipe import read_made, read_recipe
-from urdfkit.scaffold.sources import named_template, template_at, template_names
-from urdfkit.scaffold.template import Template
-from urdfkit.scaffold.update import BESIDE, Change, Update, find_recipe, updating
+from urdfkit.scaffold.templates.computed_answers import computed
+from urdfkit.scaffold.templates.names import check_package_name, sanitised
+from urdfkit.scaffold.templates.placeholders import fill
+from urdfkit.scaffold.templates.questions import Question, applies
+from urdfkit.scaffold.templates.recipe import read_made, read_recipe
+from urdfkit.scaffold.templates.template import Template
+from urdfkit.scaffold.templates.template_parser import load_template
+from urdfkit.scaffold.templates.template_sources import named_template, template_at, template_names
+from urdfkit.scaffold.update.rendering import create, is_fresh
+from urdfkit.scaffold.update.staged_packages import Fault
+from urdfkit.scaffold.update.updating import BESIDE, Change, Update, find_recipe, updating
 
 __all__ = [
     "BESIDE",

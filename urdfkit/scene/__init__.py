@@ -1,7 +1,7 @@
 """One scene table for sensors and viewer: bodies, shapes, colours, meshes."""
 
 from urdfkit.scene.extent import bounds, lowest_point
-from urdfkit.scene.mesh import MeshLoader, TriMesh
-from urdfkit.scene.scene import Role, Scene, Shape, scene_of
+from urdfkit.scene.meshes.loader import MeshLoader, TriMesh
+from urdfkit.scene.scene_table import Role, Scene, Shape, scene_of
 
 __all__ = ["MeshLoader", "Role", "Scene", "Shape", "TriMesh", "bounds", "lowest_point", "scene_of"]

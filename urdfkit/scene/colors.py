@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from urdfkit.description.element import Element
-from urdfkit.description.gazebo_materials import GAZEBO, Rgba, script_of
-from urdfkit.description.robot import Material, Robot, Visual
-from urdfkit.scene.gloss import MATT, Gloss, gloss_of
+from urdfkit.description.plugins.gazebo_materials import GAZEBO, Rgba, script_of
+from urdfkit.description.urdf.robot import Material, Robot, Visual
+from urdfkit.description.xml.element import Element
+from urdfkit.scene.specular import MATT, Gloss, gloss_of
 
 __all__ = ["DEFAULT", "GAZEBO", "Palette", "Rgba"]
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from urdfkit.description.robot import Box, Capsule, Cylinder, Sphere
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
 from urdfkit.scene.placement import pose_matrices
-from urdfkit.scene.scene import Role, Scene, Shape
+from urdfkit.scene.scene_table import Role, Scene, Shape
 
 Array = NDArray[np.float64]
 

@@ -8,10 +8,10 @@ from math import cos
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.description.element import Element
-from urdfkit.description.world import Light, World
+from urdfkit.description.sdf import Light, World
+from urdfkit.description.xml.element import Element
 from urdfkit.scene.placement import pose_matrix
-from urdfkit.scene.rays.shine import DIRECTIONAL, LIGHT, POINT, SPOT
+from urdfkit.scene.rays.shading.direct_lighting import DIRECTIONAL, LIGHT, POINT, SPOT
 
 Array = NDArray[np.float64]
 Color = tuple[float, float, float]

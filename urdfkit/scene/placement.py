@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from urdfkit.description.robot import Pose
+from urdfkit.description.urdf.robot import Pose
 
 Array = NDArray[np.float64]
 

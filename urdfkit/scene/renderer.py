@@ -9,11 +9,11 @@ from typing import Literal, Protocol, get_args
 from numpy.typing import ArrayLike
 
 from urdfkit.errors import SimulationError, did_you_mean
-from urdfkit.scene.gl.probe import SECONDS, Found, on_processor, probe, probe_anew
-from urdfkit.scene.image import Painter, Picture
-from urdfkit.scene.lens import Lens
+from urdfkit.scene.camera_model import Lens
+from urdfkit.scene.gl.driver_probe import SECONDS, Found, on_processor, probe, probe_anew
 from urdfkit.scene.lights import Lighting
-from urdfkit.scene.rays.table import RayTable
+from urdfkit.scene.ray_images import Painter, Picture
+from urdfkit.scene.rays.ray_scene import RayTable
 
 Renderer = Literal["auto", "ray", "gl"]
 RENDERERS: tuple[str, ...] = get_args(Renderer)
@@ -85,7 +85,7 @@ def painter_of(
         return Painter(table, lighting)
     if renderer == "auto" and on_processor(found.name) and lighting.has_shadows:
         return Painter(table, lighting)
-    from urdfkit.scene.gl.painter import GlPainter
+    from urdfkit.scene.gl.gl_renderer import GlPainter
 
     try:
         return GlPainter(table, lighting, found.backend, note)

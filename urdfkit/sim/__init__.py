@@ -17,20 +17,20 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from urdfkit.sim.plugin import Controller, Drive, Sensor
+    from urdfkit.sim.construction.spawn import Spawn
+    from urdfkit.sim.plugins.base import Controller, Drive, Sensor
     from urdfkit.sim.simulator import Simulator
-    from urdfkit.sim.spawn import Spawn
-    from urdfkit.sim.state import State
+    from urdfkit.sim.state.robot_state import State
 
 __all__ = ["Controller", "Drive", "Sensor", "Simulator", "Spawn", "State"]
 
 _HOMES = {
-    "Controller": "plugin",
-    "Drive": "plugin",
-    "Sensor": "plugin",
+    "Controller": "plugins.base",
+    "Drive": "plugins.base",
+    "Sensor": "plugins.base",
     "Simulator": "simulator",
-    "Spawn": "spawn",
-    "State": "state",
+    "Spawn": "construction.spawn",
+    "State": "state.robot_state",
 }
 
 

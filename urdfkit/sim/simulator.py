@@ -13,25 +13,25 @@ from numpy.typing import NDArray
 
 from urdfkit.bus import Bus, Subscription
 from urdfkit.description import Robot
-from urdfkit.description.world import Physics, World
+from urdfkit.description.sdf import Physics, World
 from urdfkit.errors import SimulationError
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.scene import Scene
-from urdfkit.sim.agenda import Agenda
-from urdfkit.sim.distro import Distro
+from urdfkit.sim.construction.initial_overlap import note_overlaps
+from urdfkit.sim.construction.loading import load_robot, require_sense, the_world
+from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.engine.engine import Provider
-from urdfkit.sim.given import number, three
-from urdfkit.sim.loading import load_robot, require_sense, the_world
-from urdfkit.sim.overlap import note_overlaps
-from urdfkit.sim.plugin import Drive, Setup
-from urdfkit.sim.population import Population
-from urdfkit.sim.publications import Clock
-from urdfkit.sim.schedule import Ticks
-from urdfkit.sim.simulated import SimulatedRobot
-from urdfkit.sim.spawn import Spawn
-from urdfkit.sim.stage import Stage
-from urdfkit.sim.surroundings import Surroundings
-from urdfkit.sim.world_topics import ModelStates, listen
+from urdfkit.sim.plugins.base import Drive, Setup
+from urdfkit.sim.plugins.publishers import Clock
+from urdfkit.sim.plugins.ros_distro import Distro
+from urdfkit.sim.state.arguments import number, three
+from urdfkit.sim.state.ticks import Ticks
+from urdfkit.sim.world.entities import Population
+from urdfkit.sim.world.gazebo_services import ModelStates, listen
+from urdfkit.sim.world.live_world import Stage
+from urdfkit.sim.world.scene_view import Surroundings
+from urdfkit.sim.world.scheduler import Agenda
+from urdfkit.sim.world.simulated_robot import SimulatedRobot
 
 Array = NDArray[np.float64]
 

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.description.robot import Box
+from urdfkit.description.urdf.robot import Box
 from urdfkit.sim import Simulator
-from urdfkit.sim.things import bodies_of
+from urdfkit.sim.construction.rigid_bodies import bodies_of
 
 Array = NDArray[np.float64]
 

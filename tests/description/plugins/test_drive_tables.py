@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from urdfkit.description.parse import parse
 from urdfkit.description.plugins import match, read
-from urdfkit.description.plugins.drives import DRIVES
-from urdfkit.description.reading import document_of
-from urdfkit.description.source import Source
+from urdfkit.description.plugins.drives.table import DRIVES
+from urdfkit.description.urdf.parser import parse
+from urdfkit.description.xml.reader import document_of
+from urdfkit.description.xml.source import Source
 
 
 def plugin_of(inside: str, filename: str, name: str = "p"):

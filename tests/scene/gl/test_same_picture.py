@@ -9,20 +9,20 @@ import numpy as np
 import pytest
 import trimesh
 
-from tests.scene.test_image import lit, visual
 from tests.scene.test_paint import QUARTERS, mesh_of, opaque, wrapped
-from urdfkit.description.robot import Box, Capsule, Cylinder, Pose, Sphere
-from urdfkit.description.world import Cone, Ellipsoid, Light, Plane, load_world
+from tests.scene.test_ray_images import lit, visual
+from urdfkit.description.sdf import Cone, Ellipsoid, Light, Plane, load_world
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Sphere
 from urdfkit.scene import Scene, Shape, TriMesh
-from urdfkit.scene.gl.drawing import Shot
-from urdfkit.scene.gl.probe import probe
+from urdfkit.scene.camera_model import Distortion, Lens
+from urdfkit.scene.gl.draw_calls import Shot
+from urdfkit.scene.gl.driver_probe import probe
 from urdfkit.scene.gl.shaders import ALL, COLOR, DEEP
-from urdfkit.scene.image import Painter, Picture
-from urdfkit.scene.lens import Distortion, Lens
 from urdfkit.scene.lights import Lighting, lighting_of
 from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.ray_images import Painter, Picture
 from urdfkit.scene.rays import RayTable
-from urdfkit.sim.surroundings import world_scene
+from urdfkit.sim.world.scene_view import world_scene
 
 DEVICE = probe()
 pytestmark = pytest.mark.opengl
@@ -35,7 +35,7 @@ LENS = Lens(320, 240, 1.1)
 
 
 def both(table: RayTable, lighting: Lighting):
-    from urdfkit.scene.gl.painter import GlPainter
+    from urdfkit.scene.gl.gl_renderer import GlPainter
 
     return GlPainter(table, lighting, DEVICE.backend), Painter(table, lighting)
 
@@ -214,7 +214,7 @@ def test_several_threads_may_take_pictures() -> None:
 def test_a_driver_that_fails_later_is_replaced_by_rays(monkeypatch) -> None:
     import moderngl
 
-    from urdfkit.scene.gl.painter import GlPainter
+    from urdfkit.scene.gl.gl_renderer import GlPainter
 
     notes: list[str] = []
     table, lighting = table_of(*zoo()), lit(SUN)

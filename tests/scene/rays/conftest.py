@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from urdfkit.description.robot import Box, Capsule, Cylinder, Sphere
-from urdfkit.description.world import Cone, Ellipsoid, Plane
+from urdfkit.description.sdf import Cone, Ellipsoid, Plane
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
 from urdfkit.scene import Scene, Shape
 from urdfkit.scene.placement import pose_matrices
 from urdfkit.scene.rays import warmup

@@ -10,10 +10,10 @@ import trimesh
 import trimesh.ray.ray_pyembree as embree
 
 from tests.scene.rays.conftest import random_poses, scene_of_shapes, shape, units
-from urdfkit.description.robot import Box, Mesh
+from urdfkit.description.urdf.robot import Box, Mesh
 from urdfkit.scene import TriMesh
 from urdfkit.scene.placement import pose_matrices
-from urdfkit.scene.rays import RayTable, store
+from urdfkit.scene.rays import RayTable, bvh_cache
 
 RAYS = 20_000
 
@@ -97,16 +97,16 @@ def test_meshes_and_solids_hide_each_other() -> None:
 @pytest.fixture
 def kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(store, "KEPT_FROM", 100)
+    monkeypatch.setattr(bvh_cache, "KEPT_FROM", 100)
     return tmp_path / "urdfkit" / "trees"
 
 
 def test_a_tree_is_built_once_and_then_read(kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = ours(bumpy(subdivisions=3))
-    first = store.mesh_tree(mesh)
+    first = bvh_cache.mesh_tree(mesh)
     (file,) = kept.iterdir()
-    monkeypatch.setattr(store, "_build", None)
-    again = store.mesh_tree(mesh)
+    monkeypatch.setattr(bvh_cache, "_build", None)
+    again = bvh_cache.mesh_tree(mesh)
     for name in ("bounds", "links", "order", "corners"):
         assert np.array_equal(getattr(first, name), getattr(again, name))
     assert mesh.hash in file.name
@@ -115,7 +115,7 @@ def test_a_tree_is_built_once_and_then_read(kept: Path, monkeypatch: pytest.Monk
 @pytest.mark.parametrize("damage", ["cut", "flipped", "empty", "other", "folder"])
 def test_a_broken_tree_is_built_again(kept: Path, damage: str) -> None:
     mesh = ours(bumpy(subdivisions=3))
-    first = store.mesh_tree(mesh)
+    first = bvh_cache.mesh_tree(mesh)
     (file,) = kept.iterdir()
     whole = file.read_bytes()
     middle = len(whole) // 2
@@ -130,7 +130,7 @@ def test_a_broken_tree_is_built_again(kept: Path, damage: str) -> None:
         file.mkdir()
     else:
         file.write_bytes(broken[damage])
-    again = store.mesh_tree(mesh)
+    again = bvh_cache.mesh_tree(mesh)
     assert np.array_equal(first.bounds, again.bounds)
     if damage != "folder":
         assert file.read_bytes() == whole
@@ -141,5 +141,5 @@ def test_without_a_place_to_keep_it_a_tree_is_built_all_the_same(
 ) -> None:
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    monkeypatch.setattr(store, "KEPT_FROM", 100)
-    assert len(store.mesh_tree(ours(bumpy(subdivisions=3))).links) > 100
+    monkeypatch.setattr(bvh_cache, "KEPT_FROM", 100)
+    assert len(bvh_cache.mesh_tree(ours(bumpy(subdivisions=3))).links) > 100

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from urdfkit.description.robot import Box, Capsule, Cylinder, Sphere
-from urdfkit.description.world import Cone, Ellipsoid, Plane
+from urdfkit.description.sdf import Cone, Ellipsoid, Plane
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
 
 Real = np.longdouble
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import pytest
 
-from urdfkit.sim.bench import peer as module
-from urdfkit.sim.bench.check import Check
+from urdfkit.sim.bench import peer_engines as module
 from urdfkit.sim.bench.comparison import Compared, Scaled, Speed
-from urdfkit.sim.bench.peer import choose
-from urdfkit.sim.bench.running import Running
+from urdfkit.sim.bench.correctness_checks import Check
+from urdfkit.sim.bench.peer_engines import choose
+from urdfkit.sim.bench.running_scene import Running
 from urdfkit.sim.bench.scene import Scene
 
 FINE = Check("speed", 1.0, 1.0, 0.1, "m/s")

@@ -8,9 +8,9 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 
-from urdfkit.sim.bench.check import Check, _motion, resting_pose, skid_rate
-from urdfkit.sim.bench.in_urdfkit import InUrdfkit
-from urdfkit.sim.bench.running import Running
+from urdfkit.sim.bench.correctness_checks import Check, _motion, resting_pose, skid_rate
+from urdfkit.sim.bench.engine_scene import InUrdfkit
+from urdfkit.sim.bench.running_scene import Running
 from urdfkit.sim.bench.scene import CALL, Motor, Scene, Servo
 from urdfkit.sim.bench.scenes import SCENES, robots
 
@@ -29,14 +29,14 @@ def changed(name: str, **changes: object) -> Scene:
 
 def in_mujoco(scene: Scene) -> Running:
     pytest.importorskip("mujoco")
-    from urdfkit.sim.bench.in_mujoco import Mujoco, Settings
+    from urdfkit.sim.bench.mujoco_scene import Mujoco, Settings
 
     return Mujoco().build(scene)(Settings())
 
 
 def in_pybullet(scene: Scene) -> Running:
     pytest.importorskip("pybullet")
-    from urdfkit.sim.bench.in_pybullet import Pybullet, Settings
+    from urdfkit.sim.bench.pybullet_scene import Pybullet, Settings
 
     return Pybullet().build(scene)(Settings())
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from urdfkit.sim.engine.arrays import GUESSES
-from urdfkit.sim.engine.contact_rows import FASTEST_RECOVERY
+from urdfkit.sim.engine.constraints.contact_rows import FASTEST_RECOVERY
 
 SPEC = spec_from_file_location("worlds", Path(__file__).with_name("worlds.py"))
 worlds = module_from_spec(SPEC)

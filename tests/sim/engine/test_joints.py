@@ -9,7 +9,8 @@ import pinocchio as pin
 import pytest
 
 from urdfkit.errors import SimulationError
-from urdfkit.sim.engine import Surface, collide
+from urdfkit.sim.engine import Surface
+from urdfkit.sim.engine.contacts import ground_contacts
 
 BODY = (
     '<link name="{name}"><inertial><origin xyz="0 0 0.1"/><mass value="1"/>'
@@ -82,8 +83,8 @@ def test_wrong_states_are_refused(engine_of):
 
 def test_a_cylinder_that_turns_about_its_axis_is_a_wheel(engine_of):
     kinds = [touch.kind for touch in engine_of("diff_drive")._touches]
-    assert kinds == [collide.BOX, collide.SPHERE, collide.WHEEL, collide.WHEEL]
-    assert [touch.kind for touch in engine_of("can")._touches] == [collide.CYLINDER]
+    assert kinds == [ground_contacts.BOX, ground_contacts.SPHERE, ground_contacts.WHEEL, ground_contacts.WHEEL]
+    assert [touch.kind for touch in engine_of("can")._touches] == [ground_contacts.CYLINDER]
 
 
 MESH = """<robot name="m"><link name="base"><inertial><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0"

@@ -92,9 +92,9 @@ def test_blocks_and_the_matrix_of_rows_agree(engine_of):
 
 
 def test_a_table_on_many_feet_carries_what_stands_on_it(engine_of):
-    from urdfkit.description.robot import Box
+    from urdfkit.description.urdf.robot import Box
     from urdfkit.scene import Shape
-    from urdfkit.sim.engine.body import Body, Piece
+    from urdfkit.sim.engine.bodies import Body, Piece
 
     def part(size, at):
         place = np.eye(4)

@@ -7,12 +7,12 @@ import math
 import numpy as np
 import pytest
 
-from urdfkit.description.robot import Box, Sphere
-from urdfkit.description.world import Plane
+from urdfkit.description.sdf import Plane
+from urdfkit.description.urdf.robot import Box, Sphere
 from urdfkit.errors import SimulationError
 from urdfkit.scene import Shape
 from urdfkit.sim.engine import Surface
-from urdfkit.sim.engine.body import Body, Member, Piece
+from urdfkit.sim.engine.bodies import Body, Member, Piece
 
 G = 9.81
 LEVEL = (0.0, 0.0, 0.0, 1.0)

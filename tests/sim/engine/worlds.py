@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from urdfkit.description.robot import Box, Capsule, Cylinder, Sphere
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
 from urdfkit.scene import Shape, scene_of
 from urdfkit.sim.engine import Surface
-from urdfkit.sim.engine.body import Body, Member, Piece
+from urdfkit.sim.engine.bodies import Body, Member, Piece
 
 LEVEL = (0.0, 0.0, 0.0, 1.0)
 SMOOTH = {"base": Surface(0.0, 0.0)}

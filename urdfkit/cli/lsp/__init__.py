@@ -12,7 +12,7 @@ from urdfkit.errors import MissingDependencyError
 if TYPE_CHECKING:
     from pygls.lsp.server import LanguageServer
 
-    from urdfkit.lint.engine import Options
+    from urdfkit.lint.engine.run import Options
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -36,7 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
         import pygls.lsp.server  # noqa: F401
     except ImportError as error:
         raise MissingDependencyError("lsp needs pygls: pip install 'urdfkit[lsp]'") from error
-    from urdfkit.cli.lsp.wire import speak_in_lines
+    from urdfkit.cli.lsp.rejected_requests import speak_in_lines
 
     if not arguments.verbose:
         speak_in_lines()
@@ -46,9 +46,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _options(arguments: argparse.Namespace) -> Options:
-    from urdfkit.lint.engine import Options
-    from urdfkit.lint.settings import find
-    from urdfkit.lint.target import known_target
+    from urdfkit.lint.engine.run import Options
+    from urdfkit.lint.project.settings import find
+    from urdfkit.lint.project.target import known_target
 
     settings = find(Path.cwd())
     target = arguments.target or settings.target
@@ -63,9 +63,9 @@ def server_for(options: Options) -> LanguageServer:
     from pygls.lsp.server import LanguageServer
 
     from urdfkit import __version__
+    from urdfkit.cli.lsp.rejected_requests import Protocol
     from urdfkit.cli.lsp.session import Session
-    from urdfkit.cli.lsp.wire import Protocol
-    from urdfkit.lint.editor.project import Project
+    from urdfkit.lint.editor.open_files import Project
 
     kind = types.TextDocumentSyncKind.Incremental
     server = LanguageServer("urdfkit", __version__, text_document_sync_kind=kind, protocol_cls=Protocol)

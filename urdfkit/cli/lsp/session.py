@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 from lsprotocol import types
 
-from urdfkit.cli.lsp.protocol import diagnostic, failure, offset_of, path_of, position_of, range_of
-from urdfkit.description.reading import read_source, shown_path
+from urdfkit.cli.lsp.positions import diagnostic, failure, offset_of, path_of, position_of, range_of
+from urdfkit.description.xml.reader import read_source, shown_path
 from urdfkit.errors import UrdfkitError
 
 if TYPE_CHECKING:
     from pygls.lsp.server import LanguageServer
 
-    from urdfkit.description.source import Source, Span
+    from urdfkit.description.xml.source import Source, Span
     from urdfkit.lint.editor.cursor import Cursor
-    from urdfkit.lint.editor.project import Analysis, Project
+    from urdfkit.lint.editor.open_files import Analysis, Project
     from urdfkit.lint.finding import Edit
 
 PAUSE = 0.005
@@ -163,7 +163,7 @@ class Session:
 
     def definition(self, uri: str, position: types.Position) -> list[types.Location]:
         """Return where what is under the cursor is defined, or the file it names."""
-        from urdfkit.lint.editor.navigate import definitions, file_at
+        from urdfkit.lint.editor.navigation import definitions, file_at
 
         found = self._at(uri, position)
         if found is None:
@@ -180,7 +180,7 @@ class Session:
 
     def references(self, uri: str, position: types.Position, *, with_definition: bool) -> list[types.Location]:
         """Return every place that names what is under the cursor."""
-        from urdfkit.lint.editor.navigate import references
+        from urdfkit.lint.editor.navigation import references
 
         found = self._at(uri, position)
         if found is None:
@@ -190,7 +190,7 @@ class Session:
 
     def renamable(self, uri: str, position: types.Position) -> types.Range | None:
         """Return the name under the cursor that can be changed."""
-        from urdfkit.lint.editor.navigate import renamable
+        from urdfkit.lint.editor.navigation import renamable
 
         found = self._at(uri, position)
         model = found[0][0].model if found is not None else None
@@ -201,7 +201,7 @@ class Session:
         """Return the edits that call what is under the cursor something else."""
         from pygls.exceptions import JsonRpcInvalidParams
 
-        from urdfkit.lint.editor.navigate import rename
+        from urdfkit.lint.editor.navigation import rename
 
         found = self._at(uri, position)
         models = [analysis.model for analysis in found[0] if analysis.model is not None] if found is not None else []
@@ -214,7 +214,7 @@ class Session:
 
     def completion(self, uri: str, position: types.Position) -> list[types.CompletionItem]:
         """Return what fits at a place."""
-        from urdfkit.lint.editor.complete import fits
+        from urdfkit.lint.editor.completion import fits
 
         found = self._at(uri, position)
         model = found[0][0].known if found is not None else None

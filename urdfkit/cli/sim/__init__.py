@@ -9,7 +9,7 @@ from urdfkit.cli.parser import add_common
 
 SUBCOMMANDS = {
     "teleop": ("teleop", "drive a robot in real time, in the browser or the terminal"),
-    "run": ("headless", "simulate headless, as fast as it can, and report where everything ended up"),
+    "run": ("run_command", "simulate headless, as fast as it can, and report where everything ended up"),
     "bench": ("bench", "compare the speed of our engine with MuJoCo and PyBullet"),
     "warmup": ("warmup", "compile the physics kernel now, not on first use"),
 }

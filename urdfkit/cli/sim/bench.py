@@ -8,13 +8,13 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-from urdfkit.cli.sim import values
+from urdfkit.cli.sim import option_values
 from urdfkit.errors import SimulationError, UsageError, did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from urdfkit.sim.bench.peer import Peer
+    from urdfkit.sim.bench.peer_engines import Peer
     from urdfkit.sim.bench.report import Report
 
 SCALING, MEMORY = "scaling", "memory"
@@ -41,7 +41,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add(
         "--seconds",
-        type=values.positive,
+        type=option_values.positive,
         default=0.3,
         metavar="S",
         help="CPU seconds of each measurement (default: 0.3)",
@@ -87,10 +87,10 @@ def measure(names: Sequence[str], *, seconds: float, rounds: int, quiet: bool = 
     """
     prepare(names)
     from urdfkit import __version__
-    from urdfkit.sim.bench import memory
+    from urdfkit.sim.bench import memory_use
     from urdfkit.sim.bench.comparison import OURS, Comparison
-    from urdfkit.sim.bench.machine import machine
-    from urdfkit.sim.bench.peer import PEERS
+    from urdfkit.sim.bench.machine_description import machine
+    from urdfkit.sim.bench.peer_engines import PEERS
     from urdfkit.sim.bench.report import Report
     from urdfkit.sim.bench.scenes import SCENES
 
@@ -108,7 +108,7 @@ def measure(names: Sequence[str], *, seconds: float, rounds: int, quiet: bool = 
     if MEMORY in names:
         say("memory: driving through the house")
         try:
-            held = memory.measure()
+            held = memory_use.measure()
         except SimulationError as error:
             say("")
             print(f"urdfkit: memory is left out: {error}", file=sys.stderr)
@@ -121,7 +121,7 @@ def measure(names: Sequence[str], *, seconds: float, rounds: int, quiet: bool = 
 
 def prepare(names: Sequence[str]) -> None:
     """Compile the kernels that will be needed, so that no measurement holds a compilation."""
-    from urdfkit.cli.sim.kernel import prepare_kernel
+    from urdfkit.app.simulation.kernel_compilation import prepare_kernel
 
     prepare_kernel(sys.stderr)
     from urdfkit.sim.bench.scenes import SCENES

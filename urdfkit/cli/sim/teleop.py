@@ -5,21 +5,21 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from urdfkit.cli.page import Page, add_page_options, note, require_page, told_of_faults, until_interrupted
+from urdfkit.app.page import Page, add_page_options, note, require_page, told_of_faults, until_interrupted
+from urdfkit.app.simulation.progress import compile_kernel, compile_rays, progress
 from urdfkit.cli.parser import add_model
-from urdfkit.cli.sim.compiling import compile_kernel, compile_rays, progress
-from urdfkit.cli.sim.controllers import add_controllers
-from urdfkit.cli.sim.distro import add_distro
-from urdfkit.cli.sim.recording import add_record, check_record, recording
-from urdfkit.cli.sim.renderer import add_renderer
-from urdfkit.cli.unused import note_unused
+from urdfkit.cli.sim.controllers_option import add_controllers
+from urdfkit.cli.sim.record_option import add_record, check_record, recording
+from urdfkit.cli.sim.renderer_option import add_renderer
+from urdfkit.cli.sim.ros_distro_option import add_distro
+from urdfkit.cli.unused_arguments import note_unused
 
 if TYPE_CHECKING:
-    from urdfkit.cli.sim.ride.likeness import Likeness
-    from urdfkit.cli.sim.ride.loop import Ride
+    from urdfkit.app.simulation.loop import Ride
+    from urdfkit.app.simulation.placeholder import Likeness
     from urdfkit.description import Robot
-    from urdfkit.description.world import World
-    from urdfkit.view.server import Server
+    from urdfkit.description.sdf import World
+    from urdfkit.view.server.server import Server
 
 KEYS = """\
 Drive with W A S D, the arrows, i j k l u o m , . or the pad; let go and the robot stops.
@@ -46,12 +46,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Simulate and serve until interrupted."""
     require_page("sim teleop", "sim", beside=("numba", "rosbags"))
-    from urdfkit.cli.sim.ride.likeness import Likeness
+    from urdfkit.app.simulation.placeholder import Likeness
     from urdfkit.description import load
-    from urdfkit.description.world import load_world
+    from urdfkit.description.sdf import load_world
     from urdfkit.resources import find_model
-    from urdfkit.view.running import noted
-    from urdfkit.view.server import Server
+    from urdfkit.view.server.running_simulations import noted
+    from urdfkit.view.server.server import Server
 
     check_record(arguments.record)
     with until_interrupted():
@@ -80,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _ride(arguments: argparse.Namespace, robot: Robot, world: World, likeness: Likeness, server: Server) -> Ride:
     """Compile what has to be, build the world and put all of it on the page."""
-    from urdfkit.cli.sim.ride.loop import Ride
+    from urdfkit.app.simulation.loop import Ride
     from urdfkit.sim import Simulator
 
     compile_kernel(server)

@@ -14,7 +14,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Compile and cache."""
-    from urdfkit.cli.sim.kernel import prepare_kernel, prepare_rays
+    from urdfkit.app.simulation.kernel_compilation import prepare_kernel, prepare_rays
 
     begin = time.perf_counter()
     compiled = [prepare_kernel(sys.stderr), prepare_kernel(sys.stderr, world=True), prepare_rays(sys.stderr)]

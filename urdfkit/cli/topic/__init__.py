@@ -8,8 +8,8 @@ from importlib import import_module
 from urdfkit.cli.parser import HelpFormatter
 
 SUBCOMMANDS = {
-    "list": ("listing", "print the topics there are"),
-    "info": ("listing", "print type, number of messages and listeners of a topic"),
+    "list": ("list_topics", "print the topics there are"),
+    "info": ("list_topics", "print type, number of messages and listeners of a topic"),
     "echo": ("echo", "print messages as they come"),
     "hz": ("rates", "print how often messages come, in simulated time"),
     "bw": ("rates", "print how many bytes the messages of a topic take"),
@@ -34,7 +34,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Run one subcommand; Ctrl-C is its way to be done."""
-    from urdfkit.cli.topic.session import talk
+    from urdfkit.cli.topic.connection import talk
 
     module, _ = SUBCOMMANDS[arguments.subcommand]
     return talk(import_module(f"urdfkit.cli.topic.{module}").run, arguments)

@@ -9,11 +9,11 @@ import re
 from contextlib import aclosing
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.cli.topic.session import messages, named, positive, topics
+from urdfkit.cli.topic.connection import messages, named, positive, topics
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
-    from urdfkit.view.client import Client
+    from urdfkit.view.protocol.client import Client
 
 NOT_FINITE = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
 """How the protocol writes numbers that JSON has no words for."""

@@ -7,12 +7,12 @@ import asyncio
 import json
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.cli.page import note
-from urdfkit.cli.topic.session import named, positive, topics
+from urdfkit.app.page import note
+from urdfkit.cli.topic.connection import named, positive, topics
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
-    from urdfkit.view.client import Client
+    from urdfkit.view.protocol.client import Client
 
 RATE = 1.0
 """Messages per second of wall time; the default of ros2 topic pub."""

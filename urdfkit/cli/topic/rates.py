@@ -15,10 +15,10 @@ from dataclasses import asdict, dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from urdfkit.cli.topic.session import messages, named, positive, topics
+from urdfkit.cli.topic.connection import messages, named, positive, topics
 
 if TYPE_CHECKING:
-    from urdfkit.view.client import Client
+    from urdfkit.view.protocol.client import Client
 
 PERIOD = 1.0
 """Seconds between two lines."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.description.control.find import Configuration, find_configuration
-from urdfkit.description.control.settings import Settings, node_settings, read_settings
+from urdfkit.description.control.parameter_yaml import Settings, node_settings, read_settings
+from urdfkit.description.control.ros1_controllers import Configuration, find_configuration
 
 __all__ = ["Configuration", "Settings", "find_configuration", "node_settings", "read_settings"]

@@ -3,7 +3,7 @@
 ``match(plugin)`` finds the table, ``read(plugin, spec)`` gives meaning → text (``read_all`` for repeated parameters).
 """
 
-from urdfkit.description.plugins.diff_drive import DIFF_DRIVE
+from urdfkit.description.plugins.drives.diff_drive import DIFF_DRIVE
 from urdfkit.description.plugins.lookup import ALL_SPECS, match, read, read_all, values
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from urdfkit.description.element import Element
-from urdfkit.description.plugins.control import CONTROL
-from urdfkit.description.plugins.drives import DRIVES
-from urdfkit.description.plugins.sensors import SENSORS
+from urdfkit.description.plugins.controller_plugins import CONTROL
+from urdfkit.description.plugins.drives.table import DRIVES
+from urdfkit.description.plugins.sensors.table import SENSORS
 from urdfkit.description.plugins.spec import Parameter, PluginSpec
-from urdfkit.description.robot import Plugin
+from urdfkit.description.urdf.robot import Plugin
+from urdfkit.description.xml.element import Element
 
 ALL_SPECS: tuple[PluginSpec, ...] = (*DRIVES, *CONTROL, *SENSORS)
 """Every plugin we have a table of."""

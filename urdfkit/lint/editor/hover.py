@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.editor.navigate import at
+from urdfkit.lint.editor.navigation import at
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from urdfkit.description.plugins import Parameter
-    from urdfkit.description.robot import Link
+    from urdfkit.description.urdf.robot import Link
     from urdfkit.lint.editor.cursor import Cursor
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _SHOWN = 5
 _MASSES = frozenset(("link", "inertial", "mass", "inertia"))
@@ -67,7 +67,7 @@ def _listed(written: str, values: list[str]) -> str:
 
 def _parameter(cursor: Cursor) -> list[str]:
     """Return what the tables say of a plugin's parameter."""
-    from urdfkit.lint.editor.complete import plugin_around
+    from urdfkit.lint.editor.completion import plugin_around
 
     tag = cursor.tag
     if tag is None or tag.parent is None:
@@ -121,8 +121,8 @@ def _masses(model: Model, cursor: Cursor) -> list[str]:
 
 def _mass(model: Model, link: Link) -> list[str]:
     from urdfkit.errors import UrdfkitError
-    from urdfkit.lint.inertia import right
-    from urdfkit.lint.principal import principal_moments
+    from urdfkit.lint.facts.inertia.principal_moments import principal_moments
+    from urdfkit.lint.fixes.inertia_edits import right
 
     inertial = link.inertial
     lines = [f"**link `{link.name}`**"]

@@ -8,17 +8,17 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.description.source import Position, Span
+from urdfkit.description.xml.source import Position, Span
 from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.element import Element
-    from urdfkit.description.source import Source
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.syntax import Document, Tag
+    from urdfkit.description.xml.element import Element
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Document, Tag
 
 EXPANDED = ("link", "joint", "material")
 """Kinds of symbols that are known after expansion."""
@@ -64,8 +64,8 @@ def of_model(model: Model) -> list[Occurrence]:
 
 def in_settings(model: Model) -> Iterator[Occurrence]:
     """Yield the links and joints that the YAML of the package, and of those around it, names."""
-    from urdfkit.lint.controllers import joints
-    from urdfkit.lint.launch import uncommented
+    from urdfkit.lint.facts.control.controller_joints import joints
+    from urdfkit.lint.facts.control.launch_files import uncommented
 
     def occurrence(source: Source, kind: str, written: str, start: int) -> Occurrence:
         name = written.rpartition("/")[2]
@@ -104,7 +104,7 @@ def _expanded(model: Model) -> Iterator[Occurrence]:
                 known = "joint" if kind == "part" and value not in robot.link_by_name else kind
                 yield from _at(model, element, attribute, "link" if known == "part" else known, value)
     if robot.gazebo:
-        from urdfkit.lint.gazebo import references
+        from urdfkit.lint.facts.gazebo.plugins import references
 
         for text, element, parameter, _ in references(model, ("joint", "link", "frame")):
             kind = "joint" if parameter.names == "joint" else "link"

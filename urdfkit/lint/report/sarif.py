@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from typing import Any
 
-    from urdfkit.description.source import Position, Span
+    from urdfkit.description.xml.source import Position, Span
     from urdfkit.lint.finding import Finding, Fix
     from urdfkit.lint.rule import Rule
 

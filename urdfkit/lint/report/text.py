@@ -19,7 +19,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from urdfkit.description.source import Expansion, Source
+    from urdfkit.description.xml.source import Expansion, Source
     from urdfkit.lint.finding import Finding
 
 _RESET = "\x1b[0m"

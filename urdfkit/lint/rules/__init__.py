@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
     from typing import Any
 
-    from urdfkit.description.robot import Robot
-    from urdfkit.description.source import Source
+    from urdfkit.description.urdf.robot import Robot
+    from urdfkit.description.xml.source import Source
     from urdfkit.lint.rule import FaultRule, RobotRule, Rule, SourceRule
     from urdfkit.lint.table import Row
 
@@ -59,7 +59,7 @@ def robot_rules(robot: Robot | None = None, target: str | None = None) -> tuple[
     """
     if robot is None:
         return tuple(_rules((*ROBOT, *AROUND, *TARGETED)))
-    from urdfkit.lint.glance import traits
+    from urdfkit.lint.facts.features import traits
 
     features = traits(robot)
     rows = ROBOT if target is None else (*ROBOT, *TARGETED)

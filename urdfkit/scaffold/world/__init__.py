@@ -1,5 +1,5 @@
 """Worlds for `urdfkit new world`: rooms, offices, houses, obstacles; the same answers give the same bytes."""
 
-from urdfkit.scaffold.world.contents import contents
+from urdfkit.scaffold.world.world_contents import contents
 
 __all__ = ["contents"]

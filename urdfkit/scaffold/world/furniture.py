@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from urdfkit.scaffold.world.chance import Chance
-from urdfkit.scaffold.world.plan import Plan, Room
+from urdfkit.scaffold.world.floor_plan import Plan, Room
+from urdfkit.scaffold.world.random_numbers import Chance
 from urdfkit.scaffold.world.shapes import CLOTH, DARK, WOOD, Shape, Thing
 
 WAY = 0.8

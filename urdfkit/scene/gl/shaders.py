@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from urdfkit.scene.rays.shine import DIRECTIONAL, SPOT
-from urdfkit.scene.rays.skin import FINEST
+from urdfkit.scene.rays.shading.direct_lighting import DIRECTIONAL, SPOT
+from urdfkit.scene.rays.shading.surface_attributes import FINEST
 
 STILL = ("s",)
 BOTH = ("s", "m")

@@ -11,6 +11,6 @@ through them sixteen at a time (see `packet`).
 """
 
 from urdfkit.scene.rays.kernels import announcement, warmup
-from urdfkit.scene.rays.table import Hits, RayTable
+from urdfkit.scene.rays.ray_scene import Hits, RayTable
 
 __all__ = ["Hits", "RayTable", "announcement", "warmup"]

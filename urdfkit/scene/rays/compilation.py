@@ -15,17 +15,20 @@ from urdfkit.compilation import compile_or_load, own_sources
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 KERNEL_MODULES = (
-    "cast",
+    "bvh",
     "compilation",
-    "normals",
-    "packet",
-    "picture",
-    "place",
-    "skin",
-    "solids",
-    "tree",
+    "primitives",
+    "ray_casting",
+    "ray_packet",
+    "shading/camera_picture",
+    "shading/direct_lighting",
+    "shading/edge_pixels",
+    "shading/shading_buffers",
+    "shading/surface_attributes",
+    "shape_placement",
+    "surface_normals",
     "triangles",
-    "wide",
+    "wide_bvh",
 )
 """Modules of this package with compiled functions."""
 

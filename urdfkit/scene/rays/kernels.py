@@ -18,7 +18,7 @@ def caster() -> Callable[..., Any]:
     from numba import float64 as f
     from numba import int64 as i
 
-    from urdfkit.scene.rays.cast import cast
+    from urdfkit.scene.rays.ray_casting import cast
 
     return load_compiled(
         cast, (scene_type(), f[::1], f[:, ::1], f[:, ::1], f, f, f[::1], f[::1], i[::1], i[::1], f[:, ::1])
@@ -41,7 +41,7 @@ def looker() -> Callable[..., Any]:
     from numba import float64 as f
     from numba import int64 as i
 
-    from urdfkit.scene.rays.picture import look
+    from urdfkit.scene.rays.shading.camera_picture import look
 
     paint = types.Tuple((f[:, ::1], i[::1], f[:, ::1], float32[:, ::1], i[:, ::1], uint8[::1]))
     return load_compiled(
@@ -71,7 +71,7 @@ def outliner() -> Callable[..., Any]:
     """Return the compiled `outline.outline`."""
     from numba import int64, uint8
 
-    from urdfkit.scene.rays.outline import outline
+    from urdfkit.scene.rays.shading.edge_pixels import outline
 
     return load_compiled(outline, (uint8[:, :, ::1], int64, int64[::1]))
 
@@ -82,7 +82,7 @@ def placer() -> Callable[..., Any]:
     from numba import float64 as f
     from numba import int64 as i
 
-    from urdfkit.scene.rays.place import place
+    from urdfkit.scene.rays.shape_placement import place
 
     return load_compiled(
         place,
@@ -113,7 +113,7 @@ def builder() -> Callable[..., Any]:
     from numba import float64 as f
     from numba import int64 as i
 
-    from urdfkit.scene.rays.tree import build
+    from urdfkit.scene.rays.bvh import build
 
     return load_compiled(build, (f[:, ::1], i[::1], f[:, ::1], i[:, ::1], i, f[::1]))
 
@@ -124,7 +124,7 @@ def widener() -> Callable[..., Any]:
     from numba import float64 as f
     from numba import int64 as i
 
-    from urdfkit.scene.rays.wide import widen
+    from urdfkit.scene.rays.wide_bvh import widen
 
     return load_compiled(widen, (f[:, ::1], i[:, ::1], i[:, :, ::1], i[::1]))
 
@@ -135,7 +135,7 @@ def filler() -> Callable[..., Any]:
     from numba import float64 as f
     from numba import int64 as i
 
-    from urdfkit.scene.rays.wide import fill
+    from urdfkit.scene.rays.wide_bvh import fill
 
     return load_compiled(fill, (f[:, ::1], i[:, :, ::1], i, f[:, ::1]))
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from urdfkit.scene.rays.compilation import compiled
-from urdfkit.scene.rays.packet import HIT, LX, LY, LZ, MX, MY, MZ, PART, REACH, WIDTH
-from urdfkit.scene.rays.solids import frame_of, turned
+from urdfkit.scene.rays.primitives import frame_of, turned
+from urdfkit.scene.rays.ray_packet import HIT, LX, LY, LZ, MX, MY, MZ, PART, REACH, WIDTH
 
 CORNERS = 9
 """Numbers per triangle: one corner and the two edges from it."""

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from urdfkit.sim.bench.check import Check
-    from urdfkit.sim.bench.running import Running
+    from urdfkit.sim.bench.correctness_checks import Check
+    from urdfkit.sim.bench.running_scene import Running
 
 DT = 0.001
 """Step of every scene [s]."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import atan, cos, pi
 
-from urdfkit.sim.bench import models
-from urdfkit.sim.bench.check import drives, drives_and_holds, holds, skid_rate, stands, turns_on_the_spot
+from urdfkit.sim.bench import urdf_models
+from urdfkit.sim.bench.correctness_checks import drives, drives_and_holds, holds, skid_rate, stands, turns_on_the_spot
 from urdfkit.sim.bench.scene import Motor, Scene, Servo, Thing
 
 DIFF_SPEEDS = (7.0, 9.0)
@@ -30,7 +30,7 @@ MUJOCO_AND_PYBULLET_ARM = {"mujoco": 2.0, "pybullet": 5.0}
 def diff_drive(at: tuple[float, float, float] = (0.0, 0.0, 0.06)) -> Thing:
     """Return the diff drive with its motors running."""
     motors = {f"{side}_wheel_joint": Motor(w, 1.0) for side, w in zip(("left", "right"), DIFF_SPEEDS, strict=True)}
-    return Thing(models.diff_drive(), at, slippery=("base",), motors=motors)
+    return Thing(urdf_models.diff_drive(), at, slippery=("base",), motors=motors)
 
 
 def robots(count: int) -> Scene:
@@ -47,7 +47,7 @@ def _skid() -> Thing:
         for end in ("front", "rear")
         for side, sign in (("left", -1.0), ("right", 1.0))
     }
-    return Thing(models.skid_steer(), (0.0, 0.0, 0.08), motors=motors)
+    return Thing(urdf_models.skid_steer(), (0.0, 0.0, 0.08), motors=motors)
 
 
 def _car() -> Thing:
@@ -59,7 +59,7 @@ def _car() -> Thing:
         f"{side}_steering": atan(0.6 / (CAR_RADIUS + away * 0.25)) for side, away in (("left", -1.0), ("right", 1.0))
     }
     servos = dict.fromkeys(angles, Servo(500.0, 10.0, 50.0))
-    return Thing(models.car(), (0.0, 0.0, 0.1), motors=motors, servos=servos, poses=(angles,))
+    return Thing(urdf_models.car(), (0.0, 0.0, 0.1), motors=motors, servos=servos, poses=(angles,))
 
 
 def _swing(period: float) -> tuple[dict[str, float], ...]:
@@ -74,7 +74,7 @@ def _swing(period: float) -> tuple[dict[str, float], ...]:
 
 def _arm() -> Thing:
     servos = dict.fromkeys(ARM_JOINTS, ARM_SERVO)
-    return Thing(models.arm(), (0.0, 0.0, 0.0), bolted=True, servos=servos, poses=_swing(2.0))
+    return Thing(urdf_models.arm(), (0.0, 0.0, 0.0), bolted=True, servos=servos, poses=_swing(2.0))
 
 
 def _manipulator() -> Thing:
@@ -82,11 +82,11 @@ def _manipulator() -> Thing:
         f"{side}_wheel_joint": Motor(w, 10.0) for side, w in zip(("left", "right"), MANIPULATOR_SPEEDS, strict=True)
     }
     servos = dict.fromkeys(ARM_JOINTS, CARRIED_ARM_SERVO)
-    urdf = models.mobile_manipulator()
+    urdf = urdf_models.mobile_manipulator()
     return Thing(urdf, (0.0, 0.0, 0.1), slippery=("base",), motors=motors, servos=servos, poses=_swing(4.0))
 
 
-BOXES = tuple(Thing(models.box(), (0.0, 0.0, 0.1 + 0.2 * k)) for k in range(5))
+BOXES = tuple(Thing(urdf_models.box(), (0.0, 0.0, 0.1 + 0.2 * k)) for k in range(5))
 
 SCENES = (
     Scene(

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
-from urdfkit.sim.engine.lanes import LANES
-from urdfkit.sim.engine.pairs import collide_pair as memory
+from urdfkit.sim.engine.collision import collide_pair as memory
+from urdfkit.sim.engine.math.simd import LANES
 
 Size = tuple[str, ...]
 

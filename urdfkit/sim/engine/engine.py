@@ -13,15 +13,15 @@ from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
 from urdfkit.scene import Shape
 from urdfkit.sim.engine.arrays import HAS_PAIRS, ITERATED, OVERFULL, STEPS
-from urdfkit.sim.engine.body import AT_ORIGIN, Body, Member
-from urdfkit.sim.engine.loose import Loose
-from urdfkit.sim.engine.model import fill
-from urdfkit.sim.engine.part import Part
-from urdfkit.sim.engine.soundness import require_inertia
-from urdfkit.sim.engine.state import contacts, turning
-from urdfkit.sim.engine.surface import Contact, Ground, Surface
-from urdfkit.sim.engine.touches import touching
-from urdfkit.sim.engine.warmup import kernel, world_kernel
+from urdfkit.sim.engine.articulation import Part
+from urdfkit.sim.engine.bodies import AT_ORIGIN, Body, Member
+from urdfkit.sim.engine.contact_surface import Contact, Ground, Surface
+from urdfkit.sim.engine.free_body import Loose
+from urdfkit.sim.engine.kernel_cache import kernel, world_kernel
+from urdfkit.sim.engine.layout.collision_shapes import touching
+from urdfkit.sim.engine.layout.validation import require_inertia
+from urdfkit.sim.engine.layout.world_arrays import fill
+from urdfkit.sim.engine.state_conversion import contacts, turning
 
 Array = NDArray[np.float64]
 Provider = Literal["compiled", "pinocchio"]
@@ -108,7 +108,7 @@ class Engine(Part):
         if provider == "compiled":
             self._advance = kernel() if alone and not self._arrays["numbers"][HAS_PAIRS] else world_kernel()
         else:
-            from urdfkit.sim.engine.reference import Reference
+            from urdfkit.sim.engine.reference.pinocchio_engine import Reference
 
             self._advance = Reference(self._members, self._free, self._arrays).advance
         self._floats, self._integers = self._arrays.floats, self._arrays.integers

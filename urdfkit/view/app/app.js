@@ -1,13 +1,13 @@
 // Wires the page together: connection ↔ stage, panels, features.
 
-import { Connection } from "./connection.js";
-import { drawnBy } from "./graphics.js";
-import { Page } from "./page.js";
-import { Panels } from "./panels.js";
-import { Scene } from "./scene.js";
-import { simFeatures } from "./sim.js";
-import { Stage } from "./stage.js";
-import { viewFeatures } from "./view.js";
+import { Connection } from "./page/connection.js";
+import { drawnBy } from "./viewport/graphics_device.js";
+import { Page } from "./page/page.js";
+import { Panels } from "./page/panels.js";
+import { Scene } from "./viewport/scene_nodes.js";
+import { simFeatures } from "./simulation/simulation_features.js";
+import { Stage } from "./viewport/viewport.js";
+import { viewFeatures } from "./robot/robot_features.js";
 
 const PROTOCOL = 2;
 const $ = (id) => document.getElementById(id);

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from urdfkit.description.numbers import number
-from urdfkit.lint.interfaces import is_old, misspelt_parts
+from urdfkit.description.xml.numbers import number
+from urdfkit.lint.facts.control.hardware_interfaces import is_old, misspelt_parts
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.element import Element
+    from urdfkit.description.xml.element import Element
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _REDUCTIONS = ("mechanicalReduction", "mechanical_reduction")
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.gazebo import plugins, simulated_hardware
+from urdfkit.lint.facts.gazebo.plugins import plugins, simulated_hardware
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _PLUGINS = {
     "gz_ros2_control/GazeboSimSystem": ("gz_ros2_control-system", "gz_ros2_control::GazeboSimROS2ControlPlugin"),
@@ -90,8 +90,8 @@ def _is_loaded_elsewhere(model: Model) -> bool:
     """Whether another description of the package, or a conditional part of these files, names a plugin."""
     import re
 
-    from urdfkit.lint.around import is_conditional
-    from urdfkit.lint.entries import descriptions
+    from urdfkit.lint.facts.neighbouring_names import is_conditional
+    from urdfkit.lint.project.entry_files import descriptions
 
     if any(is_conditional(source.text, _PLUGIN_OR_HARDWARE) for source in model.expanded.sources.values()):
         return True

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from urdfkit.description.numbers import number
+from urdfkit.description.xml.numbers import number
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.element import Element
-    from urdfkit.description.robot import Joint
+    from urdfkit.description.urdf.robot import Joint
+    from urdfkit.description.xml.element import Element
     from urdfkit.lint.finding import Finding, Severity
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _DEGREES_RATIO = 20.0
 """Ratio of a value to the limit of a revolute joint above which the value must be in degrees."""

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import nearest, new_text
-from urdfkit.lint.gazebo import plugins, simulated_hardware
+from urdfkit.lint.facts.gazebo.plugins import plugins, simulated_hardware
+from urdfkit.lint.project.target import WITHOUT_CLASSIC
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-from urdfkit.lint.target import WITHOUT_CLASSIC
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 HARDWARE = {
     "gazebo_ros2_control": "gazebo_ros2_control/GazeboSystem",

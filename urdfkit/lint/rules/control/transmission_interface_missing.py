@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.facts.control.hardware_interfaces import has_gazebo_ros_control, is_old, misspelt_parts
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.interfaces import has_gazebo_ros_control, is_old, misspelt_parts
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.element import Element
-    from urdfkit.description.robot import Transmission
+    from urdfkit.description.urdf.robot import Transmission
+    from urdfkit.description.xml.element import Element
     from urdfkit.lint.finding import Finding, Severity
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class TransmissionInterfaceMissing(RobotRule):

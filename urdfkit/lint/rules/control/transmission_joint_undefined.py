@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_value
-from urdfkit.lint.hidden import doubted
+from urdfkit.lint.model.masked_names import doubted
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class TransmissionJointUndefined(RobotRule):

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.gazebo import plugins, spec_of
-from urdfkit.lint.interfaces import has_gazebo_ros_control
+from urdfkit.lint.facts.control.hardware_interfaces import has_gazebo_ros_control
+from urdfkit.lint.facts.gazebo.plugins import plugins, spec_of
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.robot import Robot
+    from urdfkit.description.urdf.robot import Robot
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class TwoDrivers(RobotRule):

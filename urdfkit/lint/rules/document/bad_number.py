@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.description.numbers import number
-from urdfkit.lint.blamed import blamed, is_no_number
-from urdfkit.lint.expressions import is_unexpanded
+from urdfkit.description.xml.numbers import number
+from urdfkit.lint.facts.escaped_expressions import is_unexpanded
+from urdfkit.lint.facts.root_cause import blamed, is_no_number
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import RobotRule
 
@@ -14,10 +14,10 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.robot import Problem
-    from urdfkit.lint.blamed import Place
+    from urdfkit.description.urdf.robot import Problem
+    from urdfkit.lint.facts.root_cause import Place
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _COMMA = re.compile(r"\s*,\s*")
 _COUNTS = {"xyz": 3, "rpy": 3, "size": 3, "scale": 3, "rgba": 4}

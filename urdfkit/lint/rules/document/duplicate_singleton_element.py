@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import without_element
-from urdfkit.lint.prefix import URDF_CHILDREN
+from urdfkit.lint.model.xacro_prefix import URDF_CHILDREN
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.element import Element
+    from urdfkit.description.xml.element import Element
     from urdfkit.lint.finding import Finding, Severity
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class DuplicateSingletonElement(RobotRule):
@@ -86,7 +86,7 @@ class DuplicateSingletonElement(RobotRule):
                 yield from self._check_children(model, child)
 
     def _check_plugins(self, model: Model) -> Iterator[Finding]:
-        from urdfkit.lint.gazebo import plugins, specs
+        from urdfkit.lint.facts.gazebo.plugins import plugins, specs
 
         for plugin, _, _ in plugins(model.robot):
             candidates = specs(plugin)

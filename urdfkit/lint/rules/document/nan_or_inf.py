@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.description.numbers import numbers
-from urdfkit.description.values import LARGEST as BEYOND
+from urdfkit.description.urdf.values import LARGEST as BEYOND
+from urdfkit.description.xml.numbers import numbers
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 LARGEST = 1e10
 """Largest plausible value, in SI units."""

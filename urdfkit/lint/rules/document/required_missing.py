@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.description.robot import JOINT_TYPES
+from urdfkit.description.urdf.robot import JOINT_TYPES
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _OTHER_RULES = frozenset(
     (

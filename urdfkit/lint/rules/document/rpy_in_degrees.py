@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import degrees, pi, radians
 
-from urdfkit.description.numbers import numbers
+from urdfkit.description.xml.numbers import numbers
 from urdfkit.lint.edits import new_value
 from urdfkit.lint.rule import RobotRule
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class RpyInDegrees(RobotRule):

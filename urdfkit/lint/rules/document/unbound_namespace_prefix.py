@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.finding import Fix
-from urdfkit.lint.prefix import declaration, declares_xacro, has_xacro_as_default
+from urdfkit.lint.model.xacro_prefix import declaration, declares_xacro, has_xacro_as_default
 from urdfkit.lint.rule import SourceRule
 
 TYPE_CHECKING = False
@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.syntax import Document
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Document
 
 _PREFIXED = r"[<\s]([A-Za-z_][\w.-]*):[A-Za-z_][\w.-]*(?=[\s/>=])"
 _NOT_IN_NAMES = frozenset("\"'=/>")

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import nearest, new_name, without_attribute
-from urdfkit.lint.prefix import URDF_ATTRIBUTES
+from urdfkit.lint.model.xacro_prefix import URDF_ATTRIBUTES
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.element import Element
+    from urdfkit.description.xml.element import Element
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _ALLOWED = {tag: frozenset(names) for tag, names in URDF_ATTRIBUTES.items()}
 _FOREIGN_NAMES = {

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import nearest, new_tag
-from urdfkit.lint.prefix import URDF_ATTRIBUTES, URDF_CHILDREN, misspelt_in_robot
+from urdfkit.lint.model.xacro_prefix import URDF_ATTRIBUTES, URDF_CHILDREN, misspelt_in_robot
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.element import Element
+    from urdfkit.description.xml.element import Element
     from urdfkit.lint.finding import Finding, Fix
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _CURRENT_NAMES = {"joint_properties": "dynamics"}
 """Obsolete names of URDF elements → current names."""
@@ -95,7 +95,7 @@ class UnknownElement(RobotRule):
         robot = model.robot
         elements = [block.element for block in robot.transmissions]
         for element in (*elements, *(block.element for block in robot.ros2_control)):
-            from urdfkit.lint.interfaces import misspelt_parts
+            from urdfkit.lint.facts.control.hardware_interfaces import misspelt_parts
 
             for parent, child, tag in misspelt_parts(element, element.tag):
                 fix = new_tag(model, child, tag, "unsafe", f"Rename to <{tag}>")

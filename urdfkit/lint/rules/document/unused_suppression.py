@@ -8,9 +8,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator
 
+    from urdfkit.lint.engine.suppressions import Suppression
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.suppress import Suppression
+    from urdfkit.lint.model.model import Model
 
 
 class UnusedSuppression(Rule):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.prefix import NAMESPACE
+from urdfkit.lint.model.xacro_prefix import NAMESPACE
 from urdfkit.lint.rule import SourceRule
 
 TYPE_CHECKING = False
@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.syntax import Document
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Document
 
 
 class WrongXacroNamespaceUri(SourceRule):

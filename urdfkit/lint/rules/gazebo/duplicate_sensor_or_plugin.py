@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.gazebo import plugins
+from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.element import Element
+    from urdfkit.description.xml.element import Element
     from urdfkit.lint.finding import Finding, Severity
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class DuplicateSensorOrPlugin(RobotRule):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.description.numbers import numbers
+from urdfkit.description.xml.numbers import numbers
 from urdfkit.lint.edits import without_element
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class FrictionDirectionZero(RobotRule):

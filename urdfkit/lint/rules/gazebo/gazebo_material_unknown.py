@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class GazeboMaterialUnknown(RobotRule):
@@ -55,7 +55,7 @@ class GazeboMaterialUnknown(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each unknown material."""
-        from urdfkit.description.gazebo_materials import unknown_materials
+        from urdfkit.description.plugins.gazebo_materials import unknown_materials
 
         for element, name, suggestion in unknown_materials(model.robot):
             if not model.is_unresolved(element):

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 KEYS = (
     "material",
@@ -119,7 +119,7 @@ class GazeboUnknownTag(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each misspelt element of a block, and each unknown element of a sensor."""
-        from urdfkit.description.plugins.elements import strangers
+        from urdfkit.description.plugins.sensor_elements import strangers
 
         for block in model.robot.gazebo:
             for child in block.element.children if block.reference else ():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from urdfkit.lint.gazebo import plugins
+from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class PluginFileMissing(RobotRule):
@@ -57,8 +57,8 @@ class PluginFileMissing(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each parameter file that does not exist."""
-        from urdfkit.description.packages import near_path
-        from urdfkit.description.surroundings import package_of
+        from urdfkit.description.packages.related_files import package_of
+        from urdfkit.description.packages.resolver import near_path
 
         for plugin, _, _ in plugins(model.robot):
             for element in plugin.element.find_all("parameters"):

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.facts.gazebo.plugins import plugins, specs
 from urdfkit.lint.finding import Edit, Fix
-from urdfkit.lint.gazebo import plugins, specs
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.robot import Plugin
+    from urdfkit.description.urdf.robot import Plugin
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class PluginFilenameMalformed(RobotRule):

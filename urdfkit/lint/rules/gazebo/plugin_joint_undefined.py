@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.hidden import doubted
+from urdfkit.lint.model.masked_names import doubted
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -10,9 +10,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.description.plugins import Parameter
-    from urdfkit.description.robot import Plugin
+    from urdfkit.description.urdf.robot import Plugin
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _MAY_BE_FIXED = ("joint", "joints")
 """Meanings of parameters whose joints are only read, by force-torque sensors and state publishers."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_text
-from urdfkit.lint.gazebo import is_frame, references
-from urdfkit.lint.hidden import doubted
+from urdfkit.lint.facts.gazebo.plugins import is_frame, references
+from urdfkit.lint.model.masked_names import doubted
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class PluginLinkUndefined(RobotRule):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.gazebo import plugins
+from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class PluginOrSensorUnnamed(RobotRule):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import new_tag
-from urdfkit.lint.gazebo import is_foreign, plugins, spec_of
+from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class PluginParamUnknown(RobotRule):
@@ -61,7 +61,7 @@ class PluginParamUnknown(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each parameter that no generation of the plugin reads."""
-        from urdfkit.description.plugins.unread import unread
+        from urdfkit.description.plugins.unread_parameters import unread
 
         for plugin, _, _ in plugins(model.robot):
             spec = spec_of(plugin, model.target) if not is_foreign(plugin, model) else None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import new_tag
-from urdfkit.lint.gazebo import plugins, spec_of, specs
+from urdfkit.lint.facts.gazebo.plugins import plugins, spec_of, specs
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _NAMES = {"ros1": "ROS 1", "ros2": "ROS 2", "gz": "Gazebo Sim"}
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.gazebo import is_foreign, plugins, spec_of, specs
+from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of, specs
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _REQUIRED = {
     ("imu", "ros1"): ("body",),
@@ -64,7 +64,7 @@ class PluginParameterMissing(RobotRule):
         """Yield a finding for each required parameter that is missing, unless it is misspelt."""
         if model.is_incomplete:
             return
-        from urdfkit.description.plugins.unread import unread
+        from urdfkit.description.plugins.unread_parameters import unread
 
         for plugin, _, sensor in plugins(model.robot):
             spec = spec_of(plugin, model.target)

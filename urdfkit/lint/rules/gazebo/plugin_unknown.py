@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import new_value
-from urdfkit.lint.gazebo import plugins
+from urdfkit.lint.facts.gazebo.plugins import plugins
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.robot import Plugin
+    from urdfkit.description.urdf.robot import Plugin
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class PluginUnknown(RobotRule):
@@ -59,7 +59,7 @@ class PluginUnknown(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each misspelt library and each misspelt class."""
         from urdfkit.description.plugins.lookup import stem
-        from urdfkit.lint.libraries import classes, meant_class, meant_library
+        from urdfkit.lint.facts.gazebo.gazebo_libraries import classes, meant_class, meant_library
 
         for plugin, _, _ in plugins(model.robot):
             file = plugin.filename
@@ -98,7 +98,7 @@ class PluginUnknown(RobotRule):
 
 
 def _all_classes() -> list[str]:
-    from urdfkit.lint.libraries import classes
+    from urdfkit.lint.facts.gazebo.gazebo_libraries import classes
 
     return [name for names in classes().values() for name in names]
 

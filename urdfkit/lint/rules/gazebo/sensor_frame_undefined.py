@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_text
-from urdfkit.lint.gazebo import is_frame, references
-from urdfkit.lint.hidden import doubted
+from urdfkit.lint.facts.gazebo.plugins import is_frame, references
+from urdfkit.lint.model.masked_names import doubted
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.element import Element
+    from urdfkit.description.xml.element import Element
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class SensorFrameUndefined(RobotRule):

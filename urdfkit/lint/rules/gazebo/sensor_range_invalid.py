@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.gazebo import spec_of
+from urdfkit.lint.facts.gazebo.plugins import spec_of
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.element import Element
+    from urdfkit.description.xml.element import Element
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class SensorRangeInvalid(RobotRule):
@@ -68,7 +68,7 @@ class SensorRangeInvalid(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each invalid value."""
-        from urdfkit.description.plugins.sense import (
+        from urdfkit.description.plugins.sensor_values import (
             WIDE,
             senseless_camera,
             senseless_numbers,

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _REPLACEMENTS = {"ray": "gpu_lidar", "gpu_ray": "gpu_lidar", "depth": "depth_camera", "openni_kinect": "rgbd_camera"}
 

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _CLASSIC = {
     "lidar": "ray",
@@ -74,7 +74,7 @@ class SensorTypeUnknown(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each sensor of an unknown type."""
-        from urdfkit.description.plugins.sensors import SENSOR_TYPES
+        from urdfkit.description.plugins.sensors.table import SENSOR_TYPES
 
         is_classic = model.target in ("classic", "ros1")
         for block in model.robot.gazebo:

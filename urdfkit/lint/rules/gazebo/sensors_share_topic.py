@@ -8,9 +8,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from urdfkit.lint.facts.gazebo.sensor_topics import Published
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.topics import Published
+    from urdfkit.lint.model.model import Model
 
 
 class SensorsShareTopic(RobotRule):
@@ -55,7 +55,7 @@ class SensorsShareTopic(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each sensor on the topic of another sensor, once per sensor."""
-        from urdfkit.lint.topics import published
+        from urdfkit.lint.facts.gazebo.sensor_topics import published
 
         first: dict[str, Published] = {}
         reported: set[tuple[str, str]] = set()

@@ -5,16 +5,16 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.edits import new_text
-from urdfkit.lint.gazebo import references
+from urdfkit.lint.facts.gazebo.plugins import references
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.element import Element
+    from urdfkit.description.xml.element import Element
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _TAGS = ("topic", "camera_info_topic")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.lint.meshes import meshes, path_of
+from urdfkit.lint.model.mesh_files import meshes, path_of
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class ColladaUpAxis(RobotRule):

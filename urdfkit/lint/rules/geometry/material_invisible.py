@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.description.numbers import numbers
-from urdfkit.description.robot import Mesh
+from urdfkit.description.urdf.robot import Mesh
+from urdfkit.description.xml.numbers import numbers
 from urdfkit.lint.edits import new_value
 from urdfkit.lint.rule import RobotRule
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _INTENTIONAL = re.compile(r"invis|transparen|hidden|clear|none|ghost|empty", re.IGNORECASE)
 

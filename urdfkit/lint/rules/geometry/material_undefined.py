@@ -9,9 +9,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.robot import Material
+    from urdfkit.description.urdf.robot import Material
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _COLOURS = {
     "black": "0 0 0 1",
@@ -87,7 +87,7 @@ class MaterialUndefined(RobotRule):
             name = material.name
             if name is None or name in defined or _is_definition(material) or "$" in name:
                 continue
-            from urdfkit.lint.blamed import is_in_broken_file
+            from urdfkit.lint.facts.root_cause import is_in_broken_file
 
             if is_in_broken_file(model, "material", name):
                 continue

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.edits import new_value
-from urdfkit.lint.meshes import is_absolute, meshes
+from urdfkit.lint.model.mesh_files import is_absolute, meshes
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class MeshAbsolutePath(RobotRule):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.lint.meshes import LFS, meshes, path_of
+from urdfkit.lint.model.mesh_files import LFS, meshes, path_of
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _LARGE = 64 * 2**20
 """Size in bytes above which files are not searched for triangles."""

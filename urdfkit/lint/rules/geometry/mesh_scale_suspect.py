@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from math import dist, sqrt
 
-from urdfkit.description.robot import Mesh
+from urdfkit.description.urdf.robot import Mesh
 from urdfkit.lint.edits import more_attributes, new_value
-from urdfkit.lint.meshes import meshes
-from urdfkit.lint.placement import box_around, shapes_of
-from urdfkit.lint.principal import principal_moments
+from urdfkit.lint.facts.inertia.principal_moments import principal_moments
+from urdfkit.lint.model.mesh_files import meshes
+from urdfkit.lint.model.placement import box_around, shapes_of
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.robot import Link
+    from urdfkit.description.urdf.robot import Link
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 MAX_RATIO = 50.0
 """Largest plausible ratio between the sizes of parts of one robot."""

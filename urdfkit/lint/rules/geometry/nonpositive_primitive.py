@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from urdfkit.description.numbers import numbers
-from urdfkit.lint.blamed import blamed, is_not_positive
-from urdfkit.lint.placement import shapes_of
+from urdfkit.description.xml.numbers import numbers
+from urdfkit.lint.facts.root_cause import blamed, is_not_positive
+from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.source import Position
+    from urdfkit.description.xml.source import Position
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _SIZES = {
     "box": ("size",),

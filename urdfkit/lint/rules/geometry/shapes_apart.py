@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import dist
 
-from urdfkit.description.robot import Mesh, Visual
+from urdfkit.description.urdf.robot import Mesh, Visual
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _MIN_ALPHA = 0.5
 """Visuals with a smaller alpha are translucent."""
@@ -74,7 +74,7 @@ class ShapesApart(RobotRule):
             extent = model.extents.get(link.name)
             if extent is None or all(shape == extent.shapes[0] for shape in extent.shapes):
                 continue
-            from urdfkit.lint.apart import TIMES, apart
+            from urdfkit.lint.facts.detached_shapes import TIMES, apart
 
             shapes, far, near = apart(model, link)
             for shape in shapes:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from urdfkit.lint.facts.gazebo.drive_wheels import drives
 from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.wheels import drives
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding, Severity
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class VisualWithoutCollision(RobotRule):

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from urdfkit.description.robot import Cylinder, Sphere
+from urdfkit.description.urdf.robot import Cylinder, Sphere
 from urdfkit.lint.edits import new_value
-from urdfkit.lint.placement import rotation, unit
+from urdfkit.lint.model.placement import rotation, unit
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.robot import Vector
+    from urdfkit.description.urdf.robot import Vector
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class WheelOffItsAxis(RobotRule):

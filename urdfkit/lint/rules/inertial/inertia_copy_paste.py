@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
 from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.tensor import COMPONENTS
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.robot import Link
+    from urdfkit.description.urdf.robot import Link
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class InertiaCopyPaste(RobotRule):

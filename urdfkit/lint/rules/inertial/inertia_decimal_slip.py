@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import new_value
+from urdfkit.lint.facts.inertia.inertia_tensor import tensor_of
 from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.tensor import tensor_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 AGREEMENT = 1.7
 """Factor within which a moment agrees with that at uniform density."""

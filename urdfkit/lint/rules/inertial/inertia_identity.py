@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from math import sqrt
 
-from urdfkit.lint.principal import is_identity
+from urdfkit.lint.facts.inertia.inertia_tensor import computed, tensor_of
+from urdfkit.lint.facts.inertia.principal_moments import is_identity
 from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.tensor import computed, tensor_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 MIN_MOMENT, MAX_MOMENT = 0.1, 25.0
 """[kg·m²] Range of the largest moment at uniform density for which an identity tensor is plausible."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.principal import principal_moments, reordered
+from urdfkit.lint.facts.inertia.principal_moments import principal_moments, reordered
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 TOLERANCE = 1e-9
 """Tolerance relative to the largest principal moment; rounding errors are about 1e-15."""

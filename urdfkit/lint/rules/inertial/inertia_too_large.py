@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from math import sqrt
 
-from urdfkit.lint.principal import is_identity, principal_moments
+from urdfkit.lint.facts.inertia.inertia_tensor import computed
+from urdfkit.lint.facts.inertia.principal_moments import is_identity, principal_moments
 from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.tensor import computed
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.element import Element
-    from urdfkit.description.robot import Link
+    from urdfkit.description.urdf.robot import Link
+    from urdfkit.description.xml.element import Element
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 MARGIN = 1.2
 """Largest plausible ratio; simplified shapes may be slightly smaller than the body."""
@@ -90,7 +90,7 @@ class InertiaTooLarge(RobotRule):
             for moments, element in principal_moments(link):
                 gyration = sqrt(max(moments[2], 0.0) / mass)
                 if gyration > margin * reach and not is_identity(element):
-                    from urdfkit.lint.algebra import has_slip
+                    from urdfkit.lint.facts.inertia.inertia_formulas import has_slip
 
                     if has_slip(model, element):
                         continue  # Reported by X119.
@@ -102,7 +102,7 @@ class InertiaTooLarge(RobotRule):
                 else:
                     plausible.append(element)
         for link, element, message in implausible:
-            from urdfkit.lint.blamed import call_of
+            from urdfkit.lint.facts.root_cause import call_of
 
             call = call_of(element, plausible) if element.origin.expansions else None
             help = "compute it from shape and mass"

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from math import sqrt
 
-from urdfkit.description.robot import Mesh
-from urdfkit.lint.placement import shapes_of
-from urdfkit.lint.principal import principal_moments
+from urdfkit.description.urdf.robot import Mesh
+from urdfkit.lint.facts.inertia.inertia_tensor import computed
+from urdfkit.lint.facts.inertia.principal_moments import principal_moments
+from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.tensor import computed
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.element import Element
-    from urdfkit.description.robot import Link
+    from urdfkit.description.urdf.robot import Link
+    from urdfkit.description.xml.element import Element
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 MIN_RATIO = 0.05
 """Smallest plausible ratio; a solid ball has 0.63, a rod 0.58, and links with a motor at one end have less."""
@@ -102,7 +102,7 @@ class InertiaTooSmall(RobotRule):
                 else:
                     plausible.append(element)
         for link, element, message in implausible:
-            from urdfkit.lint.blamed import call_of
+            from urdfkit.lint.facts.root_cause import call_of
 
             call = call_of(element, plausible) if element.origin.expansions else None
             help = "compute it from shape and mass"
@@ -114,6 +114,6 @@ class InertiaTooSmall(RobotRule):
 
 def _has_detached_shape(model: Model, link: Link) -> bool:
     """Whether a detached shape explains the ratio."""
-    from urdfkit.lint.apart import apart
+    from urdfkit.lint.facts.detached_shapes import apart
 
     return bool(apart(model, link)[0])

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import new_values
-from urdfkit.lint.principal import reordered
+from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
+from urdfkit.lint.facts.inertia.principal_moments import reordered
 from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.tensor import COMPONENTS
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class InertiaTransposed(RobotRule):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.principal import principal_moments, reordered, shown
+from urdfkit.lint.facts.inertia.principal_moments import principal_moments, reordered, shown
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 TOLERANCE = 1e-3
 """Violations up to this fraction of the largest moment result from rounded numbers and are notes."""
@@ -65,7 +65,7 @@ class InertiaTriangleInequality(RobotRule):
                 small, middle, large = moments
                 if small <= 0.0 or small + middle >= large * (1.0 - NOISE):
                     continue
-                from urdfkit.lint.algebra import has_slip
+                from urdfkit.lint.facts.inertia.inertia_formulas import has_slip
 
                 if reordered(element) is not None or has_slip(model, element):
                     continue  # Reported by I505 or X119.

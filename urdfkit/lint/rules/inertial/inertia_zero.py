@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from urdfkit.description.masses import massless
+from urdfkit.description.urdf.masses import massless
+from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS, computed
 from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.tensor import COMPONENTS, computed
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class InertiaZero(RobotRule):

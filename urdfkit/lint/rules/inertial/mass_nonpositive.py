@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.description.masses import massless
-from urdfkit.lint.gazebo import is_simulated
+from urdfkit.description.urdf.masses import massless
+from urdfkit.lint.facts.gazebo.plugins import is_simulated
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _HELP = "set a mass greater than 0 kg"
 

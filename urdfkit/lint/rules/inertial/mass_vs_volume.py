@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 MIN_DENSITY, MAX_DENSITY = 1.0, 25000.0
 """[kg/m³] Range of plausible densities."""

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from urdfkit.description.masses import massless
-from urdfkit.description.numbers import number
-from urdfkit.lint.gazebo import is_simulated
+from urdfkit.description.urdf.masses import massless
+from urdfkit.description.xml.numbers import number
+from urdfkit.lint.facts.gazebo.plugins import is_simulated
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.robot import Joint
+    from urdfkit.description.urdf.robot import Joint
     from urdfkit.lint.finding import Finding, Severity
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class MovingLinkWithoutInertial(RobotRule):

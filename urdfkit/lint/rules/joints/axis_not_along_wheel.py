@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from urdfkit.description.numbers import numbers
-from urdfkit.description.robot import Cylinder
-from urdfkit.lint.placement import rotation, shapes_of, turned, unit
+from urdfkit.description.urdf.robot import Cylinder
+from urdfkit.description.xml.numbers import numbers
+from urdfkit.lint.model.placement import rotation, shapes_of, turned, unit
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.robot import Joint, Vector
+    from urdfkit.description.urdf.robot import Joint, Vector
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 PARALLEL = 0.985
 """Cosine of 10 degrees, the largest accepted deviation, so that cambered wheels pass."""

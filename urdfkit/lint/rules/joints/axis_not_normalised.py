@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import new_value
-from urdfkit.lint.placement import unit
+from urdfkit.lint.model.placement import unit
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 TOLERANCE = 1e-3
 """Accepted deviation of the length from 1, so that rounded axes (0.577 0.577 0.577) pass."""

@@ -9,9 +9,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.robot import Joint
+    from urdfkit.description.urdf.robot import Joint
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class JointTypeMissing(RobotRule):
@@ -60,7 +60,7 @@ class JointTypeMissing(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint without a type."""
-        from urdfkit.description.robot import JOINT_TYPES
+        from urdfkit.description.urdf.robot import JOINT_TYPES
 
         for joint in model.robot.joints:
             if joint.type is None:

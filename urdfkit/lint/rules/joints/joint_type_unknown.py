@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _FOREIGN_TYPES = {
     "hinge": "revolute",
@@ -72,7 +72,7 @@ class JointTypeUnknown(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each joint with an unknown type."""
-        from urdfkit.description.robot import JOINT_TYPES
+        from urdfkit.description.urdf.robot import JOINT_TYPES
 
         for joint in model.robot.joints:
             if joint.type is None or joint.type in JOINT_TYPES:

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _LINEAR_UNITS = {"effort": "[N]", "velocity": "[m/s]"}
 _ANGULAR_UNITS = {"effort": "[N·m]", "velocity": "[rad/s]"}

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _UNITS = {"effort": ("N", "N·m"), "velocity": ("m/s", "rad/s")}
 """Attribute → unit for a prismatic joint, and for any other."""

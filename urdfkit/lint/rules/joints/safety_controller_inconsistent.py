@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 DISABLED_DISTANCE = 6.0
 """Distance from the hard limit [rad, m] from which a soft limit counts as deliberately disabled."""

@@ -11,10 +11,10 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.source import Source
-    from urdfkit.lint.bridges import Bridged
-    from urdfkit.lint.controllers import Named
-    from urdfkit.lint.model import Model
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.control.controller_joints import Named
+    from urdfkit.lint.facts.control.ros_gz_bridges import Bridged
+    from urdfkit.lint.model.model import Model
 
 _BRIDGES = ("gz_type_name", "gz_topic_name", "ros_type_name", "ign_type_name", "parameter_bridge")
 
@@ -59,9 +59,9 @@ class BridgeMisspelt(RobotRule):
         sources = [source for source in model.around.values() if any(word in source.text for word in _BRIDGES)]
         if not sources:
             return
-        from urdfkit.lint.bridges import KEYS, in_launch, in_yaml
         from urdfkit.lint.edits import nearest
-        from urdfkit.lint.yaml_tree import span_of
+        from urdfkit.lint.facts.control.ros_gz_bridges import KEYS, in_launch, in_yaml
+        from urdfkit.lint.facts.control.yaml_tree import span_of
 
         bridges: list[tuple[Source, Bridged]] = []
         for source in sources:
@@ -89,8 +89,8 @@ class BridgeMisspelt(RobotRule):
 
 def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:
     """Return an invalid type with its message; None if both types are valid."""
-    from urdfkit.lint.bridges import pairs
     from urdfkit.lint.edits import nearest
+    from urdfkit.lint.facts.control.ros_gz_bridges import pairs
 
     compatible_types = pairs()
     known_gazebo_types = {name for names in compatible_types.values() for name in names}
@@ -120,8 +120,8 @@ def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:
 
 def _direction_defect(bridge: Bridged) -> tuple[Named, str] | None:
     """Return an unknown direction with its message; None if it is valid."""
-    from urdfkit.lint.bridges import DIRECTIONS
     from urdfkit.lint.edits import nearest
+    from urdfkit.lint.facts.control.ros_gz_bridges import DIRECTIONS
 
     if bridge.direction is None or bridge.direction.name in DIRECTIONS:
         return None
@@ -134,8 +134,8 @@ def _direction_defect(bridge: Bridged) -> tuple[Named, str] | None:
 def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Iterator[tuple[Source, Named, str]]:
     """Yield misspelt topics and wrong directions with their messages."""
     from urdfkit.lint.edits import nearest
-    from urdfkit.lint.gazebo import references
-    from urdfkit.lint.topics import published
+    from urdfkit.lint.facts.gazebo.plugins import references
+    from urdfkit.lint.facts.gazebo.sensor_topics import published
 
     if model.is_incomplete:
         return

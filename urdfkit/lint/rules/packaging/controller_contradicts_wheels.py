@@ -9,11 +9,11 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.source import Source
-    from urdfkit.lint.controller_settings import Settings
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.wheels import Wheel
-    from urdfkit.lint.yaml_tree import Node
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.control.controller_settings import Settings
+    from urdfkit.lint.facts.control.yaml_tree import Node
+    from urdfkit.lint.facts.gazebo.drive_wheels import Wheel
+    from urdfkit.lint.model.model import Model
 
 TOLERANCE = 0.1
 """Accepted relative deviation; twice that of Gazebo plugins, because controllers are tuned on real robots."""
@@ -74,8 +74,8 @@ class ControllerContradictsWheels(RobotRule):
         """Yield a finding for each parameter of a drive controller that contradicts the robot."""
         if model.is_incomplete:
             return
-        from urdfkit.lint.controller_settings import settings
-        from urdfkit.lint.yaml_tree import yamls
+        from urdfkit.lint.facts.control.controller_settings import settings
+        from urdfkit.lint.facts.control.yaml_tree import yamls
 
         findings: list[Finding] = []
         for source in yamls(model):
@@ -87,8 +87,8 @@ class ControllerContradictsWheels(RobotRule):
             yield from findings
 
     def _contradictions(self, source: Source, controller: Settings, model: Model) -> Iterator[Finding]:
+        from urdfkit.lint.facts.gazebo.drive_wheels import track
         from urdfkit.lint.rules.semantics.wheel_separation import SKID_STEER_RATIO
-        from urdfkit.lint.wheels import track
 
         left, right = _wheels(controller, model, "left"), _wheels(controller, model, "right")
         if not left or len(left) != len(right):
@@ -128,14 +128,14 @@ class ControllerContradictsWheels(RobotRule):
                 yield self._at(source, parameter, message, first.joint.name, f"write {radii[0]:.6g}")
 
     def _at(self, source: Source, node: Node, message: str, joint: str, help: str) -> Finding:
-        from urdfkit.lint.yaml_tree import span_of
+        from urdfkit.lint.facts.control.yaml_tree import span_of
 
         return Finding(self.code, self.name, self.severity, message, span_of(source, node), joint=joint, help=help)
 
 
 def _wheels(controller: Settings, model: Model, side: str) -> list[tuple[Node, Wheel]]:
     """Return the wheels of one side with their nodes in YAML; empty if the robot lacks one of them."""
-    from urdfkit.lint.wheels import wheel_of
+    from urdfkit.lint.facts.gazebo.drive_wheels import wheel_of
 
     names = controller.group.find(f"{side}_wheel_names") or controller.group.find(f"{side}_wheel")
     nodes = [node for node in (names, *names.items) if node.text] if names is not None else []
@@ -147,7 +147,7 @@ def _wheels(controller: Settings, model: Model, side: str) -> list[tuple[Node, W
 
 def _positive_number(controller: Settings, name: str) -> Iterator[tuple[Node, float]]:
     """Yield the node and value of a parameter greater than zero; with zero, the controller reads the description."""
-    from urdfkit.description.numbers import number
+    from urdfkit.description.xml.numbers import number
 
     node = controller.group.find(name)
     value = number(node.text) if node is not None and node.text else None
@@ -159,8 +159,8 @@ def _has_other_wheels(model: Model) -> bool:
     """Return whether another description in these packages has continuous joints."""
     from pathlib import Path
 
-    from urdfkit.description.surroundings import package_of
-    from urdfkit.lint.entries import descriptions
+    from urdfkit.description.packages.related_files import package_of
+    from urdfkit.lint.project.entry_files import descriptions
 
     included = {str(Path(name).absolute()) for name in model.expanded.sources}
     packages = {model.package, *(package_of(Path(file)) for file in model.around)}

@@ -9,7 +9,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _REQUIRED_INTERFACES = {
     "effort_controllers": "EffortJointInterface",
@@ -56,8 +56,8 @@ class ControllerInterfaceMissing(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding at the type of each controller whose joint lacks the required interface."""
-        from urdfkit.lint.controllers import joints_of, typed
-        from urdfkit.lint.interfaces import is_misspelt
+        from urdfkit.lint.facts.control.controller_joints import joints_of, typed
+        from urdfkit.lint.facts.control.hardware_interfaces import is_misspelt
 
         if model.robot.ros2_control:
             return

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.lint.around import names_around
+from urdfkit.lint.facts.neighbouring_names import names_around
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.hidden import doubted
+from urdfkit.lint.model.masked_names import doubted
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class ControllerJointUndefined(RobotRule):
@@ -57,8 +57,8 @@ class ControllerJointUndefined(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each controller joint that no description in these packages can define."""
-        from urdfkit.lint.controllers import joints
         from urdfkit.lint.edits import nearest
+        from urdfkit.lint.facts.control.controller_joints import joints
 
         joints_by_name = model.robot.joint_by_name
         if not joints_by_name:

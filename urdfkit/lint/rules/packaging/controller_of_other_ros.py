@@ -11,8 +11,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.source import Source, Span
-    from urdfkit.lint.model import Model
+    from urdfkit.description.xml.source import Source, Span
+    from urdfkit.lint.model.model import Model
 
 _TRAJECTORY = "joint_trajectory_controller/JointTrajectoryController"
 _SINGLE_JOINT = {
@@ -89,7 +89,7 @@ class ControllerOfOtherRos(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each controller type of the other ROS version."""
-        from urdfkit.lint.yaml_tree import yamls
+        from urdfkit.lint.facts.control.yaml_tree import yamls
 
         for source in yamls(model):
             if "type" not in source.text or "/" not in source.text:
@@ -110,9 +110,9 @@ class ControllerOfOtherRos(RobotRule):
 
 def _types(source: Source) -> Iterator[tuple[str, Span]]:
     """Yield the controller types with their spans; with ROS 2 parameters, only those of declared controllers."""
-    from urdfkit.lint.launch import uncommented
-    from urdfkit.lint.ros2_controllers import PARAMETERS, declared
-    from urdfkit.lint.yaml_tree import span_of
+    from urdfkit.lint.facts.control.launch_files import uncommented
+    from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
+    from urdfkit.lint.facts.control.yaml_tree import span_of
 
     if PARAMETERS in source.text:
         yield from ((controller.kind.text, span_of(source, controller.kind)) for controller in declared(source))
@@ -124,7 +124,7 @@ def _ros_of(source: Source, model: Model) -> int:
     """Return the ROS version of a parameter file, 1 or 2; 0 if it is unknown."""
     from pathlib import Path
 
-    from urdfkit.description.surroundings import package_of
+    from urdfkit.description.packages.related_files import package_of
 
     if "ros__parameters" in source.text:
         return 2

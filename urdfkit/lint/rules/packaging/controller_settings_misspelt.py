@@ -12,8 +12,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.source import Source
-    from urdfkit.lint.model import Model
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.model.model import Model
 
 _KEY = r"(?m)^([ \t]*)[\"']?([\w/]+)[\"']?[ \t]*:[ \t]*\r?$"
 _GROUP = r"(?m)(?:^|[{,])[ \t]*[\"']?(ros_*[A-Za-z_]+)[\"']?[ \t]*:[ \t]*(?=\r?$|[{&*])"
@@ -65,8 +65,8 @@ class ControllerSettingsMisspelt(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each misspelt name, and for the first tab of a file."""
-        from urdfkit.lint.controllers import typed
-        from urdfkit.lint.launch import uncommented
+        from urdfkit.lint.facts.control.controller_joints import typed
+        from urdfkit.lint.facts.control.launch_files import uncommented
 
         for source in model.around.values():
             if not source.file.endswith((".yaml", ".yml")):
@@ -86,8 +86,8 @@ class ControllerSettingsMisspelt(RobotRule):
                 yield self._at(source, tab.start(), tab[0], "YAML is indented with a tab", help="indent with spaces")
 
     def _keys(self, source: Source, text: str) -> Iterator[Finding]:
-        from urdfkit.lint.controllers import controllers
         from urdfkit.lint.edits import nearest
+        from urdfkit.lint.facts.control.controller_joints import controllers
 
         keys = [(key[2], key.start(2), len(key[1])) for key in re.finditer(_KEY, text)]
         for name, start in ((key[1], key.start(1)) for key in re.finditer(_GROUP, text)):
@@ -110,8 +110,8 @@ class ControllerSettingsMisspelt(RobotRule):
                 yield self._at(source, start, name, f"unknown controller `{name}`; did you mean `{suggestion}`?")
 
     def _parameters(self, source: Source) -> Iterator[Finding]:
-        from urdfkit.lint.controller_settings import misspelt
-        from urdfkit.lint.yaml_tree import span_of
+        from urdfkit.lint.facts.control.controller_settings import misspelt
+        from urdfkit.lint.facts.control.yaml_tree import span_of
 
         for key, suggestion, controller in misspelt(source):
             message = f"unknown parameter `{key.text}` of controller `{controller.name}`; did you mean `{suggestion}`?"
@@ -124,8 +124,8 @@ class ControllerSettingsMisspelt(RobotRule):
 
 def _suggested_type(name: str) -> str | None:
     """Return the suggestion for a misspelt controller type; None if the type is valid or may be user-defined."""
-    from urdfkit.lint.controllers import TYPES
     from urdfkit.lint.edits import nearest
+    from urdfkit.lint.facts.control.controller_joints import TYPES
 
     if name in TYPES:
         return None

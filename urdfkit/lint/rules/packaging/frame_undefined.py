@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.lint.around import names_around
+from urdfkit.lint.facts.neighbouring_names import names_around
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.hidden import doubted
+from urdfkit.lint.model.masked_names import doubted
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.source import Source
-    from urdfkit.lint.model import Model
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.model.model import Model
 
 _FRAME = (
     r"(?m)^[ \t]*(robot_base_frame|base_frame(?:_id)?|base_link_frame(?:_id)?|base_link|tip_link|ee_link|root_link)"
@@ -59,7 +59,7 @@ class FrameUndefined(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each named link that no description in these packages can define."""
         from urdfkit.lint.edits import meant
-        from urdfkit.lint.launch import uncommented
+        from urdfkit.lint.facts.control.launch_files import uncommented
 
         links_by_name = model.robot.link_by_name
         if not links_by_name:
@@ -89,7 +89,7 @@ class FrameUndefined(RobotRule):
 
 def _is_drive_frame(source: Source, match: re.Match[str], model: Model) -> bool:
     """Return whether a parameter is the base frame of a drive controller, and no other file mentions the frame."""
-    from urdfkit.lint.controller_settings import settings
+    from urdfkit.lint.facts.control.controller_settings import settings
 
     if match[1] != "base_frame_id" or any(
         re.search(rf"(?<![\w-]){re.escape(match[3])}(?![\w-])", other.text)

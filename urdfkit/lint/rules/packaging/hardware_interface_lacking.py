@@ -9,9 +9,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.source import Source
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.ros2_controllers import Controller
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.control.ros2_controllers import Controller
+    from urdfkit.lint.model.model import Model
 
 _BROADCASTERS = (
     "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
@@ -74,8 +74,8 @@ class HardwareInterfaceLacking(RobotRule):
         """Yield a finding for each interface that a controller requires and its joint lacks."""
         if not model.robot.ros2_control:
             return
-        from urdfkit.lint.ros2_controllers import PARAMETERS, declared, offered
-        from urdfkit.lint.yaml_tree import yamls
+        from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared, offered
+        from urdfkit.lint.facts.control.yaml_tree import yamls
 
         sources = [source for source in yamls(model) if PARAMETERS in source.text]
         hardware = offered(model) if sources else None
@@ -88,7 +88,7 @@ class HardwareInterfaceLacking(RobotRule):
         self, source: Source, controller: Controller, hardware: dict[str, dict[bool, list[str]]]
     ) -> Iterator[Finding]:
         from urdfkit.lint.edits import nearest
-        from urdfkit.lint.yaml_tree import span_of
+        from urdfkit.lint.facts.control.yaml_tree import span_of
 
         sensor = controller.settings.find("sensor_name") if controller.settings is not None else None
         if sensor is None or not sensor.text or controller.kind.text not in _BROADCASTERS or sensor.text in hardware:
@@ -101,9 +101,9 @@ class HardwareInterfaceLacking(RobotRule):
     def _missing_interfaces(
         self, source: Source, controller: Controller, hardware: dict[str, dict[bool, list[str]]], model: Model
     ) -> Iterator[Finding]:
-        from urdfkit.lint.interfaces import meant_interface, meant_joints
-        from urdfkit.lint.ros2_controllers import wanted
-        from urdfkit.lint.yaml_tree import span_of
+        from urdfkit.lint.facts.control.hardware_interfaces import meant_interface, meant_joints
+        from urdfkit.lint.facts.control.ros2_controllers import wanted
+        from urdfkit.lint.facts.control.yaml_tree import span_of
 
         reported: set[tuple[int, int]] = set()
         misspelt = meant_joints(model.robot)

@@ -9,8 +9,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.source import Source
-    from urdfkit.lint.model import Model
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.model.model import Model
 
 
 class LaunchNotWellFormed(RobotRule):
@@ -57,7 +57,7 @@ class LaunchNotWellFormed(RobotRule):
 
 
 def _in_xml(source: Source) -> tuple[int, int, str] | None:
-    from urdfkit.description.reading import document_of
+    from urdfkit.description.xml.reader import document_of
     from urdfkit.errors import XmlError
 
     try:

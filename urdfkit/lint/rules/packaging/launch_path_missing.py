@@ -12,7 +12,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class LaunchPathMissing(RobotRule):
@@ -48,9 +48,9 @@ class LaunchPathMissing(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each path that does not exist in its package."""
-        from urdfkit.description.packages import near_path
-        from urdfkit.description.surroundings import LAUNCH, neighbours
-        from urdfkit.lint.launch import package_paths
+        from urdfkit.description.packages.related_files import LAUNCH, neighbours
+        from urdfkit.description.packages.resolver import near_path
+        from urdfkit.lint.facts.control.launch_files import package_paths
 
         if model.package is None:
             return

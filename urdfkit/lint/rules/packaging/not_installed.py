@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from urdfkit.description.surroundings import name_in
+from urdfkit.description.packages.related_files import name_in
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import RobotRule
 
@@ -13,7 +13,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class NotInstalled(RobotRule):

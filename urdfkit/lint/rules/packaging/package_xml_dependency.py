@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from urdfkit.description.surroundings import LAUNCH, dependencies_in, name_in, package_of
+from urdfkit.description.packages.related_files import LAUNCH, dependencies_in, name_in, package_of
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.rule import RobotRule
 
@@ -13,8 +13,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.source import Source
-    from urdfkit.lint.model import Model
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.model.model import Model
 
 _TESTS = frozenset(("test", "tests"))
 """Folders whose files do not add runtime dependencies."""
@@ -79,7 +79,7 @@ class PackageXmlDependency(RobotRule):
 
     def _check_launch_files(self, model: Model, declared: dict[Path, set[str]]) -> Iterator[Finding]:
         """Yield a finding for each package that a launch file uses without a dependency in its own package."""
-        from urdfkit.lint.launch import packages_used
+        from urdfkit.lint.facts.control.launch_files import packages_used
 
         for file, source in model.around.items():
             package = package_of(Path(file)) if file.endswith(LAUNCH) else None

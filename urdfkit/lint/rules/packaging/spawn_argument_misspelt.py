@@ -11,8 +11,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.started import Started
+    from urdfkit.lint.facts.control.launched_nodes import Started
+    from urdfkit.lint.model.model import Model
 
 _CREATE = "world file param string topic name allow_renaming x y z R P Y"
 _SPAWN = "reference_frame gazebo_namespace robot_namespace unpause wait package_to_model x y z R P Y J b"
@@ -66,7 +66,7 @@ class SpawnArgumentMisspelt(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each invalid argument."""
-        from urdfkit.lint.started import launches, started
+        from urdfkit.lint.facts.control.launched_nodes import launches, started
 
         for source in launches(model):
             if not any(package in source.text for package in _PACKAGES):

@@ -11,9 +11,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.source import Source
-    from urdfkit.lint.controllers import Named
-    from urdfkit.lint.model import Model
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.control.controller_joints import Named
+    from urdfkit.lint.model.model import Model
 
 
 _SPAWNERS = ("spawner", "spawner.py", "controller_spawner", "controller_spawner.py")
@@ -52,7 +52,7 @@ class SpawnedControllerUndefined(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each misspelt name of a spawned controller."""
         from urdfkit.errors import did_you_mean
-        from urdfkit.lint.controllers import controllers
+        from urdfkit.lint.facts.control.controller_joints import controllers
 
         launches = [file for file in model.around.values() if re.search(r"spawner", file.text)]
         parameter_files = [file for file in model.around.values() if file.file.endswith((".yaml", ".yml"))]
@@ -80,7 +80,7 @@ class SpawnedControllerUndefined(RobotRule):
 
 def _spawned(source: Source) -> Iterator[Named]:
     """Yield the literal controller names that a launch file passes to spawners, without the values of options."""
-    from urdfkit.lint.started import started
+    from urdfkit.lint.facts.control.launched_nodes import started
 
     for node in started(source):
         if node.program not in _SPAWNERS:

@@ -11,9 +11,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.source import Source
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.yaml_tree import Broken, Node
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.control.yaml_tree import Broken, Node
+    from urdfkit.lint.model.model import Model
 
 _TEMPLATE = r"\{%|\{\{|\$\{"
 _WITHOUT_COLON = r"\s*(?:-\s+)?([A-Za-z_][\w/.-]*)(?:\s+[^\s:#]\S*)?\s*(?:#.*)?$"
@@ -62,7 +62,7 @@ class YamlNotWellFormed(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each malformed file, and for each string that should be a parameter."""
-        from urdfkit.lint.yaml_tree import documents, span_of, walk, yamls
+        from urdfkit.lint.facts.control.yaml_tree import documents, span_of, walk, yamls
 
         for source in yamls(model):
             if re.search(_TEMPLATE, source.text):

@@ -5,20 +5,20 @@ from __future__ import annotations
 import re
 from math import degrees, hypot, sqrt
 
-from urdfkit.description.robot import Box, Capsule, Cylinder, Mesh, Sphere
-from urdfkit.lint.placement import turned, unit
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
+from urdfkit.lint.facts.gazebo.drive_wheels import drives
+from urdfkit.lint.model.placement import turned, unit
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-from urdfkit.lint.wheels import drives
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.robot import Joint, Link, Vector
+    from urdfkit.description.urdf.robot import Joint, Link, Vector
+    from urdfkit.lint.facts.gazebo.drive_wheels import TwoSided
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.placement import Frame
-    from urdfkit.lint.wheels import TwoSided
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.placement import Frame
 
 _CASTER_NAME = re.compile(r"cast[eo]r|ball", re.IGNORECASE)
 _MAX_TILT = 0.06

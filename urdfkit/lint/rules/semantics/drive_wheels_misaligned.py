@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from math import dist
 
+from urdfkit.lint.facts.gazebo.drive_wheels import Wheel, drives
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-from urdfkit.lint.wheels import Wheel, drives
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 _MIN_DISTANCE = 0.01
 """Distance or height difference below which two wheels count as being in the same place or level [m]."""

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import new_text
+from urdfkit.lint.facts.gazebo.drive_wheels import TwoSided, drives
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-from urdfkit.lint.wheels import TwoSided, drives
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class LeftRightSwapped(RobotRule):

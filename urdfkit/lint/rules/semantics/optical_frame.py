@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from math import pi
 
+from urdfkit.lint.facts.gazebo.drive_wheels import same_turn
 from urdfkit.lint.rule import RobotRule
-from urdfkit.lint.wheels import same_turn
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 TOLERANCE = 2e-3
 """Accepted difference of the rotation matrices, so that 1.57 passes for π/2."""

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.placement import unit
+from urdfkit.lint.facts.gazebo.drive_wheels import drives, mismatch, track, written
+from urdfkit.lint.model.placement import unit
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
-from urdfkit.lint.wheels import drives, mismatch, track, written
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 TOLERANCE = 0.05
 """Accepted relative deviation with one wheel on each side."""

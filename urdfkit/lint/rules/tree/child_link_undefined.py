@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from urdfkit.description.queries import dangling
+from urdfkit.description.urdf.queries import dangling
 from urdfkit.lint.edits import new_value
-from urdfkit.lint.hidden import doubted
-from urdfkit.lint.orphans import meant_child
+from urdfkit.lint.facts.parentless_links import meant_child
+from urdfkit.lint.model.masked_names import doubted
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class ChildLinkUndefined(RobotRule):

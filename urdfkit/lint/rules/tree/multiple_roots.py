@@ -8,9 +8,9 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.robot import Robot
+    from urdfkit.description.urdf.robot import Robot
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class MultipleRoots(RobotRule):
@@ -85,8 +85,8 @@ def _links_below(robot: Robot, name: str) -> int:
 
 def _likely_children(robot: Robot) -> set[str]:
     """Return the suggested corrections of undefined child links."""
-    from urdfkit.description.queries import dangling
-    from urdfkit.lint.orphans import meant_child
+    from urdfkit.description.urdf.queries import dangling
+    from urdfkit.lint.facts.parentless_links import meant_child
 
     return {
         suggestion for _, name, _ in dangling(robot, "child") if (suggestion := meant_child(robot, name)[0]) is not None

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from urdfkit.description.queries import dangling
+from urdfkit.description.urdf.queries import dangling
 from urdfkit.lint.edits import meant, new_value
-from urdfkit.lint.hidden import doubted
+from urdfkit.lint.model.masked_names import doubted
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class ParentLinkUndefined(RobotRule):

@@ -11,8 +11,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.syntax import Document
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Document
 
 
 class DeprecatedCall(SourceRule):

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.blamed import culprit, is_no_number
+from urdfkit.lint.facts.root_cause import culprit, is_no_number
 from urdfkit.lint.rule import FaultRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.faults import Fault
+    from urdfkit.description.xacro.faults import Fault
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class ExpressionError(FaultRule):

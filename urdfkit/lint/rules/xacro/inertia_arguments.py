@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.description.numbers import number
+from urdfkit.description.xml.numbers import number
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import SourceRule
 
@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.syntax import Document
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Document
 
 
 class InertiaArguments(SourceRule):

@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.syntax import Document
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Document
 
 
 class InertiaFormula(SourceRule):
@@ -63,7 +63,7 @@ class InertiaFormula(SourceRule):
         text = document.source.text
         if not any("${" in piece.partition("<")[0] for piece in text.split("<inertia")[1:]):
             return
-        from urdfkit.lint.algebra import slip
+        from urdfkit.lint.facts.inertia.inertia_formulas import slip
 
         for tag in document.walk():
             if tag.name != "inertia" or "${" not in text[tag.start : tag.end]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from math import pi
 
-from urdfkit.description.numbers import number
+from urdfkit.description.xml.numbers import number
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import SourceRule
 
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.syntax import Document, Tag
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Document, Tag
 
 _ANGLES = r"rpy(?<=\srpy)\s*=\s*(?:\"([^\"<]*)\"|'([^'<]*)')"
 _DEFINITION = (

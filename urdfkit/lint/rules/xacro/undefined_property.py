@@ -6,7 +6,7 @@ from urdfkit.lint.rule import FaultRule
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from urdfkit.description.faults import Fault
+    from urdfkit.description.xacro.faults import Fault
 
 
 class UndefinedProperty(FaultRule):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import new_text, new_value
-from urdfkit.lint.expressions import is_unexpanded, righted
+from urdfkit.lint.facts.escaped_expressions import is_unexpanded, righted
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import RobotRule
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
+    from urdfkit.lint.model.model import Model
 
 
 class UnexpandedExpression(RobotRule):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 
-from urdfkit.lint.blamed import is_in_broken_file
 from urdfkit.lint.edits import nearest
+from urdfkit.lint.facts.root_cause import is_in_broken_file
 from urdfkit.lint.finding import Edit, Finding, Fix
 from urdfkit.lint.rule import FaultRule
 
@@ -13,8 +13,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from urdfkit.description.faults import Fault
-    from urdfkit.lint.model import Model
+    from urdfkit.description.xacro.faults import Fault
+    from urdfkit.lint.model.model import Model
 
 
 class UnknownMacro(FaultRule):
@@ -99,7 +99,7 @@ def _defining_file(name: str, model: Model) -> str | None:
 
 def _include_fix(file: str, fault: Fault, model: Model) -> Fix | None:
     """Return the fix that includes a file at the top of the entry file, if the macro is called there."""
-    from urdfkit.description.reading import shown_path
+    from urdfkit.description.xml.reader import shown_path
 
     entry = fault.position.file
     if entry != shown_path(model.expanded.path):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.finding import Fix
-from urdfkit.lint.prefix import FOREIGN, URDF_CHILDREN, URDF_ELEMENTS, prefixing
+from urdfkit.lint.model.xacro_prefix import FOREIGN, URDF_CHILDREN, URDF_ELEMENTS, prefixing
 from urdfkit.lint.rule import SourceRule
 
 TYPE_CHECKING = False
@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.prefix import Signature
-    from urdfkit.lint.syntax import Document, Tag
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Document, Tag
+    from urdfkit.lint.model.xacro_prefix import Signature
 
 _TRANSPARENT = ("xacro:if", "xacro:unless", "if", "unless")
 

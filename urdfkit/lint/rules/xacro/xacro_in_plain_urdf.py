@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.lint.prefix import URDF_CHILDREN
+from urdfkit.lint.model.xacro_prefix import URDF_CHILDREN
 from urdfkit.lint.rule import SourceRule
 
 TYPE_CHECKING = False
@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.model import Model
-    from urdfkit.lint.syntax import Document
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Document
 
 
 class XacroInPlainUrdf(SourceRule):

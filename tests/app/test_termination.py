@@ -1,0 +1,61 @@
+import io
+import signal
+import sys
+
+import pytest
+
+from tests.processes import running, signals
+from tests.time_limit import PATIENCE
+from urdfkit.app.termination import ended_by_signals
+from urdfkit.cli import main
+
+
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_ends_the_block_and_what_it_did_before_is_back(how):
+    undone = []
+
+    def write():
+        with ended_by_signals():
+            try:
+                signal.raise_signal(how)
+            finally:
+                signal.raise_signal(how)
+                undone.append("undone")
+
+    with signals():
+        with pytest.raises(SystemExit) as ended:
+            write()
+        assert signal.getsignal(how) == signal.SIG_DFL
+    assert ended.value.code == 128 + how
+    assert undone == ["undone"]
+
+
+def test_ctrl_c_that_is_caught_leaves_the_exit_code_alone():
+    code = """
+import signal
+from urdfkit.app.termination import ended_by_signals
+try:
+    with ended_by_signals():
+        exec("signal.raise_signal(signal.SIGINT)")
+except KeyboardInterrupt:
+    raise SystemExit(7)
+"""
+    with running([sys.executable, "-c", code]) as process:
+        assert process.wait(PATIENCE) == 7
+
+
+def test_ctrl_c_at_a_question_leaves_the_line(tmp_path, monkeypatch):
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+        def readline(self):
+            raise KeyboardInterrupt
+
+    shown = Terminal()
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.stdin", Terminal())
+    monkeypatch.setattr("sys.stderr", shown)
+    assert main(["new", "robot", "scout", "--no-preview"]) == 130
+    assert shown.getvalue().endswith(": \n")
+    assert list(tmp_path.iterdir()) == []

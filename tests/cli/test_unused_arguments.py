@@ -1,0 +1,40 @@
+"""Xacro arguments that no file uses are told on standard error, with the nearest that one does."""
+
+from __future__ import annotations
+
+import pytest
+
+from urdfkit.cli import main
+from urdfkit.cli.unused_arguments import unused
+
+TEXT = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="prefix" default=""/>
+<link name="$(arg prefix)foo"/><xacro:if value="$(eval use_arm and arg('side') == 'left')"/></robot>"""
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("prefix", []),
+        ("use_arm", []),
+        ("side", []),
+        ("prefx", ["no file uses the argument `prefx`; did you mean `prefix`?"]),
+        ("foo", ["no file uses the argument `foo` (there are prefix)"]),
+    ],
+)
+def test_what_is_used(name: str, said: list[str]) -> None:
+    assert unused({name: "1"}, [TEXT]) == said
+
+
+def test_a_file_without_arguments() -> None:
+    assert unused({"a": "1"}, ["<robot/>"]) == ["no file uses the argument `a`; it has none"]
+
+
+@pytest.mark.parametrize("command", [["info"], ["tf", "--tree"], ["sim", "run", "--for", "0"]])
+def test_every_command_that_takes_a_model_says_so(command: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    words = [*command[: 2 if command[0] == "sim" else 1], "simpleton", "camera_pich:=0.1", *command[2:]]
+    words += ["--tree"] if command[0] == "tf" else []
+    assert main(words) == 0
+    told = "urdfkit: warning: no file uses the argument `camera_pich`; did you mean `camera_pitch`?\n"
+    assert told in capsys.readouterr().err
+    assert main([*words, "-q"]) == 0
+    assert "camera_pich" not in capsys.readouterr().err

@@ -1,0 +1,33 @@
+"""Principal moments in plain Python, beside numpy."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from urdfkit.lint.facts.inertia.principal_moments import eigenvalues, shown
+
+entries = st.floats(-1, 1, allow_subnormal=False)
+scales = st.sampled_from([1e-12, 1e-6, 1.0, 1e9])
+
+
+@given(st.tuples(*[entries] * 6), scales)
+def test_eigenvalues_equal_numpys(values, scale):
+    xx, xy, xz, yy, yz, zz = (value * scale for value in values)
+    expected = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    size = max(abs(expected))
+    np.testing.assert_allclose(eigenvalues(xx, xy, xz, yy, yz, zz), expected, rtol=0, atol=4e-15 * size)
+
+
+def test_exact_cases():
+    assert eigenvalues(0, 0, 0, 0, 0, 0) == (0, 0, 0)
+    assert eigenvalues(3, 0, 0, 1, 0, 2) == (1, 2, 3)
+    np.testing.assert_allclose(eigenvalues(0.4, 0.1, 0.1, 0.4, 0.1, 0.2), (0.14384, 0.3, 0.55616), atol=5e-6)
+
+
+def test_numbers_are_shown_so_that_the_inequality_can_be_seen():
+    assert shown((0.1438447, 0.3, 0.5561553)) == ["0.144", "0.300", "0.556"]
+    assert shown((1.0, 1.0, 2.0002)) == ["1.0000", "1.0000", "2.0002"]
+    assert shown((1e-7, 2e-7, 9e-7)) == ["1e-07", "2e-07", "9e-07"]
+    assert shown((100.0, 200.0, 400.0)) == ["100", "200", "400"]

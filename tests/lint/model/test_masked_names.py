@@ -1,0 +1,107 @@
+"""After an error, a name that nothing has is in doubt only where it could be in what the error has hidden."""
+
+from __future__ import annotations
+
+import pytest
+
+from urdfkit.lint.engine.run import lint
+from urdfkit.lint.model.masked_names import is_slip
+
+TRANSMISSION = (
+    '<transmission name="t"><type>transmission_interface/SimpleTransmission</type>'
+    '<joint name="m_j"><hardwareInterface>hardware_interface/EffortJointInterface</hardwareInterface></joint>'
+    '<actuator name="a"/></transmission>'
+)
+ROBOT = (
+    '<link name="base"/>{}<link name="mast"/><joint name="mj" type="fixed"><parent link="bse"/><child link="mast"/>'
+    f'</joint><gazebo reference="mst"/>{TRANSMISSION}'
+)
+MACRO = '<xacro:macro name="m" params="p q"><link name="${p}_x"/></xacro:macro>'
+ONE, TWO = '<xacro:macro name="m" params="p">', '<xacro:macro name="m" params="p q">'
+SLIPS = {"T201": "bse", "Z801": "mst", "C701": "m_j"}
+
+
+def found(path, codes=tuple(SLIPS)):
+    return {f.code: (f.severity, f.help, f.fix) for f in lint(path, select=codes)}
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [
+        '<xacro:if value="maybe"/>',
+        '<xacro:if value="maybe"><link name="bsf"/></xacro:if>',
+        f'{MACRO}<xacro:m p="a"/>',
+        f'{MACRO}<xacro:m p="a" q="b" r="c"/>',
+        '<xacro:macro name="m" params="p"><xacro:m p="${p}"/><link name="${p}_x"/></xacro:macro><xacro:m p="a"/>',
+    ],
+)
+def test_what_an_error_cannot_have_hidden_is_said(write, fault):
+    assert {code: severity for code, (severity, *_) in found(write("r.xacro", ROBOT.format(fault))).items()} == (
+        dict.fromkeys(SLIPS, "error")
+    )
+
+
+@pytest.mark.parametrize(
+    ("fault", "why"),
+    [
+        ('<xacro:nope a="b"/>', "it may be in macro `nope`, which is defined nowhere"),
+        ('<xacro:include filename="gone.xacro"/>', "it may be in gone.xacro, which is not there"),
+        ('<xacro:include filename="$(find gone)/a.xacro"/>', "it may be in package `gone`, which is not there"),
+        ('<xacro:include filename="broken.xacro"/>', "it may be in broken.xacro, which breaks off"),
+    ],
+)
+def test_slips_are_said_as_notes_where_any_name_may_be_missing(write, fault, why):
+    write("broken.xacro", b"<robot><link name='x'>")
+    assert found(write("r.xacro", ROBOT.format(fault))) == dict.fromkeys(SLIPS, ("info", why, None))
+    others = ROBOT.replace("bse", "tower").replace("mst", "turret").replace("m_j", "hinge")
+    assert found(write("r.xacro", others.format(fault))) == {}
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [
+        '<xacro:if value="maybe"><link name="bse"/></xacro:if>',
+        f'{ONE}<xacro:if value="maybe"><link name="b${{p}}"/></xacro:if></xacro:macro><xacro:m p="se"/>',
+        '<xacro:macro name="m" params="p q"><link name="${q}se"/></xacro:macro><xacro:m p="a"/>',
+        f'{TWO}<xacro:unless value="${{q}}"><link name="${{p}}se"/></xacro:unless></xacro:macro><xacro:m p="b"/>',
+        f'{ONE}<link name="${{p}}"/></xacro:macro><xacro:if value="maybe"><xacro:m p="bse"/></xacro:if>',
+        '<xacro:macro name="m" params="p"><link name="bse"/><xacro:m p="a"/></xacro:macro><xacro:m p="a"/>',
+        '<lnk name="bse"/>',
+        '<xacro:include filename="broken.xacro"/>',
+    ],
+)
+def test_what_is_written_in_what_an_error_has_hidden_is_let_be(write, fault):
+    write("broken.xacro", b"<robot><link name='bse><visual/>")
+    assert found(write("r.xacro", ROBOT.format(fault)), ["T201"]) == {}
+
+
+def test_a_root_is_one_unless_a_joint_to_it_may_be_hidden(write):
+    two = '<link name="a"/><link name="b"/>{}'
+    joint = '<xacro:if value="{}"><joint name="j" type="fixed"><parent link="a"/><child link="{}"/></joint></xacro:if>'
+    assert "T203" in found(write("r.xacro", two.format('<xacro:if value="maybe"/>')), ["T203"])
+    assert "T203" in found(write("r.xacro", two.format(joint.format("maybe", "c"))), ["T203"])
+    assert "T203" not in found(write("r.xacro", two.format(joint.format("maybe", "b"))), ["T203"])
+    assert "T203" not in found(write("r.xacro", two.format('<xacro:nope a="b"/>')), ["T203"])
+
+
+def test_names_that_could_not_be_evaluated_have_their_fault_already(write):
+    joint = '<joint name="j" type="fixed"><parent link="${u}_x"/><child link="a"/></joint>'
+    assert found(write("r.xacro", f'<link name="a"/>{joint}<gazebo reference="${{u}}"/>')) == {}
+
+
+@pytest.mark.parametrize(
+    ("name", "near", "slip"),
+    [
+        ("bse_link", "base_link", True),
+        ("baselink", "base_link", True),
+        ("Base_Link", "base_link", True),
+        ("left_wheel", "right_wheel", False),
+        ("link_2", "link_1", False),
+        ("link12", "link1", False),
+        ("arm_a", "arm_b", False),
+        ("wheel_fl", "wheel_fr", False),
+        ("front_laser_link", "laser_link", False),
+    ],
+)
+def test_sisters_are_no_slips(name, near, slip):
+    assert is_slip(name, near) is slip

@@ -1,0 +1,217 @@
+"""What `urdfkit new world` writes: sdformat reads it, robots get through it, the same answers give the same bytes."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from urdfkit.cli import main
+from urdfkit.description.sdf import load_world
+from urdfkit.description.urdf.robot import Box
+from urdfkit.errors import UsageError
+from urdfkit.resources import templates_dir
+from urdfkit.scaffold import computed, load_template
+from urdfkit.scaffold.world.floor_layouts import house, office, one_room
+from urdfkit.scaffold.world.obstacles import clutter
+from urdfkit.scaffold.world.random_numbers import Chance
+from urdfkit.scaffold.world.shapes import Shape, inertia
+from urdfkit.sim import Simulator
+
+TEMPLATE = load_template(templates_dir() / "world")
+KINDS = ("room", "office", "house", "clutter")
+
+
+@pytest.fixture
+def place(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def new(name, *options):
+    return main(["new", "world", name, *options, "--yes"])
+
+
+def refusal(capsys, *options):
+    assert new("lab", *options) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    return said
+
+
+def free_space(path, radius, cell=0.1):
+    """Return where the middle of a round robot may be, on a grid about the origin, and what it reaches from there."""
+    world = load_world(path)
+    n = 90
+    axis = (np.arange(2 * n + 1) - n) * cell
+    x, y = np.meshgrid(axis, axis, indexing="ij")
+    free = np.ones_like(x, dtype=bool)
+    for model in world.models:
+        mx, my, _, _, _, yaw = (*model.pose.xyz, *model.pose.rpy)
+        for shape in (shape for link in model.links for shape in link.collisions):
+            dx, dy = x - mx, y - my
+            lx, ly = dx * math.cos(yaw) + dy * math.sin(yaw), dy * math.cos(yaw) - dx * math.sin(yaw)
+            lx, ly = lx - shape.pose.xyz[0], ly - shape.pose.xyz[1]
+            geometry = shape.geometry
+            if shape.name.startswith("lintel") or not isinstance(geometry, Box):
+                continue
+            half = np.array(geometry.size) / 2
+            free &= np.hypot(np.maximum(abs(lx) - half[0], 0), np.maximum(abs(ly) - half[1], 0)) >= radius
+    reached = np.zeros_like(free)
+    edge = [(n, n)]
+    while edge:
+        i, j = edge.pop()
+        if 0 <= i < len(axis) and 0 <= j < len(axis) and free[i, j] and not reached[i, j]:
+            reached[i, j] = True
+            edge += [(i + 1, j), (i - 1, j), (i, j + 1), (i, j - 1)]
+    return axis, free, reached
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_same_answers_give_the_same_bytes(place, kind):
+    for folder in ("one", "two"):
+        assert new("lab", "--kind", kind, "--into", folder) == 0
+    assert (place / "one/lab.sdf").read_bytes() == (place / "two/lab.sdf").read_bytes()
+
+
+def test_another_seed_is_another_world(place):
+    for seed in ("1", "2"):
+        assert new(f"lab{seed}", "--kind", "house", "--seed", seed) == 0
+    assert (place / "lab1.sdf").read_text().replace("lab1", "lab2") != (place / "lab2.sdf").read_text()
+
+
+def test_chance_is_the_same_for_ever():
+    chance = Chance(0)
+    assert [chance.between(0, 1), chance.between(-1, 1)] == [0.8444218515250481, 2 * 0.7579544029403025 - 1]
+
+
+def test_the_real_sdformat_reads_them(place, sdformat):
+    files = []
+    for kind, version in itertools.product(KINDS, ("1.6", "1.9")):
+        name = f"{kind}_{version.replace('.', '_')}"
+        assert new(name, "--kind", kind, "--sdf-version", version, *(["--loose"] * (kind == "clutter"))) == 0
+        files.append(place / f"{name}.sdf")
+    assert new("old", "--kind", "house", "--sim", "classic") == 0
+    lines = sdformat(*files, place / "old.world")
+    assert [line for line in lines if line[0] == "error"] == []
+    assert len(lines) > 100
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_robot_drives_in_it(place, kind):
+    assert new("lab", "--kind", kind, *(["--loose"] * (kind == "clutter"))) == 0
+    simulator = Simulator("simpleton", world=str(place / "lab.sdf"), note=lambda _: None)
+    simulator.command((0.3, 0, 0), (0, 0, 0))
+    simulator.run(1.5)
+    assert simulator.link_poses()[0, :2] == pytest.approx([0.44, 0], abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("kind", "rooms", "seed"), [("office", 8, 0), *(("house", n, s) for n in (4, 7) for s in range(4))]
+)
+def test_every_room_is_reached(place, kind, rooms, seed):
+    options = ["--kind", kind, "--rooms", str(rooms), "--seed", str(seed), "--doors", "2", "--length", "11"]
+    assert new("lab", *options) == 0
+    axis, free, reached = free_space(place / "lab.sdf", radius=0.25)
+    assert reached[len(axis) // 2, len(axis) // 2]
+    # What is free and not reached is no more than slits that a robot of this size is alone in.
+    assert (free & ~reached).sum() < 0.01 * reached.sum()
+
+
+def test_obstacles_are_apart_and_the_origin_is_free():
+    things = clutter(6, 5, count=60, largest=0.5, loose=True, clear_radius=0.8, chance=Chance(3))
+    circles = []
+    for thing in things:
+        (shape,) = thing.shapes
+        x, y, _ = thing.place
+        radius = math.hypot(*shape.size[:2]) / 2 if shape.kind == "box" else shape.size[0]
+        assert math.hypot(x, y) - radius >= 0.8
+        assert abs(x) + radius <= 3 + 1e-9
+        assert abs(y) + radius <= 2.5 + 1e-9
+        circles.append((x, y, radius))
+    for (x, y, r), (a, b, s) in itertools.combinations(circles, 2):
+        assert math.hypot(x - a, y - b) >= r + s
+    assert len({thing.name for thing in things}) == 60
+
+
+def test_the_shapes_weigh_as_solids_do():
+    assert inertia(Shape("a", "box", (1, 2, 3), (0, 0, 0), (1, 1, 1)), 12) == (13, 10, 5)
+    assert inertia(Shape("a", "cylinder", (1, 2), (0, 0, 0), (1, 1, 1)), 12) == (7, 7, 6)
+    assert inertia(Shape("a", "sphere", (1,), (0, 0, 0), (1, 1, 1)), 10) == (4, 4, 4)
+
+
+@pytest.mark.parametrize("doors", [0, 1, 4, 9])
+def test_as_many_doors_as_asked_for(doors):
+    sizes = {"doors": doors, "door_width": 0.9, "thickness": 0.15}
+    plans = [
+        one_room(8, 6, **sizes),
+        office(12, 9, rooms=6, **sizes),
+        house(12, 9, rooms=5, chance=Chance(doors), **sizes),
+    ]
+    inner = (0, 6, 4)
+    for plan, inside in zip(plans, inner, strict=True):
+        assert sum(len(wall.doors) for wall in plan.walls) == doors + inside
+        for wall in plan.walls:
+            assert all(b - a >= 0.9 for a, b in itertools.pairwise(wall.doors))
+            assert all(wall.start + 0.45 <= door <= wall.end - 0.45 for door in wall.doors)
+
+
+def test_lintels_are_above_doors_only(place):
+    assert new("lab", "--doors", "3") == 0
+    assert (place / "lab.sdf").read_text().count('_collision">') == 4 + 3 + 3
+    assert new("low", "--doors", "3", "--height", "0.5") == 0
+    assert "lintel" not in (place / "low.sdf").read_text()
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        (["--kind", "ofice"], "did you mean `office`?"),
+        (["--knid", "office"], "did you mean `--kind`?"),
+        (["--kind", "clutter", "--count", "2.5"], "--count 2.5 is no whole number"),
+        (["--kind", "clutter", "--count", "900"], "no room for --count 900"),
+        (["--kind", "clutter", "--doors", "2"], "--doors is for --kind room or office or house"),
+        (["--doors", "40"], "no room for --doors 40"),
+        (["--kind", "house", "--rooms", "40"], "no room for --rooms 40"),
+        (["--kind", "office", "--width", "5"], "no room for a corridor and --rooms 6"),
+        (["--length", "0.6"], "a wall is shorter than its door"),
+        (["--sim", "classic", "--sdf-version", "1.9"], "Gazebo Classic reads --sdf-version 1.6 and 1.7"),
+    ],
+)
+def test_what_cannot_be_is_refused_and_nothing_written(place, capsys, options, says):
+    assert says in refusal(capsys, *options)
+    assert list(place.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("sim", "file", "plugin"),
+    [("gz", "lab.sdf", "gz-sim-physics-system"), ("fortress", "lab.sdf", "ignition-gazebo-physics-system")],
+)
+def test_each_gazebo_has_its_plugins(place, sim, file, plugin):
+    assert new("lab", "--sim", sim) == 0
+    text = (place / file).read_text()
+    assert f'filename="{plugin}"' in text
+    assert "@" not in text
+
+
+def test_gazebo_classic_has_its_own(place):
+    assert new("lab", "--sim", "classic") == 0
+    text = (place / "lab.world").read_text()
+    assert "<plugin" not in text
+    assert "model://ground_plane" in text
+
+
+def test_nothing_is_overwritten(place, capsys):
+    (place / "lab.sdf").write_text("mine")
+    assert "lab.sdf is already there" in refusal(capsys)
+    assert (place / "lab.sdf").read_text() == "mine"
+
+
+def test_the_title_says_what_is_in_it():
+    answers = TEMPLATE.answers({"name": "lab", "kind": "house", "rooms": "3", "seed": "5"})
+    found = computed("world", answers)
+    assert found["title"].startswith("A house of 10 m by 8 m, 3 rooms and 3 doors")
+    assert "rooms 3" in found["said"]
+    assert "seed 5" in found["said"]
+    with pytest.raises(UsageError, match=r"--rooms 3\.5 is no whole number"):
+        computed("world", answers | {"rooms": "3.5"})

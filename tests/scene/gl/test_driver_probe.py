@@ -1,0 +1,155 @@
+"""Trying a driver: what works, what crashes, hangs or lies, and who takes pictures then."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from threading import Event
+
+import pytest
+
+from tests.scene.gl.test_same_picture import table_of, zoo
+from tests.scene.test_ray_images import lit
+from tests.time_limit import PATIENCE
+from urdfkit.description.sdf import Light
+from urdfkit.errors import SimulationError
+from urdfkit.scene import renderer as renderer_module
+from urdfkit.scene.gl import driver_probe as probing
+from urdfkit.scene.gl import hanging_drivers
+from urdfkit.scene.gl.driver_probe import Found, ask, on_processor
+from urdfkit.scene.ray_images import Painter
+from urdfkit.scene.renderer import check, painter_of
+
+
+@pytest.mark.parametrize(
+    ("program", "said"),
+    [
+        ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "the driver crashed (signal 11)"),
+        ("import time; time.sleep(60)", "the driver did not draw a triangle in 0.5 s"),
+        ("print('hello')", "the driver was tried without an answer (exit status 0)"),
+        ("raise SystemExit(3)", "the driver was tried without an answer (exit status 3)"),
+        ("print('[1]')", "the driver was tried without an answer (exit status 0)"),
+    ],
+)
+def test_a_broken_driver_takes_only_its_own_process_down(program: str, said: str) -> None:
+    assert ask([sys.executable, "-c", program], seconds=0.5 if "sleep" in program else 30.0) == Found(False, "", said)
+
+
+def test_what_works_is_told_with_its_name() -> None:
+    line = '{"works": true, "backend": "egl", "name": "a card"}'
+    assert ask([sys.executable, "-c", f"print('chatter'); print('{line}')"]) == Found(True, "egl", "a card")
+
+
+def test_a_program_that_is_not_there() -> None:
+    found = ask(["/no/such/program"])
+    assert not found.works
+    assert "no process could be started" in found.name
+
+
+def test_a_driver_that_hangs_is_not_tried_again_while_nothing_changes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(hanging_drivers, "folder", lambda: tmp_path)
+    asked: list[int] = []
+    found = Found(False, "", "the driver did not draw a triangle in 10 s")
+
+    def ask(command: list[str]) -> Found:
+        asked.append(len(command))
+        return found
+
+    monkeypatch.setattr(probing, "ask", ask)
+    monkeypatch.setattr(probing, "find_spec", lambda name: object())
+    plainly, anew = probing.probe.__wrapped__, probing.probe_anew.__wrapped__  # without what one process remembers
+    monkeypatch.setattr(probing, "probe_anew", anew)
+    assert plainly() == found
+    assert plainly().name == f"{found.name}, the last time; --renderer gl tries again"
+    assert len(asked) == 1
+    monkeypatch.setenv("LIBGL_ALWAYS_SOFTWARE", "true-enough")
+    assert plainly() == found
+    assert len(asked) == 2
+    monkeypatch.setattr(hanging_drivers, "BELIEVED", 0.0)
+    assert plainly() == found
+    monkeypatch.undo()
+    monkeypatch.setattr(hanging_drivers, "folder", lambda: tmp_path)
+    monkeypatch.setattr(probing, "find_spec", lambda name: object())
+    monkeypatch.setattr(probing, "ask", lambda command: Found(True, "egl", "a card"))
+    assert anew().works
+    assert hanging_drivers.recall() is None
+
+
+def test_nobody_remembers_where_nothing_can_be_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(hanging_drivers, "folder", lambda: Path("/dev/null/x"))
+    hanging_drivers.remember("it hung")
+    assert hanging_drivers.recall() is None
+
+
+def test_a_driver_that_takes_long_is_spoken_of(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(renderer_module, "PATIENCE", 0.0)
+    told, notes = Event(), []
+
+    def note(text: str) -> None:
+        notes.append(text)
+        told.set()
+
+    def slow() -> Found:
+        assert told.wait(PATIENCE)
+        return Found(True, "no such backend", "llvmpipe")
+
+    assert isinstance(painter_of(table_of(*zoo()), lit(SUN), "auto", note, slow), Painter)
+    assert notes == ["trying the graphics driver, which does not answer: 10 s at most"]
+
+
+BROKEN = Found(False, "", "the driver crashed (signal 11)")
+MISSING = Found(False, "", "moderngl is not installed: pip install 'urdfkit[gl]'")
+
+
+@pytest.mark.parametrize(
+    ("found", "notes"),
+    [
+        (BROKEN, ["OpenGL does not work here (the driver crashed (signal 11)): pictures are taken by casting rays"]),
+        (MISSING, []),
+        (Found(True, "no such backend", "a card"), ["OpenGL does not work here"]),
+    ],
+)
+def test_rays_take_pictures_where_opengl_does_not(found: Found, notes: list[str]) -> None:
+    said: list[str] = []
+    painter = painter_of(table_of(*zoo()), lit(), "auto", said.append, lambda: found)
+    assert isinstance(painter, Painter)
+    assert len(said) == len(notes)
+    assert all(line.startswith(note) for line, note in zip(said, notes, strict=True))
+
+
+SUN = Light("sun", "directional", cast_shadows=True)
+
+
+@pytest.mark.parametrize(
+    ("renderer", "name", "lights", "rays"),
+    [
+        ("auto", "llvmpipe (LLVM 15.0.6, 256 bits)", (SUN,), True),
+        ("auto", "llvmpipe (LLVM 15.0.6, 256 bits)", (), False),
+        ("auto", "NVIDIA H200/PCIe/SSE2", (SUN,), False),
+        ("gl", "llvmpipe (LLVM 15.0.6, 256 bits)", (SUN,), False),
+    ],
+)
+def test_the_quicker_one_takes_pictures(renderer: str, name: str, lights, rays: bool) -> None:
+    said: list[str] = []
+    nowhere = Found(True, "no such backend", name)  # whoever asks for a context is told so, and then casts rays
+    painter_of(table_of(*zoo()), lit(*lights), renderer, said.append, lambda: nowhere)
+    assert (not said) == rays
+
+
+@pytest.mark.parametrize(
+    ("name", "processor"),
+    [("Apple Software Renderer", True), ("SwiftShader Device", True), ("AMD Radeon Graphics (radeonsi)", False)],
+)
+def test_names_of_drivers_tell_where_they_draw(name: str, processor: bool) -> None:
+    assert on_processor(name) == processor
+
+
+def test_a_renderer_that_is_forced_and_does_not_work_is_refused() -> None:
+    with pytest.raises(SimulationError, match="renderer `gl` does not work here: the driver crashed"):
+        check("gl", lambda: BROKEN)
+    with pytest.raises(SimulationError, match="no renderer `rays`; did you mean `ray`"):
+        check("rays")
+    check("auto", lambda: BROKEN)
+    check("ray", lambda: BROKEN)

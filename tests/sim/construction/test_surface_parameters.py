@@ -1,0 +1,51 @@
+"""How links rub, as their descriptions say."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from urdfkit.description import load
+from urdfkit.errors import SimulationError
+from urdfkit.sim.construction.surface_parameters import surfaces_of
+from urdfkit.sim.engine import Surface
+
+
+def surfaces(folder: Path, *blocks: str) -> dict[str, Surface]:
+    links = '<link name="chassis"/><link name="wheel"/>'
+    joint = '<joint name="j" type="continuous"><parent link="chassis"/><child link="wheel"/></joint>'
+    path = folder / "robot.urdf"
+    path.write_text(f'<robot name="r" xmlns:gz="http://gazebosim.org/schema">{links}{joint}{"".join(blocks)}</robot>')
+    return surfaces_of(load(path))
+
+
+def block(inside: str, link: str = "wheel") -> str:
+    return f'<gazebo reference="{link}">{inside}</gazebo>'
+
+
+def test_both_coefficients_and_the_direction_are_read(tmp_path: Path) -> None:
+    found = surfaces(tmp_path, block('<mu1 value="0.2"/><mu2>0.8</mu2><fdir1>0 1 0</fdir1>'))
+    assert found == {"wheel": Surface(0.2, 0.8, (0.0, 1.0, 0.0))}
+
+
+def test_one_coefficient_is_both(tmp_path: Path) -> None:
+    assert surfaces(tmp_path, block("<mu1>0.3</mu1>")) == {"wheel": Surface(0.3, 0.3)}
+    assert surfaces(tmp_path, block("<mu2>0.3</mu2>")) == {"wheel": Surface(1.0, 0.3)}
+
+
+def test_blocks_of_one_link_add_up(tmp_path: Path) -> None:
+    assert surfaces(tmp_path, block("<mu2>0.3</mu2>"), block("<mu1>0.1</mu1>")) == {"wheel": Surface(0.1, 0.3)}
+
+
+def test_a_direction_may_be_another_links(tmp_path: Path) -> None:
+    found = surfaces(tmp_path, block('<mu1>1</mu1><mu2>0</mu2><fdir1 gz:expressed_in="chassis">1 -1 0</fdir1>'))
+    assert found == {"wheel": Surface(1.0, 0.0, (1.0, -1.0, 0.0), "chassis")}
+    with pytest.raises(SimulationError, match="`chasis`, which is no link; did you mean `chassis`"):
+        surfaces(tmp_path, block('<fdir1 gz:expressed_in="chasis">1 -1 0</fdir1>'))
+
+
+@pytest.mark.parametrize("text", ["-1", "much", "1 2", "nan"])
+def test_nonsense_is_refused(tmp_path: Path, text: str) -> None:
+    with pytest.raises(SimulationError, match="mu1"):
+        surfaces(tmp_path, block(f"<mu1>{text}</mu1>"))

@@ -1,0 +1,142 @@
+"""Heaps of more trees than are solved in blocks: bounded work, impulses inside their cones, no sinking, and sleep."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from urdfkit.description import load
+from urdfkit.errors import SimulationError
+from urdfkit.kinematics import Kinematics
+from urdfkit.scene import scene_of
+from urdfkit.sim.engine import Engine
+from urdfkit.sim.engine.arrays import FOUND_CONTACTS, FOUND_ROWS, GUESSES, allocate
+from urdfkit.sim.engine.island_solver.block_matrix import MOST_TREES
+from urdfkit.sim.engine.island_solver.gauss_seidel import SWEEPS
+from urdfkit.sim.engine.layout.world_arrays import MOST_DENSE
+
+SPEC = spec_from_file_location("worlds", (Path(__file__).parents[1] / "worlds.py"))
+worlds = module_from_spec(SPEC)
+SPEC.loader.exec_module(worlds)
+cube, slab, rover = worlds.cube, worlds.slab, worlds.rover
+
+X = 3.0
+"""Where things are, away from the robot [m]."""
+
+
+def tray(count, half, *, seed=0, top=2.5):
+    """Return the walls of a tray, and boxes tumbled above it."""
+    rng = np.random.default_rng(seed)
+    at, long = half + 0.025, 2.0 * half + 0.1
+    things = [
+        slab(f"wall{k}", (X + at * x, at * y, 0.25), (0.05 if x else long, 0.05 if y else long, top), static=True)
+        for k, (x, y) in enumerate(((1, 0), (-1, 0), (0, 1), (0, -1)))
+    ]
+    side = int(2.0 * half / 0.18)
+    for k in range(count):
+        row, column, layer = k % side - (side - 1) / 2.0, k // side % side - (side - 1) / 2.0, k // side**2
+        place = (X + 0.18 * row, 0.18 * column, 0.15 + 0.21 * layer)
+        turned = rng.normal(size=4)
+        things.append(replace(cube(f"b{k}", place, side=0.12), pose=(*place, *(turned / np.linalg.norm(turned)))))
+    return things
+
+
+def heights(engine):
+    return np.array([body.pose[2] for body in engine.bodies.values()])
+
+
+def cone_excess(engine):
+    """Return by how much impulses leave their cones, over the largest of them."""
+    a = engine._arrays
+    n = int(a["counts"][FOUND_ROWS])
+    mu, x = a["mu"][:n], a["x"][:n]
+    normals = np.flatnonzero(mu > 0.0)
+    across = np.hypot(x[normals + 1], x[normals + 2])
+    excess = np.maximum(across - mu[normals] * x[normals], -x[normals])
+    return excess.max() / max(x[normals].max(), 1e-12)
+
+
+def test_eighty_boxes_take_bounded_work_and_come_to_sleep(engine_of):
+    engine = rover(engine_of, bodies=tray(80, 0.4))
+    counts = engine._arrays["counts"]
+    swept = 0
+    for _ in range(150):
+        engine.step(10)
+        guesses = int(counts[GUESSES])
+        if int(counts[FOUND_ROWS]) > 600:
+            swept += 1
+            # Never the matrix of all rows, and no more sweeps than so many.
+            assert -SWEEPS - 1 <= guesses != 0
+            assert cone_excess(engine) < 1e-9
+    assert swept > 50
+    before = heights(engine)
+    engine.step(2500)
+    assert np.abs(heights(engine) - before).mean() < 5e-3
+    assert max((contact.depth for contact in engine.contacts()), default=0.0) < 1e-4
+    assert (engine._arrays["asleep"][-80:] != 0).sum() >= 78
+
+
+def test_a_heap_that_stays_awake_does_not_sink(engine_of):
+    engine = rover(engine_of, bodies=tray(MOST_TREES + 3, 0.4), sleep=False)
+    engine.step(2500)
+    before = heights(engine)
+    for _ in range(10):
+        engine.step(100)
+        assert max(contact.depth for contact in engine.contacts()) < 1e-4
+    assert (before - heights(engine)).mean() < 1e-4
+
+
+def test_what_touches_with_another_feature_goes_on_with_its_impulse(engine_of):
+    engine = rover(engine_of, bodies=[cube(f"box{k}", (X, 0.0, 0.1 + 0.2 * k)) for k in range(3)], sleep=False)
+    engine.step(50)
+    arrays = engine._arrays
+    loads = np.array([contact.force for contact in engine.contacts() if contact.b.startswith("box")])
+    assert len(loads) == 8
+    arrays["last_feature"][:8] += 1000
+    engine.step()
+    assert arrays["counts"][GUESSES] == 1
+    again = np.array([contact.force for contact in engine.contacts() if contact.b.startswith("box")])
+    assert again == pytest.approx(loads, abs=1e-9)
+
+
+def test_an_island_of_more_rows_than_have_room_for_their_matrix_is_swept(engine_of):
+    grid = [cube(f"c{k}", (X + 0.25 * (k % 11), 0.25 * (k // 11), 0.1)) for k in range(121)]
+    plate = slab("plate", (X + 1.25, 1.25, 0.21), (2.8, 2.8, 0.02))
+    engine = rover(engine_of, bodies=[*grid, plate], sleep=False)
+    engine.step(60)
+    assert int(engine._arrays["counts"][FOUND_ROWS]) > MOST_DENSE
+    assert engine.bodies["plate"].pose[2] == pytest.approx(0.21, abs=1e-4)
+    assert max(contact.depth for contact in engine.contacts()) < 1e-4
+    on_plate = sum(contact.force[2] * (1 if contact.a == "plate" else -1) for contact in engine.contacts()
+                   if "plate" in (contact.a, contact.b))  # fmt: skip
+    assert on_plate == pytest.approx(9.81 * plate.mass, rel=0.05)
+
+
+def test_a_robot_that_lies_on_hundreds_of_points_lies(tmp_path):
+    boxes = "".join(
+        f'<collision><origin xyz="{0.1 * (k % 15)} {0.1 * (k // 15)} 0.05"/><geometry><box size="0.09 0.09 0.1"/>'
+        "</geometry></collision>"
+        for k in range(150)
+    )
+    inertial = (
+        '<inertial><origin xyz="0.7 0.45 0.05"/><mass value="5"/>'
+        '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    )
+    (tmp_path / "bed.urdf").write_text(f'<robot name="bed"><link name="bed">{inertial}{boxes}</link></robot>')
+    kinematics = Kinematics(load(tmp_path / "bed.urdf"), floating_base=True)
+    engine = Engine(kinematics, scene_of(kinematics.robot).shapes)
+    engine.step(20)
+    counts = engine._arrays["counts"]
+    assert (counts[FOUND_CONTACTS], counts[FOUND_ROWS]) == (600, 1800)
+    assert engine.q[:3] == pytest.approx((0.0, 0.0, 0.0), abs=1e-6)
+    assert sum(contact.force[2] for contact in engine.contacts()) == pytest.approx(5 * 9.81, rel=1e-6)
+    assert {contact.a_shape for contact in engine.contacts()} == set(range(150))
+
+
+def test_a_world_that_takes_more_memory_than_there_is_is_refused_in_a_line():
+    with pytest.raises(SimulationError, match=r"a world of 1 robots .* takes 1.6e\+06 GB"):
+        allocate([1, 6, 7, 0, 0, 0, 0, 1, 0, 1, 36, 6, 10**14, 0, 0, 0], width=6)

@@ -1,0 +1,189 @@
+"""Sensors that make no sense: one line with the place and the nearest right thing, and the rest runs."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.sim.plugins.sensors.conftest import LASER, heard, scan, sensor
+from urdfkit.cli import main
+from urdfkit.description import load
+from urdfkit.sim import Simulator
+
+GOOD = sensor(LASER)
+BLOCK = '<gazebo reference="eye">{}</gazebo>'
+
+
+@pytest.fixture
+def robot(tmp_path: Path) -> Callable[[str], Path]:
+    """Return what writes a robot with gazebo blocks, and a good laser beside them."""
+
+    def write(blocks: str) -> Path:
+        file = tmp_path / "post.urdf"
+        file.write_text(
+            '<robot name="post"><link name="base"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" '
+            'ixz="0" iyz="0"/></inertial></link><link name="eye"/><joint name="top" type="fixed"><parent link="base"/>'
+            f'<child link="eye"/></joint>{BLOCK.format(GOOD)}\n{blocks}</robot>'
+        )
+        return file
+
+    return write
+
+
+VELODYNE = '<plugin name="v" filename="libgazebo_ros_velodyne_laser.so"><topicName>v</topicName>{}</plugin>'
+KINECT = (
+    '<plugin name="k" filename="libgazebo_ros_openni_kinect.so"><cameraName>k</cameraName>'
+    "<pointCloudCutoff>4</pointCloudCutoff><pointCloudCutoffMax>2</pointCloudCutoffMax></plugin>"
+)
+CAMERA = "<camera><image><width>8</width><height>6</height></image></camera>"
+
+WRONG = [
+    (BLOCK.format(sensor(LASER, type="raay")), "no sensor is of type `raay`; did you mean `ray`?"),
+    (
+        BLOCK.format(sensor(type="rgbd_camra", inside="")),
+        "no sensor is of type `rgbd_camra`; did you mean `rgbd_camera`?",
+    ),
+    (BLOCK.format(sensor(LASER, type="")), "a sensor has no type"),
+    (
+        BLOCK.format(sensor(type="thermal", inside="")),
+        'sensors of type `thermal` are not simulated: type="camera" tells colours',
+    ),
+    (
+        BLOCK.format(sensor(type="dvl", inside="")),
+        "sensors of type `dvl` are not simulated yet; sensor `lidar` is left",
+    ),
+    (
+        BLOCK.format(sensor(type="sonar", inside="")),
+        '`sonar` are not simulated: write type="ray" and a plugin that tells the nearest of its rays',
+    ),
+    (
+        BLOCK.format(sensor(type="infrared", inside="")),
+        "with infrared as the kind of radiation; sensor `lidar` is left",
+    ),
+    (BLOCK.format(sensor(LASER, inside=scan(10.7))), "<samples> is 10.7; it must be a whole number; sensor `lidar`"),
+    (
+        BLOCK.format(sensor(LASER, inside=scan().replace("resolution>1<", "resolution>0<"))),
+        "<resolution> is 0; it must be greater than zero: it is multiplied with <samples>; sensor `lidar`",
+    ),
+    (BLOCK.format(sensor(LASER.replace(">scan<", ">my scan!<"))), "`/my scan!` is no name of a topic"),
+    (
+        BLOCK.format(sensor(VELODYNE.format("<min_range>9</min_range><max_range>2</max_range>"))),
+        "what lies between <min_range> 9 m and <max_range> 2 m is nothing: the smaller is <min_range>; sensor `lidar`",
+    ),
+    (
+        BLOCK.format(sensor(KINECT, type="depth", inside=CAMERA)),
+        "what lies between <pointCloudCutoff> 4 m and <pointCloudCutoffMax> 2 m is nothing",
+    ),
+    (f"<gazebo>{GOOD}</gazebo>", "of a link; here is no reference"),
+    (f'<gazebo reference="eyes">{GOOD}</gazebo>', "`eyes` is none; did you mean `eye`?"),
+    (f'<gazebo reference="top">{sensor(type="imu", inside="")}</gazebo>', "of a link; `top` is none"),
+    (BLOCK.format(sensor(LASER, rate=-1.0)), "<update_rate> is `-1.0`; it must be a finite number, 0 or greater"),
+    (BLOCK.format(sensor(LASER, inside=scan(0))), "<horizontal> asks for 0 samples; it must be one or more"),
+    (BLOCK.format(sensor(LASER, inside=scan(9, 1, -1))), "<horizontal> goes from 1 to -1 rad"),
+    (BLOCK.format(sensor(LASER, inside=scan(far=0.01))), "sees from 0.1 m to 0.01 m sees nothing"),
+    (
+        BLOCK.format(sensor(LASER, inside=scan(noise="<noise><type>gaussian</type><stddev>-2</stddev></noise>"))),
+        "<stddev> is `-2`",
+    ),
+    (
+        BLOCK.format(sensor(LASER, inside=scan(noise='<noise type="gausian"/>'))),
+        "noise of type `gausian`; did you mean `gaussian`?",
+    ),
+    (
+        BLOCK.format(sensor(LASER.replace("ros_laser", "ros_block_laser"))),
+        "topic `/scan` carries sensor_msgs/msg/LaserScan, not sensor_msgs/msg/PointCloud; sensor `lidar` is left out",
+    ),
+    (
+        BLOCK.format(sensor(LASER.replace("ros_laser", "ros_lazer"))),
+        "no plugin `libgazebo_ros_lazer.so`; did you mean `libgazebo_ros_laser.so`?; sensor `lidar` is left out",
+    ),
+]
+
+
+@pytest.mark.parametrize(("blocks", "said"), WRONG)
+def test_a_line_says_what_is_wrong_and_where_and_the_rest_runs(robot, blocks: str, said: str) -> None:
+    notes: list[str] = []
+    simulator = Simulator(load(robot(blocks)), world="void", note=notes.append)
+    (note,) = notes
+    assert said in note
+    assert "\n" not in note
+    assert re.search(r"/post\.urdf:[4-9]:\d+: ", note)  # the good one ends on line 3
+    assert heard(simulator, "/scan")
+
+
+def test_a_rate_of_zero_is_every_step_as_in_gazebo(robot) -> None:
+    simulator = Simulator(load(robot(BLOCK.format(sensor(LASER.replace("scan<", "s<"), rate=0.0)))), world="void")
+    assert len(heard(simulator, "/s", 0.01)) == 10
+
+
+def test_the_command_says_it_in_one_line_and_goes_on(robot, capsys: Any) -> None:
+    file = robot(WRONG[0][0])
+    assert main(["sim", "run", str(file), "--world", "void", "--for", "0.01"]) == 0
+    said = capsys.readouterr().err.splitlines()
+    assert [line for line in said if "raay" in line] == [
+        f"urdfkit: {file}:4:25: no sensor is of type `raay`; did you mean `ray`?; sensor `lidar` is left out"
+    ]
+
+
+BESIDE = sensor(LASER.replace(">scan<", ">beside<")).replace('name="lidar"', 'name="beside"')
+REMARKED = [
+    (
+        BLOCK.format(
+            sensor(type="camera", inside=CAMERA.replace("<image>", "<horisontal_fov>1</horisontal_fov><image>"))
+        ),
+        "unknown element <horisontal_fov> in <camera> is ignored; did you mean <horizontal_fov>?",
+    ),
+    (
+        BLOCK.format(BESIDE.replace("samples>", "sample>")),
+        "unknown element <sample> in <horizontal> is ignored; did you mean <samples>?",
+    ),
+    (
+        BLOCK.format(BESIDE.replace("frameName>", "frameNam>")),
+        "unknown parameter <frameNam> of `libgazebo_ros_laser.so` is ignored; did you mean <frameName>?",
+    ),
+    (
+        '<gazebo reference="base"><material>Gazebo/Oragne</material></gazebo>',
+        "no material `Gazebo/Oragne`; did you mean `Gazebo/Orange`?",
+    ),
+    (
+        BLOCK.format(sensor(LASER).replace('name="lidar"', 'name="other"')),
+        "sensors `lidar` and `other` both publish on `/scan`",
+    ),
+    (
+        BLOCK.format(
+            sensor(
+                '<plugin name="r" filename="libgazebo_ros_range.so"><radiation>ultrasonic</radiation></plugin>',
+                inside=scan(3),
+            )
+        ),
+        "<radiation> is `ultrasonic`, which is taken for infrared; did you mean `ultrasound`?",
+    ),
+    (
+        BLOCK.format(
+            sensor(type="camera", inside=CAMERA.replace("<image>", "<distortion><k1>-50</k1></distortion><image>"))
+        ),
+        "through this distortion nothing gets to 9",
+    ),
+]
+
+
+@pytest.mark.parametrize(("blocks", "said"), REMARKED)
+def test_what_is_ignored_is_said_once_and_the_sensor_works(robot, blocks: str, said: str) -> None:
+    notes: list[str] = []
+    simulator = Simulator(load(robot(blocks)), world="void", note=notes.append)
+    (note,) = notes
+    assert said in note
+    assert "left out" not in note
+    assert re.search(r"/post\.urdf:[4-9]:\d+: ", note)
+    assert heard(simulator, "/scan")
+
+
+def test_an_ordinary_distortion_gets_to_the_whole_picture(robot) -> None:
+    inside = CAMERA.replace("<image>", "<distortion><k1>-0.25</k1><k2>0.05</k2></distortion><image>")
+    notes: list[str] = []
+    Simulator(load(robot(BLOCK.format(sensor(type="camera", inside=inside)))), world="void", note=notes.append)
+    assert not notes

@@ -1,0 +1,82 @@
+"""Screws: friction, masses, gravity and gains, turned from the page while the simulation runs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.app.simulation.features.feature import Done, Part, Takes
+from urdfkit.sim.construction.loading import STRONGEST
+from urdfkit.sim.plugins.controllers.pid import Gains
+from urdfkit.sim.world.live_parameters import LEAST_MASS, Tuning
+from urdfkit.view.protocol.page_requests import Order, Schema, number, numbers, text
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.server.server import Server
+
+
+class Screws(Part):
+    """What can be turned."""
+
+    def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
+        super().__init__(simulator, server, clock)
+        self._tuning = Tuning(self.simulator)
+
+    @property
+    def takes(self) -> Takes:
+        """The orders it takes."""
+        link = {"link": text()}
+        gains = Schema({"path": text(), "p": number(0), "i": number(0), "d": number(0)}, {"clamp": number(0)})
+        return {
+            "gravity": (Schema({"gravity": numbers(3, bound=STRONGEST, unit="m/s²")}), self._gravity),
+            "mass": (Schema({"name": text(), "mass": number(LEAST_MASS, 1e6, unit="kg")}, link), self._mass),
+            "mu": (Schema({"name": text(), "mu": number(0, 1e4)}, link), self._mu),
+            "gains": (gains, self._gains),
+        }
+
+    def show(self) -> None:
+        """Tell the pages what can be turned, and how it stands."""
+        tuning, rows = self._tuning, []
+        for name, robot in self.simulator.robots.items():
+            if robot.has_plugins or robot is self.simulator._stage.everybody[0]:
+                links = [(name, each.name, each.mass, each.mu) for each in tuning.links(name)]
+                rows += [_row(name, link, mass, mu) for name, link, mass, mu in links]
+        rows += [_row(each.name, "", each.mass, each.mu) for each in tuning.models]
+        self.server.declare(
+            "screws",
+            gravity=list(tuning.gravity),
+            rows=[row for row in rows if row["mass"] is not None or row["mu"] is not None],
+            gains=[{"path": path, "p": g.p, "i": g.i, "d": g.d, "clamp": g.i_max} for path, g in tuning.gains.items()],
+        )
+
+    def _gravity(self, order: Order) -> Done:
+        self._tuning.set_gravity(order.values["gravity"])
+        return self._done()
+
+    def _mass(self, order: Order) -> Done:
+        self._tuning.set_mass(order.values["name"], order.values["mass"], order.values.get("link", ""))
+        return self._done()
+
+    def _mu(self, order: Order) -> Done:
+        self._tuning.set_mu(order.values["name"], order.values["mu"], order.values.get("link", ""))
+        return self._done()
+
+    def _gains(self, order: Order) -> Done:
+        values = order.values
+        before = self._tuning.gains.get(values["path"], Gains(0.0))
+        most = values.get("clamp", before.i_max)
+        least = -most if "clamp" in values else before.i_min
+        self._tuning.set_gains(
+            values["path"], Gains(values["p"], values["i"], values["d"], least, most, before.antiwindup)
+        )
+        return self._done()
+
+    def _done(self) -> Done:
+        self.show()
+        return None
+
+
+def _row(name: str, link: str, mass: float | None, mu: float | None) -> dict[str, Any]:
+    return {"name": name, "link": link, "mass": mass, "mu": mu}

@@ -1,0 +1,60 @@
+"""Hands: links that pages push, for as long as they hold them."""
+
+from __future__ import annotations
+
+import contextlib
+from typing import TYPE_CHECKING
+
+from urdfkit.app.simulation.features.feature import Done, Part, Takes
+from urdfkit.errors import SimulationError
+from urdfkit.view.protocol.page_requests import Order, Schema, numbers, text
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.server.server import Server
+
+HOLD = 0.3
+"""Seconds of simulated time that a push lasts without another; pages repeat it twenty times a second."""
+STRONGEST = 1e5
+"""[N], [N·m]"""
+
+
+class Hands(Part):
+    """Who pushes what."""
+
+    def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
+        super().__init__(simulator, server, clock)
+        self._held: dict[int, str] = {}
+
+    @property
+    def takes(self) -> Takes:
+        """The orders it takes."""
+        force, torque = numbers(3, bound=STRONGEST, unit="N"), numbers(3, bound=STRONGEST, unit="N·m")
+        wrench = {"force": force, "torque": torque, "at": numbers(3, bound=1e3, unit="m")}
+        return {
+            "push": (Schema({"link": text(), **wrench}), self._push),
+            "let_go": (Schema(), self._let_go),
+        }
+
+    def forget(self) -> None:
+        """Let go of everything."""
+        self._held.clear()
+
+    def _push(self, order: Order) -> Done:
+        values = order.values
+        self._release(order.client)
+        self.simulator.push(values["link"], values["force"], values["torque"], at=values["at"], for_seconds=HOLD)
+        self._held[order.client] = values["link"]
+        self.server.driver.touch(order.client)
+        return None
+
+    def _let_go(self, order: Order) -> Done:
+        self._release(order.client)
+        return None
+
+    def _release(self, client: int) -> None:
+        if (link := self._held.pop(client, None)) is not None:
+            with contextlib.suppress(SimulationError):  # it may have been taken away meanwhile
+                self.simulator.release(link)

@@ -1,0 +1,236 @@
+"""Tape: the motion of everything, kept in memory and shown again at any place and speed; and every topic as MCAP."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.app.simulation.features.feature import Done, Part, Takes
+from urdfkit.errors import SimulationError
+from urdfkit.view.protocol.page_requests import Order, Schema, choice, flag, number
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from urdfkit.bridges.recorder import Recorder
+    from urdfkit.bus import Bus, Topic
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.server.server import Server
+
+MOST_BYTES = 96 * 1024 * 1024
+"""Of a tape; it stops there."""
+MOST_HANDED = 48 * 1024 * 1024
+"""Largest recording that is given to the page; a larger one is left in the folder that urdfkit was started in."""
+LARGE = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/PointCloud")
+"""Types of messages that are recorded only where that is asked for."""
+FRAME_RATE = 60.0
+"""Frames of a simulated second that are kept [Hz]."""
+
+
+class Tape(Part):
+    """Records and replays.
+
+    Attributes:
+        playing: whether what is shown comes from the tape.
+    """
+
+    def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
+        super().__init__(simulator, server, clock)
+        self._times: list[float] = []
+        self._frames: list[NDArray[np.float32]] = []
+        self._bytes = 0
+        self._recording = False
+        self._revision = -1
+        self._at = 0.0
+        self._since: tuple[float, float] | None = None
+        self._speed = 1.0
+        self.playing = False
+        self._recorder: Recorder | None = None
+        self._folder = ExitStack()
+
+    @property
+    def takes(self) -> Takes:
+        """The orders it takes."""
+        replay = {"at": number(0), "speed": number(0.05, 20)}
+        return {
+            "record": (Schema({"on": flag}, {"topics": flag, "pictures": flag}), self._record),
+            "replay": (Schema({"action": choice("show", "play", "pause", "end")}, replay), self._replay),
+        }
+
+    def show(self) -> None:
+        """Tell the pages how the tape stands."""
+        self.server.declare("tape", **self._state())
+
+    def _state(self) -> dict[str, Any]:
+        begin, end = (self._times[0], self._times[-1]) if self._times else (0.0, 0.0)
+        return {
+            "recording": self._recording,
+            "topics": self._recorder is not None,
+            "begin": begin,
+            "end": end,
+            "frames": len(self._times),
+            "playing": self.playing,
+            "running": self.playing and self._since is not None,
+            "at": self._at,
+        }
+
+    # Recording
+
+    def keep(self, t: float, poses: NDArray[np.float64], revision: int) -> None:
+        """Keep where everything is, while recording."""
+        if not self._recording or self.playing:
+            return
+        if revision != self._revision or (self._times and t < self._times[-1]):
+            self._stop("something came or went" if revision != self._revision else "time began anew")
+            return
+        if self._times and t - self._times[-1] < 0.9 / FRAME_RATE:
+            return
+        frame = poses.astype(np.float32)
+        self._times.append(t)
+        self._frames.append(frame)
+        self._bytes += frame.nbytes + 64
+        if self._bytes > MOST_BYTES:
+            self._stop(f"the tape is full after {self._times[-1] - self._times[0]:.0f} s")
+
+    def _record(self, order: Order) -> Done:
+        if not order.values["on"]:
+            if not self._recording:
+                raise SimulationError("nothing is being recorded")
+            found = self._end_topics(order)
+            self._recording = False
+            self.show()
+            return found
+        if self._recording:
+            raise SimulationError("a recording runs already")
+        self._times, self._frames, self._bytes = [], [], 0
+        self.playing, self._revision = False, self.simulator.revision
+        if order.values.get("topics"):
+            from urdfkit.bridges.recorder import Recorder
+
+            folder = self._folder.enter_context(TemporaryDirectory())
+            bus: Any = self.simulator.bus if order.values.get("pictures") else WithoutPictures(self.simulator.bus)
+            self._recorder = Recorder(bus, Path(folder) / "ride.mcap", lambda: self.simulator.t)
+        self._recording = True
+        self.show()
+        return None
+
+    def _stop(self, why: str) -> None:
+        self._recording = False
+        self.server.tell("notice", text=f"the recording has ended: {why}", tone="")
+        if self._recorder is not None:
+            self._leave(self._recorder, f"ride-{self.simulator.name}.mcap")
+        self.show()
+
+    def _end_topics(self, order: Order) -> Done:
+        recorder = self._recorder
+        if recorder is None:
+            return None
+        name = f"{self.simulator.name}.mcap"
+        recorder.look()
+        recorder.close()
+        size = recorder.path.stat().st_size
+        if size > MOST_HANDED:
+            return {"file": self._leave(recorder, name), "messages": recorder.count}
+        self.server.hand_over(order, name, recorder.path.read_bytes())
+        self._recorder = None
+        self._folder.close()
+        return {"messages": recorder.count, "bytes": size}
+
+    def _leave(self, recorder: Recorder, name: str) -> str:
+        """Put a recording into the folder that urdfkit was started in, under a name that is free; return it."""
+        import shutil
+
+        recorder.look()
+        recorder.close()
+        stem, k = Path(name).stem, 1
+        while Path(name).exists():
+            name, k = f"{stem}-{k}.mcap", k + 1
+        shutil.move(recorder.path, name)
+        self.server.tell("notice", text=f"the recording is in {name}, where urdfkit was started", tone="good")
+        self._recorder = None
+        self._folder.close()
+        return name
+
+    # Replay
+
+    def _replay(self, order: Order) -> Done:
+        action, values = order.values["action"], order.values
+        if action == "end":
+            self.playing, self._since = False, None
+            self.show()
+            return None
+        if self._recording:
+            raise SimulationError("stop the recording first")
+        if not self._times:
+            raise SimulationError("nothing has been recorded yet")
+        if self.simulator.revision != self._revision:
+            raise SimulationError("things came or went since it was recorded: it cannot be shown any more")
+        if not self.playing:
+            self._at = self._times[0]
+        if self._since is not None:
+            self._advance()
+        if "at" in values:
+            self._at = min(max(values["at"], self._times[0]), self._times[-1])
+        self._speed = values.get("speed", self._speed)
+        if action == "play" and self._at >= self._times[-1]:
+            self._at = self._times[0]
+        self._since = (self.clock(), self._at) if action == "play" else None
+        self.playing = True
+        self.show()
+        return None
+
+    def picture(self) -> tuple[float, NDArray[np.float32]]:
+        """Return the time [s] and the frame of the tape that is to be seen now."""
+        if self._since is not None:
+            self._advance()
+        index = int(np.searchsorted(self._times, self._at, side="right")) - 1
+        if self.is_due(0.2):
+            self.server.tell("tape", **self._state())
+        return self._at, self._frames[max(0, index)]
+
+    def _advance(self) -> None:
+        assert self._since is not None
+        begun, at = self._since
+        self._at = at + (self.clock() - begun) * self._speed
+        if self._at >= self._times[-1]:
+            self._at, self._since = self._times[-1], None
+            self.show()
+
+    def tick(self) -> None:
+        """Look for topics that have come up, and tell how the recording goes."""
+        if self._recorder is not None:
+            self._recorder.look()
+        if self._recording and self.is_due(0.5):
+            self.server.tell("tape", **self._state())
+
+    def forget(self) -> None:
+        """Show the simulation again."""
+        self.playing, self._since = False, None
+
+    def close(self) -> None:
+        """Keep what is being recorded, and clean up."""
+        if self._recorder is not None:
+            self._leave(self._recorder, f"{self.simulator.name}.mcap")
+        self._folder.close()
+
+
+class WithoutPictures:
+    """A bus as a recorder sees it that is to leave out what is large.
+
+    Args:
+        bus: the whole.
+    """
+
+    def __init__(self, bus: Bus) -> None:
+        self._bus = bus
+        self.subscribe = bus.subscribe
+
+    @property
+    def topics(self) -> tuple[Topic, ...]:
+        """The others."""
+        return tuple(topic for topic in self._bus.topics if topic.type not in LARGE)

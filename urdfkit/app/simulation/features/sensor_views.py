@@ -1,0 +1,235 @@
+"""What lidars and cameras see, on the page of ``sim teleop``: points in the scene, and small pictures.
+
+A sensor is looked at only while a page has it ticked and has shown what came before, the one that waited longest first,
+and no oftener than leaves the simulation most of the time: what a sensor's rate is does not matter to the page. Cameras
+take a small picture for it, so that whoever drives never waits for a large one.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from copy import copy
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.sim.plugins.sensors.cameras.annotated_camera import GzSegmentationCamera
+from urdfkit.sim.plugins.sensors.cameras.camera import Camera
+from urdfkit.sim.plugins.sensors.cameras.camera_optics import IMAGE
+from urdfkit.sim.plugins.sensors.cameras.depth_camera import GzDepthCamera
+from urdfkit.sim.plugins.sensors.lidars.lidar import LASER_SCAN, Lidar
+from urdfkit.sim.plugins.sensors.ray_sensor import Mounted
+from urdfkit.view.protocol.websocket_messages import COLORED, PICTURE, POINTS
+
+if TYPE_CHECKING:
+    from urdfkit.bus import Topic
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.server.server import Server
+
+Array = NDArray[Any]
+
+PERIOD = 0.1
+"""Seconds between two looks of one sensor, at least."""
+SHARE = 0.25
+"""Part of the time that looking may take."""
+WIDTH = 320
+"""Of a picture on the page [px], at most."""
+MOST_POINTS = 20_000
+"""Of one scan on the page; of larger ones every second point, every third, …"""
+CLOUDS = ("sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/PointCloud")
+OPTICAL = np.array([[0.0, 0, 1, 0], [-1, 0, 0, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
+"""A camera's optical frame in the sensor's: z forward, x right, y down."""
+
+
+@dataclass
+class Sight:
+    """One topic that is shown.
+
+    Attributes:
+        topic: where the sensor publishes.
+        sensor: that publishes there.
+        kind: `POINTS`, `COLORED` or `PICTURE`.
+        exact: whether the picture's colours have a meaning, which a JPEG would blur.
+        due: when it may be looked at again [s of the clock].
+        shown: messages there had been when it was looked at last.
+    """
+
+    topic: Topic
+    sensor: Mounted
+    kind: int
+    exact: bool = False
+    due: float = 0.0
+    shown: int = 0
+
+    @property
+    def key(self) -> str:
+        """What pages want it by."""
+        return f"sensor:{self.topic.name}"
+
+    def content(self, message: Any) -> bytes:
+        """Return what a page is sent of a message."""
+        if self.kind == PICTURE:
+            return picture(message, exact=self.exact)
+        frame = self.sensor.viewpoint
+        if isinstance(self.sensor, Camera) and not isinstance(self.sensor, GzDepthCamera):
+            frame = frame @ OPTICAL
+        return points(message, frame, colored=self.kind == COLORED)
+
+
+class Sights:
+    """The lidars and cameras of a simulation, on the page.
+
+    Args:
+        simulator: whose robots' sensors.
+        server: the page.
+        clock: wall clock [s].
+    """
+
+    def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
+        self._simulator, self._server, self._clock = simulator, server, clock
+        self._sights: list[Sight] = []
+        self._revision = -1
+        self._free = 0.0
+
+    def find(self) -> bool:
+        """Take note of the sensors there are, tell the page, and return whether there are any."""
+        self._revision = self._simulator.revision
+        self._sights = []
+        for robot in self._simulator.robots.values():
+            for sensor in robot.plugins.sensors:
+                if isinstance(sensor, Mounted):
+                    shown = smaller(sensor) if isinstance(sensor, Camera) else sensor
+                    exact = isinstance(sensor, GzSegmentationCamera)
+                    self._sights += [Sight(topic, shown, kind, exact) for topic, kind in _shown(sensor)]
+        names = [
+            {"topic": sight.topic.name, "picture": sight.kind == PICTURE, "camera": isinstance(sight.sensor, Camera)}
+            for sight in self._sights
+        ]
+        self._server.declare("sensors", sensors=names)
+        return bool(self._sights)
+
+    def prepare(self) -> None:
+        """Look once through each camera, so that nobody who drives waits for what the first look takes."""
+        for sensor in {id(sight.sensor): sight.sensor for sight in self._sights}.values():
+            if isinstance(sensor, Camera):
+                sensor.glimpse(self._simulator.t)
+
+    def show(self) -> float:
+        """Show what one sensor sees, if one is due and there is time; return how long that took [s]."""
+        if self._simulator.revision != self._revision:
+            self.find()
+        now = self._clock()
+        if now < self._free:
+            return 0.0
+        waiting = [
+            (k, each)
+            for k, each in enumerate(self._sights)
+            if each.due <= now and each.topic.count != each.shown and self._server.hub.takes(each.key)
+        ]
+        if not waiting:
+            return 0.0
+        first = min(waiting, key=lambda pair: pair[1].due)[1]
+        together = [(k, each) for k, each in waiting if each.sensor is first.sensor]  # they share one look
+        messages: dict[str, Callable[[], Any]] = {}
+        if isinstance(first.sensor, Camera):
+            names = (topic.name for topic in first.sensor.topics)
+            messages = dict(zip(names, first.sensor.glimpse(self._simulator.t), strict=False))
+        for index, sight in together:
+            sight.shown = sight.topic.count
+            message = messages[sight.topic.name]() if messages else sight.topic.latest
+            if message is not None:
+                self._server.sense(sight.key, index, self._simulator.t, sight.kind, sight.content(message))
+        cost = self._clock() - now
+        for _, sight in together:
+            sight.due = now + max(PERIOD, cost / SHARE)
+        self._free = now + cost / SHARE
+        return cost
+
+
+def smaller(camera: Camera) -> Camera:
+    """Return a camera in the same place that takes pictures of the size that the page shows."""
+    found = copy(camera)
+    found.eyes = []
+    for eye in camera.eyes:
+        lens = eye.optics.lens
+        part = min(1.0, WIDTH / lens.width)
+        small = replace(lens, width=round(part * lens.width), height=max(1, round(part * lens.height)))
+        found.eyes.append(replace(eye, optics=replace(eye.optics, lens=small)))
+    found.optics = found.eyes[0].optics
+    return found
+
+
+def _shown(sensor: Mounted) -> list[tuple[Topic, int]]:
+    if isinstance(sensor, Lidar):
+        return [(topic, POINTS) for topic in sensor.topics if topic.type in (LASER_SCAN, *CLOUDS)][:1]
+    if isinstance(sensor, GzSegmentationCamera):
+        return [(sensor.topics[0], PICTURE)]  # the others hold numbers, too dark to see
+    kinds = {IMAGE: PICTURE, CLOUDS[0]: COLORED}
+    return [(topic, kinds[topic.type]) for topic in sensor.topics if topic.type in kinds]
+
+
+def points(message: Any, viewpoint: Array, *, colored: bool = False) -> bytes:
+    """Return where the points of a scan are in the world [m], as little-endian float32.
+
+    Args:
+        message: a LaserScan, PointCloud2 or PointCloud in the coordinates of the sensor.
+        viewpoint: of the sensor; shape (4, 4).
+        colored: each with red, green, blue and 255 behind it, a byte each; of a PointCloud2 with ``rgb``.
+    """
+    colors = None
+    if hasattr(message, "ranges"):
+        angles = message.angle_min + message.angle_increment * np.arange(len(message.ranges))
+        ranges = np.asarray(message.ranges, dtype=float)
+        seen = np.isfinite(ranges)
+        angles, ranges = angles[seen], ranges[seen]
+        found = np.stack([ranges * np.cos(angles), ranges * np.sin(angles), np.zeros(len(ranges))], axis=-1)
+    elif hasattr(message, "data"):
+        offsets = {field.name: field.offset for field in message.fields}
+        rows = np.frombuffer(message.data.tobytes(), dtype=np.uint8).reshape(-1, message.point_step)
+        found = np.stack(
+            [np.ascontiguousarray(rows[:, offsets[axis] : offsets[axis] + 4]).view("<f4")[:, 0] for axis in "xyz"],
+            axis=-1,
+        ).astype(float)
+        if colored and "rgb" in offsets:
+            blue_first = rows[:, offsets["rgb"] : offsets["rgb"] + 3]
+            colors = np.concatenate([blue_first[:, ::-1], np.full((len(rows), 1), 255, dtype=np.uint8)], axis=1)
+    else:
+        found = np.array([(each.x, each.y, each.z) for each in message.points], dtype=float).reshape(-1, 3)
+    known = np.isfinite(found).all(axis=1)
+    every = max(1, -(-int(known.sum()) // MOST_POINTS))
+    found = (found[known][::every] @ viewpoint[:3, :3].T + viewpoint[:3, 3]).astype("<f4")
+    if not colored:
+        return bytes(found.tobytes())
+    if colors is None:
+        colors = np.full((len(known), 4), 255, dtype=np.uint8)
+    return bytes(np.concatenate([found.view(np.uint8).reshape(-1, 12), colors[known][::every]], axis=1).tobytes())
+
+
+def picture(message: Any, *, exact: bool = False) -> bytes:
+    """Return an Image as a small JPEG; depths as grey, near ones bright.
+
+    Args:
+        message: the Image.
+        exact: as a WebP that blurs nothing instead.
+    """
+    from PIL import Image
+
+    from urdfkit.app.simulation.image_files import png
+
+    with Image.open(io.BytesIO(png(message))) as whole:
+        small = whole
+        if whole.mode not in ("RGB", "L"):
+            depth = np.asarray(whole, dtype=float)
+            known = depth[depth > 0]
+            far = float(known.max()) if len(known) else 1.0
+            small = Image.fromarray(np.where(depth > 0, 255 - 215 * depth / far, 0).astype(np.uint8))
+        size = min(WIDTH, whole.width), max(1, round(whole.height * min(1.0, WIDTH / whole.width)))
+        file = io.BytesIO()
+        if exact:
+            small.resize(size, Image.Resampling.NEAREST).save(file, format="WEBP", lossless=True, quality=0, method=0)
+        else:
+            small.resize(size).save(file, format="JPEG", quality=80)
+    return file.getvalue()

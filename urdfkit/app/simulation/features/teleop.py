@@ -1,0 +1,47 @@
+"""The wheel: which robots can be driven, and by which keys."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
+
+if TYPE_CHECKING:
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.sim.world.simulated_robot import SimulatedRobot
+
+
+def wheel(simulator: Simulator) -> dict[str, Any]:
+    """Return what the page needs to drive: robots that take commands, key tables and first speeds."""
+    from urdfkit.teleop import HELD_LAYOUT, HELD_SPEEDS, Teleop
+
+    start = Teleop()
+    robots = [
+        {"name": name, "drives": bool(command_topics(robot))}
+        for name, robot in simulator.robots.items()
+        if robot.has_plugins or name == simulator.name
+    ]
+    return {
+        "drives": any(robot["drives"] for robot in robots),
+        "robots": robots,
+        "moves": HELD_LAYOUT,
+        "factors": HELD_SPEEDS,
+        "speed": start.speed,
+        "turn": start.turn,
+    }
+
+
+def command_topics(robot: SimulatedRobot) -> dict[str, str]:
+    """Return topic → type of the velocity commands that a robot's drives and running controllers listen to."""
+    topics = {topic: TWIST for drive in robot.plugins.drives for topic in drive.commands}
+    return {**topics, **robot.controllers.command_topics}
+
+
+def command(simulator: Simulator, robot: SimulatedRobot, linear: Sequence[float], angular: Sequence[float]) -> None:
+    """Publish a velocity command [m/s, rad/s] to everything of a robot that drives."""
+    for topic, kind in command_topics(robot).items():
+        message = twist(linear, angular)
+        if kind == TWIST_STAMPED:
+            message = message_type(TWIST_STAMPED)(header(simulator.t, ""), message)
+        simulator.bus.publish(topic, kind, message)

@@ -1,0 +1,135 @@
+"""Topics on the page: the list with rates, the last message of one, and publishing."""
+
+from __future__ import annotations
+
+import re
+import struct
+from collections import deque
+from typing import TYPE_CHECKING
+
+from urdfkit.app.simulation.features.feature import Done, Part, Takes
+from urdfkit.app.simulation.features.message_values import as_json, numbers_in
+from urdfkit.errors import UsageError, did_you_mean
+from urdfkit.view.protocol.page_requests import Order, Schema, text, tree
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.server.server import Server
+
+LIST, ECHO = "topics", "echo:"
+"""Keys that pages want the list by, and the last message of a topic."""
+PERIOD = 0.5
+"""Seconds between two lists."""
+OFTEN = 0.2
+"""Seconds between two looks at one topic's last message, at least."""
+SHARE = 0.1
+"""Part of the time that such looks may take: the last message of a camera is made by looking through it."""
+NAME = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+", re.ASCII)
+"""Names of topics that ROS 1 and 2 both take; https://design.ros2.org/articles/topic_and_service_names.html."""
+SPAN = 6
+"""Lists over which rates are measured."""
+
+
+class Topics(Part):
+    """The list, and what somebody looks at."""
+
+    def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
+        super().__init__(simulator, server, clock)
+        self._counts: deque[tuple[float, dict[str, int]]] = deque(maxlen=SPAN)
+        self._echoes: dict[str, tuple[float, int]] = {}
+
+    @property
+    def takes(self) -> Takes:
+        """The orders it takes."""
+        return {
+            "form": (Schema({"topic": text(), "type": text()}, changes=False), self._form),
+            "publish": (Schema({"topic": text(), "type": text(), "message": tree}), self._publish),
+        }
+
+    def forget(self) -> None:
+        """Measure rates anew."""
+        self._counts.clear()
+
+    def tick(self) -> None:
+        """Send the list and the messages that pages look at."""
+        wanted = self.server.hub.wanted
+        if LIST in wanted and self.is_due(PERIOD):
+            self._list()
+        now = self.clock()
+        looked = {key for key in wanted if key.startswith(ECHO)}
+        self._echoes = {key: kept for key, kept in self._echoes.items() if key in looked}
+        for key in looked:
+            due, shown = self._echoes.get(key, (0.0, -1))
+            if now >= due:
+                shown = self._echo(key, shown)
+                self._echoes[key] = now + max(OFTEN, (self.clock() - now) / SHARE), shown
+
+    def _list(self) -> None:
+        t, topics = self.simulator.t, self.simulator.bus.topics
+        if self._counts and t < self._counts[-1][0]:
+            self._counts.clear()
+        self._counts.append((t, {topic.name: topic.count for topic in topics}))
+        begun, before = self._counts[0]
+        rows = []
+        for topic in topics:
+            if "/msg/" not in topic.type:
+                continue  # a service's request
+            rate = (topic.count - before.get(topic.name, topic.count)) / (t - begun) if t > begun else 0.0
+            rows.append([topic.name, topic.type, topic.count, round(max(0.0, rate), 2), len(topic.subscribers)])
+        self.server.tell_who_wants(LIST, "topics", rows=rows)
+
+    def _echo(self, key: str, shown: int) -> int:
+        name = key.removeprefix(ECHO)
+        topic = next((each for each in self.simulator.bus.topics if each.name == name), None)
+        if topic is None or topic.count == shown:
+            return shown
+        message = topic.latest
+        self.server.tell_who_wants(
+            key, "echo", topic=name, count=topic.count, message=None if message is None else as_json(message)
+        )
+        return topic.count
+
+    def _form(self, order: Order) -> Done:
+        """Answer with an empty message of a topic's type, and the paths of the numbers in its last message."""
+        from urdfkit.messages import from_fields, full_type_name
+
+        name, kind = order.values["topic"], full_type_name(order.values["type"])
+        self._require_message(name, kind)
+        empty = from_fields(kind, None)
+        topic = next((each for each in self.simulator.bus.topics if each.name == name), None)
+        latest = None if topic is None or not topic.count else topic.latest
+        return {"message": as_json(empty), "numbers": list(numbers_in(empty if latest is None else latest))[:500]}
+
+    def _publish(self, order: Order) -> Done:
+        from urdfkit.bus import absolute
+        from urdfkit.messages import from_fields, full_type_name
+
+        name, kind = order.values["topic"], full_type_name(order.values["type"])
+        if len(absolute(name)) < 2:
+            raise UsageError("a topic has a name, such as /cmd_vel")
+        _require_name(name, [topic.name for topic in self.simulator.bus.topics])
+        self._require_message(absolute(name), kind)
+        try:
+            self.simulator.bus.publish(name, kind, from_fields(kind, order.values["message"]))
+        except (ArithmeticError, LookupError, TypeError, ValueError, struct.error) as error:
+            # A number that its field cannot hold, or that a listener makes nothing of: no reason to end the simulation.
+            raise UsageError(f"`{name}` cannot take that message: {error}") from error
+        return None
+
+    def _require_message(self, name: str, kind: str) -> None:
+        if "/msg/" not in kind:
+            raise UsageError(f"`{kind}` is no message type, such as geometry_msgs/msg/Twist")
+        known = {topic.name: topic.type for topic in self.simulator.bus.topics}
+        if name in known and known[name] != kind:
+            raise UsageError(f"topic `{name}` carries {known[name]}, not {kind}{did_you_mean(kind, [known[name]])}")
+
+
+def _require_name(name: str, known: Sequence[str]) -> None:
+    """Refuse a new topic of a name that no ROS node could have; one that is there keeps its name."""
+    from urdfkit.bus import absolute
+
+    if absolute(name) not in known and not NAME.fullmatch(absolute(name)):
+        near = did_you_mean(absolute(name.replace(" ", "")), known)
+        raise UsageError(f"`{name}` is no name of a topic: letters, digits, _ and / between them, no blanks{near}")

@@ -1,0 +1,134 @@
+"""Objects: what can be put into the world from the page, moved about, taken away, walled in and saved."""
+
+from __future__ import annotations
+
+from math import asin, atan2, copysign, pi
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from urdfkit.app.simulation.features.feature import Done, Part, Takes
+from urdfkit.app.simulation.features.wall_model import MOST, walls
+from urdfkit.errors import SimulationError
+from urdfkit.view.protocol.page_requests import Order, Schema, listing, number, numbers, record, text, whole
+
+NAME = 80
+"""Longest name [characters]."""
+MOST_THINGS = 500
+"""Most models and robots in a world that is built on the page."""
+
+
+class Objects(Part):
+    """The library, and what stands in the world."""
+
+    @property
+    def takes(self) -> Takes:
+        """The orders it takes."""
+        pose = numbers(3, 7, bound=1e4)
+        door = record(segment=whole(0, 200), at=number(0, MOST, unit="m"), width=number(0.2, 20, unit="m"))
+        corners = listing(numbers(2, bound=MOST, unit="m"), 2, 200, "corners")
+        sizes = {"name": text(NAME), "height": number(0.05, 20, unit="m"), "thickness": number(0.02, 2, unit="m")}
+        return {
+            "spawn": (Schema({"model": text(NAME)}, {"pose": pose, "name": text(NAME)}), self._spawn),
+            "place": (Schema({"name": text(), "pose": pose}), self._place),
+            "remove": (Schema({"name": text()}), self._remove),
+            "where": (Schema({"name": text()}, changes=False), self._where),
+            "walls": (Schema({"corners": corners}, {**sizes, "doors": listing(door, 0, 50, "doors")}), self._walls),
+            "save": (Schema({}, {"name": text(NAME)}, changes=False), self._save),
+        }
+
+    def show(self) -> None:
+        """Tell the pages what there is, and what there could be."""
+        from urdfkit.description.sdf import model_names
+        from urdfkit.resources import robot_names
+
+        stage = self.simulator._stage
+        rows = []
+        for name in stage.names:
+            entry = stage.entry(name)
+            first = entry.thing is None
+            robot = any(each.has_plugins for each in entry.robots)
+            rows.append({"name": name, "robot": robot or first, "first": first, "static": stage._stands(entry)})
+        self.server.declare(
+            "objects",
+            objects=rows,
+            models=[name for name in model_names() if name not in ("sun", "ground_plane")],
+            robots=robot_names(),
+            world=self.simulator.world.name,
+        )
+
+    def _spawn(self, order: Order) -> Done:
+        name, model = order.values.get("name") or None, order.values["model"]
+        self._require_plain(model)  # by name only: no page may have a file of this machine read
+        if len(self.simulator._stage.names) >= MOST_THINGS:
+            raise SimulationError(f"there are {MOST_THINGS} things in the world; that is enough for a page")
+        pose = order.values.get("pose")
+        from urdfkit.resources import robot_names
+        from urdfkit.sim import Spawn
+
+        if pose is not None and model in robot_names():
+            # On the ground, wherever that is for it.
+            found = self.simulator.spawn(
+                model, Spawn(x=pose[0], y=pose[1], yaw=pose[-1] if len(pose) in (4, 6) else 0.0), name=name
+            )
+        else:
+            found = self.simulator.spawn(model, pose, name=name)
+        return {"name": found}
+
+    def _require_plain(self, model: str) -> None:
+        if "/" in model or "\\" in model or "." in model or ":" in model:
+            raise SimulationError(f"`{model}` is no name of a model or robot of the library")
+
+    def _place(self, order: Order) -> Done:
+        name, pose = order.values["name"], order.values["pose"]
+        stage = self.simulator._stage
+        if name == stage.names[0] and not self.simulator.kinematics.floating_base:
+            raise SimulationError(f"`{name}` is bolted down")
+        self.simulator.place(name, pose)
+        return None
+
+    def _remove(self, order: Order) -> Done:
+        self.simulator.remove(order.values["name"])
+        return None
+
+    def _where(self, order: Order) -> Done:
+        pose = self.simulator.pose(order.values["name"])
+        return {"pose": [*pose[:3], *_angles(pose[3:])]}
+
+    def _walls(self, order: Order) -> Done:
+        from urdfkit.sim.world.spawn_requests import arrival_of_text
+
+        values = order.values
+        name = values.get("name") or self.simulator._free("walls")
+        if not name.replace("_", "").replace("-", "").isalnum():
+            raise SimulationError(f"`{name}` is no name for walls: letters, digits, _ and -")
+        document = walls(
+            name,
+            values["corners"],
+            values.get("doors", ()),
+            height=values.get("height", 2.5),
+            thickness=values.get("thickness", 0.15),
+        )
+        return {"name": self.simulator.spawn(arrival_of_text(document))}
+
+    def _save(self, order: Order) -> Done:
+        name = order.values.get("name") or self.simulator.world.name or "world"
+        safe = "".join(each if each.isalnum() or each in "-_" else "_" for each in name) or "world"
+        with TemporaryDirectory() as folder:
+            file = Path(folder) / f"{safe}.sdf"
+            self.simulator.save_world(file)
+            content = file.read_bytes()
+        self.server.hand_over(order, file.name, content)
+        return {"bytes": len(content)}
+
+
+def _angles(quaternion: Any) -> tuple[float, float, float]:
+    """Return roll, pitch and yaw [rad] of a quaternion x y z w."""
+    x, y, z, w = quaternion
+    sine = 2 * (w * y - z * x)
+    pitch = copysign(pi / 2, sine) if abs(sine) >= 1 else asin(sine)
+    return (
+        atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),
+        pitch,
+        atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
+    )

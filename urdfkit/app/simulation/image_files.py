@@ -1,0 +1,83 @@
+"""``sim run --save-image``: the last picture of a topic, as PNG."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.app.simulation import saved_topics
+from urdfkit.errors import MissingDependencyError, UsageError
+
+if TYPE_CHECKING:
+    from urdfkit.cli.sim.option_values import TopicFile
+    from urdfkit.sim.simulator import Simulator
+
+IMAGE = "sensor_msgs/msg/Image"
+
+
+def find_topics(simulator: Simulator, wanted: Sequence[TopicFile]) -> list[tuple[str, Path]]:
+    """Return the topic and the file of each ``--save-image``.
+
+    Raises:
+        UsageError: there is no such topic, it carries no pictures, or none is named and there are several.
+        MissingDependencyError: Pillow is not installed.
+    """
+    from importlib.util import find_spec
+
+    if wanted and find_spec("PIL") is None:
+        raise MissingDependencyError("--save-image needs Pillow: pip install 'urdfkit[sim]'")
+    return saved_topics.find_topics(
+        simulator, wanted, option="--save-image", types=(IMAGE,), what="pictures", suffix=".png"
+    )
+
+
+def contents(simulator: Simulator, wanted: Sequence[tuple[str, Path]]) -> Iterator[tuple[Path, bytes]]:
+    """Yield each file and what is to be in it, the last picture of its topic.
+
+    Raises:
+        UsageError: none has been taken so far.
+    """
+    for topic, file in wanted:
+        message = simulator.bus.latest(topic)
+        if message is None:
+            raise UsageError(f"--save-image: no picture came on {topic} in {simulator.t:g} s; run for longer")
+        yield file, png(message)
+
+
+def png(message: Any) -> bytes:
+    """Return an Image as PNG.
+
+    Depths become 16 bits of millimetres, zero where there is none, as in 16UC1. Bayer patterns stay grey.
+
+    Args:
+        message: of type sensor_msgs/Image.
+    """
+    import numpy as np
+    from PIL import Image
+
+    def rows(kind: str, channels: int = 1) -> Any:
+        lines = np.frombuffer(message.data.tobytes(), "u1").reshape(message.height, message.step)
+        size = np.dtype(kind).itemsize * channels * message.width
+        found = np.ascontiguousarray(lines[:, :size]).view(kind).reshape(message.height, message.width, channels)
+        return found[:, :, 0] if channels == 1 else found
+
+    match message.encoding:
+        case "rgb8":
+            pixels = rows("u1", 3)
+        case "bgr8":
+            pixels = rows("u1", 3)[:, :, ::-1]
+        case "rgb16":
+            pixels = (rows("<u2", 3) >> 8).astype(np.uint8)  # PNG libraries know 16 bits of grey only
+        case "32FC1":
+            depth = rows("<f4")
+            known = np.isfinite(depth) & (depth > 0) & (depth < 65.535)
+            pixels = np.rint(np.where(known, depth, 0.0) * 1000.0).astype(np.uint16)
+        case "16UC1" | "mono16":
+            pixels = rows("<u2")
+        case _:
+            pixels = rows("u1")
+    file = io.BytesIO()
+    Image.fromarray(np.ascontiguousarray(pixels)).save(file, format="PNG")
+    return file.getvalue()

@@ -1,0 +1,53 @@
+"""Likeness: the robot where it will start, on the page while the engine that moves it is still being made."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from urdfkit.kinematics import Kinematics
+from urdfkit.scene import Scene, scene_of
+from urdfkit.sim.construction.loading import require_masses
+from urdfkit.sim.construction.spawn import Spawn
+
+if TYPE_CHECKING:
+    from urdfkit.description import Robot
+    from urdfkit.description.sdf import World
+    from urdfkit.view.content.display import Screen
+
+
+class Likeness:
+    """A robot that stands still.
+
+    Args:
+        robot: as written.
+        world: what it stands in.
+
+    Raises:
+        UrdfkitError: it cannot be simulated; says why and where.
+
+    Attributes:
+        scene: its shapes, which the simulation needs too.
+    """
+
+    def __init__(self, robot: Robot, world: World) -> None:
+        self._robot = robot
+        on_world = robot.roots()[0].name == "world"
+        self._kinematics = kinematics = Kinematics(robot, floating_base=not on_world)
+        self.scene: Scene = scene_of(robot, strict=False)
+        spawn = Spawn(z=0.0 if on_world else None)
+        base = spawn.place(kinematics, self.scene, None if world.ground is None else world.ground.height)
+        self._q = spawn.configuration(kinematics, base)[0]
+        require_masses(kinematics, self._q, lambda _: None)  # the simulation says it again
+
+    def show(self, server: Screen) -> None:
+        """Put it on the page."""
+        from urdfkit.view.content.meshcat_objects import draw, link_path
+
+        names = self._kinematics.link_names
+        server.show(
+            name=self._robot.name or "robot",
+            nodes=[link_path(name) for name in names],
+            root=names.index(self._kinematics.root),
+            draw=lambda window: draw(self.scene, window, server.geometries),
+        )
+        server.publish(0.0, self._kinematics.link_poses(self._q))

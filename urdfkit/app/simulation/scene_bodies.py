@@ -1,0 +1,114 @@
+"""Figures: what stands in the world, on the page; only what came or went is sent anew."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from urdfkit.description import Robot
+    from urdfkit.scene import Shape
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.view.content.display import Screen
+
+BODY = "world/"
+"""Goes before the names of the world's bodies: no link has a slash where a body of the world has its first."""
+
+
+class Figures:
+    """What is drawn, and where everything is.
+
+    Args:
+        simulator: what is shown.
+        server: the page.
+
+    Attributes:
+        revision: of the simulation, when it was shown last.
+        tip: the link that most joints that move lie between and the root; of an arm its end.
+    """
+
+    def __init__(self, simulator: Simulator, server: Screen) -> None:
+        self._simulator, self._server = simulator, server
+        self._drawn: tuple[str, ...] = ()
+        self._shown: dict[str, tuple[Any, ...]] = {}
+        self.revision = -1
+        kinematics = simulator.kinematics
+        self._root = kinematics.link_names.index(kinematics.root)
+        self.tip = _tip(kinematics.robot)
+
+    def show(self) -> None:
+        """Put the robots and what else the world holds on the page, where they are."""
+        from urdfkit.scene import Scene
+        from urdfkit.view.content.meshcat_objects import draw, link_path
+        from urdfkit.view.content.scene_changes import draw_more, forget_others
+
+        simulator, first = self._simulator, self.revision < 0
+        drawn = tuple(simulator.body_poses())
+        shapes: dict[str, list[Shape]] = {}
+        for shape in simulator.looks():
+            shapes.setdefault(shape.body, []).append(replace(shape, body=f"{BODY}{shape.body}"))
+        looks = {name: tuple(map(_look, shapes.get(name, ()))) for name in drawn}
+        same = drawn == self._drawn and looks == self._shown
+        before, self._drawn, self.revision = self._shown, drawn, simulator.revision
+        self._shown = looks
+        if same and not first:  # something that stands was put elsewhere
+            return
+        bodies = (*simulator.kinematics.link_names, *(BODY + name for name in drawn))
+        if first:
+            scene = Scene(bodies, (*simulator.scene.shapes, *(each for some in shapes.values() for each in some)))
+
+            def picture(server: Screen) -> None:
+                draw(scene, server, server.geometries)
+
+        else:
+            gone = [name for name in before if name not in looks or looks[name] != before[name]]
+            come = [name for name in drawn if looks[name] != before.get(name)]
+
+            def picture(server: Screen) -> None:
+                draw_more(
+                    [shape for name in come for shape in shapes.get(name, ())],
+                    server,
+                    server.geometries,
+                    instead_of=[BODY + name for name in gone],
+                )
+                if gone:
+                    rest = (each for some in shapes.values() for each in some)
+                    forget_others((*simulator.scene.shapes, *rest), server.geometries)
+
+        self._server.show(
+            name=simulator.name,
+            nodes=[link_path(name) for name in bodies],
+            root=self._root,
+            draw=picture,
+        )
+
+    def poses(self) -> NDArray[np.float64]:
+        """Return where everything on the page is; shape (bodies, 7), the robot's links first."""
+        poses = self._simulator.link_poses()
+        if not self._drawn:
+            return poses
+        others = self._simulator.body_poses()
+        return np.vstack([poses, np.array([others[name] for name in self._drawn])])
+
+    @property
+    def root(self) -> int:
+        """The row of the robot's root link."""
+        return self._root
+
+
+def _tip(robot: Robot) -> str:
+    """Return the first link of those that the most moving joints carry."""
+    moved = {robot.roots()[0].name: 0}
+    for joint in robot.tree_order():
+        moved[str(joint.child)] = moved[str(joint.parent)] + (joint.type != "fixed")
+    return max(moved, key=lambda name: moved[name])
+
+
+def _look(shape: Shape) -> tuple[Any, ...]:
+    """Return what makes a shape look as it does, to be compared."""
+    mesh = None if shape.mesh is None else shape.mesh.hash
+    placement = np.asarray(shape.placement, dtype=float).tobytes()
+    return shape.role, shape.geometry, placement, shape.rgba, shape.has_color, mesh

@@ -1,0 +1,189 @@
+"""What the linter finds, as the viewer shows it: with the source lines, the rule's page, and the fix to apply."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.errors import ResourceError, UrdfkitError, UsageError
+
+if TYPE_CHECKING:
+    from urdfkit.app.viewer.source_links import Whereabouts
+    from urdfkit.description.urdf.robot import Robot
+    from urdfkit.description.xml.source import Expansion, Source, Span
+    from urdfkit.lint.engine.run import Options, Outcome
+    from urdfkit.lint.finding import Finding, Fix
+    from urdfkit.lint.project.entry_files import Entry
+    from urdfkit.lint.project.settings import Settings
+    from urdfkit.resources import ModelArgument
+
+LINES = 12
+"""Most source lines shown of one finding."""
+
+
+class Findings:
+    """The findings of one model, numbered; a number is never used for another finding.
+
+    Args:
+        model: the model looked at.
+        may_write: whether fixes may be applied.
+    """
+
+    def __init__(self, model: ModelArgument, *, may_write: bool = True) -> None:
+        self.model = model
+        self.may_write = may_write
+        self._known: dict[int, Finding] = {}
+        self._next = 1
+
+    def look(self, robot: Robot | None = None) -> dict[str, Any]:
+        """Lint the files as they are now.
+
+        Args:
+            robot: expanded from these files; tells which links and joints a finding in the text is about.
+
+        Returns:
+            ``findings``, one object each; ``rules``, code → the rule's page as Markdown; ``fault``, why nothing could
+            be looked at, or not by all rules, or None.
+        """
+        from urdfkit.app.viewer.source_links import Whereabouts
+        from urdfkit.lint.engine.run import run
+
+        self._known = {}
+        places = None if robot is None else Whereabouts(robot)
+        try:
+            settings = self._settings()
+            outcome = run(self._entries(), self._options(settings), keep_going=True)
+        except UrdfkitError as error:
+            return {"findings": [], "rules": {}, "fault": str(error)}
+        rows = []
+        for finding in outcome.findings:
+            if _is_ignored(finding, settings):
+                continue
+            self._known[self._next] = finding
+            rows.append(self._row(self._next, finding, outcome, places))
+            self._next += 1
+        return {
+            "findings": rows,
+            "rules": _pages({row["code"] for row in rows}),
+            "fault": next(iter(outcome.refused), None),
+        }
+
+    def mend(self, number: int) -> str:
+        """Apply the safe fix of one finding: linted in memory first, then written beside the file and moved.
+
+        Args:
+            number: of a finding of the last look.
+
+        Returns:
+            What was done, one line.
+
+        Raises:
+            UsageError: there is no such finding, or it has no safe fix, or nothing may be written.
+            ResourceError: the fix does not hold, or a file cannot be written.
+        """
+        from urdfkit.lint.fixes.apply import fix, may_be_changed
+
+        wanted = self._known.get(number)
+        if wanted is None:
+            raise UsageError("this finding is gone: the files have changed since")
+        if wanted.fix is None or wanted.fix.safety != "safe":
+            raise UsageError(f"{wanted.code} has no safe fix here; `urdfkit rule {wanted.code}` says what to do")
+        if not self.may_write:
+            raise UsageError("others can reach this page, so it changes no files; run `urdfkit lint --fix`")
+        fixed = fix(
+            self._entries(),
+            self._options(self._settings()),
+            within=may_be_changed([self.model.path]),
+            only=lambda finding: finding == wanted,
+        )
+        if not fixed.changes:
+            raise ResourceError(next(iter(fixed.notes), f"{wanted.code} is not there any more"))
+        for change in fixed.changes:
+            change.write()
+        files = ", ".join(change.shown for change in fixed.changes)
+        return f"{wanted.code}: {wanted.fix.title}, in {files}"
+
+    def _entries(self) -> list[Entry]:
+        from urdfkit.lint.project.entry_files import Entry
+
+        here, path = Path.cwd(), self.model.path.absolute()
+        return [Entry(path.relative_to(here) if path.is_relative_to(here) else path)]
+
+    def _settings(self) -> Settings:
+        from urdfkit.lint.project.settings import find
+
+        return find(self.model.path)
+
+    def _options(self, settings: Settings) -> Options:
+        """Return how ``urdfkit lint`` would look at this model, with the arguments it is shown with."""
+        from urdfkit.lint.engine.run import Options
+
+        target, ours = settings.target, tuple(Path(folder) for folder in self.model.package_path)
+        return Options(
+            settings.select,
+            settings.ignore,
+            None if target == "any" else target,
+            self.model.arguments,
+            (*ours, *settings.package_path),
+            guess_target=target is None,
+        )
+
+    def _row(self, number: int, finding: Finding, outcome: Outcome, places: Whereabouts | None) -> dict[str, Any]:
+        source = outcome.sources.get(finding.file)
+        row = finding.to_json()
+        row["number"] = number
+        row["lines"] = _lines(source, finding.span)
+        row["about"] = []
+        if places is not None and finding.link is None and finding.joint is None:
+            parts = places.of(finding.span)
+            row["about"] = [{what: name} for what, name, _ in parts]
+            chains = dict.fromkeys(chain for _, _, chain in parts if chain)
+            row["chains"] = row["chains"] or [[_call(call) for call in chain] for chain in chains]
+        if finding.fix is not None:
+            row["fix"] = {
+                "safety": finding.fix.safety,
+                "title": finding.fix.title,
+                "diff": _difference(finding.fix, outcome),
+                "may": self.may_write and finding.fix.safety == "safe",
+            }
+        return row
+
+
+def _is_ignored(finding: Finding, settings: Settings) -> bool:
+    path = Path(finding.file)
+    rules = settings.per_file.items()
+    return any(finding.code.startswith(codes) and settings.matches(path, pattern) for pattern, codes in rules)
+
+
+def _call(call: Expansion) -> dict[str, Any]:
+    return {"macro": call.macro, "file": call.position.file, "line": call.position.line}
+
+
+def _lines(source: Source | None, span: Span) -> list[str]:
+    if source is None:
+        return []
+    last = max(span.line, span.end_line - (span.end_column == 1))
+    return [source.line(number) for number in range(span.line, min(last, span.line + LINES - 1) + 1)]
+
+
+def _difference(fix: Fix, outcome: Outcome) -> list[str]:
+    """Return what a fix changes as the lines of a unified diff without context."""
+    from difflib import unified_diff
+
+    lines: list[str] = []
+    for file in dict.fromkeys(edit.span.file for edit in fix.edits):
+        source = outcome.sources[file]
+        text = source.text
+        for edit in sorted((e for e in fix.edits if e.span.file == file), key=lambda e: e.span, reverse=True):
+            start = source.offset(edit.span.line, edit.span.column)
+            end = source.offset(edit.span.end_line, edit.span.end_column)
+            text = text[:start] + edit.text + text[end:]
+        changed = unified_diff(source.text.splitlines(), text.splitlines(), lineterm="", n=0)
+        lines += [line for line in changed if not line.startswith(("---", "+++"))]
+    return lines
+
+
+def _pages(codes: set[str]) -> dict[str, str]:
+    from urdfkit.lint.catalogue import page, rules
+
+    return {rule.code: page(rule) for rule in rules() if rule.code in codes}

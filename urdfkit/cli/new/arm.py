@@ -1,0 +1,74 @@
+"""``urdfkit new arm``: add an arm to a description that is there."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from urdfkit.cli.new.description_changes import add_description, apply, description, vector
+from urdfkit.errors import UsageError
+
+SUMMARY = "an arm, added to a description that is there"
+_SIZES = {"reach": "arm_reach", "mass": "arm_mass", "payload": "payload", "finger_travel": "finger_travel"}
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments."""
+    parser.description = "Add an arm of three to seven joints: a macro in a file of its own, one include, one call."
+    parser.epilog = (
+        "examples:\n"
+        "  urdfkit new arm --into scout_description --dof 6 --gripper\n"
+        "  urdfkit new arm --into urdf/base.urdf.xacro --name left --reach 0.7 --xyz 0.1 0.2 0.3 --diff"
+    )
+    add_description(parser)
+    parser.add_argument("--dof", choices=("3", "4", "5", "6", "7"), default="6", metavar="N", help="joints, 3 to 7")
+    parser.add_argument(
+        "--name",
+        help="links and joints begin with it, unless it is `arm` (default: that, with a number from the second on)",
+    )
+    parser.add_argument("--parent", metavar="LINK", help="it stands on (default: base_link, or the heaviest)")
+    parser.add_argument(
+        "--xyz", nargs=3, metavar="M", help="where, in LINK [m] (default: on top, where nothing else is)"
+    )
+    parser.add_argument("--rpy", nargs=3, metavar="RAD", default=["0", "0", "0"], help="roll, pitch, yaw [rad]")
+    parser.add_argument("--reach", metavar="M", help="from the shoulder to the tool [m] (default: as the link allows)")
+    parser.add_argument("--mass", metavar="KG", help="of the arm [kg]")
+    parser.add_argument("--payload", metavar="KG", help="what it can carry, a gripper included [kg]")
+    parser.add_argument("--gripper", action="store_true", help="two parallel fingers")
+    parser.add_argument("--finger-travel", metavar="M", help="how far each slides [m]")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Load, add, lint, show or write.
+
+    Raises:
+        UrdfkitError: it could not be done; nothing was written then.
+    """
+    try:
+        return _added(arguments)
+    except UsageError as error:  # of the template, whose options have longer names
+        raise UsageError(str(error).replace("--arm-", "--")) from error
+
+
+def _added(arguments: argparse.Namespace) -> int:
+    from urdfkit.resources import templates_dir
+    from urdfkit.scaffold import load_template
+    from urdfkit.scaffold.additions.arm import ArmRequest, add_arm
+
+    template = load_template(templates_dir() / "robot")
+    answers = {"arm": arguments.dof, "gripper": "yes" if arguments.gripper else "no"}
+    for option, question in _SIZES.items():
+        if (value := getattr(arguments, option)) is not None:
+            answers[question] = template.question(question).accept(value)
+    model, robot, generation = description(arguments)
+    xyz = None if arguments.xyz is None else vector(arguments.xyz, "--xyz")
+    # Gazebo Classic passes over joints that follow another: with ROS 1 both fingers have a motor, as in new robots.
+    answers["ros"] = "noetic" if generation == "classic" else "none"
+    request = ArmRequest(arguments.name, answers, arguments.parent, xyz, vector(arguments.rpy, "--rpy"))
+    alterations, notes = add_arm(robot, model.path, request)
+    for note in () if arguments.quiet else notes:
+        print(f"urdfkit: {note}", file=sys.stderr)
+    code = apply(alterations, model, arguments)
+    if not arguments.quiet and not arguments.diff:
+        print(f"  urdfkit new controllers --into {arguments.into or '.'}")
+    return code

@@ -1,0 +1,33 @@
+"""``--controllers``: which parameter files configure the robot's controllers."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+
+def add_controllers(parser: argparse.ArgumentParser) -> None:
+    """Add the option."""
+    parser.add_argument(
+        "--controllers",
+        action="append",
+        type=parameter_file,
+        default=[],
+        metavar="FILE.yaml",
+        help="parameters of controllers, in place of those the robot's packages load (repeatable)",
+    )
+
+
+def parameter_file(text: str) -> str:
+    """Return the path of a file that is there.
+
+    Raises:
+        argparse.ArgumentTypeError: it is not.
+    """
+    from urdfkit.description.packages.resolver import near_path
+
+    path = Path(text)
+    if not path.is_file():
+        wrong = "it is a folder" if path.is_dir() else f"no such file{near_path(path)}"
+        raise argparse.ArgumentTypeError(f"cannot read {text}: {wrong}")
+    return text

@@ -1,0 +1,315 @@
+"""`urdfkit sim run`: simulate headless, as fast as it can, and report."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import sys
+import time
+from math import ceil
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from urdfkit.app.termination import ended_by_signals
+from urdfkit.cli.parser import add_model
+from urdfkit.cli.sim import option_values
+from urdfkit.cli.sim.controllers_option import add_controllers
+from urdfkit.cli.sim.record_option import LOOK, add_record, check_record, recording
+from urdfkit.cli.sim.renderer_option import add_renderer
+from urdfkit.cli.sim.ros_distro_option import add_distro
+from urdfkit.cli.unused_arguments import note_unused
+from urdfkit.errors import SimulationError, UsageError, did_you_mean
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from urdfkit.cli.sim.run_report import Effort
+    from urdfkit.sim.simulator import Simulator
+
+CHUNK = 1.0
+"""Simulated seconds between looks at the clock."""
+
+AGAIN = 0.1
+"""Simulated seconds between velocity commands to controllers, which forget them."""
+
+PROGRESS = 0.5
+"""Wall seconds between lines of progress."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments."""
+    # argparse takes `-1,0,0` for an option unless told that it looks like a number.
+    parser._negative_number_matcher = re.compile(r"^-\.?\d|^-(inf|nan)", re.IGNORECASE)
+    add_model(parser)
+    add = parser.add_argument
+    add("--for", dest="duration", required=True, type=option_values.duration, metavar="SECONDS", help="simulated time")
+    add(
+        "--world",
+        default="empty",
+        metavar="WORLD",
+        help="a world we ship (empty, void, house, …) or an SDF file (default: empty)",
+    )
+    add(
+        "--dt", type=option_values.positive, metavar="S", help="step [s] (default: what the world asks for, else 0.001)"
+    )
+    add("--seed", type=option_values.seed, default=0, metavar="N", help="of everything random (default: 0)")
+    add(
+        "--spawn",
+        type=option_values.pose,
+        metavar="X,Y,Z,YAW",
+        help="pose of the root link, or X,Y,Z,ROLL,PITCH,YAW [m, rad]; an empty Z sets it on the ground",
+    )
+    add("--gravity", type=option_values.vector("GX,GY,GZ"), metavar="GX,GY,GZ", help="[m/s²] (default: the world's)")
+    twist = "VX,VY,VZ,WX,WY,WZ"
+    add("--initial-twist", type=option_values.vector(twist), metavar=twist, help="root link, world axes [m/s, rad/s]")
+    joints = "NAME=POSITION[:VELOCITY],…"
+    add("--initial-joints", type=option_values.joint_starts, metavar=joints, help="[rad or m, rad/s or m/s]")
+    velocity = option_values.vector("VX,VY,WZ", finite=False)
+    add("--cmd-vel", type=velocity, metavar="VX,VY,WZ", help="command held from the start [m/s, m/s, rad/s]")
+    add("--cmd-ramp", type=option_values.duration, metavar="S", help="reach the command in S seconds, evenly")
+    add(
+        "--topic-pub",
+        type=option_values.topic_message,
+        action="append",
+        default=[],
+        metavar='"TOPIC TYPE YAML@T"',
+        help="publish at simulated time T (repeatable)",
+    )
+    add(
+        "--joint-target",
+        type=option_values.targets,
+        metavar="NAME=VALUE,…",
+        help="bring joints there and hold them [rad or m]",
+    )
+    add("--fixed-base", action="store_true", help="bolt the root link to the world")
+    add("--until", metavar='"EXPR"', help='stop as soon as it is true, e.g. "x > 1 or t > 3"')
+    add(
+        "--save-image",
+        type=option_values.topic_file(".png"),
+        action="append",
+        default=[],
+        metavar="TOPIC=FILE.png",
+        help="write the last picture of a topic (repeatable; TOPIC may be left out where there is only one)",
+    )
+    add(
+        "--save-scan",
+        type=option_values.topic_file(".json", ".csv"),
+        action="append",
+        default=[],
+        metavar="TOPIC=FILE.json",
+        help="write the last scan or cloud of a topic, as JSON or .csv (repeatable; as --save-image)",
+    )
+    add_record(parser)
+    add("--save-world", metavar="FILE", help="write the world as it is in the end, without the robot, as SDF")
+    add(
+        "--engine",
+        choices=("compiled", "pinocchio"),
+        default="compiled",
+        help="who computes the dynamics (pinocchio: the reference, slow)",
+    )
+    add_distro(parser)
+    add_controllers(parser)
+    add_renderer(parser)
+    add("--json", action="store_true", help="print one JSON value")
+    parser.epilog = (
+        "examples:\n"
+        "  urdfkit sim run simpleton --for 10 --cmd-vel 0.5,0,0.5 --cmd-ramp 0.5\n"
+        '  urdfkit sim run simpleton --for 60 --cmd-vel 0.5,0,0 --until "x > 2" --json'
+    )
+
+
+@ended_by_signals()
+def run(arguments: argparse.Namespace) -> int:
+    """Simulate and report."""
+    if arguments.cmd_ramp is not None and arguments.cmd_vel is None:
+        raise UsageError("sim run: --cmd-ramp ramps up --cmd-vel, which is missing")
+    from urdfkit.app.simulation import image_files, saved_topics
+    from urdfkit.atomic import write_bytes
+    from urdfkit.cli.sim import scan_files
+    from urdfkit.cli.sim.run_report import as_json, as_text
+
+    saved_topics.check_places("--save-image", (each.file for each in arguments.save_image))
+    saved_topics.check_places("--save-scan", (each.file for each in arguments.save_scan))
+    check_record(arguments.record)
+    saved_topics.check_places("--save-world", [Path(arguments.save_world)] if arguments.save_world is not None else [])
+    simulator = load(arguments)
+    command(simulator, arguments)
+    images = image_files.find_topics(simulator, arguments.save_image)
+    ranges = scan_files.find_topics(simulator, arguments.save_scan)
+    with recording(simulator, arguments.record, quiet=arguments.quiet) as look:
+        if arguments.record is not None:
+            simulator.every(LOOK, look)
+        spent = advance(simulator, arguments.duration, arguments.until)
+    for file, content in [*image_files.contents(simulator, images), *scan_files.contents(simulator, ranges)]:
+        write_bytes(file, content)
+    if arguments.save_world is not None:
+        simulator.save_world(arguments.save_world)
+    print(json.dumps(as_json(simulator, spent), indent=1) if arguments.json else as_text(simulator, spent))
+    return 0
+
+
+def load(arguments: argparse.Namespace) -> Simulator:
+    """Return the simulator, with the robot where it starts; its kernel is compiled once robot and world are read.
+
+    Raises:
+        UrdfkitError: robot or world cannot be loaded or simulated.
+    """
+    from urdfkit.app.simulation.kernel_compilation import prepare_kernel
+    from urdfkit.description import load as load_description
+    from urdfkit.description.sdf import load_world
+    from urdfkit.resources import find_model
+    from urdfkit.sim import Simulator, Spawn
+
+    model = find_model(arguments.model, package_path=arguments.package_path)
+    robot = load_description(model.path, arguments=model.arguments, package_path=model.package_path)
+    note_unused(model.arguments, robot.files, quiet=arguments.quiet)
+    world = load_world(arguments.world)
+    if arguments.engine == "compiled":
+        prepare_kernel(sys.stderr)
+    spawn = None
+    if arguments.spawn or arguments.initial_twist or arguments.initial_joints:
+        positions, velocities = arguments.initial_joints or ({}, {})
+        pose = arguments.spawn._asdict() if arguments.spawn else {}
+        twist = arguments.initial_twist or (0.0,) * 6
+        spawn = Spawn(**pose, twist=twist, joints=positions, velocities=velocities)
+    return Simulator(
+        robot,
+        world=world,
+        dt=arguments.dt,
+        seed=arguments.seed,
+        spawn=spawn,
+        gravity=arguments.gravity,
+        fixed_base=arguments.fixed_base,
+        engine=arguments.engine,
+        ros_distro=arguments.ros_distro,
+        controllers=arguments.controllers,
+        renderer=arguments.renderer,
+        note=(lambda text: None) if arguments.quiet else (lambda text: print(f"urdfkit: {text}", file=sys.stderr)),
+    )
+
+
+def command(simulator: Simulator, arguments: argparse.Namespace) -> None:
+    """Schedule what the options want published and set.
+
+    Raises:
+        UrdfkitError: no such topic, type, field or joint.
+    """
+    if arguments.cmd_vel is not None:
+        ramp(simulator, arguments.cmd_vel, arguments.cmd_ramp or 0.0)
+    for joint, target in (arguments.joint_target or {}).items():
+        _require_free(simulator, joint)
+        simulator.motors.hold(joint, target)
+    for message in arguments.topic_pub:
+        publish_at(simulator, message)
+
+
+def _require_free(simulator: Simulator, joint: str) -> None:
+    """Refuse to hold a joint that a controller commands in every step.
+
+    Raises:
+        SimulationError: a running controller claims it.
+    """
+    for one in simulator.controllers.list():
+        if one.state in ("running", "active") and any(claim.split("/")[0] == joint for claim in one.claims):
+            raise SimulationError(
+                f"--joint-target {joint}: controller `{one.name}` commands this joint; publish to it with --topic-pub"
+            )
+
+
+def ramp(simulator: Simulator, command: tuple[float, float, float], seconds: float) -> None:
+    """Publish a velocity command that rises evenly from zero.
+
+    It is published as often as the drives look at it, each time with the mean of the ramp until the next time: what the
+    drives hold in between adds up to exactly the ramp. Controllers hold a command for half a second or so, and hear it
+    ten times a second from then on.
+
+    Args:
+        simulator: not yet advanced.
+        command: VX, VY [m/s], WZ [rad/s].
+        seconds: how long it rises.
+
+    Raises:
+        SimulationError: the robot has no drive.
+    """
+    vx, vy, wz = command
+    period = simulator.command_period
+    for i in range(ceil(seconds / period - 1e-9) + 1):
+        begin, end = i * period, (i + 1) * period
+        part = 1.0
+        if begin < seconds:
+            risen = (min(end, seconds) ** 2 - begin**2) / 2 / seconds
+            part = (risen + max(0.0, end - seconds)) / period
+        linear, angular = (part * vx, part * vy, 0.0), (0.0, 0.0, part * wz)
+        simulator.at(begin, lambda linear=linear, angular=angular: simulator.command(linear, angular))  # type: ignore[misc]
+    if simulator.controllers.command_topics:
+        simulator.every(AGAIN, lambda: simulator.command((vx, vy, 0.0), (0.0, 0.0, wz)), start=seconds + AGAIN)
+    if not simulator.command_topics:
+        simulator.command((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))  # raises
+
+
+def publish_at(simulator: Simulator, wanted: option_values.TopicMessage) -> None:
+    """Schedule one message.
+
+    Raises:
+        UsageError: no such type or field, or the topic carries another type.
+    """
+    import yaml
+
+    from urdfkit.bus import absolute
+    from urdfkit.messages import from_fields, full_type_name
+
+    try:
+        fields = yaml.safe_load(wanted.text)
+    except yaml.YAMLError as error:
+        raise UsageError(f"--topic-pub {wanted.topic}: `{wanted.text}` is not YAML ({_first_line(error)})") from None
+    kind = full_type_name(wanted.type)
+    message = from_fields(kind, fields)
+    heard = [topic.name for topic in simulator.bus.topics if topic.subscribers]
+    simulator.bus.advertise(wanted.topic, kind)
+    if absolute(wanted.topic) not in heard:
+        simulator.note(f"nobody listens to {absolute(wanted.topic)}{nearest_topic(absolute(wanted.topic), heard)}")
+    simulator.at(wanted.t, lambda: simulator.bus.publish(wanted.topic, kind, message))
+
+
+def nearest_topic(name: str, heard: Sequence[str]) -> str:
+    """Return ``; did you mean …`` for the topic that is nearest to a name, as a whole or by its last part."""
+    if hint := did_you_mean(name, heard):
+        return hint
+    by_end = {topic.rpartition("/")[2]: topic for topic in reversed(heard)}
+    if end := did_you_mean(name.rpartition("/")[2], by_end):
+        return f"; did you mean `{by_end[end.split('`')[1]]}`?"
+    own = sorted(topic for topic in heard if not topic.startswith(("/gazebo/", "/world/")))
+    return f" (heard are {', '.join(own)})" if own else ""
+
+
+def advance(simulator: Simulator, seconds: float, until: str | None) -> Effort:
+    """Advance, with progress on a terminal, and return what it took.
+
+    Raises:
+        UrdfkitError: the simulation diverged, or the condition cannot be evaluated.
+    """
+    from urdfkit.cli.sim.run_report import Effort
+    from urdfkit.cli.sim.until_condition import Condition
+
+    joints = (*simulator.kinematics.joint_names, *simulator.kinematics.mimic_names)
+    condition = Condition(until, joints) if until is not None else None
+    total = round(seconds / simulator.dt)
+    chunk = max(1, round(CHUNK / simulator.dt)) if condition is None else 1
+    shown = time.perf_counter() if sys.stderr.isatty() else float("inf")
+    cpu, wall = time.process_time(), time.perf_counter()
+    try:
+        while simulator.state.step < total and not (condition is not None and condition(simulator.state)):
+            simulator.step(min(chunk, total - simulator.state.step))
+            if time.perf_counter() - shown > PROGRESS:
+                shown = time.perf_counter()
+                sys.stderr.write(f"\r{simulator.t:.1f} of {seconds:g} s \r")
+                sys.stderr.flush()
+    finally:
+        if sys.stderr.isatty():
+            sys.stderr.write("\x1b[K")
+    return Effort(time.process_time() - cpu, time.perf_counter() - wall)
+
+
+def _first_line(error: Exception) -> str:
+    return str(error).splitlines()[0]

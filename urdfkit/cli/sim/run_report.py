@@ -1,0 +1,124 @@
+"""What ``sim run`` reports: the JSON of the command line's contract, and a summary for people."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import hypot
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.sim.state.quaternion import to_rpy
+
+if TYPE_CHECKING:
+    from urdfkit.sim.simulator import Simulator
+
+SHOWN = 8
+"""How many joints people are shown."""
+
+
+@dataclass(frozen=True, slots=True)
+class Effort:
+    """CPU and wall seconds spent stepping."""
+
+    cpu: float
+    wall: float
+
+
+def as_json(simulator: Simulator, spent: Effort) -> dict[str, Any]:
+    """Return the report as JSON values.
+
+    Planar and floating joints tell what the base tells, in the frame that they have in their parent; ``odometry`` is
+    keyed by odometry frame; ``real_time_factor`` is simulated seconds per CPU second.
+    """
+    state = simulator.state
+    pose, velocity = state.base_pose, state.base_velocity
+    kinetic, potential = state.energy
+    joints = (*simulator.kinematics.joint_names, *simulator.kinematics.mimic_names)
+    return {
+        "robot": simulator.name,
+        "world": simulator.world.name,
+        "dt": simulator.dt,
+        "steps": state.step,
+        "duration": state.t,
+        "cpu": spent.cpu,
+        "wall": spent.wall,
+        "real_time_factor": state.t / spent.cpu if spent.cpu > 0 else 0.0,
+        "base": {
+            "frame": simulator.kinematics.root,
+            "position": list(pose[:3]),
+            "quaternion": list(pose[3:]),
+            "linear_velocity": list(velocity[:3]),
+            "angular_velocity": list(velocity[3:]),
+        },
+        "joints": {
+            name: {"position": state.position(name), "velocity": state.velocity(name), "effort": state.effort(name)}
+            for name in joints
+        }
+        | {name: _several(simulator, name) for name in simulator.kinematics.several_names},
+        "odometry": {
+            frame: {"position": list(position), "quaternion": list(quaternion)}
+            for frame, (position, quaternion) in simulator.odometry().items()
+        },
+        "bodies": {
+            name: {"position": list(pose[:3]), "quaternion": list(pose[3:])}
+            for name, pose in simulator.body_poses().items()
+        },
+        "contacts": [
+            {
+                "a": contact.a,
+                "b": contact.b,
+                "position": list(contact.position),
+                "normal": list(contact.normal),
+                "depth": contact.depth,
+                "force": list(contact.force),
+            }
+            for contact in state.contacts
+        ],
+        "energy": {"kinetic": kinetic, "potential": potential},
+        "topics": {
+            topic.name: {"type": topic.type.replace("/msg/", "/"), "count": topic.count}
+            for topic in simulator.bus.topics
+        },
+    }
+
+
+def as_text(simulator: Simulator, spent: Effort) -> str:
+    """Return the report for people."""
+    state = simulator.state
+    pose = state.base_pose
+    rate = f", {state.t / spent.cpu:.0f} × real time" if spent.cpu > 0 else ""
+    lines = [
+        f"{simulator.name} in world {simulator.world.name}: {state.t:g} s in {state.step} steps{rate}",
+        _line(f"base {simulator.kinematics.root}", pose[:3], pose[3:]),
+    ]
+    for frame, (position, quaternion) in simulator.odometry().items():
+        off = hypot(position[0] - pose[0], position[1] - pose[1])
+        lines.append(_line(f"odometry {frame}", position, quaternion) + f"  ({1000 * off:.1f} mm from the base)")
+    joints = (*simulator.kinematics.joint_names, *simulator.kinematics.mimic_names)
+    for name in joints[:SHOWN]:
+        unit = "m" if simulator.robot.joint_by_name[name].type == "prismatic" else "rad"
+        lines.append(f"joint {name}: {state.position(name):.4f} {unit}, {state.velocity(name):.4f} {unit}/s")
+    if len(joints) > SHOWN:
+        lines.append(f"and {len(joints) - SHOWN} more joints (--json shows all)")
+    for name in simulator.kinematics.several_names:
+        pose, twist = state.several(name)
+        speed, turning = (" ".join(f"{number + 0.0:.4f}" for number in part) for part in (twist[:3], twist[3:]))
+        lines.append(_line(f"joint {name}", pose[:3], pose[3:]) + f", moving at {speed} m/s, {turning} rad/s")
+    touching = {contact.a for contact in state.contacts}
+    lines.append(f"on the ground: {', '.join(sorted(touching)) or 'nothing'}")
+    return "\n".join(lines)
+
+
+def _several(simulator: Simulator, joint: str) -> dict[str, Any]:
+    pose, twist = simulator.state.several(joint)
+    return {
+        "position": list(pose[:3]),
+        "quaternion": list(pose[3:]),
+        "linear_velocity": list(twist[:3]),
+        "angular_velocity": list(twist[3:]),
+    }
+
+
+def _line(what: str, position: tuple[float, ...], quaternion: tuple[float, ...]) -> str:
+    # Adding zero turns -0.0000 into 0.0000.
+    x, y, z, roll, pitch, yaw = (round(number, 4) + 0.0 for number in (*position, *to_rpy(quaternion)))
+    return f"{what}: x {x:.4f} y {y:.4f} z {z:.4f} m, roll {roll:.4f} pitch {pitch:.4f} yaw {yaw:.4f} rad"

@@ -1,0 +1,286 @@
+"""Parameters from YAML that know where they were written, in the layouts of ROS 1 and ROS 2."""
+
+from __future__ import annotations
+
+from math import isfinite
+from pathlib import Path
+
+from urdfkit.description.xml.reader import shown_path
+from urdfkit.description.xml.source import Position, Source
+from urdfkit.errors import DescriptionError, did_you_mean
+from urdfkit.record import field, record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from typing import Any
+
+_TRUTHS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
+_MAX_DEPTH = 30
+_MAX_NODES = 100_000
+
+
+@record(eq=False)
+class Settings:
+    """A parameter, or a group of them.
+
+    Attributes:
+        name: the last part of its name.
+        position: where it is written.
+        value: its text, None where it is a list or a group.
+        items: what the list holds; None where it is none.
+        children: name → parameter, of a group.
+        key: where its name is written.
+    """
+
+    name: str
+    position: Position
+    value: str | None = None
+    items: tuple[Settings, ...] | None = None
+    children: dict[str, Settings] = field(default_factory=dict)
+    key: Position | None = None
+
+    @property
+    def place(self) -> Position:
+        """Where its name is written, or else its value."""
+        return self.key or self.position
+
+    def find(self, path: str) -> Settings | None:
+        """Return a parameter by path such as ``pid/p``; None where there is none."""
+        found: Settings | None = self
+        for part in path.split("/"):
+            if part and found is not None:
+                found = found.children.get(part)
+        return found
+
+    def group(self, path: str) -> Settings:
+        """Return a group by path; an empty one, here, where there is none."""
+        return self.find(path) or Settings(path.rpartition("/")[2], self.position, key=self.key)
+
+    def text(self, path: str, default: str | None = None) -> str:
+        """Return a parameter's text.
+
+        Raises:
+            DescriptionError: it is a list or group, or missing and there is no default.
+        """
+        found = self._scalar(path)
+        if found is None or found.value is None:
+            if default is None:
+                raise self._missing(path)
+            return default
+        return found.value
+
+    def number(self, path: str, default: float | None = None, *, unset: bool = False) -> float:
+        """Return a parameter as a number.
+
+        Args:
+            path: its name.
+            default: where it is left out; None where it must not be.
+            unset: ``nan`` is as good as left out (ROS 2).
+
+        Raises:
+            DescriptionError: it is no finite number, or missing and there is no default.
+        """
+        found = self._scalar(path)
+        if found is None or (unset and default is not None and (found.value or "").lower().strip(".") == "nan"):
+            if default is None:
+                raise self._missing(path)
+            return default
+        return _number(found, path)
+
+    def numbers(self, path: str, default: tuple[float, ...]) -> tuple[float, ...]:
+        """Return a list of numbers.
+
+        Raises:
+            DescriptionError: it is something else.
+        """
+        found = self.find(path)
+        if found is None:
+            return default
+        if found.items is None:
+            raise DescriptionError(f"`{path}` must be a list of numbers", position=found.position)
+        return tuple([_number(item, path) for item in found.items])
+
+    def flag(self, path: str, default: bool) -> bool:
+        """Return a parameter as true or false.
+
+        Raises:
+            DescriptionError: it is neither.
+        """
+        found = self._scalar(path)
+        if found is None or found.value is None:
+            return default
+        if found.value.lower() not in _TRUTHS:
+            raise DescriptionError(f"`{path}` is `{found.value}`; it must be true or false", position=found.position)
+        return _TRUTHS[found.value.lower()]
+
+    def texts(self, path: str) -> tuple[Settings, ...]:
+        """Return the entries of a list of texts; one text alone is a list of it, and none an empty one.
+
+        Raises:
+            DescriptionError: it is a group, or an entry is.
+        """
+        found = self.find(path)
+        if found is None or (found.value is None and found.items is None and not found.children):
+            return ()
+        entries = (found,) if found.items is None else found.items
+        for entry in entries:
+            if entry.value is None:
+                raise DescriptionError(f"`{path}` must be a name or a list of names", position=entry.position)
+        return entries
+
+    def merged(self, other: Settings) -> Settings:
+        """Return these with those of another laid over them, as ``rosparam load`` does."""
+        if not self.children or not other.children:
+            return other
+        children = dict(self.children)
+        for name, child in other.children.items():
+            children[name] = children[name].merged(child) if name in children else child
+        return Settings(self.name, self.position, None, None, children, self.key)
+
+    def below(self, namespace: str) -> Settings:
+        """Return a tree that has these under a namespace."""
+        found = self
+        for part in reversed([part for part in namespace.split("/") if part]):
+            found = Settings("", self.position, None, None, {part: found}, self.key)
+        return found
+
+    def walk(self) -> Iterator[tuple[str, Settings]]:
+        """Yield every group below this one with its path, outermost first."""
+        for name, child in self.children.items():
+            if child.children:
+                yield name, child
+                for path, inner in child.walk():
+                    yield f"{name}/{path}", inner
+
+    def _scalar(self, path: str) -> Settings | None:
+        found = self.find(path)
+        if found is not None and (found.items is not None or found.children):
+            raise DescriptionError(f"`{path}` must be a single value", position=found.position)
+        return found
+
+    def _missing(self, path: str) -> DescriptionError:
+        hint = did_you_mean(path, self.children)
+        return DescriptionError(f"`{self.name}` has no `{path}`{hint or ', which it needs'}", position=self.place)
+
+
+def _number(found: Settings, path: str) -> float:
+    try:
+        value = float(found.value or "")
+    except ValueError:
+        value = float("nan")
+    if not isfinite(value):
+        raise DescriptionError(
+            f"`{path}` is `{found.value or ''}`; it must be a finite number", position=found.position
+        )
+    return value
+
+
+def read_settings(path: Path, *, separator: str = "/") -> Settings:
+    """Read a YAML file of parameters.
+
+    Args:
+        path: the file.
+        separator: what stands between the parts of a name written as one: ``/`` in ROS 1, ``.`` in ROS 2.
+
+    Raises:
+        ResourceError: it cannot be read.
+        DescriptionError: it is no YAML, or no parameters; says where.
+    """
+    return parse_settings(Source.read(path, shown_as=shown_path(path)), separator=separator)
+
+
+def parse_settings(source: Source, *, separator: str = "/") -> Settings:
+    """Read the YAML text of parameters; see `read_settings`.
+
+    Raises:
+        DescriptionError: it is no YAML, or no parameters; says where.
+    """
+    import yaml
+
+    try:
+        node = yaml.compose(source.text, Loader=yaml.SafeLoader)
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        position = Position(source.file, mark.line + 1, mark.column + 1) if mark else None
+        raise DescriptionError(f"no YAML: {error.problem or error.context}", position=position) from None
+    except yaml.YAMLError as error:
+        raise DescriptionError(
+            f"no YAML: {' '.join(str(error).split())}", position=Position(source.file, 1, 1)
+        ) from None
+    start = Position(source.file, 1, 1)
+    if node is None:
+        return Settings("", start)
+    read = _Reader(source.file, separator).read("", node, None, 0)
+    if not read.children:
+        raise DescriptionError("no parameters: names and values are wanted, as `name: value`", position=start)
+    return read
+
+
+class _Reader:
+    """From YAML nodes to settings. Aliases are followed, so their number is bounded."""
+
+    def __init__(self, file: str, separator: str) -> None:
+        self._file = file
+        self._separator = separator
+        self._nodes = 0
+
+    def read(self, name: str, node: Any, key: Position | None, depth: int) -> Settings:
+        import yaml
+
+        position = self._at(node)
+        self._nodes += 1
+        if depth > _MAX_DEPTH or self._nodes > _MAX_NODES:
+            raise DescriptionError("nested too deeply, or aliases grow without end", position=position)
+        if isinstance(node, yaml.ScalarNode):
+            null = node.tag == "tag:yaml.org,2002:null"
+            return Settings(name, position, None if null else str(node.value), key=key)
+        if isinstance(node, yaml.SequenceNode):
+            items = [self.read(name, item, None, depth + 1) for item in node.value]
+            return Settings(name, position, None, tuple(items), key=key)
+        group = Settings(name, position, key=key)
+        for key_node, value_node in node.value:
+            if key_node.tag == "tag:yaml.org,2002:merge":
+                inherited = value_node.value if isinstance(value_node, yaml.SequenceNode) else [value_node]
+                for other in inherited:
+                    group = (
+                        self.read(name, other, key, depth + 1).merged(group)
+                        if group.children
+                        else self.read(name, other, key, depth + 1)
+                    )
+                continue
+            if not isinstance(key_node, yaml.ScalarNode):
+                raise DescriptionError("a name must be a text", position=self._at(key_node))
+            parts = [part for part in str(key_node.value).split(self._separator) if part] or [""]
+            child = self.read(parts[-1], value_node, self._at(key_node), depth + 1)
+            laid = Settings(name, position, None, None, {parts[-1]: child}, key)
+            for part in reversed(parts[:-1]):
+                laid = Settings(name, position, None, None, {part: laid}, key)
+            group = group.merged(laid) if group.children else laid
+        return group
+
+    def _at(self, node: Any) -> Position:
+        return Position(self._file, node.start_mark.line + 1, node.start_mark.column + 1)
+
+
+def node_settings(root: Settings, namespace: str, node: str) -> Settings:
+    """Return the parameters of a ROS 2 node: those for all nodes, then its own, by name, full name or below namespaces.
+
+    Args:
+        root: a parameter file.
+        namespace: the node's, absolute.
+        node: its name.
+    """
+    full = "/" + "/".join(part for part in f"{namespace}/{node}".split("/") if part)
+    found = Settings(node, root.position)
+    for path in ("/**", node, f"/**/{node}", full, full[1:]):
+        keys = [path] if path in root.children else path.split("/")
+        inner: Settings | None = root
+        for key in keys:
+            if inner is not None and key:
+                inner = inner.children.get(key) or inner.children.get(f"/{key}")
+        parameters = inner.children.get("ros__parameters") if inner is not None and inner is not root else None
+        if parameters is not None and parameters.children:
+            own = Settings(node, parameters.position, None, None, parameters.children, inner.key if inner else None)
+            found = found.merged(own) if found.children else own
+    return found

@@ -1,0 +1,154 @@
+"""Where the controllers of a ROS 1 robot are configured.
+
+A model does not say: a launch file loads the parameters and starts the controllers. So we look where a person would:
+
+1. files that were named take the place of everything else; a file that lacks the robot's namespace is taken as if it
+   had been loaded into it;
+2. launch files in the robot's package and the packages beside it, those whose name begins like the robot's first: the
+   first that loads controllers into the robot's namespace is taken, one that starts some before one that only loads;
+3. without one, the YAML files in the ``config`` folders of the same packages that configure controllers there.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from pathlib import Path
+
+from urdfkit.description.control.parameter_yaml import Settings, read_settings
+from urdfkit.description.control.ros1_launch import Launch, read_launch
+from urdfkit.description.packages.resolver import Packages
+from urdfkit.description.urdf.robot import Robot
+from urdfkit.description.xml.reader import shown_path
+from urdfkit.errors import UrdfkitError
+from urdfkit.record import field, record
+
+_ENDINGS = ("_description", "_gazebo", "_control", "_bringup", "_moveit_config", "_robot")
+_MAX_PACKAGES = 200
+
+
+@record(eq=False)
+class Configuration:
+    """The parameters of the controllers in one namespace.
+
+    Attributes:
+        settings: what stands in the namespace.
+        files: the files they were read from.
+        started: the controllers that are started, by their names in the namespace; None for all.
+        launch: the launch file that says so; None for none.
+        root: all parameters of those files, in their namespaces.
+    """
+
+    settings: Settings = field(repr=False)
+    files: tuple[Path, ...]
+    started: tuple[str, ...] | None = None
+    launch: Path | None = None
+    root: Settings | None = field(default=None, repr=False)
+
+    @property
+    def source(self) -> str:
+        """What to tell the user."""
+        files = ", ".join(shown_path(file) for file in self.files) or "no file"
+        return f"{files} (loaded by {shown_path(self.launch)})" if self.launch else files
+
+
+def find_configuration(robot: Robot, namespace: str, named: tuple[Path, ...] = ()) -> Configuration | None:
+    """Return what configures the controllers of a namespace; None where nothing does.
+
+    Args:
+        robot: the robot.
+        namespace: where its controller manager lives, e.g. ``/rrbot``.
+        named: parameter files to take instead of looking for some.
+
+    Raises:
+        UrdfkitError: a file that was named or chosen cannot be read; says where.
+    """
+    if named:
+        found: Settings | None = None
+        for path in named:
+            read = read_settings(path)
+            inside = read.find(namespace)
+            read = read if inside is not None and inside.children else read.below(namespace)
+            found = read if found is None else found.merged(read)
+        root = found or Settings("", read.position)
+        return Configuration(root.group(namespace), named, root=root)
+    near, others = _packages_around(robot)
+    folders = [*near, *others]
+    packages = robot.packages or Packages(near=folders[0] if folders else None)
+    launched = [launch for folder in near for launch in _launches(folder, packages, namespace)]
+    for folder in others:
+        with suppress(UrdfkitError):  # another robot's broken files are none of ours
+            launched += _launches(folder, packages, namespace)
+    starting = [launch for launch in launched if _spawned(launch, namespace)]
+    for launch in starting or launched:
+        if launch.settings is not None:
+            started = _spawned(launch, namespace) or None
+            inside = launch.settings.group(namespace)
+            return Configuration(inside, launch.files, started, launch.path, launch.settings)
+    return _loose(folders, namespace)
+
+
+def _launches(folder: Path, packages: Packages, namespace: str) -> list[Launch]:
+    found = []
+    for path in sorted((folder / "launch").glob("*.launch")) + sorted((folder / "launch").glob("*.launch.xml")):
+        launch = read_launch(path, packages)
+        if launch is not None and launch.settings is not None and controllers(launch.settings.group(namespace)):
+            found.append(launch)
+    return found
+
+
+def _spawned(launch: Launch, namespace: str) -> tuple[str, ...]:
+    start = "/" + namespace.strip("/")
+    names = ["/" + name.strip("/") for name in launch.spawned]
+    prefix = start.rstrip("/") + "/"
+    return tuple(name[len(prefix) :] for name in names if name.startswith(prefix))
+
+
+def _loose(folders: list[Path], namespace: str) -> Configuration | None:
+    for folder in folders:
+        found: Settings | None = None
+        files = []
+        for path in sorted((folder / "config").glob("*.yaml")):
+            try:
+                read = read_settings(path)
+            except UrdfkitError:
+                continue  # it need not be about controllers at all
+            if read.group(namespace).children:
+                files.append(path)
+                found = read if found is None else found.merged(read)
+        if found is not None and controllers(found.group(namespace)):
+            return Configuration(found.group(namespace), tuple(files), root=found)
+    return None
+
+
+def controllers(settings: Settings) -> dict[str, Settings]:
+    """Return the controllers in a namespace: what has a ``type`` such as ``pkg/Controller``.
+
+    Args:
+        settings: what stands in the namespace.
+    """
+    found = {}
+    for name, child in settings.children.items():
+        kind = child.children.get("type")
+        if kind is not None and kind.value and "/" in kind.value:
+            found[name] = child
+    return found
+
+
+def _packages_around(robot: Robot) -> tuple[list[Path], list[Path]]:
+    """Return the robot's package with those beside it whose name begins like the robot's, and the others beside it."""
+    if not robot.files:
+        return [], []
+    file = Path(robot.files[0]).resolve()
+    own = next((folder for folder in file.parents if (folder / "package.xml").is_file()), None)
+    if own is None:
+        return [file.parent, *([file.parent.parent] if file.parent.name in ("urdf", "xacro", "robots") else [])], []
+    stem = own.name
+    for ending in _ENDINGS:
+        stem = stem.removesuffix(ending)
+    try:
+        beside = sorted(own.parent.iterdir())[:_MAX_PACKAGES]
+    except OSError:
+        beside = []
+    others = [folder for folder in beside if folder != own and (folder / "package.xml").is_file()]
+    near = [folder for folder in others if folder.name.startswith(stem) or stem.startswith(folder.name)]
+    return [own, *near], [folder for folder in others if folder not in near]

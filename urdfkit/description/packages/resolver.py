@@ -1,0 +1,282 @@
+"""Packages: ``$(find …)``, ``package://``, ``model://``, ``file://`` and relative paths, with or without ROS."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+from urdfkit.description.xml.reader import absolute
+from urdfkit.errors import ResourceError, did_you_mean
+
+_PREFIX_VARIABLES = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH")
+_MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH", "SDF_PATH")
+
+
+class Packages:
+    """Finds packages by name; looks only when asked, and remembers.
+
+    The order is: `search`, the package around `near`, its workspace, ``ROS_PACKAGE_PATH``, ``AMENT_PREFIX_PATH``,
+    ``CMAKE_PREFIX_PATH``, the model paths of Gazebo, the robots we ship, and last a folder of that name around `near`
+    although it has no package.xml.
+
+    Args:
+        search: folders to look in first: packages, folders of packages, or install prefixes.
+        near: a file or folder of the workspace to look in.
+        environment: the variables to use; those of the process when None.
+    """
+
+    def __init__(
+        self,
+        search: Iterable[str | Path] = (),
+        near: str | Path | None = None,
+        *,
+        environment: Mapping[str, str] | None = None,
+    ) -> None:
+        self.search = tuple(absolute(folder) for folder in search)
+        self.near = None if near is None else absolute(near)
+        self._environment = os.environ if environment is None else environment
+        self._found: dict[str, Path] = {}
+        self._seen: dict[str, Path] = {}
+        self._crawled: dict[Path, dict[str, Path]] = {}
+        self.answers: dict[tuple[str, ...], str] = {}
+        """What was asked so far, and the answers: what holds as long as `ask` gives the same."""
+
+    def ask(self, question: tuple[str, ...]) -> str:
+        """Return the answer to a question of `answers`, asked again: a path, or what was said instead."""
+        kind, *words = question
+        try:
+            if kind == "find":
+                return str(self.find(words[0]))
+            if kind == "resolve":
+                return str(self.resolve(words[0], words[1]))
+            if kind == "around":
+                return "\n".join(map(str, self.around(words[0])))
+            return self._moved(words[0])
+        except ResourceError as error:
+            return f"!{error.message}"
+
+    def beside(self, near: str | Path) -> Packages:
+        """Return one that looks near another file, and shares what was learnt of folders."""
+        other = Packages(self.search, near, environment=self._environment)
+        other._crawled = self._crawled
+        return other
+
+    def find(self, name: str) -> Path:
+        """Return the folder of a package: where its package.xml is, or its share folder when installed.
+
+        Args:
+            name: as in ``$(find name)``.
+
+        Raises:
+            ResourceError: there is no such package; says where it looked and the nearest name.
+        """
+        if name not in self._found:
+            found = self._look_up(name) if _is_plain(name) else None
+            if found is None:
+                hint = near_package(name, self._seen)
+                message = f"no package `{name}` in {self._looked_in()}{hint or '; see --package-path'}"
+                self.answers[("find", name)] = f"!{message}"
+                raise ResourceError(message)
+            self._found[name] = found
+            self.answers[("find", name)] = str(found)
+        return self._found[name]
+
+    def resolve(self, uri: str, relative_to: str | Path) -> Path:
+        """Return the file that a mesh or texture URI means.
+
+        Args:
+            uri: ``package://name/path``, ``model://name/path``, ``file:///path``, or a path.
+            relative_to: the description file (or its folder) that a relative path starts from.
+
+        Raises:
+            ResourceError: there is no such package or file; names the nearest file.
+        """
+        question = ("resolve", uri, str(relative_to))
+        try:
+            path = self._resolved(uri, relative_to)
+        except ResourceError as error:
+            self.answers[question] = f"!{error.message}"
+            raise
+        self.answers[question] = str(path)
+        return path
+
+    def _resolved(self, uri: str, relative_to: str | Path) -> Path:
+        path = self._path_of(uri, Path(relative_to))
+        try:
+            if path.exists():
+                return path
+        except OSError as error:
+            raise ResourceError(f"no file {uri}: {(error.strerror or 'not readable').lower()}") from None
+        if (moved := self._relocated(path)) is not None:
+            return moved
+        if "%" in uri:
+            from urllib.parse import unquote
+
+            decoded = Path(unquote(str(path)))
+            if decoded.exists():
+                return decoded
+        raise ResourceError(f"no file {uri}{near_path(path)}")
+
+    def relocate(self, path: str | Path) -> Path | None:
+        """Return where a path that an installed package would have lies in its source folder.
+
+        Packages whose CMake installs ``description/*`` into the share folder are read from source all the same:
+        ``$(find pkg)/urdf/x`` is ``<source>/description/urdf/x`` there.
+
+        Args:
+            path: a path that does not exist.
+
+        Returns:
+            A path that does, or None.
+        """
+        moved = self._relocated(path)
+        self.answers[("relocate", str(path))] = str(moved or "")
+        return moved
+
+    def whereabouts(self, path: str | Path) -> str:
+        """Return the path itself where it exists, else where `relocate` finds it; empty where there is no such file."""
+        answer = self.answers[("relocate", str(path))] = self._moved(str(path))
+        return answer
+
+    def around(self, package: str | Path) -> list[Path]:
+        """Return the launch files and YAML around a description; see `surroundings.around`."""
+        from urdfkit.description.packages.related_files import around
+
+        found = around(Path(package))
+        self.answers[("around", str(package))] = "\n".join(map(str, found))
+        return found
+
+    def _moved(self, path: str) -> str:
+        """Return the path itself where it exists by now, else where it was moved to."""
+        return path if Path(path).exists() else str(self._relocated(path) or "")
+
+    def _relocated(self, path: str | Path) -> Path | None:
+        wanted = absolute(path)
+        for folder in dict.fromkeys(self._found.values()):
+            if folder in wanted.parents:
+                moved = folder / "description" / wanted.relative_to(folder)
+                if moved.exists():
+                    return moved
+        return None
+
+    def _path_of(self, uri: str, relative_to: Path) -> Path:
+        scheme, separator, rest = uri.partition("://")
+        if not separator:
+            base = relative_to if relative_to.is_dir() else relative_to.parent
+            return base / uri
+        if scheme in ("package", "model"):
+            name, _, inside = rest.partition("/")
+            return self.find(name) / inside
+        if scheme == "file":
+            return Path(rest.removeprefix("localhost"))
+        raise ResourceError(f"{uri}: files are read from this machine only; use package://, model:// or a path")
+
+    def _look_up(self, name: str) -> Path | None:
+        from urdfkit.description.packages.discovery import package_name
+
+        for folder in self._places():
+            if folder is None:
+                continue
+            direct = folder / name
+            if package_name(direct) == name or (direct / "model.config").is_file():
+                return direct
+            if (found := self._crawl(folder).get(name)) is not None:
+                return found
+        if self.near is not None:
+            for around in (self.near, *self.near.parents):
+                if around.name == name and around.is_dir():
+                    return around
+                if len(around.parts) > 2 and (around / name).is_dir() and around != self.near:
+                    return around / name
+        return None
+
+    def _places(self) -> Iterator[Path | None]:
+        """Yield the folders to look in, best first; each is scanned only when the ones before did not do."""
+        from urdfkit.description.packages.discovery import package_name, share_folders, workspace
+
+        for folder in self.search:
+            yield from (folder, *share_folders(folder))
+        if (package := self._enclosing_package()) is not None:
+            self._seen[package_name(package) or package.name] = package
+            yield package
+            yield package.parent
+            yield workspace(package)
+            for level in (package, *package.parents[:4]):
+                yield from (*share_folders(level / "install"), *share_folders(level / "devel"))
+        yield from self._listed("ROS_PACKAGE_PATH")
+        for variable in _PREFIX_VARIABLES:
+            for prefix in self._listed(variable):
+                yield from share_folders(prefix)
+        for variable in _MODEL_VARIABLES:
+            yield from self._listed(variable)
+        yield _shipped_robots()
+
+    def _listed(self, variable: str) -> list[Path]:
+        return [Path(word) for word in self._environment.get(variable, "").split(os.pathsep) if word]
+
+    def _looked_in(self) -> str:
+        from urdfkit.description.packages.discovery import workspace
+
+        places = ["--package-path"] if self.search else []
+        package = self._enclosing_package()
+        if package is not None:
+            places.append(f"the workspace {workspace(package) or package.parent}")
+        elif self.near is not None:
+            places.append(f"the folders around {self.near}")
+        places += [v for v in ("ROS_PACKAGE_PATH", *_PREFIX_VARIABLES, *_MODEL_VARIABLES) if self._listed(v)]
+        return ", ".join([*places, "the robots we ship"])
+
+    def _enclosing_package(self) -> Path | None:
+        if self.near is None:
+            return None
+        return next((f for f in (self.near, *self.near.parents) if (f / "package.xml").is_file()), None)
+
+    def _crawl(self, top: Path) -> dict[str, Path]:
+        from urdfkit.description.packages.discovery import packages_below
+
+        if top not in self._crawled:
+            self._crawled[top] = found = packages_below(top)
+            for name, folder in found.items():
+                self._seen.setdefault(name, folder)
+        return self._crawled[top]
+
+
+def near_package(name: str, known: Iterable[str]) -> str:
+    """Return a did-you-mean for a package; a last word in common (``_description``) makes no two names near."""
+    stem, _, last = name.rpartition("_")
+    parts = ((other, *other.rpartition("_")[::2]) for other in known)
+    return did_you_mean(name, [other for other, own, end in parts if end != last or did_you_mean(stem, [own])])
+
+
+def near_path(path: Path) -> str:
+    """Return a did-you-mean for the first part of `path` that is not there; cases are compared loosely.
+
+    What two names have in common beyond the first dot makes neither near to the other.
+    """
+    missing, parent = path, path.parent
+    while not parent.is_dir() and parent != parent.parent:
+        missing, parent = parent, parent.parent
+    try:
+        names = sorted(child.name for child in parent.iterdir())
+    except OSError:
+        return ""
+    stem = _stem(missing.name)
+    return did_you_mean(missing.name, [name for name in names if did_you_mean(stem, [_stem(name)])])
+
+
+def _stem(name: str) -> str:
+    return name.partition(".")[0] or name
+
+
+def _shipped_robots() -> Path | None:
+    from urdfkit.resources import robots_dir
+
+    try:
+        return robots_dir()
+    except ResourceError:
+        return None
+
+
+def _is_plain(name: str) -> bool:
+    return bool(name) and "/" not in name and "\\" not in name and name not in (".", "..")

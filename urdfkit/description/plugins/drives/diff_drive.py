@@ -1,0 +1,92 @@
+"""The differential drive in three spellings."""
+
+from __future__ import annotations
+
+from urdfkit.description.plugins.common_parameters import (
+    GAZEBO_ROS_1,
+    GAZEBO_ROS_2,
+    GZ_LIMITS,
+    GZ_ODOMETRY,
+    GZ_SEPARATE_LIMITS,
+)
+from urdfkit.description.plugins.spec import Parameter, PluginSpec
+
+DIFF_DRIVE_ROS_1 = PluginSpec(
+    kind="diff_drive",
+    generation="ros1",
+    filenames=("gazebo_ros_diff_drive",),
+    class_names=(),
+    parameters=(
+        Parameter("left_joint", "leftJoint", "left_joint", names="joint"),
+        Parameter("right_joint", "rightJoint", "right_joint", names="joint"),
+        Parameter("wheel_separation", "wheelSeparation", "0.34", "[m]"),
+        Parameter("wheel_diameter", "wheelDiameter", "0.15", "[m]"),
+        Parameter("max_wheel_torque", "wheelTorque", "5", "[N·m]"),
+        Parameter("max_wheel_acceleration", "wheelAcceleration", "0", "[m/s²]"),
+        Parameter("update_rate", "updateRate", "100", "[Hz]"),
+        Parameter("command_topic", "commandTopic", "cmd_vel", names="topic"),
+        Parameter("odometry_topic", "odometryTopic", "odom", names="topic"),
+        Parameter("odometry_frame", "odometryFrame", "odom", names="frame"),
+        Parameter("base_frame", "robotBaseFrame", "base_footprint", names="link"),
+        Parameter("odometry_source", "odometrySource", "world"),
+        Parameter("publish_odometry", "publishTf", "true"),
+        Parameter("publish_odometry_tf", "publishOdomTF", "true"),
+        Parameter("publish_wheel_tf", "publishWheelTF", "false"),
+        Parameter("publish_wheel_joint_state", "publishWheelJointState", "false"),
+        Parameter("legacy_mode", "legacyMode"),
+        *GAZEBO_ROS_1,
+    ),
+    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_diff_drive.cpp (legacyMode: kinetic-devel)",
+)
+"""`publishTf` false turns off the odometry message and its transform. `publishOdomTF` is read since Kinetic,
+`legacyMode` in Kinetic and Lunar only."""
+
+DIFF_DRIVE_ROS_2 = PluginSpec(
+    kind="diff_drive",
+    generation="ros2",
+    filenames=("gazebo_ros_diff_drive",),
+    class_names=(),
+    parameters=(
+        Parameter("left_joint", "left_joint", "left_joint", names="joint", repeats=True),
+        Parameter("right_joint", "right_joint", "right_joint", names="joint", repeats=True),
+        Parameter("wheel_pairs", "num_wheel_pairs", "1"),
+        Parameter("wheel_separation", "wheel_separation", "0.34", "[m]", repeats=True),
+        Parameter("wheel_diameter", "wheel_diameter", "0.15", "[m]", repeats=True),
+        Parameter("max_wheel_torque", "max_wheel_torque", "5", "[N·m]"),
+        Parameter("max_wheel_acceleration", "max_wheel_acceleration", "0", "[m/s²]"),
+        Parameter("update_rate", "update_rate", "100", "[Hz]"),
+        Parameter("odometry_frame", "odometry_frame", "odom", names="frame"),
+        Parameter("base_frame", "robot_base_frame", "base_footprint", names="link"),
+        Parameter("odometry_source", "odometry_source", "1"),
+        Parameter("publish_odometry", "publish_odom", "false"),
+        Parameter("publish_odometry_tf", "publish_odom_tf", "false"),
+        Parameter("publish_wheel_tf", "publish_wheel_tf", "false"),
+        Parameter("covariance_x", "covariance_x", "0.00001", "[m²]"),
+        Parameter("covariance_y", "covariance_y", "0.00001", "[m²]"),
+        Parameter("covariance_yaw", "covariance_yaw", "0.001", "[rad²]"),
+        *GAZEBO_ROS_2,
+    ),
+    source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_diff_drive.cpp",
+)
+"""Topics are ``cmd_vel`` and ``odom``, changed by ``<ros><remapping>`` only. `odometry_source`: 0 encoder, 1 world."""
+
+DIFF_DRIVE_GZ = PluginSpec(
+    kind="diff_drive",
+    generation="gz",
+    filenames=("gz-sim-diff-drive-system", "ignition-gazebo-diff-drive-system"),
+    class_names=("gz::sim::systems::DiffDrive", "ignition::gazebo::systems::DiffDrive"),
+    parameters=(
+        Parameter("left_joint", "left_joint", names="joint", repeats=True),
+        Parameter("right_joint", "right_joint", names="joint", repeats=True),
+        Parameter("wheel_separation", "wheel_separation", "1.0", "[m]"),
+        Parameter("wheel_radius", "wheel_radius", "0.2", "[m]"),
+        *GZ_ODOMETRY,
+        *GZ_LIMITS,
+        *GZ_SEPARATE_LIMITS,
+    ),
+    source="gz-sim main, src/systems/diff_drive/DiffDrive.cc",
+)
+"""The generic limits set the linear and the angular one. A rate of zero or less publishes odometry every step."""
+
+DIFF_DRIVE = (DIFF_DRIVE_ROS_1, DIFF_DRIVE_ROS_2, DIFF_DRIVE_GZ)
+"""The differential drive in its three spellings."""

@@ -1,0 +1,138 @@
+"""Numbers of a ``<sensor>`` with which it would see nothing, or which mean nothing: for linter and simulator alike."""
+
+from __future__ import annotations
+
+from math import isfinite, isnan, pi
+
+from urdfkit.description.plugins.lookup import values
+from urdfkit.description.plugins.spec import PluginSpec
+from urdfkit.description.urdf.robot import Plugin
+from urdfkit.description.xml.element import Element
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    Senseless = Iterator[tuple[Element, str]]
+    """What is wrong and where: the element to point at, and one line."""
+
+ORDERED = (("min_depth", "max_depth"), ("min_range", "max_range"))
+"""Meanings of plugins' parameters of which the first is the smaller."""
+
+
+NUMBERS = frozenset(
+    (
+        *("update_rate", "samples", "resolution", "min_angle", "max_angle"),
+        *("horizontal_fov", "width", "height", "near", "far", "mean", "stddev"),
+    )
+)
+"""What holds a number wherever it stands in a ``<sensor>``, but for plugins (sdformat: sensor.sdf, noise.sdf …)."""
+
+_MAX_ANGLE = 6.3
+"""A little more than a full turn [rad]: 6.2832 is written often."""
+
+WIDE = ("wideanglecamera", "wide_angle_camera")
+"""Types of the camera whose picture may go all the way round (sdformat, camera.sdf: ``horizontal_fov`` to 6.283186)."""
+
+
+def senseless_numbers(sensor: Element) -> Senseless:
+    """Yield what should be a number and is none, rates below zero, and angles of more than a full turn."""
+    for child in sensor.children:
+        if child.tag == "plugin":
+            continue
+        if child.tag not in NUMBERS or child.children:
+            yield from senseless_numbers(child)
+            continue
+        value = _value(child.text)
+        if child.text and isnan(value) and child.text.lower() != "nan":
+            yield child, f"<{child.tag}> is `{child.text}`, which is no number"
+        elif child.tag == "update_rate" and value < 0.0:
+            yield child, f"<update_rate> is {value:g} Hz; it must be zero or greater, and zero is as often as possible"
+        elif child.tag in ("min_angle", "max_angle") and abs(value) > _MAX_ANGLE:
+            yield child, f"<{child.tag}> is {value:g} rad, more than a full turn: angles are in radians"
+
+
+def senseless_scan(lidar: Element) -> Senseless:
+    """Yield what makes no sense in a ``<ray>`` or ``<lidar>``; the defaults are sdformat's (lidar.sdf)."""
+    pattern, reach = lidar.find("scan"), lidar.find("range")
+    for fan in (None if pattern is None else pattern.find(tag) for tag in ("horizontal", "vertical")):
+        if fan is not None:
+            yield from _senseless_fan(fan)
+    near, far = _number(reach, "min", 0.0), _number(reach, "max", 0.0)
+    if near < 0.0:
+        yield (reach and reach.find("min")) or lidar, f"<min> is {near:g} m; it must be zero or greater"
+    elif not isnan(near + far) and not near < far:
+        yield reach or lidar, f"a lidar that sees from {near:g} m to {far:g} m sees nothing"
+
+
+def _senseless_fan(fan: Element) -> Senseless:
+    samples, resolution = _number(fan, "samples", 640.0), _number(fan, "resolution", 1.0)
+    if samples < 1:
+        yield fan, f"<{fan.tag}> asks for {samples:g} samples; it must be one or more"
+    elif isfinite(samples) and samples != int(samples):
+        yield fan.find("samples") or fan, f"<samples> is {samples:g}; it must be a whole number"
+    elif resolution <= 0:
+        yield (
+            fan.find("resolution") or fan,
+            f"<resolution> is {resolution:g}; it must be greater than zero: it is multiplied with <samples>",
+        )
+    elif isfinite(samples * resolution) and round(samples * resolution) < 1:
+        yield fan, f"<{fan.tag}> asks for {samples:g} samples at a resolution of {resolution:g}, which is less than one"
+    low, high = _number(fan, "min_angle", 0.0), _number(fan, "max_angle", 0.0)
+    if low > high:
+        yield fan, f"<{fan.tag}> goes from {low:g} to {high:g} rad: the smaller angle is <min_angle>"
+
+
+def senseless_camera(camera: Element, *, is_wide: bool = False) -> Senseless:
+    """Yield what makes no sense in a ``<camera>``; the defaults are sdformat's (camera.sdf).
+
+    Args:
+        camera: the element.
+        is_wide: whether its sensor is of one of the `WIDE` types, which see up to a full turn.
+    """
+    angle = _number(camera, "horizontal_fov", 1.047)
+    if not (0.0 < angle < pi or isnan(angle) or (is_wide and 0.0 < angle < _MAX_ANGLE)):
+        yield (
+            camera.find("horizontal_fov") or camera,
+            f"<horizontal_fov> is {angle:g} rad; it must be between 0 and {'2π' if is_wide else 'π'}",
+        )
+    image, clip = camera.find("image"), camera.find("clip")
+    for tag in ("width", "height"):
+        pixels = _number(image, tag, 1.0)
+        if isfinite(pixels) and (pixels < 1 or pixels != int(pixels)) and image is not None:
+            yield image.find(tag) or image, f"<{tag}> is {pixels:g}; it must be a whole number, one or greater"
+    near, far = _number(clip, "near", 0.1), _number(clip, "far", 100.0)
+    if not isnan(near + far) and not near < far:
+        yield clip or camera, f"a camera that sees from {near:g} m to {far:g} m sees nothing"
+
+
+def senseless_parameters(plugin: Plugin, spec: PluginSpec) -> Senseless:
+    """Yield pairs of a plugin's parameters that are the wrong way round."""
+    for pair in ORDERED:
+        tags, numbers, places = [], [], []
+        for meaning in pair:
+            parameter = spec.by_meaning(meaning)
+            if parameter is None:
+                break
+            text, place = next(((t, e) for t, e in values(plugin, parameter) if t), (parameter.default, None))
+            tags.append(parameter.tag)
+            numbers.append(_value(text))
+            places.append(place)
+        else:
+            place = places[0] or places[1]
+            if place is not None and numbers[0] >= numbers[1]:
+                low, high = (f"<{tag}> {value:g} m" for tag, value in zip(tags, numbers, strict=True))
+                yield place, f"what lies between {low} and {high} is nothing: the smaller is <{tags[0]}>"
+
+
+def _number(parent: Element | None, tag: str, default: float) -> float:
+    """Return the number in a child, the default where there is none, NaN where it is something else."""
+    child = None if parent is None else parent.find(tag)
+    return default if child is None or not child.text else _value(child.text)
+
+
+def _value(text: str | None) -> float:
+    try:
+        return float(text or "nan")
+    except ValueError:
+        return float("nan")

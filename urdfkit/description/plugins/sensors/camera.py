@@ -1,0 +1,137 @@
+"""Cameras: the plugins of Gazebo Classic's camera and depth sensors, and what the new Gazebo reads of its own.
+
+Defaults in braces are filled in by whoever knows the model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are
+names.
+"""
+
+from __future__ import annotations
+
+from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2
+from urdfkit.description.plugins.spec import Parameter, PluginSpec
+
+_INTRINSICS_ROS_1 = (
+    Parameter("frame", "frameName", names="frame"),
+    Parameter("camera", "cameraName"),
+    Parameter("update_rate", "updateRate", "0", "[Hz]"),
+    Parameter("trigger_topic", "triggerTopicName", names="topic"),
+    Parameter("focal_length", "focalLength", "0", "[px]"),
+    Parameter("cx", "Cx", "0", "[px]"),
+    Parameter("cy", "Cy", "0", "[px]"),
+    Parameter("cx_prime", "CxPrime", "0", "[px]"),
+    Parameter("baseline", "hackBaseline", "0", "[m]"),
+    Parameter("k1", "distortionK1", "0"),
+    Parameter("k2", "distortionK2", "0"),
+    Parameter("k3", "distortionK3", "0"),
+    Parameter("p1", "distortionT1", "0"),
+    Parameter("p2", "distortionT2", "0"),
+    Parameter("auto_distortion", "autoDistortion", "false"),
+    Parameter("border_crop", "borderCrop", "true"),
+    *GAZEBO_ROS_1,
+)
+
+CAMERA_ROS_1 = PluginSpec(
+    kind="camera",
+    generation="ros1",
+    filenames=("gazebo_ros_camera",),
+    class_names=(),
+    parameters=(
+        Parameter("image_topic", "imageTopicName", "image_raw", names="topic"),
+        Parameter("info_topic", "cameraInfoTopicName", "camera_info", names="topic"),
+        *_INTRINSICS_ROS_1,
+    ),
+    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_camera_utils.cpp",
+)
+"""Topics go below ``robotNamespace`` and ``cameraName``."""
+
+MULTICAMERA_ROS_1 = PluginSpec(
+    kind="multicamera",
+    generation="ros1",
+    filenames=("gazebo_ros_multicamera",),
+    class_names=(),
+    parameters=CAMERA_ROS_1.parameters,
+    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_multicamera.cpp",
+)
+"""As `CAMERA_ROS_1`, with ``/left`` and ``/right`` after ``cameraName``; the baseline counts for the right one."""
+
+_DEPTH_ROS_1 = (
+    Parameter("depth_topic", "depthImageTopicName", "depth/image_raw", names="topic"),
+    Parameter("depth_info_topic", "depthImageCameraInfoTopicName", "depth/camera_info", names="topic"),
+    Parameter("cloud_topic", "pointCloudTopicName", "points", names="topic"),
+    Parameter("min_depth", "pointCloudCutoff", "0.4", "[m]"),
+    Parameter("millimetres", "useDepth16UC1Format", "false"),
+    *_INTRINSICS_ROS_1,
+)
+
+OPENNI_KINECT_ROS_1 = PluginSpec(
+    kind="openni_kinect",
+    generation="ros1",
+    filenames=("gazebo_ros_openni_kinect",),
+    class_names=(),
+    parameters=(
+        Parameter("image_topic", "imageTopicName", "ir/image_raw", names="topic"),
+        Parameter("info_topic", "cameraInfoTopicName", "ir/camera_info", names="topic"),
+        Parameter("max_depth", "pointCloudCutoffMax", "5", "[m]"),
+        *_DEPTH_ROS_1,
+    ),
+    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_openni_kinect.cpp",
+)
+
+DEPTH_CAMERA_ROS_1 = PluginSpec(
+    kind="depth_camera",
+    generation="ros1",
+    filenames=("gazebo_ros_depth_camera",),
+    class_names=(),
+    parameters=(
+        Parameter("image_topic", "imageTopicName", "image_raw", names="topic"),
+        Parameter("info_topic", "cameraInfoTopicName", "camera_info", names="topic"),
+        *_DEPTH_ROS_1,
+    ),
+    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_depth_camera.cpp",
+)
+
+CAMERA_ROS_2 = PluginSpec(
+    kind="camera",
+    generation="ros2",
+    filenames=("gazebo_ros_camera",),
+    class_names=(),
+    parameters=(
+        Parameter("camera", "camera_name", "{sensor}"),
+        Parameter("frame", "frame_name", "{link}", names="frame"),
+        Parameter("triggered", "triggered", "false"),
+        Parameter("focal_length", "focal_length", "0", "[px]"),
+        Parameter("cx", "cx", "0", "[px]"),
+        Parameter("cy", "cy", "0", "[px]"),
+        Parameter("baseline", "hack_baseline", "0", "[m]"),
+        Parameter("auto_distortion", "autoDistortion", "false"),
+        Parameter("border_crop", "border_crop", "true"),
+        Parameter("min_depth", "min_depth", "0.4", "[m]"),
+        Parameter("max_depth", "max_depth", unit="[m]"),
+        *GAZEBO_ROS_2,
+    ),
+    source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_camera.cpp",
+)
+"""Topics are ``CAMERA/image_raw``, ``CAMERA/camera_info`` and for a sensor of type depth ``CAMERA/depth/…`` and
+``CAMERA/points``, changed by ``<ros><remapping>`` only."""
+
+_SCOPED = "/world/{world}/model/{model}/link/{link}/sensor/{sensor}"
+
+_GZ = (
+    Parameter("frame", "gz_frame_id", names="frame"),
+    Parameter("old_frame", "ignition_frame_id", names="frame"),
+    Parameter("default_frame", "frame_id", "{model}/{link}/{sensor}", names="frame"),
+)
+
+
+def _gz(kind: str, topic: str) -> PluginSpec:
+    parameters = (Parameter("image_topic", "topic", f"{_SCOPED}{topic}", names="topic"), *_GZ)
+    return PluginSpec(kind, "gz", (), (), parameters, source="gz-sensors main, src/CameraSensor.cc and its kin")
+
+
+CAMERA_GZ = _gz("gz_camera", "/image")
+DEPTH_CAMERA_GZ = _gz("gz_depth_camera", "/depth_image")
+RGBD_CAMERA_GZ = _gz("gz_rgbd_camera", "")
+SEGMENTATION_CAMERA_GZ = _gz("gz_segmentation_camera", "/segmentation")
+BOUNDING_BOX_CAMERA_GZ = _gz("gz_bounding_box_camera", "/boundingbox")
+
+CAMERAS = (CAMERA_ROS_1, MULTICAMERA_ROS_1, OPENNI_KINECT_ROS_1, DEPTH_CAMERA_ROS_1, CAMERA_ROS_2)
+"""Every camera plugin."""

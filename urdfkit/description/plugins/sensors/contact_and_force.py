@@ -1,0 +1,109 @@
+"""Sensors of touch and load: bumpers, contact sensors and the force and torque at a joint."""
+
+from __future__ import annotations
+
+from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2
+from urdfkit.description.plugins.spec import Parameter, PluginSpec
+
+BUMPER_ROS_1 = PluginSpec(
+    kind="bumper",
+    generation="ros1",
+    filenames=("gazebo_ros_bumper",),
+    class_names=(),
+    parameters=(
+        Parameter("topic", "bumperTopicName", "bumper_states", names="topic"),
+        Parameter("frame", "frameName", "world", names="frame"),
+        *GAZEBO_ROS_1,
+    ),
+    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_bumper.cpp",
+)
+"""Everything is told in the world's axes, whatever ``frameName`` is."""
+
+BUMPER_ROS_2 = PluginSpec(
+    kind="bumper",
+    generation="ros2",
+    filenames=("gazebo_ros_bumper",),
+    class_names=(),
+    parameters=(Parameter("frame", "frame_name", "world", names="frame"), *GAZEBO_ROS_2),
+    source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_bumper.cpp",
+)
+"""Publishes on ``bumper_states``, changed by ``<ros><remapping>`` only."""
+
+CONTACT_GZ = PluginSpec(
+    kind="gz_contact",
+    generation="gz",
+    filenames=(),
+    class_names=(),
+    parameters=(
+        Parameter("topic", "topic", "/world/{world}/model/{model}/link/{link}/sensor/{sensor}/contact", names="topic"),
+    ),
+    source="gz-sim main, src/systems/contact/Contact.cc",
+)
+"""Read from the ``<sensor>`` itself; a ``<topic>`` inside its ``<contact>`` counts more."""
+
+FORCE_TORQUE_ROS_1 = PluginSpec(
+    kind="force_torque",
+    generation="ros1",
+    filenames=("gazebo_ros_ft_sensor",),
+    class_names=(),
+    parameters=(
+        Parameter("joint", "jointName", names="joint"),
+        Parameter("topic", "topicName", names="topic"),
+        Parameter("gaussian_noise", "gaussianNoise", "0", "[N, N·m]"),
+        Parameter("update_rate", "updateRate", "0", "[Hz]"),
+        *GAZEBO_ROS_1,
+    ),
+    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_ft_sensor.cpp",
+)
+
+FORCE_TORQUE_ROS_2 = PluginSpec(
+    kind="force_torque",
+    generation="ros2",
+    filenames=("gazebo_ros_ft_sensor",),
+    class_names=(),
+    parameters=(
+        Parameter("joint", "joint_name", names="joint"),
+        Parameter("body", "body_name", names="link"),
+        Parameter("frame", "frame_name", names="frame"),
+        Parameter("gaussian_noise", "gaussian_noise", "0", "[N, N·m]"),
+        Parameter("update_rate", "update_rate", "0", "[Hz]"),
+        *GAZEBO_ROS_2,
+    ),
+    source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ft_sensor.cpp",
+)
+"""Publishes on ``wrench``, changed by ``<ros><remapping>`` only; with ``body_name`` what acts on that link."""
+
+FORCE_TORQUE_GZ = PluginSpec(
+    kind="gz_force_torque",
+    generation="gz",
+    filenames=(),
+    class_names=(),
+    parameters=(
+        Parameter(
+            "topic", "topic", "/world/{world}/model/{model}/joint/{joint}/sensor/{sensor}/forcetorque", names="topic"
+        ),
+        Parameter("frame", "gz_frame_id", names="frame"),
+        Parameter("old_frame", "ignition_frame_id", names="frame"),
+        Parameter("default_frame", "frame_id", "{model}/{joint}/{sensor}", names="frame"),
+    ),
+    source="gz-sensors main, src/ForceTorqueSensor.cc; gz-sim main, src/systems/force_torque/ForceTorque.cc",
+)
+"""Read from the ``<sensor>`` itself."""
+
+TOUCH_GZ = PluginSpec(
+    kind="gz_touch",
+    generation="gz",
+    filenames=("gz-sim-touchplugin-system", "ignition-gazebo-touchplugin-system"),
+    class_names=("gz::sim::systems::TouchPlugin", "ignition::gazebo::systems::TouchPlugin"),
+    parameters=(
+        Parameter("target", "target"),
+        Parameter("namespace", "namespace"),
+        Parameter("time", "time", unit="[s]"),
+        Parameter("enabled", "enabled", "false"),
+    ),
+    source="gz-sim main, src/systems/touch_plugin/TouchPlugin.cc",
+)
+"""A plugin of the model; it goes by the model's contact sensors."""
+
+TOUCH = (BUMPER_ROS_1, BUMPER_ROS_2, FORCE_TORQUE_ROS_1, FORCE_TORQUE_ROS_2, TOUCH_GZ)
+"""Every plugin that senses touch or load."""

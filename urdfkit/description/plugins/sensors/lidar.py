@@ -1,0 +1,133 @@
+"""Lidars and rangefinders: the plugins of Gazebo Classic's ray sensors, and what the new Gazebo reads of its own.
+
+The scan itself (angles, samples, ranges, noise) is written in the ``<sensor>`` the plugin stands in. Defaults in braces
+are filled in by whoever knows the model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are names.
+"""
+
+from __future__ import annotations
+
+from urdfkit.description.plugins.common_parameters import GAZEBO_ROS_1, GAZEBO_ROS_2
+from urdfkit.description.plugins.spec import Parameter, PluginSpec
+
+LASER_ROS_1 = PluginSpec(
+    kind="laser",
+    generation="ros1",
+    filenames=("gazebo_ros_laser", "gazebo_ros_gpu_laser"),
+    class_names=(),
+    parameters=(
+        Parameter("topic", "topicName", "/world", names="topic"),
+        Parameter("frame", "frameName", "/world", names="frame"),
+        *GAZEBO_ROS_1,
+    ),
+    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_laser.cpp and gazebo_ros_gpu_laser.cpp",
+)
+
+BLOCK_LASER_ROS_1 = PluginSpec(
+    kind="block_laser",
+    generation="ros1",
+    filenames=("gazebo_ros_block_laser",),
+    class_names=(),
+    parameters=(
+        Parameter("topic", "topicName", "/world", names="topic"),
+        Parameter("frame", "frameName", "/world", names="frame"),
+        Parameter("gaussian_noise", "gaussianNoise", "0", "[m]"),
+        Parameter("min_intensity", "hokuyoMinIntensity", "101"),
+        Parameter("update_rate", "updateRate", "0", "[Hz]"),
+        *GAZEBO_ROS_1,
+    ),
+    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_block_laser.cpp",
+)
+"""``hokuyoMinIntensity`` and ``updateRate`` are read and then left unused by the plugin."""
+
+RANGE_ROS_1 = PluginSpec(
+    kind="range",
+    generation="ros1",
+    filenames=("gazebo_ros_range",),
+    class_names=(),
+    parameters=(
+        Parameter("topic", "topicName", "/range", names="topic"),
+        Parameter("frame", "frameName", "/world", names="frame"),
+        Parameter("radiation", "radiation", "ultrasound"),
+        Parameter("field_of_view", "fov", "0.05", "[rad]"),
+        Parameter("gaussian_noise", "gaussianNoise", "0", "[m]"),
+        Parameter("update_rate", "updateRate", "0", "[Hz]"),
+        *GAZEBO_ROS_1,
+    ),
+    source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_range.cpp",
+)
+
+RAY_SENSOR_ROS_2 = PluginSpec(
+    kind="ray_sensor",
+    generation="ros2",
+    filenames=("gazebo_ros_ray_sensor",),
+    class_names=(),
+    parameters=(
+        Parameter("output_type", "output_type", "sensor_msgs/PointCloud2"),
+        Parameter("frame", "frame_name", "{link}", names="frame"),
+        Parameter("min_intensity", "min_intensity", "0"),
+        Parameter("radiation", "radiation_type", "infrared"),
+        *GAZEBO_ROS_2,
+    ),
+    source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ray_sensor.cpp and "
+    "gazebo_ros/include/gazebo_ros/conversions/sensor_msgs.hpp",
+)
+"""Publishes on ``~/out``, changed by ``<ros><remapping>`` only."""
+
+VELODYNE = ("gazebo_ros_velodyne_laser", "gazebo_ros_velodyne_gpu_laser")
+
+VELODYNE_ROS_1 = PluginSpec(
+    kind="velodyne",
+    generation="ros1",
+    filenames=VELODYNE,
+    class_names=(),
+    parameters=(
+        Parameter("topic", "topicName", "/points", names="topic"),
+        Parameter("frame", "frameName", "/world", names="frame"),
+        Parameter("min_range", "min_range", "0", "[m]"),
+        Parameter("max_range", "max_range", unit="[m]"),
+        Parameter("min_intensity", "min_intensity"),
+        Parameter("gaussian_noise", "gaussianNoise", "0", "[m]"),
+        Parameter("organize_cloud", "organize_cloud", "false"),
+        *GAZEBO_ROS_1,
+    ),
+    source="velodyne_simulator master, velodyne_gazebo_plugins/src/GazeboRosVelodyneLaser.cpp",
+)
+
+VELODYNE_ROS_2 = PluginSpec(
+    kind="velodyne",
+    generation="ros2",
+    filenames=VELODYNE,
+    class_names=(),
+    parameters=(
+        Parameter("frame", "frame_name", "/world", names="frame"),
+        Parameter("min_range", "min_range", "0", "[m]"),
+        Parameter("max_range", "max_range", unit="[m]"),
+        Parameter("min_intensity", "min_intensity"),
+        Parameter("gaussian_noise", "gaussian_noise", "0", "[m]"),
+        Parameter("organize_cloud", "organize_cloud", "false"),
+        *GAZEBO_ROS_2,
+    ),
+    source="velodyne_simulator foxy-devel, velodyne_gazebo_plugins/src/GazeboRosVelodyneLaser.cpp",
+)
+"""Publishes on ``~/out``."""
+
+LIDAR_GZ = PluginSpec(
+    kind="gpu_lidar",
+    generation="gz",
+    filenames=(),
+    class_names=(),
+    parameters=(
+        Parameter("topic", "topic", "/world/{world}/model/{model}/link/{link}/sensor/{sensor}/scan", names="topic"),
+        Parameter("frame", "gz_frame_id", names="frame"),
+        Parameter("old_frame", "ignition_frame_id", names="frame"),
+        Parameter("default_frame", "frame_id", "{model}/{link}/{sensor}", names="frame"),
+    ),
+    source="gz-sensors main, src/Sensor.cc, src/Lidar.cc and src/GpuLidarSensor.cc",
+)
+"""Read from the ``<sensor>`` itself. The cloud goes to the topic with ``/points`` after it."""
+
+LIDARS = (LASER_ROS_1, BLOCK_LASER_ROS_1, RANGE_ROS_1, RAY_SENSOR_ROS_2, VELODYNE_ROS_1, VELODYNE_ROS_2)
+"""Every lidar plugin."""
+
+LIDAR_TYPES = ("ray", "gpu_ray", "lidar", "gpu_lidar")
+"""What the ``type`` of a lidar's ``<sensor>`` may be."""

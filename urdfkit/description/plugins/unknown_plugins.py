@@ -1,0 +1,57 @@
+"""What to say of a plugin that nothing here runs: its place, and the nearest that something does."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+from urdfkit.description.plugins.lookup import ALL_SPECS, stem
+from urdfkit.description.urdf.robot import Plugin
+from urdfkit.errors import did_you_mean
+
+_GAZEBO = re.compile(r"^(gazebo_ros_|gazebo_|gz-sim-|ignition-gazebo-|gz_|hector_gazebo_)")
+"""How names of Gazebo's own plugins begin."""
+_END = re.compile(r"(-system|_plugin)$")
+
+
+def unknown(plugin: Plugin, sensor: str | None = None, others: Iterable[str] = ()) -> str:
+    """Return what to say of a plugin that nothing here runs.
+
+    Args:
+        plugin: as written.
+        sensor: name of the ``<sensor>`` it stands in, if it does.
+        others: bare file names that are known beside those of our tables.
+    """
+    place = plugin.element.origin.position
+    left_out = "" if sensor is None else f"; sensor `{sensor or 'sensor'}` is left out"
+    if plugin.filename is None:
+        return f"{place}: plugin `{plugin.name or ''}` has no filename, so nothing runs it{left_out}"
+    name = stem(plugin.filename)
+    if near := nearest(name, others):
+        return (
+            f"{place}: no plugin `{plugin.filename}`; did you mean `{plugin.filename.replace(name, near)}`?{left_out}"
+        )
+    if _GAZEBO.search(name):
+        return f"plugin {plugin.filename}: not simulated yet{left_out}"
+    return f"{place}: unknown plugin `{plugin.filename}`: nothing here runs it{left_out}"
+
+
+def nearest(name: str, others: Iterable[str] = ()) -> str:
+    """Return the known bare file name that is nearest to one; empty where none is near.
+
+    Args:
+        name: without directory, ``lib`` and ``.so``.
+        others: names that are known beside those of our tables.
+    """
+    known = [other for spec in ALL_SPECS for other in spec.filenames] + list(others)
+    # What most of them share says nothing about which one was meant.
+    hint = did_you_mean(_essence(name), map(_essence, known))
+    if not hint:
+        return ""
+    meant = [other for other in known if _essence(other) == hint.split("`")[1]]
+    return get_close_matches(name, meant, n=1, cutoff=0.0)[0]
+
+
+def _essence(name: str) -> str:
+    return _END.sub("", _GAZEBO.sub("", name))

@@ -1,0 +1,43 @@
+"""Worlds: SDF in, models and lights out, every pose resolved and everything with its place. No mathematics."""
+
+from urdfkit.description.sdf.edit import add_model, move_model, remove_model
+from urdfkit.description.sdf.model import WorldAxis, WorldInertial, WorldJoint, WorldLink, WorldMimic, WorldModel
+from urdfkit.description.sdf.model_library import model_names, world_names
+from urdfkit.description.sdf.reader.load import load_model, load_world
+from urdfkit.description.sdf.shapes import Cone, Ellipsoid, Kept, Light, Plane, Surface, WorldGeometry, WorldShape
+from urdfkit.description.sdf.world import GRAVITY, GROUND_MU, Ground, Physics, World, WorldRobot, ground_of
+from urdfkit.description.sdf.writer import model_to_sdf, save_world, to_sdf
+
+__all__ = [
+    "GRAVITY",
+    "GROUND_MU",
+    "Cone",
+    "Ellipsoid",
+    "Ground",
+    "Kept",
+    "Light",
+    "Physics",
+    "Plane",
+    "Surface",
+    "World",
+    "WorldAxis",
+    "WorldGeometry",
+    "WorldInertial",
+    "WorldJoint",
+    "WorldLink",
+    "WorldMimic",
+    "WorldModel",
+    "WorldRobot",
+    "WorldShape",
+    "add_model",
+    "ground_of",
+    "load_model",
+    "load_world",
+    "model_names",
+    "model_to_sdf",
+    "move_model",
+    "remove_model",
+    "save_world",
+    "to_sdf",
+    "world_names",
+]

@@ -1,0 +1,204 @@
+"""Frames of a world or a model: who is given in whose frame (SDF 1.7 and later), resolved to one pose each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from urdfkit.description.sdf.poses import IDENTITY, between, compose, inverse
+from urdfkit.description.sdf.values import RawPose
+from urdfkit.description.urdf.robot import Pose
+from urdfkit.description.xml.source import Position
+from urdfkit.errors import DescriptionError, did_you_mean
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Literal
+
+    Kind = Literal["link", "joint", "frame", "model"]
+
+
+@record
+class _Frame:
+    kind: Kind
+    raw: RawPose
+    base: str
+    attached_to: str
+    placement: str
+    strict: bool
+
+
+class Scope:
+    """The frames of one model, or of the world.
+
+    A frame may be given in any other of its scope, or in ``nested::frame`` of a model in it
+    (http://sdformat.org/tutorials?tut=pose_frame_semantics).
+
+    Args:
+        root: the frame of the scope itself: ``__model__`` or ``world``.
+        owner: what messages call it.
+    """
+
+    def __init__(self, root: str, owner: str) -> None:
+        self.root, self.owner = root, owner
+        self.canonical = ""
+        self._frames: dict[str, _Frame] = {}
+        self._nested: dict[str, Scope] = {}
+        self._poses: dict[str, Pose] = {}
+        self._open: list[str] = []
+
+    def add(
+        self,
+        name: str,
+        kind: Kind,
+        raw: RawPose,
+        *,
+        default: str = "",
+        placement: str = "",
+        nested: Scope | None = None,
+        strict: bool = True,
+    ) -> None:
+        """Add a frame.
+
+        Args:
+            name: what others call it.
+            kind: what it is.
+            raw: its pose.
+            default: the frame it is given in where the pose does not say, and what it is attached to.
+            placement: the frame inside `nested` that the pose is of.
+            nested: the frames of a model.
+            strict: names are unique among all kinds (SDF 1.7), not only among their own.
+
+        Raises:
+            DescriptionError: the name is taken or reserved.
+        """
+        if name == "world" or (name.startswith("__") and name.endswith("__")):
+            raise DescriptionError(f"`{name}` is a reserved name; call the {kind} otherwise", position=raw.position)
+        taken = self._frames.get(name)
+        if taken is not None:
+            if taken.kind == kind or (strict and taken.strict):
+                raise DescriptionError(
+                    f"{self.owner} has a {taken.kind} called `{name}` already (line {taken.raw.position.line})",
+                    position=raw.position,
+                )
+            return
+        base = default or self.root
+        self._frames[name] = _Frame(kind, raw, raw.relative_to or base, base, placement, strict)
+        if nested is not None:
+            self._nested[name] = nested
+
+    def merge(self, name: str, inner: Scope, raw: RawPose, placement: str) -> None:
+        """Add the frames of a model that becomes part of this one (``<include merge="true">``, SDF 1.9).
+
+        Args:
+            name: of the model.
+            inner: its frames.
+            raw: its pose.
+            placement: the frame inside it that the pose is of.
+
+        Raises:
+            DescriptionError: a name is taken.
+        """
+        whole = f"__merged__{name}__"
+        link = inner._canonical_link(raw.position)
+        self._frames[whole] = _Frame("frame", raw, raw.relative_to or self.root, link, placement, True)
+        self._nested[whole] = inner
+        for each, frame in inner._frames.items():
+            if not each.startswith("__"):
+                placed = RawPose(inner.pose(each), whole, frame.raw.position)
+                base = whole if frame.attached_to == inner.root else frame.attached_to
+                self.add(each, frame.kind, placed, default=base, nested=inner._nested.get(each))
+
+    def names(self, kind: Kind) -> Iterator[str]:
+        """Yield the names of the frames of a kind."""
+        return (name for name, frame in self._frames.items() if frame.kind == kind)
+
+    def pose(self, name: str, position: Position | None = None) -> Pose:
+        """Return the pose of a frame in this scope.
+
+        Args:
+            name: a frame of the scope, or ``nested::frame``.
+            position: where it is asked for.
+
+        Raises:
+            DescriptionError: there is no such frame, or frames are given in each other in a circle.
+        """
+        if name == self.root:
+            return IDENTITY
+        if name in self._poses:
+            return self._poses[name]
+        frame = self._frames.get(name)
+        if frame is None:
+            first, separator, rest = name.partition("::")
+            if separator and first in self._nested:
+                return compose(self.pose(first, position), self._nested[first].pose(rest, position))
+            raise self._unknown(name, position)
+        if name in self._open:
+            circle = " → ".join([*self._open[self._open.index(name) :], name])
+            raise DescriptionError(f"frames are given in each other in a circle: {circle}", position=frame.raw.position)
+        self._open.append(name)
+        try:
+            found = compose(self.pose(frame.base, frame.raw.position), frame.raw.pose)
+            if frame.placement:
+                found = compose(found, inverse(self._nested[name].pose(frame.placement, frame.raw.position)))
+        finally:
+            self._open.pop()
+        self._poses[name] = found
+        return found
+
+    def place(self, raw: RawPose, default: str, target: str) -> Pose:
+        """Return a pose as seen from the frame `target`; as written where it is given in just that.
+
+        Args:
+            raw: the pose.
+            default: the frame it is given in where it does not say.
+            target: the frame to give it in.
+
+        Raises:
+            DescriptionError: there is no such frame.
+        """
+        base = raw.relative_to or default
+        if base == target:
+            return raw.pose
+        return between(self.pose(target, raw.position), compose(self.pose(base, raw.position), raw.pose))
+
+    def link_of(self, name: str, position: Position) -> str:
+        """Return the link that a frame is fixed to, ``nested::link`` for one inside a model; the world for itself.
+
+        Raises:
+            DescriptionError: there is no such frame, or no link.
+        """
+        seen: list[str] = []
+        while True:
+            if name == "world":
+                return name
+            if name in seen:
+                circle = " → ".join([*seen, name])
+                raise DescriptionError(f"frames are attached to each other in a circle: {circle}", position=position)
+            seen.append(name)
+            if name == self.root:
+                name = self._canonical_link(position)
+            frame = self._frames.get(name)
+            if frame is None:
+                first, separator, rest = name.partition("::")
+                if not separator or first not in self._nested:
+                    raise self._unknown(name, position)
+                return f"{first}::{self._nested[first].link_of(rest, position)}"
+            if frame.kind == "link":
+                return name
+            if frame.kind == "model":
+                nested = self._nested[name]
+                return f"{name}::{nested.link_of(nested.root, position)}"
+            name = frame.attached_to
+
+    def _canonical_link(self, position: Position) -> str:
+        if self.canonical:
+            return self.canonical
+        first = next(self.names("link"), None) or next(self.names("model"), None)
+        if first is None:
+            raise DescriptionError(f"{self.owner} has no link to attach to", position=position)
+        return first
+
+    def _unknown(self, name: str, position: Position | None) -> DescriptionError:
+        known = [self.root, *self._frames, *(f"{m}::{f}" for m, s in self._nested.items() for f in s._frames)]
+        return DescriptionError(f"no frame `{name}` in {self.owner}{did_you_mean(name, known)}", position=position)

@@ -1,0 +1,363 @@
+"""Models of a world as robots: links and joints of SDF become one tree each, joints where URDF has them.
+
+In SDF a joint has a pose of its own in its child link; in URDF a child link's frame is its joint's. Where the two
+differ, a link without mass stands between joint and child link, called like the joint with ``_frame`` behind it, so
+that every link keeps the frame that its file gives it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import isinf
+
+from urdfkit.description.sdf.model import WorldAxis, WorldJoint, WorldLink, WorldModel
+from urdfkit.description.sdf.poses import IDENTITY, between, compose
+from urdfkit.description.sdf.shapes import Kept
+from urdfkit.description.urdf.robot import (
+    Dynamics,
+    GazeboBlock,
+    Inertia,
+    Inertial,
+    Joint,
+    Limit,
+    Link,
+    Mimic,
+    Plugin,
+    Pose,
+    Robot,
+    SensorTag,
+    Vector,
+)
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Origin, Position
+from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.record import record
+
+MOVES = ("revolute", "continuous", "prismatic")
+"""The joint types of SDF that are simulated besides ``fixed``."""
+
+ANCHOR = "anchor"
+"""The root link of a tree that hangs on the world; its frame is the model's."""
+
+
+@record(eq=False)
+class Tree:
+    """Links of a model that joints hold together.
+
+    Attributes:
+        name: of the model, with ``::`` and the name of the first link where the model has several trees.
+        prefix: ``nested::`` where all of it is in a nested model: what names in `robot` lack.
+        robot: its links without shapes, its joints and plugins; in a tree of a nested model names are those inside it.
+        root: pose of the root link in the model.
+        bolted: whether it hangs on the world.
+        links: name in `robot` → link as written, with its shapes.
+        poses: name in `robot` → pose in the model with every joint at zero.
+        self_collide: names in `robot` of the links that touch the others.
+        weightless: names in `robot` of the links that gravity does not pull.
+    """
+
+    name: str
+    prefix: str
+    robot: Robot
+    root: Pose
+    bolted: bool
+    links: dict[str, WorldLink]
+    poses: dict[str, Pose]
+    self_collide: frozenset[str]
+    weightless: frozenset[str]
+
+
+@record(eq=False)
+class Group:
+    """Links of a model that joints hold together, as written.
+
+    Attributes:
+        name: see `Tree`.
+        links: name in the model, pose in the model, and link; the first carries the others.
+        joints: prefix of the names in it, and joint.
+        bolted: whether a joint holds it to the world.
+        first: whether the model's canonical link is among them, so that its plugins are about them.
+    """
+
+    name: str
+    links: tuple[tuple[str, Pose, WorldLink], ...]
+    joints: tuple[tuple[str, WorldJoint], ...]
+    bolted: bool
+    first: bool
+
+    @property
+    def moves(self) -> bool:
+        """Whether a joint in it moves."""
+        return any(joint.type != "fixed" for _, joint in self.joints)
+
+
+def groups_of(model: WorldModel) -> tuple[Group, ...]:
+    """Return the links of a model, those together that joints hold together, in the order of their first links."""
+    links = {name: (name, pose, link) for name, pose, link in model.all_links()}
+    joints = list(model.all_joints())
+    leader = {name: name for name in links}
+
+    def find(name: str) -> str:
+        while leader[name] != name:
+            name = leader[name]
+        return name
+
+    bolted = set()
+    for prefix, joint in joints:
+        ends = _ends(prefix, joint)
+        if "world" in ends:
+            bolted.add(ends[1])
+        else:
+            leader[find(ends[1])] = find(ends[0])
+    canonical = model.canonical_link or next(iter(links), "")
+    found: dict[str, list[str]] = {}
+    for name in links:
+        found.setdefault(find(name), []).append(name)
+    groups = []
+    for members in found.values():
+        own = tuple([each for each in joints if _ends(*each)[1] in members])
+        inner = {_ends(*each)[1] for each in own if "world" not in _ends(*each)}
+        root = next((name for name in members if name not in inner), members[0])
+        ordered = [root, *(name for name in members if name != root)]
+        groups.append(
+            Group(
+                model.name if len(found) == 1 else f"{model.name}::{root}",
+                tuple([links[name] for name in ordered]),
+                own,
+                bool(bolted.intersection(members)),
+                canonical in members,
+            )
+        )
+    return tuple(groups)
+
+
+def tree_of(model: WorldModel, group: Group) -> Tree:
+    """Return links that joints hold together as a robot.
+
+    Args:
+        model: of a world.
+        group: of its links.
+
+    Raises:
+        SimulationError: a joint is of a kind that is not simulated, or joints form a loop; with its place.
+    """
+    prefix = _common_prefix([name for name, _, _ in group.links])
+    builder = _Builder(model, group, prefix)
+    builder.grow()
+    return Tree(
+        group.name,
+        prefix,
+        Robot(
+            model.name,
+            tuple(builder.links),
+            tuple(builder.joints),
+            (),
+            (),
+            tuple(_blocks(model, group, prefix)),
+            (),
+            (),
+            _element("model", model.position),
+        ),
+        IDENTITY if group.bolted else group.links[0][1],
+        group.bolted,
+        {name[len(prefix) :]: link for name, _, link in group.links},
+        {name[len(prefix) :]: pose for name, pose, _ in group.links},
+        _named(group, prefix, lambda link: model.self_collide if link.self_collide is None else link.self_collide),
+        _named(group, prefix, lambda link: not link.gravity),
+    )
+
+
+def _named(group: Group, prefix: str, holds: Callable[[WorldLink], bool]) -> frozenset[str]:
+    return frozenset(name[len(prefix) :] for name, _, link in group.links if holds(link))
+
+
+class _Builder:
+    """Walks from the root along the joints."""
+
+    def __init__(self, model: WorldModel, group: Group, prefix: str) -> None:
+        self._model, self._group, self._prefix = model, group, prefix
+        self._poses = {name: pose for name, pose, _ in group.links}
+        self._written = {name: link for name, _, link in group.links}
+        self.links: list[Link] = []
+        self.joints: list[Joint] = []
+
+    def grow(self) -> None:
+        model, group = self._model, self._group
+        if group.bolted:
+            root, names = ANCHOR, {name[len(self._prefix) :] for name in self._written}
+            while root in names:
+                root += "_"
+            self._anchor = root
+            self.links.append(Link(root, None, (), (), _element("link", model.position)))
+            reached, stack = {"world"}, ["world"]
+        else:
+            root = group.links[0][0]
+            self._add(root)
+            reached, stack = {root}, [root]
+        left = list(group.joints)
+        while stack:
+            here = stack.pop()
+            for each in [each for each in left if here in _ends(*each)]:
+                left.remove(each)
+                parent, child = _ends(*each)
+                beyond = child if here == parent else parent
+                if beyond in reached:
+                    raise SimulationError(
+                        f"joint `{each[1].name}` of model `{model.name}` closes a loop, which cannot be simulated: "
+                        "leave one of its joints out",
+                        position=each[1].position,
+                    )
+                reached.add(beyond)
+                stack.append(beyond)
+                self._join(each, here, beyond, reverse=here != parent)
+
+    def _join(self, each: tuple[str, WorldJoint], here: str, beyond: str, *, reverse: bool) -> None:
+        prefix, joint = each
+        name = (prefix + joint.name)[len(self._prefix) if prefix.startswith(self._prefix) else 0 :]
+        element = _element("joint", joint.position)
+        start = IDENTITY if here == "world" else self._poses[here]
+        end = self._poses[beyond]
+        parent = self._anchor if here == "world" else here[len(self._prefix) :]
+        child = beyond[len(self._prefix) :]
+        if joint.type == "fixed":
+            self.joints.append(_plain(name, "fixed", parent, child, between(start, end), element))
+            self._add(beyond)
+            return
+        axis = _axis_of(self._model, joint)
+        frame = compose(self._poses[_ends(*each)[1]], joint.pose)
+        x, y, z = axis.xyz
+        direction = (-x, -y, -z) if reverse else axis.xyz
+        offset = between(frame, end) if reverse or joint.pose != IDENTITY else IDENTITY
+        carried = child if offset == IDENTITY else f"{name}_frame"
+        mimic = self._mimic(prefix, joint, axis, element)
+        origin = between(start, frame)
+        self.joints.append(_moving(name, joint, axis, direction, parent, carried, origin, mimic, element))
+        if carried != child:
+            self.links.append(Link(carried, None, (), (), element))
+            self.joints.append(_plain(f"{name}_frame_joint", "fixed", carried, child, offset, element))
+        self._add(beyond)
+
+    def _mimic(self, prefix: str, joint: WorldJoint, axis: WorldAxis, element: Element) -> Mimic | None:
+        """Return the joint that a joint follows, as URDF has it."""
+        if axis.mimic is None:
+            return None
+        known = {before + other.name: other for before, other in self._group.joints}
+        met, leader = [prefix + joint.name], prefix + axis.mimic.joint
+        while leader not in met:
+            found = known.get(leader)
+            if found is None or found.type == "fixed" or not found.axes:
+                hint = did_you_mean(leader, [name for name, each in known.items() if each.type != "fixed"])
+                raise self._cannot(joint, f"follows `{leader}`, which is no joint that moves with it{hint}")
+            if found.axes[0].mimic is None:
+                break
+            met.append(leader)
+            leader = leader[: len(leader) - len(found.name)] + found.axes[0].mimic.joint
+        else:
+            raise self._cannot(joint, f"follows itself, by {', '.join(f'`{name}`' for name in met)}")
+        name, own = prefix + axis.mimic.joint, axis.mimic
+        name = name.removeprefix(self._prefix)
+        return Mimic(name, own.multiplier, own.offset - own.multiplier * own.reference, element)
+
+    def _cannot(self, joint: WorldJoint, what: str) -> SimulationError:
+        return SimulationError(f"joint `{joint.name}` of model `{self._model.name}` {what}", position=joint.position)
+
+    def _add(self, name: str) -> None:
+        link = self._written[name]
+        element = _element("link", link.position)
+        self.links.append(Link(name[len(self._prefix) :], inertial_of(link), (), (), element))
+
+
+def inertial_of(link: WorldLink) -> Inertial:
+    """Return the mass properties of a link as URDF has them."""
+    body, element = link.inertial, _element("inertial", link.position)
+    tensor = Inertia(body.ixx, body.ixy, body.ixz, body.iyy, body.iyz, body.izz, element)
+    return Inertial(body.pose, body.mass, tensor, element)
+
+
+def _plain(name: str, kind: str, parent: str, child: str, origin: Pose, element: Element) -> Joint:
+    return Joint(name, kind, parent, child, origin, (1.0, 0.0, 0.0), None, None, None, None, None, element)
+
+
+def _moving(
+    name: str,
+    joint: WorldJoint,
+    axis: WorldAxis,
+    direction: Vector,
+    parent: str,
+    child: str,
+    origin: Pose,
+    mimic: Mimic | None,
+    element: Element,
+) -> Joint:
+    endless = isinf(axis.lower) and isinf(axis.upper)
+    kind = "continuous" if joint.type != "prismatic" and endless else joint.type.replace("continuous", "revolute")
+    limit = Limit(axis.lower, axis.upper, _written(axis.effort), _written(axis.velocity), element)
+    dynamics = Dynamics(axis.damping, axis.friction, element)
+    return Joint(name, kind, parent, child, origin, direction, limit, dynamics, mimic, None, None, element)
+
+
+def _written(limit: float) -> float | None:
+    return None if isinf(limit) else limit
+
+
+def _axis_of(model: WorldModel, joint: WorldJoint) -> WorldAxis:
+    if joint.type not in MOVES:
+        raise SimulationError(
+            f"joint `{joint.name}` of model `{model.name}` is {joint.type}, which cannot be simulated: "
+            f"{', '.join(('fixed', *MOVES))} can",
+            position=joint.position,
+        )
+    axis = joint.axes[0]
+    if axis.spring_stiffness:
+        raise SimulationError(
+            f"joint `{joint.name}` of model `{model.name}` has a spring of {axis.spring_stiffness:g}, which cannot be "
+            "simulated: leave <spring_stiffness> out",
+            position=joint.position,
+        )
+    return axis
+
+
+def _ends(prefix: str, joint: WorldJoint) -> tuple[str, str]:
+    """Return the names in the model of the links that a joint joins, parent first; or ``world``."""
+    parent = joint.parent if joint.parent == "world" else prefix + joint.parent
+    return parent, prefix + joint.child
+
+
+def _common_prefix(names: Sequence[str]) -> str:
+    """Return the ``nested::`` that all names start with, empty where there is none."""
+    prefix = ""
+    while True:
+        first, separator, _ = names[0][len(prefix) :].partition("::")
+        if not separator or not all(name.startswith(f"{prefix}{first}::") for name in names):
+            return prefix
+        prefix += f"{first}::"
+
+
+def _blocks(model: WorldModel, group: Group, prefix: str) -> list[GazeboBlock]:
+    """Return the plugins and sensors of a tree as ``<gazebo>`` blocks."""
+    found = []
+    for name, _, link in group.links:
+        sensors = [kept.element for kept in link.kept if kept.element.tag == "sensor"]
+        if sensors:
+            tags = [SensorTag(e.get("name"), e.get("type"), _plugins_in(e), e) for e in sensors]
+            element = Element("gazebo", {"reference": name[len(prefix) :]}, sensors, "", sensors[0].origin)
+            found.append(GazeboBlock(name[len(prefix) :], (), tuple(tags), element))
+    if group.first:
+        kept = [each.element for each in all_kept(model) if each.element.tag == "plugin"]
+        if kept:
+            element = Element("gazebo", {}, kept, "", kept[0].origin)
+            found.append(GazeboBlock(None, _plugins_in(element), (), element))
+    return found
+
+
+def all_kept(model: WorldModel) -> list[Kept]:
+    """Return what is kept of a model and of those nested in it."""
+    return [*model.kept, *(kept for nested in model.models for kept in all_kept(nested))]
+
+
+def _plugins_in(element: Element) -> tuple[Plugin, ...]:
+    return tuple([Plugin(e.get("name"), e.get("filename"), e) for e in element.find_all("plugin")])
+
+
+def _element(tag: str, position: Position | None) -> Element:
+    return Element(tag, {}, [], "", Origin(position or Position("", 0, 0)))

@@ -1,0 +1,252 @@
+"""load_world, load_model: SDF 1.4 to 1.11 read strictly, into one pose for everything.
+
+What would be missing from the simulation is refused with its place (heightmaps, polylines, models that are not there);
+what is only lost to the eye, or to a plugin, is noted in `World.notes`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+from urdfkit.description.packages.resolver import Packages, near_path
+from urdfkit.description.sdf.frame_graph import Scope
+from urdfkit.description.sdf.model import WorldModel
+from urdfkit.description.sdf.model_library import model_file, model_names, world_file, world_names
+from urdfkit.description.sdf.reader.joints import read_joint
+from urdfkit.description.sdf.reader.links import read_light
+from urdfkit.description.sdf.reader.models import Found, add_frame, read_include, read_model
+from urdfkit.description.sdf.reader.reading_state import Context, root_error
+from urdfkit.description.sdf.reader.saved_state import State
+from urdfkit.description.sdf.reader.vocabulary import remark_unknown
+from urdfkit.description.sdf.reader.world_plugins import remark_plugins
+from urdfkit.description.sdf.shapes import Light, keep
+from urdfkit.description.sdf.values import raw_pose, scalar, vector, wrong
+from urdfkit.description.sdf.world import GRAVITY, Physics, World, WorldRobot
+from urdfkit.description.urdf.robot import Pose
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.reader import shown_path
+from urdfkit.errors import DescriptionError, ResourceError, did_you_mean
+
+_SUFFIXES = (".world", ".sdf")
+_ROBOT_SUFFIXES = (".urdf", ".xacro")
+_READ = {"frame", "gravity", "include", "joint", "light", "magnetic_field", "model", "physics", "state"}
+_PHYSICS_READ = {"max_step_size", "real_time_factor", "real_time_update_rate", "gravity", "magnetic_field"}
+_NOT_SIMULATED = {
+    "actor": "actors are not simulated",
+    "population": "populations are not simulated: write their models",
+    "road": "roads are not shown",
+}
+
+
+def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) -> World:
+    """Return the world of that name or in that file.
+
+    Args:
+        world: the name of a world we ship, or a ``.world`` or ``.sdf`` file. A file with a model alone is a world with
+            nothing else in it.
+        package_path: folders to look for models and packages in first.
+
+    Raises:
+        ResourceError: there is none, or it includes what is not there.
+        XmlError: a file is not well-formed XML, or hostile.
+        DescriptionError: it cannot be read, or holds what cannot be simulated; with its place.
+    """
+    path = world_file(str(world)) or Path(world)
+    names = world_names()
+    if path.suffix in _ROBOT_SUFFIXES:
+        raise ResourceError(f"`{world}` is a robot, not a world; give it as MODEL, or include it in a world")
+    if path.is_dir():
+        raise ResourceError(f"`{world}` is a folder; a world is a .world or .sdf file (worlds: {', '.join(names)})")
+    if path.suffix in _SUFFIXES and not path.exists():
+        hint = f"; did you mean `{path.stem}`, which we ship?" if path.stem in names else near_path(path)
+        hint = hint or did_you_mean(path.stem, names) or f" (worlds that we ship: {', '.join(names)})"
+        raise ResourceError(f"cannot read {shown_path(path)}: No such file or directory{hint}")
+    if path.suffix not in _SUFFIXES:
+        raise ResourceError(
+            f"no world `{world}`{did_you_mean(str(world), names)}"
+            f" (worlds: {', '.join(names)}, or a path to a .world or .sdf file)"
+        )
+    context = Context(Packages(package_path, path), path)
+    root = context.open()
+    if root.tag != "sdf":
+        raise root_error(root)
+    remark_unknown(context, root)
+    written = root.find("world")
+    if written is not None:
+        found = _world(context, written)
+    elif (model := root.find("model")) is not None:
+        found = _alone(read_model(context, model))
+    else:
+        raise root_error(root)
+    for each in found.models:
+        _require_masses(each, static=False)
+    remark_plugins(context, found)
+    return replace(found, notes=tuple(context.notes), files=tuple(context.files))
+
+
+def load_model(
+    model: str | Path, *, name: str = "", pose: Pose | None = None, package_path: Iterable[str | Path] = ()
+) -> WorldModel:
+    """Return a model to be put into a world.
+
+    Args:
+        model: the name of a model we ship, ``model://name``, or an ``.sdf`` file.
+        name: what to call it; its own name when empty.
+        pose: where to put it; where it says when None.
+        package_path: folders to look for models and packages in first.
+
+    Raises:
+        ResourceError: there is none.
+        XmlError: a file is not well-formed XML, or hostile.
+        DescriptionError: it cannot be read, or is no model.
+    """
+    path = model_file(str(model)) or Path(model)
+    if str(model).startswith("model://") or (path.suffix != ".sdf" and "/" not in str(model)):
+        path = _named(str(model).removeprefix("model://"), package_path)
+    context = Context(Packages(package_path, path), path)
+    root = context.open()
+    written = root.find("model") if root.tag == "sdf" else None
+    if written is None and root.tag == "sdf" and root.find("world") is not None:
+        raise wrong(root, "this is a world, not a model; give it as --world, or save its models one by one")
+    if written is None:
+        raise wrong(root, "an SDF model starts with <sdf> and has a <model> in it")
+    found = read_model(context, written)
+    if not isinstance(found.thing, WorldModel):
+        raise wrong(written, "this is no model")
+    loaded = _alone(found).models[0]
+    _require_masses(loaded, static=False)
+    return replace(loaded, name=name or loaded.name, pose=loaded.pose if pose is None else pose)
+
+
+def _named(name: str, package_path: Iterable[str | Path]) -> Path:
+    from urdfkit.description.sdf.reader.uris import find_model
+    from urdfkit.description.xml.source import Origin, Position
+
+    here = Path.cwd() / "model"
+    uri = Element("uri", {}, [], f"model://{name}", Origin(Position("", 0, 0)))
+    try:
+        return find_model(Context(Packages(package_path, here), here), uri)
+    except ResourceError as error:
+        names = f" (models: {', '.join(model_names())})"
+        raise ResourceError(error.message + ("" if "did you mean" in error.message else names)) from None
+
+
+def _alone(found: Found) -> World:
+    scope = Scope("world", "the world")
+    found.add_to(scope, strict=True)
+    model = found.placed(scope)
+    assert isinstance(model, WorldModel)
+    return World(model.name, models=(model,), position=model.position)
+
+
+def _world(context: Context, element: Element) -> World:
+    remark_unknown(context, element)
+    scope = Scope("world", f"world `{element.get('name') or ''}`")
+    strict = context.version >= (1, 7)
+    states = element.find_all("state")
+    state = State(context, states[-1]) if states else None
+    things = [_thing(context, child) for child in (*element.children, *(state.inserted if state else ()))]
+    found = [thing for thing in things if thing is not None]
+    if state is not None:
+        found = [thing for thing in found if thing.thing.name not in state.deleted]
+    for thing in found:
+        thing.add_to(scope, strict=strict)
+    for child in element.children:
+        if child.tag in ("frame", "joint"):
+            add_frame(scope, child, strict=strict)
+        elif child.tag in _NOT_SIMULATED:
+            context.note(child, _NOT_SIMULATED[child.tag])
+        elif child.tag == "wind" and any(vector(child, "linear_velocity", (0.0, 0.0, 0.0))):
+            context.note(child, "the wind does not blow here: <wind> is kept, but moves nothing")
+    placed = [thing.placed(scope) for thing in found]
+    models = [each for each in placed if isinstance(each, WorldModel)]
+    lights = [each for each in placed if isinstance(each, Light)]
+    if state is not None:
+        state.remark_strangers([each.name for each in models])
+        models, lights = [state.model(each) for each in models], [state.light(each) for each in lights]
+    physics = _physics_element(element)
+    gravity = vector(physics, "gravity", GRAVITY)  # SDF 1.5 and older write it there
+    default = World("")
+    return World(
+        element.get("name") or context.path.stem,
+        vector(element, "gravity", gravity),
+        tuple(models),
+        tuple(lights),
+        Physics() if physics is None else _physics(context, physics),
+        tuple([each for each in placed if isinstance(each, WorldRobot)]),
+        tuple([read_joint(context, joint, scope) for joint in element.find_all("joint")]),
+        vector(element, "magnetic_field", default.magnetic_field),
+        tuple([keep(child) for child in element.children if child.tag not in _READ]),
+        position=element.origin.position,
+    )
+
+
+def _thing(context: Context, element: Element) -> Found | None:
+    if element.tag == "model":
+        return read_model(context, element)
+    if element.tag == "light":
+        return Found(read_light(context, element, Pose()), raw_pose(element))
+    if element.tag == "include" and element.get("merge", "false") in ("true", "1"):
+        raise wrong(element, 'merge="true" is for models in models; leave it out')
+    return read_include(context, element) if element.tag == "include" else None
+
+
+def _physics_element(world: Element) -> Element | None:
+    profiles = world.find_all("physics")
+    chosen = [each for each in profiles if (each.get("default") or "").lower() in ("true", "1")]
+    return next(iter(chosen or profiles), None)
+
+
+def _physics(context: Context, element: Element) -> Physics:
+    default = Physics()
+    step = scalar(element, "max_step_size", default.max_step_size)
+    if step <= 0:
+        raise wrong(
+            element.find("max_step_size") or element, f"<max_step_size> is {step:g} s; it must be more than zero"
+        )
+    pace = scalar(element, "real_time_factor", default.real_time_factor)
+    if pace not in (0, default.real_time_factor):
+        context.note(
+            element.find("real_time_factor") or element,
+            f"<real_time_factor> {pace:g} is kept, but not followed: teleop keeps pace with the clock",
+        )
+    return Physics(
+        step,
+        pace,
+        scalar(element, "real_time_update_rate", default.real_time_update_rate),
+        element.get("type") or default.engine,
+        element.get("name") or "",
+        tuple([keep(child) for child in element.children if child.tag not in _PHYSICS_READ]),
+    )
+
+
+def _require_masses(model: WorldModel, *, static: bool) -> None:
+    """Refuse what moves without a body or a mass, or with an inertia that nothing has."""
+    static = static or model.static
+    if not (model.static or model.links or model.models):  # as sdformat has it
+        raise DescriptionError(
+            f"model `{model.name}` has no link; give it one or make it <static>", position=model.position
+        )
+    for link in () if static else model.links:
+        body = link.inertial
+        fault = ""
+        if body.mass <= 0:
+            fault = f"its mass is {body.mass:g} kg"
+        elif not _is_positive_definite(body.ixx, body.ixy, body.ixz, body.iyy, body.iyz, body.izz):
+            fault = "no body has its inertia: the tensor is not positive definite"
+        if fault:
+            raise DescriptionError(
+                f"link `{link.name}` of model `{model.name}` cannot move: {fault}; make the model <static> or mend it",
+                position=link.position,
+            )
+    for nested in model.models:
+        _require_masses(nested, static=static)
+
+
+def _is_positive_definite(ixx: float, ixy: float, ixz: float, iyy: float, iyz: float, izz: float) -> bool:
+    """Say so by Sylvester's criterion."""
+    minor = ixx * iyy - ixy * ixy
+    whole = ixx * (iyy * izz - iyz * iyz) - ixy * (ixy * izz - iyz * ixz) + ixz * (ixy * iyz - iyy * ixz)
+    return ixx > 0 and minor > 0 and whole > 0

@@ -1,0 +1,193 @@
+"""Models of SDF: links, joints, frames and models inside models, and what is included from other files."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from urdfkit.description.sdf.frame_graph import Scope
+from urdfkit.description.sdf.model import WorldModel
+from urdfkit.description.sdf.reader.joints import read_joint
+from urdfkit.description.sdf.reader.links import read_light, read_link
+from urdfkit.description.sdf.reader.reading_state import Context
+from urdfkit.description.sdf.reader.vocabulary import remark_unknown
+from urdfkit.description.sdf.shapes import Light, keep
+from urdfkit.description.sdf.values import RawPose, boolean, name_of, raw_pose, text, wrong
+from urdfkit.description.sdf.world import WorldRobot
+from urdfkit.description.urdf.robot import Pose
+from urdfkit.description.xml.element import Element
+
+_READ = {"frame", "include", "joint", "link", "model", "pose", "self_collide", "static"}
+
+
+class Found:
+    """What a ``<model>`` or an ``<include>`` turned out to be, its pose yet to be resolved.
+
+    Attributes:
+        thing: the model, robot or light.
+        raw: its pose as written.
+        placement: the frame inside it that the pose is of.
+        scope: the frames of a model.
+    """
+
+    def __init__(
+        self, thing: WorldModel | WorldRobot | Light, raw: RawPose, placement: str = "", scope: Scope | None = None
+    ) -> None:
+        self.thing, self.raw, self.placement, self.scope = thing, raw, placement, scope
+
+    def add_to(self, scope: Scope, *, strict: bool) -> None:
+        """Add the frame of a model to those around it; lights have none.
+
+        Raises:
+            DescriptionError: its name is taken.
+        """
+        if not isinstance(self.thing, Light):
+            name = self.thing.name
+            scope.add(name, "model", self.raw, placement=self.placement, nested=self.scope, strict=strict)
+
+    def placed(self, scope: Scope) -> WorldModel | WorldRobot | Light:
+        """Return the thing with its pose in the frames around it.
+
+        Raises:
+            DescriptionError: the pose is given in a frame that is not there.
+        """
+        if isinstance(self.thing, Light):
+            return replace(self.thing, pose=scope.place(self.raw, scope.root, scope.root))
+        return replace(self.thing, pose=scope.pose(self.thing.name, self.raw.position))
+
+
+def read_model(context: Context, element: Element) -> Found:
+    """Read a ``<model>``.
+
+    Raises:
+        ResourceError: it includes, or shows, what is not there.
+        DescriptionError: it cannot be read.
+    """
+    remark_unknown(context, element)
+    name = name_of(element)
+    scope = Scope("__model__", f"model `{name}`")
+    strict = context.version >= (1, 7)
+    inside: list[Found] = []
+    merged: list[WorldModel] = []
+    for child in element.children:
+        if child.tag in ("model", "include"):
+            found = read_model(context, child) if child.tag == "model" else read_include(context, child)
+            if found is None:
+                continue
+            if not isinstance(found.thing, WorldModel):
+                raise wrong(child, "a model may include models only, neither lights nor URDF files")
+            if child.get("merge", "false") in ("true", "1") and found.scope is not None:
+                scope.merge(found.thing.name, found.scope, found.raw, found.placement)
+                merged.append(found.thing)
+                continue
+            found.add_to(scope, strict=strict)
+            inside.append(found)
+        else:
+            add_frame(scope, child, strict=strict)
+    scope.canonical = _canonical(element, scope)
+    links = [read_link(context, link, scope) for link in element.find_all("link")]
+    joints = [read_joint(context, joint, scope) for joint in element.find_all("joint")]
+    models = [each for found in inside if isinstance(each := found.placed(scope), WorldModel)]
+    kept = [keep(child) for child in element.children if child.tag not in _READ]
+    for part in merged:
+        links += [replace(each, pose=scope.pose(each.name)) for each in part.links]
+        models += [replace(each, pose=scope.pose(each.name)) for each in part.models]
+        joints += part.joints
+        kept += part.kept
+    model = WorldModel(
+        name,
+        static=boolean(element, "static", False),
+        links=tuple(links),
+        joints=tuple(joints),
+        models=tuple(models),
+        self_collide=boolean(element, "self_collide", False),
+        canonical_link=scope.canonical,
+        kept=tuple(kept),
+        position=element.origin.position,
+    )
+    return Found(model, raw_pose(element), element.get("placement_frame") or "", scope)
+
+
+def add_frame(scope: Scope, element: Element, *, strict: bool) -> None:
+    """Add the frame that a link, joint or ``<frame>`` is; other elements are none.
+
+    Raises:
+        DescriptionError: its name is missing or taken.
+    """
+    if element.tag == "link":
+        scope.add(name_of(element), "link", raw_pose(element), strict=strict)
+    elif element.tag == "joint":
+        scope.add(name_of(element), "joint", raw_pose(element), default=text(element, "child"), strict=strict)
+    elif element.tag == "frame":
+        scope.add(name_of(element), "frame", raw_pose(element), default=element.get("attached_to") or "", strict=strict)
+
+
+def _canonical(element: Element, scope: Scope) -> str:
+    written = element.get("canonical_link") or ""
+    if written:
+        link = scope.link_of(written, element.origin.position)
+        if link != written:
+            raise wrong(element, f"canonical_link `{written}` is no link")
+    return written
+
+
+def read_include(context: Context, element: Element) -> Found | None:
+    """Read an ``<include>``: a model, a light, or a URDF.
+
+    Returns:
+        What is included; None where it is an actor, which is noted.
+
+    Raises:
+        ResourceError: there is no such model.
+        DescriptionError: it cannot be read.
+    """
+    from urdfkit.description.sdf.reader.uris import find_model
+
+    remark_unknown(context, element)
+    uri = element.find("uri")
+    if uri is None:
+        raise wrong(element, "<include> lacks its <uri>")
+    path = find_model(context, uri)
+    called = text(element, "name")
+    if path.suffix in (".urdf", ".xacro"):
+        if text(element, "placement_frame"):
+            raise wrong(element, "<placement_frame> of a URDF is not read; place its root link")
+        robot = WorldRobot(
+            called or path.name.partition(".")[0],
+            uri.text if "://" in uri.text else f"file://{path}",
+            str(path),
+            static=boolean(element, "static", False),
+            kept=tuple([keep(child) for child in element.find_all("plugin")]),
+            position=element.origin.position,
+        )
+        return Found(robot, raw_pose(element))
+    inner = context.enter(path, uri)
+    root = inner.open()
+    found = _first(inner, root)
+    if found is None:
+        context.note(element, f"{uri.text} is an actor, which is not simulated")
+        return None
+    found.thing = replace(found.thing, position=element.origin.position)
+    if called:
+        found.thing = replace(found.thing, name=called)
+    if element.find("pose") is not None:
+        found.raw, found.placement = raw_pose(element), text(element, "placement_frame")
+    elif text(element, "placement_frame"):
+        raise wrong(element, "<placement_frame> needs a <pose> beside it")
+    if isinstance(found.thing, WorldModel):
+        plugins = tuple([keep(child) for child in element.find_all("plugin")])
+        static = boolean(element, "static", found.thing.static)
+        found.thing = replace(found.thing, static=static, kept=found.thing.kept + plugins)
+    return found
+
+
+def _first(context: Context, root: Element) -> Found | None:
+    if root.tag != "sdf":
+        raise wrong(root, f"<{root.tag}> is no model: an SDF model starts with <sdf> and has a <model> in it")
+    for child in root.children:
+        if child.tag == "model":
+            return read_model(context, child)
+        if child.tag == "light":
+            return Found(read_light(context, child, Pose()), raw_pose(child))
+        if child.tag == "actor":
+            return None
+    raise wrong(root, "there is neither a <model> nor a <light> in this file")

@@ -1,0 +1,101 @@
+"""What reading a world carries along: the version, where files are looked for, and the remarks so far."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from urdfkit.description.packages.resolver import Packages
+from urdfkit.description.sdf.values import wrong
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.reader import absolute, document_of, read_source, shown_path
+from urdfkit.errors import DescriptionError, did_you_mean
+
+OLDEST, NEWEST = (1, 4), (1, 11)
+"""The versions of SDF that are read."""
+
+_MAX_NESTING = 20
+_VERSION = re.compile(r"^(\d+)\.(\d+)$")
+
+
+class Context:
+    """Where the reader stands: in which file, of which version of SDF.
+
+    Args:
+        packages: finds ``model://`` and ``package://``.
+        path: the file.
+
+    Attributes:
+        notes: remarks for the user, shared by all files of a world.
+        files: what was read, in order.
+        version: of SDF, in this file.
+    """
+
+    def __init__(self, packages: Packages, path: Path) -> None:
+        self.packages = packages
+        self.path = absolute(path)
+        self.version = NEWEST
+        self.notes: list[str] = []
+        self.files: list[Path] = []
+        self._documents: dict[Path, Element] = {}
+        self._above: tuple[Path, ...] = ()
+
+    def open(self) -> Element:
+        """Read this file and return its root; sets `version`.
+
+        Raises:
+            ResourceError: it cannot be read.
+            XmlError: it is not well-formed, or hostile.
+            DescriptionError: it is no SDF of a version that is read.
+        """
+        root = self._documents.get(self.path)
+        if root is None:
+            root = document_of(read_source(self.path, shown_as=shown_path(self.path)))
+            self._documents[self.path] = root
+            self.files.append(self.path)
+        if root.tag == "sdf":
+            self.version = self._version(root)
+        return root
+
+    def enter(self, path: Path, at: Element) -> Context:
+        """Return the context of a file that this one includes.
+
+        Raises:
+            DescriptionError: files include each other in a circle.
+        """
+        inner = Context(self.packages, path)
+        inner.notes, inner.files, inner._documents = self.notes, self.files, self._documents
+        inner._above = (*self._above, self.path)
+        if inner.path in inner._above or len(inner._above) > _MAX_NESTING:
+            raise wrong(at, f"{shown_path(path)} includes itself")
+        return inner
+
+    def note(self, element: Element, text: str) -> None:
+        """Remark something about an element, once."""
+        line = f"{element.origin.position}: {text}"
+        if line not in self.notes:
+            self.notes.append(line)
+
+    def _version(self, root: Element) -> tuple[int, int]:
+        written = root.get("version")
+        if written is None:
+            raise wrong(root, f'<sdf> lacks its version: write <sdf version="1.{min(NEWEST[1], 9)}">')
+        found = _VERSION.match(written.strip())
+        if found is None:
+            raise wrong(root, f"version `{written}` is no version of SDF{did_you_mean(written, ['1.6', '1.9'])}")
+        version = int(found[1]), int(found[2])
+        if version < OLDEST or version[0] > NEWEST[0]:
+            oldest, newest = (".".join(map(str, each)) for each in (OLDEST, NEWEST))
+            raise wrong(root, f"SDF {written} is not read: versions {oldest} to {newest} are")
+        if version > NEWEST:
+            self.note(root, f"SDF {written} is newer than 1.{NEWEST[1]}; what is new in it is ignored")
+        return version
+
+
+def root_error(root: Element) -> DescriptionError:
+    """Return the error for a file that is no SDF at all."""
+    if root.tag == "robot":
+        return wrong(
+            root, "this is a robot; an SDF world starts with <sdf>: give the robot as MODEL, or include it in a world"
+        )
+    return wrong(root, "an SDF world starts with <sdf> and has a <world> or a <model> in it")

@@ -1,0 +1,131 @@
+"""Which file a URI in SDF means: models by name, meshes, and nothing from the network."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from urdfkit.description.packages.resolver import near_path
+from urdfkit.description.sdf.model_library import ALIKE, FOLDER, model_file, model_names, stand_in
+from urdfkit.description.sdf.reader.reading_state import NEWEST, Context
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.reader import document_of, read_source, shown_path
+from urdfkit.errors import ResourceError, did_you_mean
+
+MODEL_SUFFIXES = (".sdf", ".urdf", ".xacro", ".world")
+_REMOTE = re.compile(r"^(https?|fuel)://", re.IGNORECASE)
+
+
+def find_file(context: Context, uri: Element) -> Path:
+    """Return the file that the URI of a mesh means.
+
+    Args:
+        context: the file it is written in; a plain path starts from there.
+        uri: the element whose text it is.
+
+    Raises:
+        ResourceError: there is no such file, or it is on the network.
+    """
+    _refuse_remote(uri)
+    scheme, _, rest = uri.text.partition("://")
+    name, _, inside = rest.partition("/")
+    if scheme == "model":
+        # A model is called what its folder is: its own files need no search.
+        for folder in context.path.parents:
+            if folder.name == name and (folder / inside).is_file():
+                return folder / inside
+    try:
+        return context.packages.resolve(uri.text, context.path)
+    except ResourceError as error:
+        raise ResourceError(error.message, position=uri.origin.position) from None
+
+
+def find_model(context: Context, uri: Element) -> Path:
+    """Return the SDF or URDF file of a model that is included.
+
+    Models of the user's come first (the folders around the file, GAZEBO_MODEL_PATH, GZ_SIM_RESOURCE_PATH, packages),
+    then those we ship; where we ship only one like it, that is noted.
+
+    Raises:
+        ResourceError: there is none; names the nearest.
+    """
+    _refuse_remote(uri)
+    text = uri.text.strip()
+    scheme, separator, rest = text.partition("://")
+    if separator and scheme not in ("model", "package", "file"):
+        raise ResourceError(
+            f"`{text}`: models are read from model://, package://, file:// or a path", position=uri.origin.position
+        )
+    name, _, inside = rest.partition("/") if scheme == "model" else ("", "", "")
+    if name and not inside and FOLDER in context.path.parents and (ours := model_file(name)):
+        return ours
+    path = _users(context, text, name, inside)
+    if path is not None:
+        return _entry(path, uri)
+    if name and not inside.strip("/") and (found := stand_in(name)) is not None:
+        if found[0] != name or name in ALIKE:
+            which = "the one we ship" if found[0] == name else f"`{found[0]}`, which we ship,"
+            context.note(uri, f"{text}: {which} stands in for it")
+        return found[1]
+    if name:
+        hint = did_you_mean(name, model_names())
+        where = "on GAZEBO_MODEL_PATH, GZ_SIM_RESOURCE_PATH or around this file, nor among those we ship"
+        raise ResourceError(f"no model `{name}` {where}{hint}", position=uri.origin.position)
+    raise ResourceError(f"no model {text}{near_path(context.path.parent / text)}", position=uri.origin.position)
+
+
+def _users(context: Context, text: str, name: str, inside: str) -> Path | None:
+    if not name:
+        try:
+            return context.packages.resolve(text.removeprefix("file://"), context.path)
+        except ResourceError:
+            return None
+    for folder in context.path.parents[:5]:
+        for around in (folder / "models" / name, folder / name):
+            if _is_model(around) or (inside and (around / inside).exists()):
+                return around / inside
+    try:
+        found = context.packages.find(name)
+    except ResourceError:
+        return None
+    return found / inside if inside or _is_model(found) else None
+
+
+def _is_model(folder: Path) -> bool:
+    return (folder / "model.config").is_file() or (folder / "model.sdf").is_file()
+
+
+def _entry(path: Path, uri: Element) -> Path:
+    """Return the model file itself: of a folder, the newest that its model.config names."""
+    if path.is_file():
+        return path
+    manifest, plain = path / "model.config", path / "model.sdf"
+    if not manifest.is_file():
+        manifest = path / "manifest.xml"
+    if manifest.is_file():
+        root = document_of(read_source(manifest, shown_as=shown_path(manifest)))
+        named = [(_version(each), each.text.strip()) for each in root.find_all("sdf") if each.text.strip()]
+        fit = [each for each in named if each[0] <= NEWEST] or named
+        if fit:
+            found = path / max(fit, key=lambda each: each[0])[1]
+            if found.is_file():
+                return found
+            raise ResourceError(f"no file {shown_path(found)}{near_path(found)}", position=uri.origin.position)
+    if plain.is_file():
+        return plain
+    raise ResourceError(f"no model.config and no model.sdf in {shown_path(path)}", position=uri.origin.position)
+
+
+def _version(element: Element) -> tuple[int, ...]:
+    words = (element.get("version") or "1.0").split(".")
+    return tuple(int(word) if word.isdigit() else 0 for word in words)
+
+
+def _refuse_remote(uri: Element) -> None:
+    if not uri.text.strip():
+        raise ResourceError(f"<{uri.tag}> is empty", position=uri.origin.position)
+    if _REMOTE.match(uri.text.strip()):
+        words = [word for word in uri.text.strip().lower().split("/") if word and not word.isdigit()]
+        near = stand_in(words[-1])
+        hint = f"; we ship model://{near[0]}" if near else "; download it and name its folder: model://…"
+        raise ResourceError(f"{uri.text}: nothing is fetched from the network{hint}", position=uri.origin.position)

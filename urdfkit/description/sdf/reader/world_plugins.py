@@ -1,0 +1,83 @@
+"""Plugins of worlds: those that do for Gazebo what happens here anyway, and a remark on those nobody here runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from urdfkit.description.plugins.lookup import match, stem
+from urdfkit.description.plugins.unknown_plugins import nearest
+from urdfkit.description.sdf.model import WorldModel
+from urdfkit.description.sdf.reader.reading_state import Context
+from urdfkit.description.sdf.shapes import plugins_of
+from urdfkit.description.sdf.world import World
+from urdfkit.description.urdf.robot import Plugin
+
+NEEDLESS = frozenset(
+    {
+        "gz-sim-physics-system",
+        "gz-sim-user-commands-system",
+        "gz-sim-scene-broadcaster-system",
+        "gz-sim-sensors-system",
+        "gz-sim-contact-system",
+        "gz-sim-imu-system",
+        "gz-sim-navsat-system",
+        "gz-sim-altimeter-system",
+        "gz-sim-air-pressure-system",
+        "gz-sim-magnetometer-system",
+        "gz-sim-forcetorque-system",
+        "gz-sim-label-system",
+        "ignition-gazebo-label-system",
+        "gz-sim-joint-state-publisher-system",
+        "gazebo_ros_api_plugin",
+        "gazebo_ros_paths_plugin",
+        "gazebo_ros_init",
+        "gazebo_ros_factory",
+        "gazebo_ros_state",
+        "gazebo_ros_force_system",
+        "gazebo_ros_properties",
+    }
+)
+"""File names, bare, of what the simulator does without being told."""
+
+
+def remark_plugins(context: Context, world: World) -> None:
+    """Note the plugins of a world and of what is in it that are not known, each with the nearest known name.
+
+    Args:
+        context: of the world's file.
+        world: what was read.
+    """
+    for plugin, owner in _plugins(world):
+        name = stem(plugin.filename or "").replace("ignition-gazebo", "gz-sim")
+        if name in NEEDLESS or match(plugin) is not None:
+            continue
+        near = nearest(name, NEEDLESS)
+        hint = f"; did you mean `{near}`?" if near else ""
+        context.note(
+            plugin.element, f"unknown plugin `{plugin.filename or plugin.name or ''}` in {owner} is left out{hint}"
+        )
+
+
+def _plugins(world: World) -> Iterator[tuple[Plugin, str]]:
+    for plugin in world.plugins:
+        yield plugin, "the world"
+    for model in world.models:
+        yield from _of(model)
+    for robot in world.robots:
+        for plugin in plugins_of(robot.kept):
+            yield plugin, f"robot `{robot.name}`"
+
+
+def _of(model: WorldModel) -> Iterator[tuple[Plugin, str]]:
+    for plugin in model.plugins:
+        yield plugin, f"model `{model.name}`"
+    for link in model.links:
+        for kept in link.kept:
+            if kept.element.tag == "sensor":
+                for element in kept.element.find_all("plugin"):
+                    owner = f"sensor `{kept.element.get('name')}` of model `{model.name}`"
+                    yield Plugin(element.get("name"), element.get("filename"), element), owner
+        for plugin in plugins_of(link.kept):
+            yield plugin, f"link `{link.name}` of model `{model.name}`"
+    for nested in model.models:
+        yield from _of(nested)

@@ -1,0 +1,198 @@
+"""Shapes and lights of a world, and the records everything in a world is made of.
+
+SI units throughout. Records compare by what they say, not by where it was written.
+"""
+
+from __future__ import annotations
+
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Plugin, Pose, Sphere, Vector
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Position
+from urdfkit.record import field, record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+Rgba = tuple[float, float, float, float]
+
+_PLACES = frozenset(("position", "notes", "files", "element"))
+
+
+class Written:
+    """Compares by what is written, not by where."""
+
+    def _said(self) -> tuple[Any, ...]:
+        names: tuple[str, ...] = type(self)._record_names  # type: ignore[attr-defined]
+        return tuple([self.__dict__[name] for name in names if name not in _PLACES])
+
+    def __eq__(self, other: object) -> bool:
+        return self._said() == other._said() if isinstance(other, type(self)) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._said())
+
+
+@record
+class Plane:
+    """An infinite plane through the origin of its frame; `size` [m] is what is drawn of it. `normal` is of length 1."""
+
+    normal: Vector = (0.0, 0.0, 1.0)
+    size: tuple[float, float] = (1.0, 1.0)
+
+
+@record
+class Ellipsoid:
+    """`radii` along x, y and z [m]."""
+
+    radii: Vector
+
+
+@record
+class Cone:
+    """Apex up along z, the origin half way up; `radius` of the base and full `length` [m] (SDF 1.11)."""
+
+    radius: float
+    length: float
+
+
+WorldGeometry = Box | Cylinder | Sphere | Capsule | Cone | Ellipsoid | Plane | Mesh
+
+
+@record(eq=False)
+class Kept(Written):
+    """An element that is kept as it is: a plugin, a sensor, a setting nobody here reads.
+
+    Attributes:
+        text: its XML, on one line, as `element` would be written out.
+        element: what was read.
+    """
+
+    text: str
+    element: Element = field(repr=False)
+
+
+@record
+class Surface:
+    """How a collision touches others; the defaults are sdformat's (surface.sdf), for ODE.
+
+    Attributes:
+        mu: Coulomb friction coefficient along `fdir1`.
+        mu2: across it.
+        fdir1: first friction direction in the collision's frame; zero where none is written.
+        slip1: slip along `fdir1` [m/(s·N)].
+        slip2: across it.
+        kp: contact stiffness [N/m].
+        kd: contact damping [N·s/m].
+        min_depth: penetration before a contact pushes back [m].
+        max_vel: fastest that a penetration is undone [m/s].
+        restitution: coefficient of restitution.
+        bounce_threshold: slowest impact that bounces [m/s].
+        collide_bitmask: two collisions meet where their bits overlap.
+        collide_without_contact: contacts are felt by sensors only.
+    """
+
+    mu: float = 1.0
+    mu2: float = 1.0
+    fdir1: Vector = (0.0, 0.0, 0.0)
+    slip1: float = 0.0
+    slip2: float = 0.0
+    kp: float = 1e12
+    kd: float = 1.0
+    min_depth: float = 0.0
+    max_vel: float = 0.01
+    restitution: float = 0.0
+    bounce_threshold: float = 100_000.0
+    collide_bitmask: int = 65535
+    collide_without_contact: bool = False
+
+
+@record(eq=False)
+class WorldShape(Written):
+    """A collision or a visual of a link.
+
+    Attributes:
+        name: unique in its link among its kind.
+        geometry: what shape it is.
+        pose: in the link.
+        surface: of a collision; that of a visual means nothing.
+        rgba: diffuse colour of a visual, each 0..1; None where not written.
+        transparency: of a visual: 0 is opaque, 1 is not seen.
+        material: name of the Gazebo material script, e.g. ``Gazebo/Grey``; empty where none is written.
+        laser_retro: what a lidar reads as intensity.
+        file: the mesh on this machine; empty for other shapes, and where the mesh is not there.
+        kept: what else was written.
+        position: where.
+    """
+
+    name: str
+    geometry: WorldGeometry
+    pose: Pose = Pose()
+    surface: Surface = Surface()
+    rgba: Rgba | None = None
+    transparency: float = 0.0
+    material: str = ""
+    laser_retro: float = 0.0
+    file: str = ""
+    kept: tuple[Kept, ...] = ()
+    position: Position | None = field(default=None, repr=False)
+
+
+@record(eq=False)
+class Light(Written):
+    """A light.
+
+    Attributes:
+        name: unique among the lights around it.
+        type: ``point``, ``directional`` or ``spot``.
+        pose: in the world or the link.
+        direction: where directional and spot lights shine, in the light's frame.
+        diffuse: colour, each 0..1.
+        specular: colour, each 0..1.
+        attenuation: range [m], constant, linear [1/m] and quadratic [1/m²] factor.
+        spot: inner and outer angle [rad], falloff.
+        cast_shadows: whether it does.
+        intensity: factor on the colours.
+        kept: what else was written.
+        position: where.
+    """
+
+    name: str
+    type: str = "point"
+    pose: Pose = Pose()
+    direction: Vector = (0.0, 0.0, -1.0)
+    diffuse: Rgba = (1.0, 1.0, 1.0, 1.0)
+    specular: Rgba = (0.1, 0.1, 0.1, 1.0)
+    attenuation: tuple[float, float, float, float] = (10.0, 1.0, 1.0, 0.0)
+    spot: Vector = (0.0, 0.0, 0.0)
+    cast_shadows: bool = False
+    intensity: float = 1.0
+    kept: tuple[Kept, ...] = ()
+    position: Position | None = field(default=None, repr=False)
+
+
+def plugins_of(kept: tuple[Kept, ...]) -> tuple[Plugin, ...]:
+    """Return those of the elements that are plugins."""
+    elements = [each.element for each in kept if each.element.tag == "plugin"]
+    return tuple([Plugin(e.get("name"), e.get("filename"), e) for e in elements])
+
+
+def keep(element: Element) -> Kept:
+    """Return an element to be kept as it is."""
+    return Kept(xml_of(element), element)
+
+
+def xml_of(element: Element) -> str:
+    """Return an element as XML on one line."""
+    parts = [element.tag]
+    parts += [f'{name}="{escaped(value, quoted=True)}"' for name, value in element.attributes.items()]
+    inside = escaped(element.text) + "".join([xml_of(child) for child in element.children])
+    return f"<{' '.join(parts)}>{inside}</{element.tag}>" if inside else f"<{' '.join(parts)}/>"
+
+
+def escaped(text: str, *, quoted: bool = False) -> str:
+    """Return text as it is written in XML, `quoted` for an attribute."""
+    text = text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace("\r", "&#13;")
+    if quoted:
+        text = text.replace('"', "&quot;").replace("\n", "&#10;").replace("\t", "&#9;")
+    return text

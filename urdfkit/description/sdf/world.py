@@ -1,0 +1,140 @@
+"""The world as written: gravity, models, lights, physics."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from pathlib import Path
+
+from urdfkit.description.sdf.model import WorldJoint, WorldModel
+from urdfkit.description.sdf.poses import compose, rotate, rotation_of
+from urdfkit.description.sdf.shapes import Kept, Light, Plane, Written, plugins_of
+from urdfkit.description.urdf.robot import Plugin, Pose, Vector
+from urdfkit.description.xml.source import Position
+from urdfkit.record import field, record
+
+GROUND_MU = 100.0
+"""Friction coefficient of Gazebo's ground plane (gazebo_models/ground_plane/model.sdf)."""
+
+GRAVITY: Vector = (0.0, 0.0, -9.8)
+"""Where an SDF world does not say (sdformat, world.sdf) [m/s²]."""
+
+
+@record(eq=False)
+class WorldRobot(Written):
+    """A URDF that the world includes.
+
+    Attributes:
+        name: what it is called here.
+        uri: as written.
+        file: the URDF on this machine.
+        pose: of its root link in the world.
+        static: does not move.
+        kept: plugins and what else was written.
+        position: where.
+    """
+
+    name: str
+    uri: str
+    file: str
+    pose: Pose = Pose()
+    static: bool = False
+    kept: tuple[Kept, ...] = ()
+    position: Position | None = field(default=None, repr=False)
+
+
+@record
+class Physics:
+    """How the world asks to be simulated; the defaults are sdformat's (physics.sdf).
+
+    Attributes:
+        max_step_size: [s].
+        real_time_factor: wanted; 0 is as fast as it goes.
+        real_time_update_rate: steps a second of real time [1/s].
+        engine: ``ode``, ``bullet``, ``dart``, ``simbody`` or ``ignored``.
+        name: of the profile.
+        kept: settings of one engine or another.
+    """
+
+    max_step_size: float = 0.001
+    real_time_factor: float = 1.0
+    real_time_update_rate: float = 1000.0
+    engine: str = "ode"
+    name: str = ""
+    kept: tuple[Kept, ...] = ()
+
+
+@record
+class Ground:
+    """A horizontal plane that does not move.
+
+    Attributes:
+        name: of its model: what contacts call it.
+        height: z of the surface [m].
+        mu: Coulomb friction coefficient; a pair of surfaces meets with the smaller one.
+    """
+
+    name: str = "ground_plane"
+    height: float = 0.0
+    mu: float = GROUND_MU
+
+
+@record(eq=False)
+class World(Written):
+    """Where robots are simulated.
+
+    Attributes:
+        name: e.g. ``empty``.
+        gravity: [m/s²].
+        models: everything in it that has a body, the ground too.
+        lights: what shines.
+        physics: how it asks to be simulated.
+        robots: URDF files it includes.
+        joints: between models (SDF 1.10).
+        magnetic_field: [T].
+        kept: plugins, scene, gui and what else was written.
+        notes: remarks of the reader for the user, one line each.
+        files: all files that were read, the world first.
+        position: where the world starts.
+    """
+
+    name: str
+    gravity: Vector = GRAVITY
+    models: tuple[WorldModel, ...] = ()
+    lights: tuple[Light, ...] = ()
+    physics: Physics = Physics()
+    robots: tuple[WorldRobot, ...] = ()
+    joints: tuple[WorldJoint, ...] = ()
+    magnetic_field: Vector = (5.5645e-6, 22.8758e-6, -42.3884e-6)
+    kept: tuple[Kept, ...] = ()
+    notes: tuple[str, ...] = field(default=(), repr=False)
+    files: tuple[Path, ...] = field(default=(), repr=False)
+    position: Position | None = field(default=None, repr=False)
+
+    @cached_property
+    def model_by_name(self) -> dict[str, WorldModel]:
+        """Models by name."""
+        return {model.name: model for model in self.models}
+
+    @cached_property
+    def plugins(self) -> tuple[Plugin, ...]:
+        """Plugins of the world itself."""
+        return plugins_of(self.kept)
+
+    @cached_property
+    def ground(self) -> Ground | None:
+        """The first level plane that does not move; None where there is nothing to stand on."""
+        for model in self.models:
+            if model.static and (ground := ground_of(model)) is not None:
+                return ground
+        return None
+
+
+def ground_of(model: WorldModel) -> Ground | None:
+    """Return the first level plane among a model's collisions, facing up, as a ground; None where there is none."""
+    for _, pose, link in model.all_links():
+        for shape in link.collisions:
+            if isinstance(shape.geometry, Plane):
+                placed = compose(compose(model.pose, pose), shape.pose)
+                if rotate(rotation_of(placed), shape.geometry.normal)[2] > 1 - 1e-12:
+                    return Ground(model.name, placed.xyz[2], shape.surface.mu)
+    return None

@@ -1,0 +1,51 @@
+"""The extensions of URDF: transmissions, ``<gazebo>`` and ``<ros2_control>``."""
+
+from __future__ import annotations
+
+from urdfkit.description.urdf.robot import (
+    Actuator,
+    GazeboBlock,
+    Plugin,
+    Ros2Control,
+    SensorTag,
+    Transmission,
+    TransmissionJoint,
+)
+from urdfkit.description.urdf.values import Reader
+from urdfkit.description.xml.element import Element
+
+
+def transmission(reader: Reader, element: Element) -> Transmission:
+    """Read a ``<transmission>``, in today's form (``<type>``) or the old one (``type=…``)."""
+    kind = element.find("type")
+    return Transmission(
+        element.get("name"),
+        kind.text if kind is not None else element.get("type"),
+        tuple([TransmissionJoint(e.get("name"), _interfaces(e), e) for e in element.find_all("joint")]),
+        tuple(
+            [
+                Actuator(e.get("name"), _interfaces(e), reader.inner_number(e.find("mechanicalReduction")), e)
+                for e in element.find_all("actuator")
+            ]
+        ),
+        element,
+    )
+
+
+def gazebo_block(element: Element) -> GazeboBlock:
+    """Read a ``<gazebo>``; what is neither plugin nor sensor stays in its element."""
+    sensors = [SensorTag(e.get("name"), e.get("type"), _plugins(e), e) for e in element.find_all("sensor")]
+    return GazeboBlock(element.get("reference"), _plugins(element), tuple(sensors), element)
+
+
+def ros2_control(element: Element) -> Ros2Control:
+    """Read a ``<ros2_control>``; hardware and joints stay in its element."""
+    return Ros2Control(element.get("name"), element.get("type"), element)
+
+
+def _plugins(element: Element) -> tuple[Plugin, ...]:
+    return tuple([Plugin(e.get("name"), e.get("filename"), e) for e in element.find_all("plugin")])
+
+
+def _interfaces(element: Element) -> tuple[str, ...]:
+    return tuple([child.text for child in element.find_all("hardwareInterface")])

@@ -1,0 +1,74 @@
+"""Questions to a robot that rules, `load`, the model builder and the simulator ask alike."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from urdfkit.description.urdf.robot import Joint, Link, Robot
+from urdfkit.description.xml.element import Element
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Literal, TypeVar
+
+    Named = TypeVar("Named", Link, Joint)
+
+
+def cycles(robot: Robot) -> list[list[Joint]]:
+    """Return kinematic loops: each a list of joints that lead from a link back to itself."""
+    loops: list[list[Joint]] = []
+    settled: set[str] = set()
+    for joint in robot.joints:
+        path: list[Joint] = []
+        on_path: dict[str, int] = {}
+        at = joint.child
+        while at is not None and at not in settled and at not in on_path:
+            on_path[at] = len(path)
+            above = robot.parents_of.get(at, [])
+            if not above:
+                break
+            path.append(above[0])
+            at = above[0].parent
+        if at is not None and at in on_path and at not in settled and robot.parents_of.get(at):
+            loops.append(list(reversed(path[on_path[at] :])))
+        settled.update(on_path)
+    return loops
+
+
+def tree_order(robot: Robot) -> list[Joint]:
+    """Return the joints reachable from the roots, parents before children, depth first in document order."""
+    order: list[Joint] = []
+    seen: set[str] = set()
+    stack = [link.name for link in reversed(robot.roots())]
+    while stack:
+        link = stack.pop()
+        if link in seen:
+            continue
+        seen.add(link)
+        joint = next(iter(robot.parents_of.get(link, [])), None)
+        if joint is not None:
+            order.append(joint)
+        stack.extend(j.child for j in reversed(robot.children_of.get(link, [])) if j.child is not None)
+    return order
+
+
+def mass(robot: Robot, link: str) -> float:
+    """Return the mass of a link [kg]; zero where none is written."""
+    inertial = robot.link_by_name[link].inertial if link in robot.link_by_name else None
+    return (inertial.mass or 0.0) if inertial is not None else 0.0
+
+
+def repeated(parts: tuple[Named, ...]) -> Iterator[tuple[Named, Named]]:
+    """Yield each link, or joint, whose name is taken, with the first of that name; nameless ones are left out."""
+    first: dict[str, Named] = {}
+    for part in parts:
+        if part.name and first.setdefault(part.name, part) is not part:
+            yield part, first[part.name]
+
+
+def dangling(robot: Robot, end: Literal["parent", "child"]) -> Iterator[tuple[Joint, str, Element]]:
+    """Yield each joint whose parent, or child, is no link, with the name it gives and the element that gives it."""
+    for joint in robot.joints:
+        name = joint.parent if end == "parent" else joint.child
+        if name is not None and name not in robot.link_by_name:
+            yield joint, name, joint.element.find(end) or joint.element

@@ -1,0 +1,373 @@
+"""The robot as written: links, joints and what hangs on them, before any mathematics.
+
+Everything is as lenient as `parse` made it: a value that is missing or could not be read is ``None`` (the reader
+remembers it in `Robot.problems`). SI units: [m] [rad] [kg] [kg·m²] [N] [N·m] [m/s] [rad/s].
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from pathlib import Path
+
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Origin
+from urdfkit.record import field, record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Literal
+
+    from urdfkit.description.packages.resolver import Packages
+
+    ProblemKind = Literal["bad-number", "wrong-arity", "not-finite", "missing", "unknown-value"]
+
+Vector = tuple[float, float, float]
+
+JOINT_TYPES = ("fixed", "revolute", "continuous", "prismatic", "planar", "floating")
+"""The six joint types of URDF (http://wiki.ros.org/urdf/XML/joint)."""
+
+
+@record
+class Pose:
+    """An ``<origin>``: translation [m] and fixed-axis roll, pitch, yaw [rad]."""
+
+    xyz: Vector = (0.0, 0.0, 0.0)
+    rpy: Vector = (0.0, 0.0, 0.0)
+
+
+@record
+class Box:
+    """Full edge lengths [m]."""
+
+    size: Vector
+
+
+@record
+class Cylinder:
+    """Axis along z; `radius` and full `length` [m]."""
+
+    radius: float
+    length: float
+
+
+@record
+class Sphere:
+    """`radius` [m]."""
+
+    radius: float
+
+
+@record
+class Capsule:
+    """Axis along z; `radius` and `length` of the cylindrical part [m]."""
+
+    radius: float
+    length: float
+
+
+@record
+class Mesh:
+    """A mesh by URI as written (``package://…``, ``file://…``, relative path)."""
+
+    uri: str
+    scale: Vector = (1.0, 1.0, 1.0)
+
+
+Geometry = Box | Cylinder | Sphere | Capsule | Mesh
+
+
+@record(eq=False)
+class Material:
+    """A colour and/or texture. `rgba` components are in 0..1."""
+
+    name: str | None
+    rgba: tuple[float, float, float, float] | None
+    texture: str | None
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Visual:
+    """What a link looks like. `geometry` is None when it is missing or unreadable."""
+
+    name: str | None
+    origin: Pose
+    geometry: Geometry | None
+    material: Material | None
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Collision:
+    """What a link collides with. `geometry` is None when it is missing or unreadable."""
+
+    name: str | None
+    origin: Pose
+    geometry: Geometry | None
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Inertia:
+    """The tensor about the centre of mass, in the inertial frame [kg·m²]."""
+
+    ixx: float
+    ixy: float
+    ixz: float
+    iyy: float
+    iyz: float
+    izz: float
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Inertial:
+    """Mass [kg], centre of mass (`origin`) and inertia tensor of a link."""
+
+    origin: Pose
+    mass: float | None
+    inertia: Inertia | None
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Link:
+    """A rigid body."""
+
+    name: str
+    inertial: Inertial | None
+    visuals: tuple[Visual, ...]
+    collisions: tuple[Collision, ...]
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Limit:
+    """`lower`, `upper` [rad or m], `effort` [N·m or N], `velocity` [rad/s or m/s]; None where not written."""
+
+    lower: float | None
+    upper: float | None
+    effort: float | None
+    velocity: float | None
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Dynamics:
+    """`damping` [N·m·s/rad or N·s/m] and dry `friction` [N·m or N]; zero where not written."""
+
+    damping: float
+    friction: float
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Mimic:
+    """Position = multiplier · (position of `joint`) + offset."""
+
+    joint: str
+    multiplier: float
+    offset: float
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class SafetyController:
+    """Soft limits and gains of ros_control."""
+
+    soft_lower_limit: float
+    soft_upper_limit: float
+    k_position: float
+    k_velocity: float | None
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Calibration:
+    """Reference positions [rad or m]."""
+
+    rising: float | None
+    falling: float | None
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Joint:
+    """Connects `child` to `parent`. `type` is as written, None when missing; `axis` is as written, not normalised."""
+
+    name: str
+    type: str | None
+    parent: str | None
+    child: str | None
+    origin: Pose
+    axis: Vector
+    limit: Limit | None
+    dynamics: Dynamics | None
+    mimic: Mimic | None
+    safety_controller: SafetyController | None
+    calibration: Calibration | None
+    element: Element = field(repr=False)
+
+    @property
+    def is_movable(self) -> bool:
+        """Whether the joint has a degree of freedom."""
+        return self.type in JOINT_TYPES and self.type != "fixed"
+
+
+@record(eq=False)
+class TransmissionJoint:
+    """A joint of a transmission and the hardware interfaces written inside it."""
+
+    name: str | None
+    hardware_interfaces: tuple[str, ...]
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Actuator:
+    """An actuator of a transmission."""
+
+    name: str | None
+    hardware_interfaces: tuple[str, ...]
+    mechanical_reduction: float | None
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Transmission:
+    """A ``<transmission>`` of ros_control."""
+
+    name: str | None
+    type: str | None
+    joints: tuple[TransmissionJoint, ...]
+    actuators: tuple[Actuator, ...]
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Plugin:
+    """A ``<plugin>`` inside ``<gazebo>`` or inside a sensor; parameters are its element's children."""
+
+    name: str | None
+    filename: str | None
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class SensorTag:
+    """A ``<sensor>`` inside ``<gazebo reference=…>``."""
+
+    name: str | None
+    type: str | None
+    plugins: tuple[Plugin, ...]
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class GazeboBlock:
+    """A ``<gazebo>`` extension. `reference` names a link or joint; None for model-level blocks."""
+
+    reference: str | None
+    plugins: tuple[Plugin, ...]
+    sensors: tuple[SensorTag, ...]
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Ros2Control:
+    """A ``<ros2_control>`` block; hardware and joints are read from its element."""
+
+    name: str | None
+    type: str | None
+    element: Element = field(repr=False)
+
+
+@record(eq=False)
+class Problem:
+    """Something the lenient reader could not use and went on without.
+
+    Attributes:
+        kind: what sort of problem.
+        message: one line for the user.
+        element: the element it is about.
+        attribute: the attribute it is about; None for the element as a whole or its text.
+    """
+
+    kind: ProblemKind
+    message: str
+    element: Element = field(repr=False)
+    attribute: str | None = None
+
+    @property
+    def origin(self) -> Origin:
+        """Where the element was written."""
+        return self.element.origin
+
+
+@record(eq=False)
+class Robot:
+    """A robot as written; may be broken (see `problems`, `roots`, `cycles`).
+
+    `links` and `joints` keep document order and duplicates. `files` are all files that were read, the entry first;
+    `packages` resolves the URIs of its meshes. Both are set by `load`.
+    """
+
+    name: str | None
+    links: tuple[Link, ...]
+    joints: tuple[Joint, ...]
+    materials: tuple[Material, ...]
+    transmissions: tuple[Transmission, ...]
+    gazebo: tuple[GazeboBlock, ...]
+    ros2_control: tuple[Ros2Control, ...]
+    problems: tuple[Problem, ...]
+    element: Element = field(repr=False)
+    files: tuple[Path, ...] = ()
+    packages: Packages | None = field(default=None, repr=False)
+
+    @cached_property
+    def link_by_name(self) -> dict[str, Link]:
+        """Links by name; the first of duplicates."""
+        return {link.name: link for link in reversed(self.links)}
+
+    @cached_property
+    def joint_by_name(self) -> dict[str, Joint]:
+        """Joints by name; the first of duplicates."""
+        return {joint.name: joint for joint in reversed(self.joints)}
+
+    @cached_property
+    def parents_of(self) -> dict[str, list[Joint]]:
+        """Link name → joints that have it as child."""
+        found: dict[str, list[Joint]] = {}
+        for joint in self.joints:
+            if joint.child is not None:
+                found.setdefault(joint.child, []).append(joint)
+        return found
+
+    @cached_property
+    def children_of(self) -> dict[str, list[Joint]]:
+        """Link name → joints that have it as parent."""
+        found: dict[str, list[Joint]] = {}
+        for joint in self.joints:
+            if joint.parent is not None:
+                found.setdefault(joint.parent, []).append(joint)
+        return found
+
+    def roots(self) -> list[Link]:
+        """Return the links that are nobody's child, in document order. A loadable robot has exactly one."""
+        return [link for link in self.link_by_name_in_order() if link.name not in self.parents_of]
+
+    def link_by_name_in_order(self) -> list[Link]:
+        """Return the links in document order without duplicates."""
+        return [link for link in self.links if self.link_by_name[link.name] is link]
+
+    def cycles(self) -> list[list[Joint]]:
+        """Return kinematic loops: each a list of joints that lead from a link back to itself."""
+        from urdfkit.description.urdf.queries import cycles
+
+        return cycles(self)
+
+    def tree_order(self) -> list[Joint]:
+        """Return the joints reachable from the roots, parents before children, depth first in document order."""
+        from urdfkit.description.urdf.queries import tree_order
+
+        return tree_order(self)

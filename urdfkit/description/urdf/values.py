@@ -1,0 +1,170 @@
+"""Reading attribute values leniently: what cannot be used is noted as a `Problem`, and a default takes its place."""
+
+from __future__ import annotations
+
+import math
+
+from urdfkit.description.urdf.robot import Pose, Problem, Vector
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.numbers import number, numbers, why_not
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from typing import Any
+
+    from urdfkit.description.urdf.robot import ProblemKind
+
+    Part = tuple[str, Any, list[Problem]]
+    """Of what the messages spoke when an element was read, what was made of it, and the problems in it."""
+
+ZERO: Vector = (0.0, 0.0, 0.0)
+
+LARGEST = 1e30
+"""A thousand times as many metres as the universe has across: what is more counts as infinite, as its powers would."""
+
+
+class Reader:
+    """Reads values and notes problems, in document order.
+
+    Args:
+        known: what was made of elements before; None where nobody remembers.
+
+    Attributes:
+        parts: what is made of elements now.
+    """
+
+    def __init__(self, known: Mapping[Element, Part] | None = None) -> None:
+        self.problems: list[Problem] = []
+        self.parts: dict[Element, Part] = {}
+        self._known = known
+        self.subject = ""
+        """The link or joint being read, for the messages."""
+
+    def part(self, read: Callable[[Reader, Element], Any], element: Element) -> Any:
+        """Return what is made of an element; what was made of it before, where that is known."""
+        if self._known is None:
+            return read(self, element)
+        found = self._known.get(element)
+        if found is None or (found[2] and found[0] != self.subject):
+            subject, before = self.subject, len(self.problems)
+            one = read(self, element)
+            found = subject, one, self.problems[before:]
+        else:
+            self.problems += found[2]
+        self.parts[element] = found
+        return found[1]
+
+    def note(self, kind: ProblemKind, message: str, element: Element, attribute: str | None = None) -> None:
+        """Note a problem.
+
+        Args:
+            kind: what sort of problem.
+            message: one line for the user.
+            element: what it is about.
+            attribute: which of its attributes.
+        """
+        subject = f"{self.subject}: " if self.subject else ""
+        self.problems.append(Problem(kind, subject + message, element, attribute))
+
+    def text(self, element: Element, attribute: str) -> str | None:
+        """Return an attribute that has to be there; note it when missing."""
+        value = element.attributes.get(attribute)
+        if value is None:
+            self.note("missing", f"<{element.tag}> lacks its attribute `{attribute}`", element, attribute)
+        return value
+
+    def number(
+        self, element: Element, attribute: str, *, required: bool = False, infinite: bool = False
+    ) -> float | None:
+        """Return a number, None when it is missing or unusable.
+
+        Args:
+            element: where it is.
+            attribute: its name.
+            required: note when it is missing.
+            infinite: infinity is allowed.
+        """
+        text = element.attributes.get(attribute)
+        if text is None:
+            if required:
+                self.text(element, attribute)
+            return None
+        value = number(text)
+        if value is None:
+            if numbers(text):
+                self._note_arity(element, attribute, text, 1)
+            else:
+                self._note_number(element, attribute, text, "a number")
+        elif math.isnan(value) or (abs(value) > LARGEST and not infinite):
+            self._note_infinite(element, attribute, text)
+            return None
+        return value
+
+    def number_or(self, element: Element, attribute: str, default: float) -> float:
+        """Return a number, or a default when it is missing or unusable."""
+        value = self.number(element, attribute)
+        return default if value is None else value
+
+    def numbers(self, element: Element, attribute: str, count: int) -> tuple[float, ...] | None:
+        """Return so many numbers, None when they are missing or unusable."""
+        text = element.attributes.get(attribute)
+        if text is None:
+            return None
+        values = numbers(text)
+        if values is None or not values:
+            self._note_number(element, attribute, text, f"{count} numbers")
+            return None
+        if len(values) != count:
+            self._note_arity(element, attribute, text, count)
+            return None
+        if not all(map(math.isfinite, values)) or max(map(abs, values)) > LARGEST:
+            self._note_infinite(element, attribute, text)
+            return None
+        return tuple(values)
+
+    def vector(self, element: Element, attribute: str) -> Vector | None:
+        """Return three numbers, None when they are missing or unusable."""
+        values = self.numbers(element, attribute, 3)
+        return None if values is None else (values[0], values[1], values[2])
+
+    def pose(self, parent: Element) -> Pose:
+        """Return the ``<origin>`` of an element; the identity where none is written."""
+        origin = parent.find("origin")
+        if origin is None:
+            return Pose()
+        xyz, rpy = self.vector(origin, "xyz"), self.vector(origin, "rpy")
+        return Pose(xyz or ZERO, rpy or ZERO)
+
+    def inner_number(self, element: Element | None) -> float | None:
+        """Return the number that an element's text is, None when there is none."""
+        if element is None:
+            return None
+        value = number(element.text)
+        if value is None:
+            self.note("bad-number", _not(element.text, "a number", f"<{element.tag}>"), element)
+        return value
+
+    def _note_number(self, element: Element, attribute: str, text: str, wanted: str) -> None:
+        where = f"{attribute} of <{element.tag}>"
+        self.note("bad-number", _not(text, wanted, where), element, attribute)
+
+    def _note_infinite(self, element: Element, attribute: str, text: str) -> None:
+        values = numbers(text) or ()
+        why = "beyond all measure" if all(map(math.isfinite, values)) else "not finite"
+        self.note("not-finite", f'{attribute}="{_short(text)}" of <{element.tag}> is {why}', element, attribute)
+
+    def _note_arity(self, element: Element, attribute: str, text: str, count: int) -> None:
+        given = len(text.split())
+        message = f'{attribute}="{_short(text)}" of <{element.tag}>: {count} wanted, {given} given'
+        self.note("wrong-arity", message, element, attribute)
+
+
+def _not(text: str, wanted: str, where: str) -> str:
+    why = why_not(text)
+    return f"{where}: `{_short(text)}` is not {wanted}{f' ({why})' if why else ''}"
+
+
+def _short(text: str) -> str:
+    line = " ".join(text.split())
+    return line if len(line) <= 60 else line[:59] + "…"

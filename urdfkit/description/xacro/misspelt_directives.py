@@ -1,0 +1,165 @@
+"""Directives of xacro that are misspelt, and their attributes: what they must mean."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+
+from urdfkit.description.xacro.faults import Fault
+from urdfkit.description.xacro.missing_prefix import FOREIGN, elements, is_directive, names_above, rename
+from urdfkit.description.xml.vocabulary import TAGS
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+    from xml.dom import minidom
+
+    from urdfkit.description.xacro.macro_calls import PositionOf
+
+ATTRIBUTES: dict[str, tuple[str, ...]] = {
+    "macro": ("name", "params"),
+    "property": ("name", "value", "default", "remove", "scope", "lazy_eval"),
+    "include": ("filename", "ns", "optional"),
+    "arg": ("name", "default"),
+    "if": ("value",),
+    "unless": ("value",),
+    "insert_block": ("name",),
+}
+"""Directive → its attributes (xacro 2.1, `check_attrs`)."""
+
+_MEANT = {
+    "arg": dict.fromkeys(("value", "val"), "default"),
+    "property": dict.fromkeys(("val",), "value"),
+    "include": dict.fromkeys(("file", "path", "src", "href"), "filename"),
+    "macro": dict.fromkeys(("args", "arguments", "param", "parameters"), "params"),
+    "insert_block": dict.fromkeys(("block",), "name"),
+}
+"""Directive → what other formats and functions call an attribute of it, and its name."""
+
+_OTHERS = frozenset(("attribute", "call", "element"))
+_LIKENESS = 0.8
+
+
+def mend_spelling(document: minidom.Document, position_of: PositionOf) -> Iterator[Fault]:
+    """Make directives that are misspelt, and attributes of them, what they must mean; yield what was wrong.
+
+    Args:
+        document: is changed.
+        position_of: returns where an element was written, and its chain of calls.
+    """
+    for element, tag, meant in misspelt(document):
+        what = f"macro `{tag[6:]}` is not defined" if tag.startswith("xacro:") else f"<{tag}> is nothing to xacro"
+        message = f"{what}; did you mean `{'' if tag.startswith('xacro:') else 'xacro:'}{meant}`?"
+        yield Fault("misspelt-directive", message, *position_of(element), name=meant)
+        rename(element, meant)
+    for element in list(elements(document)):
+        directive = element.tagName.removeprefix("xacro:")
+        if directive in ATTRIBUTES and directive != element.tagName:
+            yield from _mend_attributes(element, directive, position_of)
+
+
+def _mend_attributes(element: Any, directive: str, position_of: PositionOf) -> Iterator[Fault]:
+    for name, right in misspelt_attributes(element, directive):
+        hint = f"; did you mean `{right}`?" if right is not None else ""
+        message = f"<{element.tagName}> has no attribute `{name}`{hint}"
+        yield Fault("directive-attribute", message, *position_of(element), attribute=name, name=right)
+        if right is not None:
+            element.setAttribute(right, element.getAttribute(name))
+        element.removeAttribute(name)
+    written = element.getAttribute("params") if directive == "macro" else ""
+    separated = _separated(written)
+    if separated != written:
+        message = f"parameters of a macro are separated by blanks: `{written[:80]}`"
+        details = {"value": separated}
+        yield Fault("directive-attribute", message, *position_of(element), attribute="params", details=details)
+        element.setAttribute("params", separated)
+
+
+def misspelt(document: minidom.Document) -> Iterator[tuple[minidom.Element, str, str]]:
+    """Yield the directives of a document whose name is misspelt, with what is written and what is meant.
+
+    A name is one only where the attributes fit; macros that are defined in the document are none.
+
+    Args:
+        document: may be changed while it is gone through.
+    """
+    every = list(elements(document))
+    macros: set[str] | None = None
+    for element in every:
+        tag = element.tagName
+        name = tag.removeprefix("xacro:")
+        if name in _OTHERS or ":" in name or (name == tag and (name in TAGS or is_directive(name, element.attributes))):
+            continue
+        if name in ATTRIBUTES and (name != tag or not FOREIGN.isdisjoint(names_above(element))):
+            continue
+        meant = _near(name, tuple(ATTRIBUTES))
+        if meant is None or not _fits(meant, element, name != tag):
+            continue
+        if macros is None:
+            macros = {one.getAttribute("name") for one in every if one.tagName in ("xacro:macro", "macro")}
+        if name not in macros:
+            yield element, tag, meant
+
+
+def misspelt_attributes(element: Any, directive: str) -> Iterator[tuple[str, str | None]]:
+    """Yield the attributes that a directive does not have, with what is meant, if that can be told.
+
+    Args:
+        element: may be changed while its attributes are gone through.
+        directive: its name, without prefix.
+    """
+    known = ATTRIBUTES[directive]
+    for name in list(element.attributes.keys()):
+        if name in known or name.startswith(("xmlns", "xacro:")):
+            continue
+        free = tuple(one for one in known if not element.hasAttribute(one))
+        meant = _MEANT.get(directive, {}).get(name.lower())
+        meant = meant if meant in free else _near(name, free)
+        if meant is not None or directive != "include":  # parameters of an include are another matter
+            yield name, meant
+
+
+def _separated(parameters: str) -> str:
+    """Return the parameters of a macro with blanks in place of commas; what may belong to a default is left alone."""
+    if not ("," in parameters or ";" in parameters) or any(mark in parameters for mark in "'\"[({"):
+        return parameters
+    between = r"[ \t]*[,;](?=\s)|[ \t]*[,;](?=\*|\w+\s*:?=)|[ \t]*[,;]\s*$"
+    if ":" not in parameters and "=" not in parameters:
+        between = r"[ \t]*[,;]"
+    parts = re.sub(between, " ", parameters)
+    return re.sub(r"(?<=\S) {2,}", " ", parts).rstrip() if not ("," in parts or ";" in parts) else parameters
+
+
+@lru_cache(maxsize=1_000)
+def _near(name: str, candidates: tuple[str, ...]) -> str | None:
+    if len(name) < 4:
+        return None
+    for candidate in candidates:
+        if sorted(candidate) == sorted(name.lower()):
+            return candidate
+    lower = name.lower()
+    if not any(_may_be_near(lower, candidate) for candidate in candidates):
+        return None  # Nearly always; difflib takes a while to load.
+    from difflib import get_close_matches
+
+    return next(iter(get_close_matches(lower, candidates, n=1, cutoff=_LIKENESS)), None)
+
+
+def _may_be_near(name: str, candidate: str) -> bool:
+    """Whether two names have so many letters in common that difflib may find them alike enough."""
+    shared = sum(min(name.count(letter), candidate.count(letter)) for letter in set(name))
+    return 2.0 * shared >= _LIKENESS * (len(name) + len(candidate))
+
+
+def _fits(directive: str, element: Any, is_prefixed: bool) -> bool:
+    """Whether an element has what the directive has, and nothing else."""
+    given: Iterable[str] = element.attributes.keys()
+    known = ATTRIBUTES[directive]
+    if not all(name in known or name.startswith("xmlns") or _near(name, known) for name in given):
+        return False
+    if directive == "property":
+        return element.hasAttribute("name") and (is_prefixed or len(element.attributes) > 1)
+    if directive == "macro":
+        return element.hasAttribute("name") and (element.hasAttribute("params") or is_prefixed)
+    return element.hasAttribute(known[0]) and (is_prefixed or directive == "include")

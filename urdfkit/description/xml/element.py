@@ -1,0 +1,48 @@
+"""Element: one expanded XML element that knows where it was written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from urdfkit.description.xml.source import Origin
+from urdfkit.record import field, record
+
+
+@record(eq=False)
+class Element:
+    """An XML element after expansion.
+
+    Attributes:
+        tag: the qualified name as written, e.g. ``link`` or ``xacro:macro``.
+        attributes: name → value after expansion, in document order.
+        children: child elements in document order (comments and processing instructions left out).
+        text: the character data directly inside, concatenated and stripped.
+        origin: where a person wrote the start tag, and through which macro calls it came.
+    """
+
+    tag: str
+    attributes: dict[str, str]
+    children: list[Element]
+    text: str
+    origin: Origin = field(repr=False)
+
+    def get(self, attribute: str, default: str | None = None) -> str | None:
+        """Return an attribute's value."""
+        return self.attributes.get(attribute, default)
+
+    def find(self, tag: str) -> Element | None:
+        """Return the first child with this tag."""
+        for child in self.children:
+            if child.tag == tag:
+                return child
+        return None
+
+    def find_all(self, tag: str) -> list[Element]:
+        """Return all children with this tag."""
+        return [child for child in self.children if child.tag == tag]
+
+    def walk(self) -> Iterator[Element]:
+        """Yield this element and all below it, in document order."""
+        yield self
+        for child in self.children:
+            yield from child.walk()

@@ -1,0 +1,300 @@
+"""XML from strangers, read safely: into `Element`, or into a minidom whose elements are stamped with their place.
+
+A file may come from anywhere, so document types that declare entities or name external files are refused (they can
+grow without end or read other files), and size and nesting are bounded.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Collection, Mapping
+from functools import partial
+from pathlib import Path
+from xml.parsers import expat
+
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Expansion, Origin, Position, Source, content_of
+from urdfkit.errors import ResourceError, XmlError
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any, NoReturn
+    from xml.dom import minidom
+
+MAX_BYTES = 64 * 2**20
+"""A description is refused when it is larger [bytes]."""
+
+MAX_DEPTH = 200
+"""A description is refused when its elements are nested deeper; people's nest less than 20 deep."""
+
+MAX_MADE_DEPTH = 400
+"""What macros and blocks make is refused when it is nested deeper: Python, and what looks through it, allow 1,000."""
+
+MAX_VALUE = 100_000
+"""A description is refused when an attribute has more characters; people's have some hundreds."""
+
+MAX_ATTRIBUTES = 1_000
+"""A description is refused when an element has more attributes; people's have less than 20."""
+
+MAX_TAGS = 100_000
+"""A description is refused when it has more tags and comments; a robot of 1,200 links has 30,000."""
+
+STAMP = "urdfkit.origin"
+"""The key under which the elements of a minidom carry their `Stamp` (as DOM user data)."""
+
+Stamp = tuple[str, int, int, tuple[Expansion, ...]]
+"""File, line, column and chain of macro calls: an `Origin` before anybody asks for it."""
+
+_TAG_NAME = r"</?\s*([^\s<>/]*)"
+
+
+def read_source(path: Path, *, shown_as: str | None = None, texts: Mapping[str, str] | None = None) -> Source:
+    """Read a file of bounded size.
+
+    Args:
+        path: the file.
+        shown_as: what messages call it.
+        texts: contents to take instead of those on disk, by absolute path.
+
+    Raises:
+        ResourceError: it cannot be read or is too large.
+    """
+    shown = shown_as or str(path)
+    if texts and (text := texts.get(str(absolute(path)))) is not None:
+        return Source(shown, text, getattr(text, "flaw", None))
+    try:
+        content = content_of(path, MAX_BYTES + 1)
+    except OSError as error:
+        raise ResourceError(f"cannot read {shown}: {error.strerror or error}") from error
+    if len(content) > MAX_BYTES:
+        raise ResourceError(f"{shown} is larger than {MAX_BYTES // 2**20} MiB; that is no robot description")
+    return Source.decode(shown, content)
+
+
+def shown_path(path: str | Path) -> str:
+    """Return what messages call a file: relative to the working folder when inside it."""
+    whole, here = str(absolute(path)), str(Path.cwd())
+    return whole[len(here) + 1 :] if whole.startswith(here + os.sep) else whole
+
+
+def absolute(path: str | Path) -> Path:
+    """Return a path from the root, without ``..``, symbolic links as they are."""
+    return Path(os.path.normpath(Path(path).absolute()))
+
+
+def document_of(source: Source) -> Element:
+    """Read a file as it is written, without xacro. Prefixes need not be declared.
+
+    Args:
+        source: the text.
+
+    Raises:
+        XmlError: it is not well-formed, or hostile.
+    """
+    file = source.file
+    starts: list[tuple[str, dict[str, str], Origin]] = []
+    families: list[list[Element]] = [[]]
+    texts: list[list[str]] = [[]]
+    parser = expat.ParserCreate()
+    parser.buffer_text = True
+    is_large = len(source.text) > MAX_VALUE
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        if is_large:
+            refuse_excess(source, parser, tag, attributes.values())
+        line, column = parser.CurrentLineNumber, parser.CurrentColumnNumber + 1
+        starts.append((tag, attributes, Origin(Position(file, line, column))))
+        families.append([])
+        texts.append([])
+        if len(starts) > MAX_DEPTH:
+            too_deep(source, parser)
+
+    def end(_: str) -> None:
+        tag, attributes, origin = starts.pop()
+        element = Element(tag, attributes, families.pop(), "".join(texts.pop()).strip(), origin)
+        families[-1].append(element)
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = end
+    parser.CharacterDataHandler = lambda data: texts[-1].append(data)
+    parser.EntityDeclHandler = lambda name, *_: _refuse_entity(source, parser, name)
+    parser.StartDoctypeDeclHandler = lambda _, system, public, __: _check_doctype(source, parser, system, public)
+    parse_with(parser, source, lambda: [(tag, origin.position.line) for tag, _, origin in starts])
+    return families[0][0]
+
+
+def stamped_document(source: Source, on_clone: Any, *, namespaces: bool = True) -> minidom.Document:
+    """Read a file into the minidom that xacro works on.
+
+    It is the same tree as ``minidom.parseString`` makes, but every element carries its `Stamp`.
+
+    Args:
+        source: the text.
+        on_clone: DOM user data handler: its `handle` is called for every clone of a stamped element.
+        namespaces: refuse prefixes that are not declared, as minidom does.
+
+    Raises:
+        XmlError: it is not well-formed, or hostile.
+    """
+    from urdfkit.description.xml.positions import PrefixBlindBuilder, StampingBuilder
+
+    kind = StampingBuilder if namespaces else PrefixBlindBuilder
+    check = partial(refuse_excess, source) if len(source.text) > MAX_VALUE else None
+    builder = kind(source.file, on_clone, partial(too_deep, source), check)
+    parser = builder.getParser()
+    parser.EntityDeclHandler = lambda name, *_: _refuse_entity(source, parser, name)
+    inherited: Any = parser.StartDoctypeDeclHandler
+
+    def doctype(name: str, system: str | None, public: str | None, has_subset: bool) -> None:
+        _check_doctype(source, parser, system, public)
+        inherited(name, system, public, has_subset)
+
+    parser.StartDoctypeDeclHandler = doctype
+    parse_with(parser, source, builder.open_tags)
+    return builder.document
+
+
+def element_of(node: Any, depth: int = 0) -> Element:
+    """Turn a stamped minidom element, and all below it, into an `Element`.
+
+    Args:
+        node: an element that `stamped_document` made, or a clone of one.
+        depth: how many elements it is in.
+
+    Raises:
+        XmlError: macros have made elements that are nested too deep.
+    """
+    if hasattr(node, "finished"):
+        (element,) = node.elements()
+        return element  # type: ignore[no-any-return]
+    file, line, column, expansions = stamp_of(node)
+    check_depth(depth, Position(file, line, column))
+    children: list[Element] = []
+    text = ""
+    for child in node.childNodes:
+        kind = child.nodeType
+        if kind == 1:
+            children.append(element_of(child, depth + 1))
+        elif kind in (3, 4):
+            text += child.data
+    # <xacro:attribute> may leave a number where minidom wants text.
+    attributes = {name: str(attribute.value) for name, attribute in (node._attrs or {}).items()}
+    return Element(node.tagName, attributes, children, text.strip(), Origin(Position(file, line, column), expansions))
+
+
+def stamp_of(node: Any) -> Stamp:
+    """Return the stamp of a minidom element that `stamped_document` made, or of a clone of one."""
+    stamp: Stamp = node.getUserData(STAMP)
+    return stamp
+
+
+def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[str, int]]]) -> None:
+    """Parse a text; `open_tags` tells the tag and line of the elements that are open, outermost first.
+
+    Raises:
+        XmlError: it is not well-formed, or has too many tags.
+    """
+    if not source.text.strip():
+        raise XmlError("the file is empty", position=Position(source.file, 1, 1))
+    if (tags := source.text.count("<")) > MAX_TAGS:
+        message = f"the file has {tags} tags and comments: more than {MAX_TAGS} are refused"
+        raise XmlError(message, position=Position(source.file, 1, 1))
+    try:
+        parser.Parse(source.text, True)
+    except expat.ExpatError as error:
+        position = Position(source.file, error.lineno, error.offset + 1)
+        raise XmlError(_explain(error, source, position, open_tags()), position=position) from None
+    except UnicodeEncodeError as error:
+        raise XmlError("the text holds half a character", position=source.position(error.start)) from None
+
+
+def _explain(error: expat.ExpatError, source: Source, position: Position, opened: list[tuple[str, int]]) -> str:
+    text = expat.ErrorString(error.code) or "not well-formed"
+    offset = source.offset(position.line, position.column)
+    tag = opened[-1] if opened else None
+    unclosed = f"`<{tag[0]}>` of line {tag[1]} is not closed" if tag else ""
+    if text == "mismatched tag" and tag:
+        found = re.match(_TAG_NAME, source.text[max(source.text.rfind("<", 0, offset + 1), 0) :])
+        return f"mismatched tag: {unclosed} before `</{found[1] if found else ''}>`"
+    if text == "no element found":
+        return f"the file ends too early: {unclosed}" if tag else "this is not XML: there is no element"
+    if text == "unclosed token":
+        return f"a tag, comment or quote is opened here and never closed{'; ' + unclosed if tag else ''}"
+    if text == "unbound prefix":
+        found = re.match(_TAG_NAME, source.text[max(source.text.rfind("<", 0, offset + 1), 0) :])
+        prefix = found[1].split(":")[0] if found and ":" in found[1] else "xacro"
+        uri = "http://www.ros.org/wiki/xacro" if prefix == "xacro" else "…"
+        return f'unbound prefix: `{prefix}:` needs xmlns:{prefix}="{uri}" on the root element of this file'
+    if text == "syntax error" and tag is None:
+        return "this is not XML: it does not start with `<`"
+    if text == "junk after document element":
+        return "there is more after the root element is closed"
+    if text == "XML or text declaration not at start of entity":
+        return "`<?xml …?>` has to be the very first thing in the file"
+    if text == "undefined entity":
+        return "undefined entity: write `&amp;` for an ampersand"
+    if text == "duplicate attribute":
+        return "duplicate attribute: the same name twice in one tag"
+    if text == "not well-formed (invalid token)":
+        near = source.text[offset : offset + 1]
+        if near == "<":
+            return f"`<` where it must not be: a quote or `>` is missing before it{', or write `&lt;`' if tag else ''}"
+        if near == "&":
+            return "a bare `&`: write `&amp;`"
+        return f"not well-formed near {source.text[offset : offset + 12].splitlines()[0]!r}" if near.strip() else text
+    return text
+
+
+def _here(source: Source, parser: Any) -> Position:
+    return Position(source.file, parser.CurrentLineNumber, parser.CurrentColumnNumber + 1)
+
+
+def too_deep(source: Source, parser: Any) -> NoReturn:
+    """Refuse elements that nest too deep.
+
+    Raises:
+        XmlError: always.
+    """
+    raise XmlError(f"elements are nested deeper than {MAX_DEPTH}", position=_here(source, parser))
+
+
+def check_depth(depth: int, position: Position) -> None:
+    """Refuse what macros and blocks have nested too deep: what looks through it does so level by level.
+
+    Raises:
+        XmlError: it is.
+    """
+    if depth >= MAX_MADE_DEPTH:
+        message = f"with this, macros and blocks nest elements deeper than {MAX_MADE_DEPTH}"
+        raise XmlError(message, position=position)
+
+
+def refuse_excess(source: Source, parser: Any, tag: str, values: Collection[str]) -> None:
+    """Refuse an element with too many attributes, or too long ones.
+
+    Raises:
+        XmlError: it has.
+    """
+    if len(values) > MAX_ATTRIBUTES:
+        message = f"<{tag}> has {len(values)} attributes; at most {MAX_ATTRIBUTES} are read"
+        raise XmlError(message, position=_here(source, parser))
+    longest = max(map(len, values), default=0)
+    if longest > MAX_VALUE:
+        message = f"an attribute of <{tag}> has {longest} characters; at most {MAX_VALUE} are read"
+        raise XmlError(message, position=_here(source, parser))
+
+
+def _refuse_entity(source: Source, parser: Any, name: str) -> NoReturn:
+    raise XmlError(
+        f"declares the entity `{name}`: entity declarations are refused, they can grow without end or read other files",
+        position=_here(source, parser),
+    )
+
+
+def _check_doctype(source: Source, parser: Any, system: str | None, public: str | None) -> None:
+    if system or public:
+        raise XmlError(
+            f"the document type names `{system or public}`: external entities are refused",
+            position=_here(source, parser),
+        )

@@ -1,0 +1,193 @@
+"""Where a person wrote something: positions, spans, and the chain of macro calls that led there."""
+
+from __future__ import annotations
+
+import os
+from functools import cached_property
+from pathlib import Path
+
+from urdfkit.record import field, record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.xml.start_tag import StartTag
+
+
+def content_of(path: Path, most: int = -1) -> bytes:
+    """Return the bytes of a file; what says it is one and has nothing to give yet, as /proc/kmsg, is not waited for.
+
+    Args:
+        path: a file, or a pipe, which is waited for.
+        most: so many bytes at most; all of them when negative.
+
+    Raises:
+        OSError: it cannot be read.
+    """
+    without_waiting = getattr(os, "O_NONBLOCK", 0) if path.is_file() else 0
+    with open(path, "rb", opener=lambda name, flags: os.open(name, flags | without_waiting)) as file:
+        content: bytes | None = file.read(most)
+    if content is None:
+        raise BlockingIOError(11, "it is no file on disk", str(path))
+    return content
+
+
+@record(order=True)
+class Position:
+    """A place in a file. Lines and columns count from 1; columns count characters, not bytes."""
+
+    file: str
+    line: int
+    column: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}"
+
+
+@record(order=True)
+class Span:
+    """A stretch of one file, from `line`:`column` up to, not including, `end_line`:`end_column`."""
+
+    file: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+    @property
+    def start(self) -> Position:
+        """The first character."""
+        return Position(self.file, self.line, self.column)
+
+
+@record
+class Expansion:
+    """One macro call that an expanded element went through."""
+
+    macro: str
+    position: Position
+
+
+@record
+class Origin:
+    """Where an expanded element comes from.
+
+    Attributes:
+        position: the start tag a person wrote.
+        expansions: the macro calls that produced it, innermost first (the call nearest to the element);
+            empty for what is not written inside a macro.
+    """
+
+    position: Position
+    expansions: tuple[Expansion, ...] = ()
+
+
+@record
+class Source:
+    """The text of one file.
+
+    Attributes:
+        file: the path as shown to the user.
+        text: the decoded content, with its line ends as they are.
+        flaw: what of the bytes is no UTF-8, and its offset in the text; None where all of them are.
+    """
+
+    file: str
+    text: str = field(repr=False)
+    flaw: tuple[int, str] | None = None
+
+    @classmethod
+    def read(cls, path: Path, *, shown_as: str | None = None) -> Source:
+        """Read a file; see `decode`.
+
+        Raises:
+            ResourceError: the file cannot be read.
+        """
+        from urdfkit.errors import ResourceError
+
+        try:
+            content = content_of(path)
+        except OSError as error:
+            raise ResourceError(f"cannot read {shown_as or path}: {error.strerror or error}") from error
+        return cls.decode(shown_as or str(path), content)
+
+    @classmethod
+    def decode(cls, file: str, content: bytes) -> Source:
+        """Decode UTF-8 (with or without byte order mark) or UTF-16 (with one); undecodable bytes become U+FFFD."""
+        if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+            return cls(file, content.decode("utf-16", errors="replace"), (0, "UTF-16"))
+        try:
+            return cls(file, content.decode("utf-8-sig"))
+        except UnicodeDecodeError as error:
+            before = error.object[: error.start].decode("utf-8", errors="replace")
+            flaw = len(before), f"byte 0x{error.object[error.start]:02X}"
+            return cls(file, content.decode("utf-8-sig", errors="replace"), flaw)
+
+    @cached_property
+    def line_starts(self) -> list[int]:
+        """Offset of the first character of each line; a line ends as XML has it, also by a carriage return alone."""
+        starts = [0]
+        if "\r" in self.text:
+            import re
+
+            starts += [end.end() for end in re.finditer("\r\n?|\n", self.text)]
+            return starts
+        find = self.text.find
+        at = find("\n")
+        while at != -1:
+            starts.append(at + 1)
+            at = find("\n", at + 1)
+        return starts
+
+    def line(self, number: int) -> str:
+        """Return line `number` (from 1) without its line end; empty when there is no such line."""
+        if not 1 <= number <= len(self.line_starts):
+            return ""
+        start = self.line_starts[number - 1]
+        end = self.line_starts[number] if number < len(self.line_starts) else len(self.text)
+        return self.text[start:end].rstrip("\r\n")
+
+    @cached_property
+    def line_end(self) -> str:
+        """How the first line ends, as those that are put in have to."""
+        first = self.text[: self.line_starts[1]] if len(self.line_starts) > 1 else "\n"
+        return "\r\n" if first.endswith("\r\n") else first[-1]
+
+    def line_before(self, offset: int) -> str:
+        """Return what stands on the line of an offset before it."""
+        return self.text[self.line_starts[self.position(offset).line - 1] : offset]
+
+    def offset(self, line: int, column: int) -> int:
+        """Return the offset of a position, clamped to the text."""
+        if line > len(self.line_starts):
+            return len(self.text)
+        return min(self.line_starts[max(line, 1) - 1] + max(column, 1) - 1, len(self.text))
+
+    def position(self, offset: int) -> Position:
+        """Return the position of an offset."""
+        from bisect import bisect_right
+
+        line = bisect_right(self.line_starts, offset)
+        return Position(self.file, line, offset - self.line_starts[line - 1] + 1)
+
+    def span(self, start: int, end: int) -> Span:
+        """Return the span between two offsets."""
+        first, last = self.position(start), self.position(end)
+        return Span(self.file, first.line, first.column, last.line, last.column)
+
+    def start_tag(self, position: Position) -> StartTag | None:
+        """Return the parts of the start tag at `position` (an `Origin`'s), or None when there is none."""
+        from urdfkit.description.xml.start_tag import start_tag
+
+        return start_tag(self, position)
+
+    def element_span(self, position: Position) -> Span | None:
+        """Return the span of the whole element whose start tag is at `position`, end tag included."""
+        from urdfkit.description.xml.start_tag import element_span
+
+        return element_span(self, position)
+
+
+class Overlay(str):
+    """A text to take instead of that on disk, which is to be written with the same flaw; see `Source`."""
+
+    flaw: tuple[int, str] | None = None

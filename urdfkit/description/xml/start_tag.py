@@ -1,0 +1,92 @@
+"""The parts of a start tag in the source text: what a fix edits and a caret points at."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.description.xml.source import Position, Source, Span
+from urdfkit.record import record
+
+_NAME = re.compile(r"<([^\s/>=\"'<]+)")
+_ATTRIBUTE = re.compile(r"(\s*)([^\s/>=\"'<]+)(\s*=\s*)(\"[^\"]*\"|'[^']*')")
+_CLOSE = re.compile(r"\s*(/?)>")
+_MARKUP = re.compile(
+    r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<(/?)([^\s/>=\"'<]+)(?:[^>\"']|\"[^\"]*\"|'[^']*')*?(/?)>", re.S
+)
+
+
+@record
+class AttributeText:
+    """One attribute as written.
+
+    Attributes:
+        name: where its name is.
+        value: what is between the quotes.
+        whole: from the white space before the name to the closing quote: what to cut to take the attribute away.
+        quote: ``"`` or ``'``.
+        raw: the value as written, entities unresolved.
+    """
+
+    name: Span
+    value: Span
+    whole: Span
+    quote: str
+    raw: str
+
+
+@record
+class StartTag:
+    """A start tag as written.
+
+    Attributes:
+        span: from ``<`` to after ``>``.
+        name: where the tag's name is.
+        attributes: by name, in order.
+        end_of_attributes: where another attribute (with a blank before it) can be inserted.
+        is_empty: whether it ends in ``/>``.
+    """
+
+    span: Span
+    name: Span
+    attributes: dict[str, AttributeText]
+    end_of_attributes: Position
+    is_empty: bool
+
+
+def start_tag(source: Source, position: Position) -> StartTag | None:
+    """Return the parts of the start tag at `position`, or None when there is none."""
+    text = source.text
+    start = source.offset(position.line, position.column)
+    named = _NAME.match(text, start)
+    if named is None:
+        return None
+    attributes: dict[str, AttributeText] = {}
+    at = named.end()
+    while found := _ATTRIBUTE.match(text, at):
+        attributes[found[2]] = AttributeText(
+            source.span(*found.span(2)),
+            source.span(found.start(4) + 1, found.end(4) - 1),
+            source.span(*found.span()),
+            found[4][0],
+            found[4][1:-1],
+        )
+        at = found.end()
+    close = _CLOSE.match(text, at)
+    if close is None:
+        return None
+    return StartTag(
+        source.span(start, close.end()), source.span(*named.span(1)), attributes, source.position(at), close[1] == "/"
+    )
+
+
+def element_span(source: Source, position: Position) -> Span | None:
+    """Return the span of the whole element whose start tag is at `position`, end tag included."""
+    start = source.offset(position.line, position.column)
+    depth = 0
+    for found in _MARKUP.finditer(source.text, start):
+        if found[2] is None or found[2].startswith("!"):
+            continue
+        depth += -1 if found[1] else 0 if found[3] else 1
+        if depth <= 0:
+            return source.span(start, found.end())
+    return None

@@ -1,0 +1,166 @@
+"""Where something is defined, where it is used, and the edits that call it something else."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from urdfkit.errors import UsageError
+from urdfkit.lint.editor.symbols import EXPANDED, in_settings, of_model, parameters_around
+from urdfkit.lint.finding import Edit
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from urdfkit.description.xml.source import Source, Span
+    from urdfkit.lint.editor.cursor import Cursor
+    from urdfkit.lint.editor.symbols import Occurrence
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Tag
+
+
+def at(model: Model, cursor: Cursor) -> list[Occurrence]:
+    """Return what is named where the cursor is: several where a macro is expanded several times."""
+    source = cursor.document.source
+    here = [o for o in of_model(model) if o.span.file == source.file and _holds(source, o.span, cursor.offset)]
+    inner = [o for o in here if o.kind not in EXPANDED]  # in ${…}: the property, not the name that comes of it
+    return inner or here
+
+
+def definitions(model: Model, cursor: Cursor) -> list[Span]:
+    """Return where the things under the cursor are defined."""
+    found: dict[Span, None] = {}
+    source = cursor.document.source
+    every = of_model(model)
+    for one in at(model, cursor):
+        if one.kind == "file":
+            continue
+        if one.kind == "property" and one.name in (known := parameters_around(cursor.tag)):
+            found[source.span(*known[one.name])] = None
+            continue
+        for other in every:
+            if other.defines and (other.kind, other.name) == (one.kind, one.name):
+                found[other.span] = None
+    return list(found)
+
+
+def file_at(model: Model, cursor: Cursor) -> Path | None:
+    """Return the file under the cursor: one that is included, or a mesh."""
+    from urdfkit.errors import ResourceError
+    from urdfkit.lint.model.mesh_files import meshes, path_of
+
+    tag, attribute = cursor.tag, cursor.attribute
+    if tag is None or attribute is None or attribute.name != "filename":
+        return None
+    value = attribute.value
+    if tag.name.removeprefix("xacro:") == "include":
+        base = Path(cursor.document.source.file).absolute().parent
+        try:
+            value = re.sub(r"\$\(find ([^()]+)\)", lambda m: str(model.expanded.packages.find(m[1].strip())), value)
+        except ResourceError:
+            return None
+        path = base / value
+        if not path.is_file():
+            path = model.expanded.packages.relocate(path) or path
+        return path if "$" not in value and path.is_file() else None
+    for mesh, element, _ in meshes(model):
+        if model.tag(element.origin.position) is tag:
+            return path_of(mesh, model)
+    return None
+
+
+def references(models: Sequence[Model], cursor: Cursor, *, with_definition: bool = True) -> list[Span]:
+    """Return every place that names what is under the cursor, in all models that its file is part of."""
+    found: dict[Span, None] = {}
+    if (parameter := _parameter_at(cursor)) is not None:
+        return sorted(_of_parameter(models, cursor, *parameter, with_definition=with_definition))
+    for model in models:
+        wanted = {(one.kind, one.name) for one in at(model, cursor)}
+        for other in (*of_model(model), *in_settings(model)):
+            if (other.kind, other.name) in wanted and (with_definition or not other.defines):
+                found[other.span] = None
+    return sorted(found)
+
+
+def _parameter_at(cursor: Cursor) -> tuple[str, Tag] | None:
+    """Return the parameter under the cursor and its macro: where it is declared, or used in an expression."""
+    attribute, word = cursor.attribute, cursor.word[0]
+    if attribute is None or not word or not (cursor.expression or attribute.name == "params"):
+        return None
+    name = word.lstrip("*") if cursor.expression is None else word.partition(".")[0]
+    for tag in [cursor.tag, *cursor.tag.ancestors()] if cursor.tag is not None else []:
+        if tag.name.removeprefix("xacro:") == "macro" and name in parameters_around(tag):
+            return name, tag
+    return None
+
+
+def _of_parameter(
+    models: Sequence[Model], cursor: Cursor, name: str, macro: Tag, *, with_definition: bool
+) -> Iterator[Span]:
+    """Yield where a parameter is used in its macro, where calls give it, and where it is declared."""
+    source = cursor.document.source
+    if with_definition:
+        yield source.span(*parameters_around(macro)[name])
+    called = macro.attributes["name"].value.removeprefix("xacro:") if "name" in macro.attributes else ""
+    found: dict[Span, None] = {}
+    for model in models:
+        for one in of_model(model):
+            start = source.offset(one.span.line, one.span.column)
+            if (one.kind, one.name, one.span.file) == ("property", name, source.file):
+                if macro.end <= start < macro.close_end:
+                    found[one.span] = None
+            elif (one.kind, one.name, one.defines) == ("macro", called, False):
+                document = model.document(one.span.file)
+                at = document.source.offset(one.span.line, one.span.column)
+                tag = document.tag_at(one.span.line, one.span.column - (at - document.source.text.rfind("<", 0, at)))
+                given = tag.attributes.get(name) if tag is not None else None
+                if given is not None:
+                    found[document.source.span(given.start, given.start + len(name))] = None
+    yield from found
+
+
+def renamable(model: Model, cursor: Cursor) -> Occurrence | None:
+    """Return what can be called something else under the cursor; None where nothing can."""
+    found = [one for one in at(model, cursor) if one.kind != "file"]
+    names = {(one.kind, one.name) for one in found}
+    return found[0] if len(names) == 1 and found[0].written == found[0].name else None
+
+
+def rename(models: Sequence[Model], cursor: Cursor, name: str) -> list[Edit]:
+    """Return the edits that call what is under the cursor something else, in all files that name it.
+
+    Raises:
+        UsageError: it has no name of its own, the name is none or is taken, or some place makes it by an expression.
+    """
+    edits: dict[Edit, None] = {}
+    for model in models:
+        one = renamable(model, cursor)
+        if one is None:
+            raise UsageError("nothing here can be renamed: it has no name, or one that an expression makes")
+        pattern = r"[A-Za-z_]\w*" if one.kind in ("property", "macro", "argument") else r"[^\s\"'<>&$]+"
+        if not re.fullmatch(pattern, name):
+            raise UsageError(f"`{name}` is no name for a {one.kind}")
+        every = of_model(model)
+        if any(other.defines and (other.kind, other.name) == (one.kind, name) for other in every):
+            raise UsageError(f"there is a {one.kind} `{name}` already")
+        if one.kind == "property" and _is_parameter(model, one.name):
+            raise UsageError(f"`{one.name}` is the parameter of a macro too: rename it by hand")
+        same = [other for other in (*every, *in_settings(model)) if (other.kind, other.name) == (one.kind, one.name)]
+        if not any(other.defines for other in same):
+            raise UsageError(f"{one.kind} `{one.name}` is defined nowhere in these files")
+        for other in same:
+            if other.written != one.name:
+                at = f"{other.span.file}:{other.span.line}"
+                raise UsageError(f"`{one.name}` is made by the expression `{other.written}` at {at}: rename it by hand")
+            edits[Edit(other.span, name)] = None
+    return sorted(edits)
+
+
+def _is_parameter(model: Model, name: str) -> bool:
+    found = (signature for several in model.signatures.values() for signature in several)
+    return any(name in signature.known for signature in found)
+
+
+def _holds(source: Source, span: Span, offset: int) -> bool:
+    return source.offset(span.line, span.column) <= offset <= source.offset(span.end_line, span.end_column)

@@ -1,0 +1,153 @@
+"""Project: the files of an editor, saved or not, and the models that they make."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from urdfkit.description.packages.resolver import Packages
+from urdfkit.description.xacro.fast.incremental import Memory
+from urdfkit.errors import UrdfkitError, bug
+from urdfkit.lint.engine.run import Checker, Options, merged, model_of
+from urdfkit.lint.project.entry_files import Entry, find_entries
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model.model import Model
+
+
+@record(eq=False)
+class Analysis:
+    """One entry file, expanded and linted with the texts of the editor.
+
+    Attributes:
+        model: what came out; None where the entry cannot be read.
+        findings: in all of its files.
+        files: name in findings → file, absolute.
+        failure: why there is no model, or which rule could not look at it.
+        is_ours: whether the failure is our fault.
+        known: the model as it was when it could last be read: while a tag is typed, the names in it still count.
+    """
+
+    model: Model | None
+    findings: tuple[Finding, ...]
+    files: Mapping[str, Path]
+    failure: str = ""
+    is_ours: bool = False
+    known: Model | None = None
+
+
+class Project:
+    """The texts in an editor and what is known of them.
+
+    Args:
+        options: how to lint.
+    """
+
+    def __init__(self, options: Options) -> None:
+        self.options = options
+        self.texts: dict[str, str] = {}
+        self._entries: dict[Path, Sequence[Entry]] = {}
+        self._analyses: dict[Entry, Analysis] = {}
+        self._last: dict[Entry, Model] = {}
+        self._checker: Checker | None = None
+        self._packages = Packages(options.package_path)
+        self._memories: dict[Entry, Memory] = {}
+
+    def set_text(self, path: Path, text: str | None) -> None:
+        """Take a text from the editor; None where the file on disk counts again."""
+        if text is None:
+            self.texts.pop(str(path), None)
+        elif self.texts.get(str(path)) == text:
+            return
+        else:
+            self.texts[str(path)] = text
+        self._analyses.clear()
+
+    def forget(self) -> None:
+        """Look anew at what lies on disk: which models there are, which packages, what files hold."""
+        self._entries.clear()
+        self._analyses.clear()
+        self._memories.clear()
+        self._packages = Packages(self.options.package_path)
+
+    def entries(self, path: Path) -> Sequence[Entry]:
+        """Return the models that a file is part of: itself, or those that include it."""
+        if path not in self._entries:
+            try:
+                found = find_entries([path])
+            except UrdfkitError:
+                found = [Entry(path)]
+            self._entries[path] = [Entry(entry.path, (), entry.is_library) for entry in found]
+        return self._entries[path]
+
+    def analyses(self, path: Path) -> list[Analysis]:
+        """Return the models that a file is part of, expanded and linted as the texts are now."""
+        return [self._analysis(entry) for entry in self.entries(path)]
+
+    def findings(self, path: Path) -> dict[Path, list[Finding]]:
+        """Return what is found in each file of the models that a file is part of; files without findings too."""
+        found: dict[Path, list[Finding]] = {path: []}
+        every: list[Finding] = []
+        files: dict[str, Path] = {}
+        for analysis in self.analyses(path):
+            files.update(analysis.files)
+            every += analysis.findings
+        for file in files.values():
+            found.setdefault(file, [])
+        for finding in merged(every):
+            if finding.file in files:
+                found[files[finding.file]].append(finding)
+        return found
+
+    def failures(self, path: Path) -> list[str]:
+        """Return what of the models that a file is part of could not be looked at by our own fault, one line each."""
+        return list(dict.fromkeys(one.failure for one in self.analyses(path) if one.is_ours))
+
+    def probe(self, entry: Path, path: Path, offset: int, written: str) -> list[str]:
+        """Return what a text would come out as if it were written into a file: one value for each expansion.
+
+        Args:
+            entry: the model to expand.
+            path: the file.
+            offset: where to put an element with the text in an attribute.
+            written: the text, with its ``${…}``.
+        """
+        text = self.texts.get(str(path))
+        text = path.read_text("utf-8", "replace") if text is None else text
+        quoted = written.replace("&", "&amp;").replace('"', "&quot;").replace("<", "&lt;")
+        mark = f'<urdfkit_probe value="{quoted}"/>'
+        texts = {**self.texts, str(path): text[:offset] + mark + text[offset:]}
+        try:
+            model = model_of(entry, Options(**{**self.options.__dict__, "texts": texts}))
+        except UrdfkitError:
+            return []
+        root = model.expanded.root
+        values = [e.get("value") or "" for e in root.walk() if e.tag == "urdfkit_probe"] if root is not None else []
+        return [value for value in dict.fromkeys(values) if "$" not in value]
+
+    def _analysis(self, entry: Entry) -> Analysis:
+        if entry not in self._analyses:
+            options = Options(**{**self.options.__dict__, "texts": dict(self.texts)})
+            try:
+                if self._checker is None:  # it looks through the installed packages for rules: once is enough
+                    self._checker = Checker(options, keep_going=True)
+                checker = self._checker
+                checker.options, checker.packages = options, self._packages
+                checker.memory = self._memories.setdefault(entry, Memory())
+                checker.sources.clear()
+                found, model = checker.examine(entry)
+                files = {name: Path(path) for name, path in found.files.items()}
+                findings = tuple(merged(found.findings))
+                if model.robot.links and not any(fault.kind == "xml" for fault in model.expanded.faults):
+                    self._last[entry] = model
+                known, failure = self._last.get(entry, model), found.refused
+                self._analyses[entry] = Analysis(model, findings, files, failure, bool(failure), known)
+            except UrdfkitError as error:
+                self._analyses[entry] = Analysis(None, (), {}, str(error))
+            except Exception as error:
+                self._analyses[entry] = Analysis(None, (), {}, f"{entry.path}: {bug(error)}", is_ours=True)
+        return self._analyses[entry]

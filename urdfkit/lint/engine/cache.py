@@ -1,0 +1,241 @@
+"""What was found, kept: the findings of each entry file, for as long as nothing that they came from has changed.
+
+An entry of the cache is one file, named after the description, how it was linted, the version of urdfkit and what else
+is installed. In it are digests of every file that was read, the answers to every question about packages and meshes,
+and the findings. All of it is asked again before the findings are believed; a file that is damaged counts as none, and
+a new one is put in its place by one move, so that writers do not meet.
+"""
+
+from __future__ import annotations
+
+import marshal
+import os
+import re
+import sys
+from functools import cached_property
+from pathlib import Path
+
+from urdfkit.description.xml.source import content_of
+from urdfkit.lint.finding import Edit, Finding, Fix, Found
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from typing import Any
+
+    from urdfkit.description.packages.resolver import Packages
+    from urdfkit.description.xacro.expanded import Expanded
+    from urdfkit.lint.engine.run import Options
+    from urdfkit.lint.project.entry_files import Entry
+
+_VARIABLES = (
+    "ROS_PACKAGE_PATH",
+    "AMENT_PREFIX_PATH",
+    "CMAKE_PREFIX_PATH",
+    "COLCON_PREFIX_PATH",
+    "GZ_SIM_RESOURCE_PATH",
+    "IGN_GAZEBO_RESOURCE_PATH",
+    "GAZEBO_MODEL_PATH",
+    "SDF_PATH",
+    "ROS_DISTRO",
+)
+_MANIFESTS = ("package.xml", "CMakeLists.txt", "setup.py")
+_ENVIRONMENT = r"\$\(\s*(?:opt)?env\s+([^\s()]+)"
+_UNSEEN = r"environ|getenv|\.gltf"
+"""What reads what is not looked at here; files with it are linted every time."""
+
+_KEPT = 64
+"""Files in one of the 256 folders of the cache; the oldest go first."""
+
+
+def folder() -> Path:
+    """Return where findings are kept: ``URDFKIT_CACHE_DIR``, else in the place the system has for what may go."""
+    named = os.environ.get("URDFKIT_CACHE_DIR")
+    if named:
+        return Path(named).expanduser() / "lint"
+    home = Path.home()
+    if sys.platform == "darwin":
+        return home / "Library" / "Caches" / "urdfkit" / "lint"
+    place = os.environ.get("LOCALAPPDATA" if sys.platform == "win32" else "XDG_CACHE_HOME")
+    return (Path(place) if place and Path(place).is_absolute() else home / ".cache") / "urdfkit" / "lint"
+
+
+class Cache:
+    """The findings of earlier runs.
+
+    Args:
+        options: how it is linted now.
+        packages: resolves what has to be asked again; those of an entry are beside it.
+    """
+
+    def __init__(self, options: Options, packages: Packages) -> None:
+        self.options, self.packages = options, packages
+        self._digests: dict[str, str] = {}
+        self.hits = 0
+
+    def get(self, entry: Entry) -> Found | None:
+        """Return what was found before, None where that is not known or something has changed."""
+        path = self._path(entry)
+        try:
+            content = path.read_bytes()
+            if content[:32] != _digest(content[32:]).encode():
+                return None
+            kept = marshal.loads(content[32:])  # ours, whole, and by this Python: all that marshal asks
+            if not self._holds(kept, entry):
+                return None
+            found = Found(tuple(map(_finding, kept["findings"])), kept["files"], kept["note"], kept["used"])
+        except (OSError, ValueError, EOFError, KeyError, TypeError, RuntimeError):
+            return None
+        self.hits += 1
+        return found
+
+    def _holds(self, kept: Any, entry: Entry) -> bool:
+        for path, digest in kept["digests"].items():
+            if self._digest_of(path) != digest:
+                return False
+        if any(os.environ.get(name) != value for name, value in kept["environment"].items()):
+            return False
+        packages = self.packages.beside(entry.path)
+        return all(packages.ask(tuple(question)) == answer for question, answer in kept["answers"])
+
+    def put(self, entry: Entry, found: Found, expanded: Expanded) -> None:
+        """Keep what was found. Without a writable place, or where not all that was read is known, do not.
+
+        Args:
+            entry: the entry file.
+            found: what was found.
+            expanded: what it was found in.
+        """
+        environment: dict[str, str | None] = {}
+        packages = expanded.packages
+        failed = any(fault.kind in ("bad-expression", "conditional", "other") for fault in expanded.faults)
+        for text in (source.text for source in expanded.sources.values()):
+            if re.search(_UNSEEN, text) or ("load_yaml" in text and failed):
+                return  # A YAML file that is not there may come.
+            if "env" in text:
+                environment.update((name, os.environ.get(name)) for name in re.findall(_ENVIRONMENT, text))
+        if any("$" in name for name in environment):
+            return
+        read = dict.fromkeys((*found.files.values(), *map(str, expanded.files)))
+        package = next((f for f in entry.path.absolute().parents if (f / "package.xml").is_file()), None)
+        for name in _MANIFESTS if package is not None else ():
+            read[str(package / name)] = None  # type: ignore[operator]
+        for (kind, *_), answer in packages.answers.items():
+            if kind == "resolve" and not answer.startswith("!"):
+                read[answer] = None
+        self._store(
+            self._path(entry),
+            {
+                "digests": {path: self._digest_of(path) for path in read},
+                "environment": environment,
+                "answers": [[list(question), answer] for question, answer in packages.answers.items()],
+                "findings": [_row(finding) for finding in found.findings],
+                "files": dict(found.files),
+                "note": found.note,
+                "used": found.used,
+            },
+        )
+
+    def _store(self, path: Path, kept: dict[str, Any]) -> None:
+        temporary = path.with_suffix(f".{os.getpid()}.tmp")  # tempfile takes as long to import as a file to lint
+        try:
+            content = marshal.dumps(kept)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            temporary.write_bytes(_digest(content).encode() + content)
+            temporary.replace(path)
+            others = sorted((file.stat().st_mtime, file) for file in path.parent.iterdir())
+            for _, old in others[: max(len(others) - _KEPT, 0)]:
+                old.unlink(missing_ok=True)
+        except (OSError, RuntimeError, ValueError):
+            return
+
+    def _digest_of(self, path: str) -> str:
+        if path not in self._digests:
+            try:
+                self._digests[path] = _digest(content_of(Path(path)))
+            except OSError:
+                self._digests[path] = ""
+        return self._digests[path]
+
+    def _path(self, entry: Entry) -> Path:
+        parts = (
+            str(entry.path.absolute()),
+            *map(str, entry.only),
+            str(entry.is_library),
+            str(Path.cwd()),
+            *self._way,
+        )
+        name = _digest("\0".join(parts).encode("utf-8", "surrogateescape"))
+        return folder() / name[:2] / f"{name[2:]}.found"
+
+    @cached_property
+    def _way(self) -> tuple[str, ...]:
+        """How it is linted, and with what."""
+        options = self.options
+        return (
+            *(str(sorted(words)) for words in (options.select, options.ignore)),
+            str(options.target),
+            str(options.guess_target),
+            str(sorted(options.arguments.items())),
+            *map(str, options.package_path),
+            *(os.environ.get(name, "") for name in _VARIABLES),
+            sys.version,
+            *_versions(),
+        )
+
+
+def _versions() -> Iterable[str]:
+    """Yield what says whether urdfkit, xacro and what reads meshes are the same as before."""
+    from urdfkit import __version__
+
+    yield __version__
+    here = Path(__file__).parents[1]
+    if (here.parents[1] / "pyproject.toml").is_file():  # a checkout, whose files change without the version
+        for room in (here, here.parent / "description"):
+            for place, _, files in os.walk(room):
+                if not place.endswith("__pycache__"):
+                    yield from (f"{name}{os.stat(f'{place}/{name}').st_mtime_ns}" for name in files)  # noqa: PTH116
+    for folder in sys.path:
+        for package in ("xacro", "trimesh", "numpy"):
+            try:
+                yield f"{package}{os.stat(f'{folder}/{package}/__init__.py').st_mtime_ns}"  # noqa: PTH116
+            except OSError:
+                continue
+
+
+def _digest(content: bytes) -> str:
+    from _blake2 import blake2b  # hashlib takes longer to import than a file takes to lint
+
+    return str(blake2b(content, digest_size=16).hexdigest())
+
+
+def _row(finding: Finding) -> list[Any]:
+    """Return a finding as a list of what marshal can write."""
+    fix = finding.fix
+    edits = fix and [[*_values(edit.span), edit.text] for edit in fix.edits]
+    chains = [[[call.macro, *_values(call.position)] for call in chain] for chain in finding.chains]
+    head = [finding.code, finding.name, finding.severity, finding.message, *_values(finding.span)]
+    return [*head, finding.link, finding.joint, finding.help, fix and [fix.safety, fix.title, edits], chains]
+
+
+def _values(item: Any) -> tuple[Any, ...]:
+    return tuple(item.__dict__[name] for name in type(item)._record_names)
+
+
+def _finding(row: list[Any]) -> Finding:
+    from urdfkit.description.xml.source import Expansion, Position, Span
+
+    code, name, severity, message = row[:4]
+    link, joint, help, fix, chains = row[9:]
+    return Finding(
+        code,
+        name,
+        severity,
+        message,
+        Span(*row[4:9]),
+        link,
+        joint,
+        help,
+        fix and Fix(fix[0], fix[1], tuple(Edit(Span(*edit[:5]), edit[5]) for edit in fix[2])),
+        tuple(tuple(Expansion(call[0], Position(*call[1:])) for call in chain) for chain in chains),
+    )

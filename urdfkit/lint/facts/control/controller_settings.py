@@ -1,0 +1,114 @@
+"""Settings of controllers in YAML, of ROS 1 and ROS 2: their types, their parameters, and those that are misspelt."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
+from urdfkit.lint.facts.control.yaml_tree import Node, documents
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.xml.source import Source
+
+_MAX_DEPTH = 4
+
+_ALWAYS = ("type", "update_rate", "use_sim_time", "is_async", "async_parameters", "params_file", "publish_rate", "pid")
+_TRAJECTORY = (
+    *("joints", "gains", "constraints", "state_publish_rate", "action_monitor_rate", "allow_partial_joints_goal"),
+    *("command_joints", "command_interfaces", "state_interfaces", "open_loop_control", "interpolation_method"),
+    *("allow_integration_in_goal_trajectories", "allow_nonzero_velocity_at_trajectory_end", "cmd_timeout"),
+    *("interpolate_from_desired_state", "set_last_command_interface_value_as_state_on_activation", "speed_scaling"),
+    *("stop_trajectory_duration", "velocity_ff", "hold_trajectory_duration", "use_closed_loop_pid_adapter"),
+)
+_OF_TYPES = {
+    "diff_drive_controller/DiffDriveController": (
+        *("left_wheel", "right_wheel", "left_wheel_names", "right_wheel_names", "wheels_per_side", "wheel_separation"),
+        *("wheel_radius", "wheel_separation_multiplier", "wheel_radius_multiplier", "left_wheel_radius_multiplier"),
+        *("right_wheel_radius_multiplier", "tf_frame_prefix_enable", "tf_frame_prefix", "odom_frame_id"),
+        *("base_frame_id", "pose_covariance_diagonal", "twist_covariance_diagonal", "open_loop", "position_feedback"),
+        *("enable_odom_tf", "cmd_vel_timeout", "publish_limited_velocity", "velocity_rolling_window_size"),
+        *("use_stamped_vel", "linear", "angular", "allow_multiple_cmd_vel_publishers", "publish_cmd"),
+        *("publish_wheel_joint_controller_state", "dynamic_reconfigure"),
+    ),
+    "joint_trajectory_controller/JointTrajectoryController": _TRAJECTORY,
+    "position_controllers/JointTrajectoryController": _TRAJECTORY,
+    "velocity_controllers/JointTrajectoryController": _TRAJECTORY,
+    "effort_controllers/JointTrajectoryController": _TRAJECTORY,
+    "joint_state_broadcaster/JointStateBroadcaster": (
+        *("use_local_topics", "joints", "extra_joints", "interfaces", "map_interface_to_joint_state", "frame_id"),
+        *("use_urdf_to_filter", "publish_dynamic_joint_states"),
+    ),
+    "joint_state_controller/JointStateController": ("extra_joints",),
+    "forward_command_controller/ForwardCommandController": ("joints", "interface_name"),
+    "forward_command_controller/MultiInterfaceForwardCommandController": ("joint", "interface_names"),
+    **{
+        f"{kind}_controllers/JointGroup{kind.title()}Controller": ("joints",)
+        for kind in ("position", "velocity", "effort")
+    },
+    **{
+        f"{kind}_controllers/Joint{name}Controller": ("joint",)
+        for kind, name in (("position", "Position"), ("velocity", "Velocity"), ("effort", "Effort"))
+    },
+}
+"""Type → the parameters that it reads in any release: Noetic's ros_controllers, ros2_controllers from Humble on."""
+
+
+@record(eq=False)
+class Settings:
+    """The settings of a controller.
+
+    Attributes:
+        name: of the controller, without name spaces.
+        kind: its type.
+        group: its parameters.
+    """
+
+    name: str
+    kind: str
+    group: Node
+
+
+def settings(source: Source) -> Iterator[Settings]:
+    """Yield the settings of the controllers that a file in YAML gives a type; of each group once."""
+    seen: set[int] = set()
+    for controller in declared(source) if PARAMETERS in source.text else ():
+        if controller.settings is not None:
+            seen.add(id(controller.settings))
+            yield Settings(controller.name, controller.kind.text, controller.settings)
+    for root in documents(source)[0]:
+        for name, group in _groups(root, "", 0):
+            kind = group.find("type")
+            if kind is not None and re.fullmatch(r"\w+/\w+", kind.text) and id(group) not in seen:
+                seen.add(id(group))
+                yield Settings(name, kind.text, group)
+
+
+def _groups(node: Node, name: str, depth: int) -> Iterator[tuple[str, Node]]:
+    """Yield the groups with what they are called: what stands above, where that is ``ros__parameters``."""
+    yield name, node
+    for key, value in node.entries if depth < _MAX_DEPTH else ():
+        called = name if key.text == PARAMETERS else key.text.strip("/").rpartition("/")[2]
+        yield from _groups(value, called, depth + 1)
+
+
+def misspelt(source: Source) -> Iterator[tuple[Node, str, Settings]]:
+    """Yield the parameters of controllers that are nearly one that their type reads: the key, what is meant, whose."""
+    from urdfkit.lint.edits import nearest
+
+    for one in settings(source):
+        known = _OF_TYPES.get(one.kind)
+        if known is None:
+            continue
+        written = {key.text.partition(".")[0] for key, _ in one.group.entries}
+        lacking = [name for name in (*known, *_ALWAYS) if name not in written]
+        for key, value in one.group.entries:
+            name = key.text.partition(".")[0]
+            if name in known or name in _ALWAYS or value.find("type") is not None:
+                continue
+            meant = nearest(name, lacking, likeness=0.85)
+            if meant is not None:
+                yield key, meant, one

@@ -1,0 +1,114 @@
+"""The hardware interfaces of ros_control, and where transmissions name them."""
+
+from __future__ import annotations
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.urdf.robot import Robot, Transmission
+    from urdfkit.description.xml.element import Element
+
+PACKAGE = "hardware_interface"
+"""What stands before the slash."""
+
+INTERFACES = (
+    "EffortJointInterface",
+    "VelocityJointInterface",
+    "PositionJointInterface",
+    "PosVelJointInterface",
+    "PosVelAccJointInterface",
+    "JointStateInterface",
+    "JointCommandInterface",
+    "ActuatorStateInterface",
+    "ForceTorqueSensorInterface",
+    "ImuSensorInterface",
+    "JointModeInterface",
+)
+"""The interfaces that hardware_interface has in ROS Noetic."""
+
+STANDARD = ("position", "velocity", "acceleration", "effort")
+"""The interfaces of joints that hardware_interface of ros2_control names."""
+
+_PARTS: dict[str, tuple[str, ...]] = {
+    "transmission": ("type", "joint", "actuator", "plugin", "role"),
+    "transmission/joint": ("hardwareInterface", "mechanicalReduction", "offset", "role"),
+    "transmission/actuator": ("hardwareInterface", "mechanicalReduction", "role"),
+    "ros2_control": ("hardware", "joint", "sensor", "gpio", "transmission"),
+    "ros2_control/hardware": ("plugin", "param", "group"),
+    "ros2_control/joint": ("command_interface", "state_interface", "param", "limits"),
+    "ros2_control/sensor": ("state_interface", "param"),
+    "ros2_control/gpio": ("command_interface", "state_interface", "param"),
+}
+"""What readers look for where (transmission_interface's parser; component_parser.cpp of hardware_interface)."""
+
+_OTHERS = frozenset(("motor", "effort", "reduction", "joints", "sensors", "actuators", "types"))
+"""Names of somebody's own that are near."""
+
+
+def misspelt_parts(element: Element, where: str) -> Iterator[tuple[Element, Element, str]]:
+    """Yield what is misspelt in a ``<transmission>`` or ``<ros2_control>``: parent, child, and how it is called.
+
+    Both may hold elements of anybody's own; only what is nearly one of theirs is misspelt.
+
+    Args:
+        element: a transmission, a block of ros2_control, or a part of one.
+        where: its name, with that of what it is in.
+    """
+    from urdfkit.lint.edits import nearest
+
+    known = _PARTS.get(where)
+    if known is None:
+        return
+    for child in element.children:
+        if child.tag in known:
+            yield from misspelt_parts(child, f"{where}/{child.tag}")
+        elif ":" not in child.tag and child.tag not in _OTHERS:
+            meant = nearest(child.tag, known, likeness=0.8)
+            if meant is not None:
+                yield element, child, meant
+
+
+def written(robot: Robot) -> Iterator[tuple[str, Element, Transmission]]:
+    """Yield every ``<hardwareInterface>``: its text, its element and the transmission it is in."""
+    for transmission in robot.transmissions:
+        parts = [part.element for part in transmission.joints] + [part.element for part in transmission.actuators]
+        for part in parts:
+            for child in part.find_all("hardwareInterface"):
+                if child.text and "$" not in child.text:
+                    yield child.text, child, transmission
+
+
+def is_misspelt(name: str) -> bool:
+    """Whether a hardware interface, without its package, is nearly one that there is."""
+    from urdfkit.lint.edits import nearest
+
+    return name not in INTERFACES and nearest(name, INTERFACES, likeness=0.85) is not None
+
+
+def meant_interface(name: str) -> str | None:
+    """Return the standard interface of ros2_control that a misspelt one must have meant; None where it is one."""
+    from urdfkit.lint.edits import nearest
+
+    return nearest(name, STANDARD, likeness=0.85) if name not in STANDARD else None
+
+
+def meant_joints(robot: Robot) -> set[str]:
+    """Return the joints of a robot that its ``<ros2_control>`` must mean by names that no joint has."""
+    from urdfkit.lint.edits import meant
+
+    known = robot.joint_by_name
+    named = (part.get("name") or "" for block in robot.ros2_control for part in block.element.find_all("joint"))
+    return {near for name in named if name not in known and (near := meant(name, known)[0]) is not None}
+
+
+def is_old(transmission: Transmission) -> bool:
+    """Whether a transmission is written as PR2's were: its type in an attribute."""
+    return transmission.element.find("type") is None and transmission.element.get("type") is not None
+
+
+def has_gazebo_ros_control(robot: Robot) -> bool:
+    """Whether the robot brings the plugin that reads transmissions."""
+    from urdfkit.lint.facts.gazebo.plugins import plugins
+
+    return any("gazebo_ros_control" in (plugin.filename or "") for plugin, _, _ in plugins(robot))

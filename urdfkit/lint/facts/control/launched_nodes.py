@@ -1,0 +1,107 @@
+"""The programs that launch files start, with the arguments that are written out; nothing is run."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.model.model import Model
+
+_NODE = r"<node\b[^<>]*>"
+_ARGUMENTS = r"\bargs\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
+
+
+@record(eq=False)
+class Started:
+    """A node.
+
+    Attributes:
+        package: of its program; empty where that is computed.
+        program: likewise.
+        arguments: in order, with their places; None for each that is computed.
+    """
+
+    package: str
+    program: str
+    arguments: tuple[Named | None, ...]
+
+
+def launches(model: Model) -> Iterator[Source]:
+    """Yield the launch files around a model."""
+    endings = (".launch", ".launch.xml", ".launch.py", ".launch.yaml")
+    yield from (source for name, source in model.around.items() if name.endswith(endings))
+
+
+def started(source: Source) -> Iterator[Started]:
+    """Yield the nodes of a launch file."""
+    from urdfkit.lint.facts.control.launch_files import uncommented
+
+    if source.file.endswith(".py"):
+        yield from _in_python(source)
+        return
+    if source.file.endswith((".yaml", ".yml")):
+        yield from _in_yaml(source)
+        return
+    text = uncommented(source)
+    for tag in re.finditer(_NODE, text):
+        program = re.search(r"\b(?:type|exec)\s*=\s*[\"']([^\"'$]*)[\"']", tag[0])
+        package = re.search(r"\bpkg\s*=\s*[\"']([^\"'$]*)[\"']", tag[0])
+        written = re.search(_ARGUMENTS, tag[0])
+        group = 1 if written is not None and written[1] is not None else 2
+        start = tag.start() + (written.start(group) if written is not None else 0)
+        arguments = _words(written[group], start) if written is not None else ()
+        yield Started(package[1] if package else "", program[1] if program else "", arguments)
+
+
+def _words(text: str, start: int) -> tuple[Named | None, ...]:
+    return tuple(
+        Named(word[0], start + word.start()) if "$" not in word[0] else None for word in re.finditer(r"\S+", text)
+    )
+
+
+def _in_yaml(source: Source) -> Iterator[Started]:
+    from urdfkit.lint.facts.control.yaml_tree import documents, walk
+
+    for root in documents(source)[0] if "node" in source.text else ():
+        for group in walk(root):
+            node = group.find("node")
+            if node is None or node.kind != "group":
+                continue
+            names = [found.text if (found := node.find(key)) is not None else "" for key in ("pkg", "exec")]
+            arguments = node.find("args")
+            written: tuple[Named | None, ...] = ()
+            if arguments is not None and arguments.kind == "text":
+                start = source.offset(arguments.line, arguments.column)
+                start += not arguments.is_plain
+                if source.text.startswith(arguments.text, start):  # not folded, nor with letters that are escaped
+                    written = _words(arguments.text, start)
+            yield Started("" if "$" in names[0] else names[0], "" if "$" in names[1] else names[1], written)
+
+
+def _in_python(source: Source) -> Iterator[Started]:
+    import ast
+
+    from urdfkit.lint.facts.control.launch_files import Reader, name_of, parsed, place
+
+    tree = parsed(source) if "Node" in source.text else None
+    if tree is None:
+        return
+    reader = Reader(tree)
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call) or name_of(node.func) not in ("Node", "LifecycleNode"):
+            continue
+        given = {word.arg: word.value for word in node.keywords}
+        names = [reader.text(given[key]) if key in given else None for key in ("package", "executable")]
+        written = given.get("arguments")
+        arguments: list[Named | None] = []
+        for word in written.elts if isinstance(written, (ast.List, ast.Tuple)) else ():
+            text = word.value if isinstance(word, ast.Constant) else None
+            arguments.append(Named(text, place(source, word)[0] + 1) if isinstance(text, str) else None)
+        yield Started(names[0] or "", names[1] or "", tuple(arguments))

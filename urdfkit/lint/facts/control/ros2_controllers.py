@@ -1,0 +1,171 @@
+"""Controllers of ROS 2 in YAML, the interfaces that they command and read, and those that hardware offers."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from urdfkit.lint.facts.control.yaml_tree import Node, documents
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.model.model import Model
+
+PARAMETERS = "ros__parameters"
+
+
+@record(eq=False)
+class Controller:
+    """A controller.
+
+    Attributes:
+        name: its own, without name spaces.
+        kind: where its type is written.
+        settings: its parameters; None where there are none in the file.
+    """
+
+    name: str
+    kind: Node
+    settings: Node | None
+
+
+@record(eq=False)
+class Wanted:
+    """An interface that a controller wants of a joint.
+
+    Attributes:
+        joint: its name.
+        interface: ``position``, ``velocity`` …
+        is_command: whether it is for commands, not for states.
+        where: what names it, or else the joint.
+    """
+
+    joint: str
+    interface: str
+    is_command: bool
+    where: Node
+
+
+def declared(source: Source) -> Iterator[Controller]:
+    """Yield the controllers that a file in YAML gives a type in a controller manager of ROS 2."""
+    roots, _ = documents(source)
+    groups = [each for root in roots for each in _parameters(root, "", 0)]
+    settings: dict[str, Node] = {}
+    for name, group in groups:
+        settings.setdefault(name, group)
+    for _, group in groups:
+        for key, value in group.entries:
+            kind = value.find("type")
+            if kind is not None and re.fullmatch(r"\w+/\w+", kind.text):
+                yield Controller(key.text, kind, settings.get(key.text))
+
+
+def _parameters(node: Node, name: str, depth: int) -> Iterator[tuple[str, Node]]:
+    """Yield the groups of parameters, with the last part of the name of their node."""
+    for key, value in node.entries:
+        if key.text == PARAMETERS:
+            yield name, value
+        elif depth < 4:
+            yield from _parameters(value, key.text.strip("/").rpartition("/")[2], depth + 1)
+
+
+_GROUPS = {
+    "position_controllers/JointGroupPositionController": "position",
+    "velocity_controllers/JointGroupVelocityController": "velocity",
+    "effort_controllers/JointGroupEffortController": "effort",
+}
+_GRIPPERS = {
+    "position_controllers/GripperActionController": "position",
+    "effort_controllers/GripperActionController": "effort",
+    "parallel_gripper_action_controller/GripperActionController": "position",
+}
+
+
+def wanted(controller: Controller) -> Iterator[Wanted]:
+    """Yield what a controller of ros2_controllers wants of joints, as far as its settings tell (Humble to Rolling)."""
+    settings, kind = controller.settings, controller.kind.text
+    if settings is None:
+        return
+
+    def joints(*names: str) -> list[Node]:
+        nodes = (settings.find(name) for name in names)
+        return [one for node in nodes if node is not None for one in (node, *node.items) if one.text]
+
+    def each(names: list[Node], interfaces: str, is_command: bool) -> Iterator[Wanted]:
+        asked = settings.find(interfaces)
+        for interface in (asked, *asked.items) if asked is not None else ():
+            if interface.text:
+                yield from (Wanted(name.text, interface.text, is_command, interface) for name in names)
+
+    def all_of(names: list[Node], interface: str, is_command: bool) -> Iterator[Wanted]:
+        yield from (Wanted(name.text, interface, is_command, name) for name in names)
+
+    if kind == "joint_trajectory_controller/JointTrajectoryController":
+        yield from each(joints("command_joints") or joints("joints"), "command_interfaces", True)
+        yield from each(joints("joints"), "state_interfaces", False)
+    elif kind == "forward_command_controller/ForwardCommandController":
+        yield from each(joints("joints"), "interface_name", True)
+    elif kind == "forward_command_controller/MultiInterfaceForwardCommandController":
+        yield from each(joints("joint"), "interface_names", True)
+    elif kind in _GROUPS:
+        yield from all_of(joints("joints"), _GROUPS[kind], True)
+    elif kind in _GRIPPERS:
+        yield from all_of(joints("joint"), _GRIPPERS[kind], True)
+    elif kind == "diff_drive_controller/DiffDriveController":
+        wheels = joints("left_wheel_names", "right_wheel_names")
+        yield from all_of(wheels, "velocity", True)
+        if _truth(settings, "open_loop") is not True:
+            is_position = _truth(settings, "position_feedback") is not False
+            yield from all_of(wheels, "position" if is_position else "velocity", False)
+    elif kind == "tricycle_controller/TricycleController":
+        yield from all_of(joints("traction_joint_name"), "velocity", True)
+        yield from all_of(joints("steering_joint_name"), "position", True)
+    elif re.fullmatch(r"(ackermann|bicycle|tricycle)_steering_controller/\w+", kind):
+        yield from all_of(joints("traction_joints_names"), "velocity", True)
+        yield from all_of(joints("steering_joints_names"), "position", True)
+
+
+def _truth(settings: Node, name: str) -> bool | None:
+    node = settings.find(name)
+    return {"true": True, "false": False}.get(node.text.lower()) if node is not None else None
+
+
+def offered(model: Model) -> dict[str, dict[bool, list[str]]] | None:
+    """Return joint → for commands (True) and states (False) the interfaces that its hardware offers.
+
+    None where arguments, or another description of the package, may make it another hardware.
+    """
+    from urdfkit.description.packages.related_files import package_of
+    from urdfkit.lint.facts.neighbouring_names import is_conditional
+    from urdfkit.lint.project.entry_files import descriptions
+
+    robot = model.robot
+    if not robot.ros2_control or model.is_incomplete or model.package is None:
+        return None
+    found: dict[str, dict[bool, list[str]]] = {}
+    for block in robot.ros2_control:
+        for part in block.element.children:
+            if part.tag not in ("joint", "sensor", "gpio"):
+                continue
+            has = found.setdefault(part.get("name") or "", {True: [], False: []})
+            has[True] += [child.get("name") or "" for child in part.find_all("command_interface")]
+            has[False] += [child.get("name") or "" for child in part.find_all("state_interface")]
+    if any("$" in name for name in found):
+        return None
+    own = {str(Path(name).absolute()): source.text for name, source in model.expanded.sources.items()}
+    if any(is_conditional(text, _PARTS) for text in own.values() if "_interface" in text):
+        return None
+    packages = {package_of(Path(file)) for file in model.around}
+    for folder in sorted({model.package, *(package for package in packages if package is not None)}):
+        for path, text in descriptions(folder):
+            if str(path.absolute()) not in own and ("<ros2_control" in text or "_interface" in text):
+                return None
+    return found
+
+
+_PARTS = r"_interface|<xacro:(?!if|unless|property|arg)\w"
+"""What may bring an interface."""

@@ -1,0 +1,113 @@
+"""What passes between Gazebo and ROS by ros_gz_bridge: its types, and what launch files and YAML tell it to pass."""
+
+from __future__ import annotations
+
+import re
+
+from urdfkit.lint.facts.control.controller_joints import Named
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.control.yaml_tree import Node
+
+_PAIRS = """
+actuator_msgs/Actuators=Actuators builtin_interfaces/Time=Time geometry_msgs/Point=Vector3d geometry_msgs/Pose=Pose
+geometry_msgs/PoseArray=Pose_V geometry_msgs/PoseStamped=Pose geometry_msgs/PoseWithCovariance=PoseWithCovariance
+geometry_msgs/PoseWithCovarianceStamped=PoseWithCovariance geometry_msgs/Quaternion=Quaternion
+geometry_msgs/Transform=Pose geometry_msgs/TransformStamped=Pose geometry_msgs/Twist=Twist
+geometry_msgs/TwistStamped=Twist geometry_msgs/TwistWithCovariance=TwistWithCovariance
+geometry_msgs/TwistWithCovarianceStamped=TwistWithCovariance geometry_msgs/Vector3=Vector3d geometry_msgs/Wrench=Wrench
+geometry_msgs/WrenchStamped=Wrench gps_msgs/GPSFix=NavSat nav_msgs/Odometry=Odometry,OdometryWithCovariance
+rcl_interfaces/ParameterValue=Any ros_gz_interfaces/Altimeter=Altimeter ros_gz_interfaces/Contact=Contact
+ros_gz_interfaces/Contacts=Contacts ros_gz_interfaces/Dataframe=Dataframe ros_gz_interfaces/Entity=Entity
+ros_gz_interfaces/EntityWrench=EntityWrench ros_gz_interfaces/Float32Array=Float_V
+ros_gz_interfaces/GuiCamera=GUICamera ros_gz_interfaces/JointWrench=JointWrench ros_gz_interfaces/Light=Light
+ros_gz_interfaces/ParamVec=Param,Param_V ros_gz_interfaces/SensorNoise=SensorNoise
+ros_gz_interfaces/StringVec=StringMsg_V ros_gz_interfaces/TrackVisual=TrackVisual
+ros_gz_interfaces/VideoRecord=VideoRecord ros_gz_interfaces/MaterialColor=MaterialColor
+ros_gz_interfaces/WorldStatistics=WorldStatistics ros_gz_interfaces/LogicalCameraImage=LogicalCameraImage
+rosgraph_msgs/Clock=Clock
+sensor_msgs/BatteryState=BatteryState sensor_msgs/CameraInfo=CameraInfo sensor_msgs/FluidPressure=FluidPressure
+sensor_msgs/Image=Image sensor_msgs/Imu=IMU sensor_msgs/JointState=Model sensor_msgs/Joy=Joy
+sensor_msgs/LaserScan=LaserScan sensor_msgs/MagneticField=Magnetometer sensor_msgs/NavSatFix=NavSat
+sensor_msgs/PointCloud2=PointCloudPacked sensor_msgs/Range=LaserScan marine_acoustic_msgs/Dvl=DVLVelocityTracking
+std_msgs/Bool=Boolean std_msgs/ColorRGBA=Color std_msgs/Empty=Empty std_msgs/Float32=Float std_msgs/Float64=Double
+std_msgs/Header=Header std_msgs/Int32=Int32 std_msgs/String=StringMsg std_msgs/UInt32=UInt32 tf2_msgs/TFMessage=Pose_V
+trajectory_msgs/JointTrajectory=JointTrajectory vision_msgs/Detection2D=AnnotatedAxisAligned2DBox
+vision_msgs/Detection2DArray=AnnotatedAxisAligned2DBox_V vision_msgs/Detection3D=AnnotatedOriented3DBox
+vision_msgs/Detection3DArray=AnnotatedOriented3DBox_V
+"""
+
+KEYS = (
+    *("topic_name", "ros_topic_name", "gz_topic_name", "ros_type_name", "gz_type_name", "subscriber_queue"),
+    *("publisher_queue", "lazy", "direction", "service_name", "gz_req_type_name", "gz_rep_type_name", "qos_profile"),
+    *("ign_topic_name", "ign_type_name"),
+)
+DIRECTIONS = ("BIDIRECTIONAL", "GZ_TO_ROS", "ROS_TO_GZ", "IGN_TO_ROS", "ROS_TO_IGN")
+"""The names and directions in its YAML (ros_gz_bridge, Humble to Rolling)."""
+
+
+def pairs() -> dict[str, tuple[str, ...]]:
+    """Return type of ROS → those of Gazebo that the bridge makes of it (the README of ros_gz_bridge)."""
+    found = {}
+    for word in _PAIRS.split():
+        ros, _, gazebo = word.partition("=")
+        found["/msg/".join(ros.split("/"))] = tuple(f"gz.msgs.{name}" for name in gazebo.split(","))
+    return found
+
+
+@record(eq=False)
+class Bridged:
+    """One thing that is passed.
+
+    Attributes:
+        topic: of Gazebo; None where it is not written.
+        ros: its type there.
+        gazebo: its type there.
+        direction: one of `DIRECTIONS`, or what is written.
+    """
+
+    topic: Named | None
+    ros: Named | None
+    gazebo: Named | None
+    direction: Named | None
+
+
+def in_yaml(source: Source) -> Iterator[tuple[Bridged, tuple[Node, ...]]]:
+    """Yield what a file in YAML passes, with the names of what is written of each."""
+    from urdfkit.lint.facts.control.yaml_tree import documents, span_of
+
+    def named(entry: Node, *keys: str) -> Named | None:
+        node = next((node for key in keys if (node := entry.find(key)) is not None), None)
+        if node is None or not node.text or "$" in node.text:
+            return None
+        span = span_of(source, node)
+        return Named(node.text, source.offset(span.line, span.column))
+
+    roots, _ = documents(source)
+    for entry in (item for root in roots for item in root.items):
+        keys = tuple(key for key, _ in entry.entries)
+        if any(key.text in ("ros_type_name", "gz_type_name", "gz_topic_name", "ign_type_name") for key in keys):
+            topic = named(entry, "gz_topic_name", "ign_topic_name", "topic_name", "ros_topic_name")
+            types = named(entry, "ros_type_name"), named(entry, "gz_type_name", "ign_type_name")
+            yield Bridged(topic, *types, named(entry, "direction")), keys
+
+
+def in_launch(source: Source) -> Iterator[Bridged]:
+    """Yield what the arguments of bridges in a launch file pass: ``topic@ros_type[gz_type``."""
+    from urdfkit.lint.facts.control.launched_nodes import started
+
+    for node in started(source):
+        if node.program != "parameter_bridge":
+            continue
+        for word in node.arguments:
+            at = re.fullmatch(r"([^@\s]+)@([\w/.]+)([@\[\]])([\w.:/]+)", word.name) if word is not None else None
+            if word is None or at is None:
+                continue
+            parts = [Named(at[group], word.start + at.start(group)) for group in (1, 2, 3, 4)]
+            way = {"[": "GZ_TO_ROS", "]": "ROS_TO_GZ"}.get(at[3], "BIDIRECTIONAL")
+            yield Bridged(parts[0], parts[1], parts[3], Named(way, parts[2].start))

@@ -1,0 +1,121 @@
+"""YAML as a tree whose parts know their places: groups, lists and texts; nothing is constructed from it."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from typing import Any
+
+    from urdfkit.description.xml.source import Source, Span
+    from urdfkit.lint.model.model import Model
+
+_MAX_NODES = 20_000
+_MAX_DEPTH = 12
+
+
+@record(eq=False)
+class Node:
+    """A part of a YAML document.
+
+    Attributes:
+        kind: ``group``, ``list`` or ``text``.
+        text: of a text; empty else.
+        entries: of a group: the name of each, as a node, and what it has.
+        items: of a list.
+        line: where it begins, from 1.
+        column: likewise.
+        is_plain: a text without quotes, not a block of lines.
+    """
+
+    kind: str
+    text: str
+    entries: tuple[tuple[Node, Node], ...]
+    items: tuple[Node, ...]
+    line: int
+    column: int
+    is_plain: bool = False
+
+    def find(self, name: str) -> Node | None:
+        """Return what a group has under a name; None where it has none, or is no group."""
+        return next((value for key, value in self.entries if key.text == name), None)
+
+    def texts(self) -> list[str]:
+        """Return the text, or those of the list, that are not empty."""
+        return [node.text for node in (self, *self.items) if node.kind == "text" and node.text]
+
+
+@record(eq=False)
+class Broken:
+    """Where a text is no YAML any more, from 1, and why."""
+
+    line: int
+    column: int
+    why: str
+
+
+def yamls(model: Model) -> Iterator[Source]:
+    """Yield the files in YAML around a model."""
+    yield from (source for name, source in model.around.items() if name.endswith((".yaml", ".yml")))
+
+
+def documents(source: Source) -> tuple[tuple[Node, ...], Broken | None]:
+    """Return the documents of a file in YAML, as far as it can be read, and where it cannot."""
+    return _read(source.text)
+
+
+def span_of(source: Source, node: Node) -> Span:
+    """Return the span of a text in one line, without its quotes; else of the first letter."""
+    start = source.offset(node.line, node.column)
+    if source.text[start : start + 1] in ("'", '"'):
+        start += 1
+    return source.span(start, start + max(len(node.text) if "\n" not in node.text else 1, 1))
+
+
+def walk(node: Node, depth: int = 0) -> Iterator[Node]:
+    """Yield a node and all that is in it."""
+    yield node
+    if depth < _MAX_DEPTH:
+        for inner in (*(value for _, value in node.entries), *node.items):
+            yield from walk(inner, depth + 1)
+
+
+@lru_cache(maxsize=400)
+def _read(text: str) -> tuple[tuple[Node, ...], Broken | None]:
+    import yaml
+
+    loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    found: list[Node] = []
+    try:
+        for document in yaml.compose_all(text, Loader=loader):
+            found.append(_Reader().node(document, 0))
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        why = error.problem or error.context or "this is no YAML"
+        return tuple(found), Broken(mark.line + 1 if mark else 1, mark.column + 1 if mark else 1, why)
+    except (yaml.YAMLError, RecursionError) as error:
+        return tuple(found), Broken(1, 1, " ".join(str(error).split())[:200] or "this is no YAML")
+    return tuple(found), None
+
+
+class _Reader:
+    """From what yaml composes to nodes; aliases are followed, so the number of nodes is bounded."""
+
+    def __init__(self) -> None:
+        self._count = 0
+
+    def node(self, written: Any, depth: int) -> Node:
+        self._count += 1
+        place = (written.start_mark.line + 1, written.start_mark.column + 1)
+        if depth > _MAX_DEPTH or self._count > _MAX_NODES:
+            return Node("text", "", (), (), *place)
+        if written.id == "mapping":
+            entries = ((self.node(key, depth + 1), self.node(value, depth + 1)) for key, value in written.value)
+            return Node("group", "", tuple(entries), (), *place)
+        if written.id == "sequence":
+            return Node("list", "", (), tuple(self.node(item, depth + 1) for item in written.value), *place)
+        return Node("text", str(written.value), (), (), *place, not written.style)

@@ -1,0 +1,161 @@
+"""What a robot has, and what looks odd about it at a glance: which rules have to be asked.
+
+A clean robot needs a third of the rules; to import and ask the others takes longer than to look once whether they could
+find anything. What is told here must never be too little: a rule whose word is missing is not asked.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+from urdfkit.description.urdf.robot import JOINT_TYPES, Box, Capsule, Cylinder, Sphere
+from urdfkit.description.xml.numbers import numbers
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from urdfkit.description.urdf.robot import Collision, Inertial, Joint, Limit, Link, Robot, Visual
+    from urdfkit.description.xml.element import Element
+
+_TENSOR = frozenset(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
+_FAR = 2.0 * pi
+"""[rad]: no limit and no angle in radians need be larger."""
+
+
+def traits(robot: Robot) -> set[str]:
+    """Return what a robot has: its tags, the types of its joints, and, with ``!``, what is odd about it."""
+    found = _of_elements(robot.element)
+    found.update(f"{problem.kind}!" for problem in robot.problems)
+    if robot.element.tag != "robot" or not robot.element.get("name"):
+        found.add("unnamed!")
+    parts: tuple[Link | Joint, ...] = (*robot.links, *robot.joints)
+    for part in parts:
+        plain = part.name.replace("_", "").replace("-", "").replace(".", "")
+        if not (plain.isalnum() and plain.isascii()) or part.name[:1] == "_" or part.name == "world":
+            found.add("name!")
+    tensors: dict[tuple[float, ...], int] = {}
+    for link in robot.links:
+        _of_link(link, found)
+        inertia = link.inertial.inertia if link.inertial is not None else None
+        if inertia is not None:
+            values = (inertia.ixx, inertia.ixy, inertia.ixz, inertia.iyy, inertia.iyz, inertia.izz)
+            tensors[values] = tensors.get(values, 0) + 1
+    if max(tensors.values(), default=0) > 2:
+        found.add("copied!")
+    _of_tree(robot, found)
+    return found
+
+
+def _of_elements(root: Element) -> set[str]:
+    """Return the tags, whether there is text, and whether an origin is turned far."""
+    found: set[str] = set()
+    known: set[str] = set()
+    pending = [root]
+    for element in pending:  # It grows while it is walked through.
+        found.add(element.tag)
+        if element.text:
+            found.add("text!")
+        pending += element.children
+        if element.tag == "geometry" and len(element.children) != 1:
+            found.add("size!")
+        if element.tag == "origin":
+            angles = element.attributes.get("rpy")
+            if angles is not None and angles not in known:
+                known.add(angles)
+                if any(abs(angle) > _FAR for angle in numbers(angles) or ()):
+                    found.add("turned-far!")
+    return found
+
+
+def _of_link(link: Link, found: set[str]) -> None:
+    inertial = link.inertial
+    if inertial is None or not inertial.mass or inertial.inertia is None:
+        if link.visuals or link.collisions:
+            found.add("massless!")
+        if link.collisions:
+            found.add("bare-collision!")
+    if inertial is not None:
+        if inertial.mass is None or not inertial.mass > 0.0:
+            found.add("mass!")
+        if not _is_possible(inertial):
+            found.add("inertia!")
+    if link.visuals and not link.collisions:
+        found.add("unhit!")
+    shapes: tuple[Visual | Collision, ...] = (*link.visuals, *link.collisions)
+    for shape in shapes:
+        geometry = shape.geometry
+        if isinstance(geometry, Box):
+            least = min(geometry.size)
+        elif isinstance(geometry, (Cylinder, Capsule)):
+            least = min(geometry.radius, geometry.length)
+        else:
+            least = geometry.radius if isinstance(geometry, Sphere) else 1.0 if geometry is not None else 0.0
+        if not least > 0.0:
+            found.add("size!")
+
+
+def _is_possible(inertial: Inertial) -> bool:
+    """Whether mass and tensor are surely those of a body: by Gershgorin's circles about the diagonal."""
+    inertia = inertial.inertia
+    written = [child for child in inertial.element.children if child.tag == "inertia"]
+    if inertia is None or len(written) != 1 or not written[0].attributes.keys() >= _TENSOR:
+        return False
+    xx, yy, zz = inertia.ixx, inertia.iyy, inertia.izz
+    radius = abs(inertia.ixy) + abs(inertia.ixz) + abs(inertia.iyz)
+    slack = 3.0 * radius + 1e-9 * (abs(xx) + abs(yy) + abs(zz))
+    return (
+        min(xx, yy, zz) > slack
+        and xx + yy > zz + slack
+        and xx + zz > yy + slack
+        and yy + zz > xx + slack
+        and not (xx == yy == zz == 1.0)
+    )
+
+
+def _of_tree(robot: Robot, found: set[str]) -> None:
+    links = robot.link_by_name
+    children = {joint.child for joint in robot.joints if joint.child is not None}
+    reached = links.keys() - children
+    if len(reached) != 1:
+        found.add("roots!")
+    if len(children) < sum(joint.child is not None for joint in robot.joints):
+        found.add("parents!")
+    if len({*links, *robot.joint_by_name}) < len(robot.links) + len(robot.joints):
+        found.add("same-name!")
+    for joint in robot.joints:
+        _of_joint(joint, found)
+        child, parent = joint.child, joint.parent
+        if parent not in links or child not in links:
+            found.add("dangling!")
+        if child is not None and "optical" in child.lower():
+            found.add("optical!")
+        if parent in reached and child is not None:
+            reached.add(child)
+        else:
+            found.add("order!")
+
+
+def _of_joint(joint: Joint, found: set[str]) -> None:
+    kind = joint.type
+    found.add(f"type={kind}" if kind is None or kind in JOINT_TYPES else "type=unknown")
+    axis = joint.element.find("axis")
+    if axis is not None and not abs(sum(part * part for part in joint.axis) - 1.0) < 1e-4:
+        found.add("axis!")
+    if joint.is_movable:
+        found.add("movable!")
+        if axis is None:
+            found.add("no-axis!")
+    limit = joint.limit
+    if limit is None:
+        if kind in ("revolute", "prismatic"):
+            found.add("no-limit!")
+    elif not _is_sound(limit, kind):
+        found.add("limit!")
+
+
+def _is_sound(limit: Limit, kind: str | None) -> bool:
+    """Whether a limit is surely one of a joint of that type."""
+    if not ((limit.effort or 0.0) > 0.0 and (limit.velocity or 0.0) > 0.0):
+        return False
+    if kind == "continuous":
+        return limit.element.attributes.keys().isdisjoint(("lower", "upper"))
+    return kind in ("revolute", "prismatic") and -_FAR <= (limit.lower or 0.0) < (limit.upper or 0.0) <= _FAR

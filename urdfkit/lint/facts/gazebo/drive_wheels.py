@@ -1,0 +1,199 @@
+"""Drives with wheels on two sides: which joints they turn, and where those are when every joint is at zero."""
+
+from __future__ import annotations
+
+from urdfkit.description.urdf.robot import Cylinder, Sphere
+from urdfkit.lint.edits import nearest, new_text
+from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of
+from urdfkit.lint.model.placement import Frame, rotation, shapes_of, turned
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from urdfkit.description.plugins import PluginSpec
+    from urdfkit.description.urdf.robot import Joint, Plugin, Vector
+    from urdfkit.description.xml.element import Element
+    from urdfkit.lint.finding import Finding
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.rule import Rule
+
+_SIDES = {
+    "diff_drive": (("left_joint",), ("right_joint",)),
+    "skid_steer": (("left_front_joint", "left_rear_joint"), ("right_front_joint", "right_rear_joint")),
+    "mecanum_drive": (("front_left_joint", "back_left_joint"), ("front_right_joint", "back_right_joint")),
+}
+"""Kind of a drive → what its parameters for the joints of each side mean."""
+
+_SAME = 1e-6
+"""Lengths that differ by less are one [m]."""
+
+
+@record(eq=False)
+class Wheel:
+    """A joint that a drive turns.
+
+    Attributes:
+        joint: the joint; the one with the nearest name where the drive's parameter names none.
+        element: where the drive names it; None where its default does.
+        named: what it is called there.
+        place: the middle of the joint in the root link [m].
+        axis: its axis in the root link.
+        radius: of the cylinder or sphere its link is [m]; None where it is something else.
+        middles: the middle of the joint and of every shape of its link, in the root link [m].
+    """
+
+    joint: Joint
+    element: Element | None
+    named: str
+    place: Vector
+    axis: Vector
+    radii: tuple[float, ...]
+    middles: tuple[Vector, ...]
+
+
+@record(eq=False)
+class TwoSided:
+    """A drive with wheels on two sides."""
+
+    plugin: Plugin
+    spec: PluginSpec
+    left: tuple[Wheel, ...]
+    right: tuple[Wheel, ...]
+
+
+def drives(model: Model) -> Iterator[TwoSided]:
+    """Yield every drive of the robot that turns wheels on two sides, all of which are there."""
+    for plugin, _, _ in plugins(model.robot):
+        spec = spec_of(plugin, model.target)
+        if spec is None or spec.kind not in _SIDES or is_foreign(plugin, model):
+            continue
+        left, right = (
+            [wheel for meaning in side for wheel in _wheels(model, plugin, spec, meaning)] for side in _SIDES[spec.kind]
+        )
+        if left and right and len(left) == len(right):
+            yield TwoSided(plugin, spec, tuple(left), tuple(right))
+
+
+def written(model: Model, drive: TwoSided, meaning: str) -> tuple[float, Element, str] | None:
+    """Return the number written for a parameter, its element and its tag; the default at the plugin where none is.
+
+    None where it is not known, or written under a name that this plugin does not read: that is a finding of its own.
+    """
+    from urdfkit.description.plugins import values
+    from urdfkit.description.xml.numbers import number
+
+    parameter = drive.spec.by_meaning(meaning)
+    if parameter is None:
+        return None
+    for text, element in values(drive.plugin, parameter):
+        value = number(text)
+        return None if value is None or model.is_unresolved(element) else (value, element, parameter.tag)
+    if parameter.default is None or _is_meant(drive, meaning, parameter.tag):
+        return None
+    return float(parameter.default), drive.plugin.element, parameter.tag
+
+
+def _is_meant(drive: TwoSided, meaning: str, tag: str) -> bool:
+    """Whether a parameter is misspelt, or written as another generation of the plugin reads it."""
+    from urdfkit.description.plugins.unread_parameters import tables, unread
+
+    others = (other.by_meaning(meaning) for other in tables(drive.plugin))
+    if any(drive.plugin.element.find(other.tag) is not None for other in others if other is not None):
+        return True
+    return any(each.meant == tag for each in unread(drive.plugin, drive.spec))
+
+
+def mismatch(
+    rule: Rule, model: Model, drive: TwoSided, parameter: tuple[float, Element, str], *, actual: float, beside: str
+) -> Finding:
+    """Return the finding for a length of a drive that is not what the robot has.
+
+    Args:
+        rule: whose finding it is.
+        model: what is being linted.
+        drive: the drive.
+        parameter: the length [m], its element and its tag, as `written` returns them.
+        actual: what the robot has [m].
+        beside: what has it, with ``{}`` where the length goes.
+    """
+    number, element, tag = parameter
+    text = f"{actual:.6g}"
+    return rule.at(
+        model,
+        element,
+        f"<{tag}> is {number:g} m{'' if element.tag == tag else ' by default'}, but {beside.format(text)}",
+        joint=drive.left[0].joint.name,
+        fix=new_text(model, element, text, "unsafe", f"Write {text}") if element.tag == tag else None,
+    )
+
+
+def _wheels(model: Model, plugin: Plugin, spec: PluginSpec, meaning: str) -> Iterator[Wheel]:
+    from urdfkit.description.plugins import values
+
+    parameter = spec.by_meaning(meaning)
+    if parameter is None:
+        return
+    named: list[tuple[str, Element | None]] = [(text, element) for text, element in values(plugin, parameter) if text]
+    if not named and parameter.default is not None:
+        named = [(parameter.default, None)]
+    joints = model.robot.joint_by_name
+    for text, element in named:
+        name = text if text in joints else nearest(text.strip("\"'"), joints)
+        wheel = wheel_of(model, joints[name], element, named=text) if name is not None else None
+        if wheel is not None:
+            yield wheel
+
+
+def wheel_of(model: Model, joint: Joint, element: Element | None, *, named: str | None = None) -> Wheel | None:
+    """Return the wheel that a joint turns, named by an element; None where it is not known where it is.
+
+    Args:
+        model: what is being linted.
+        joint: the joint.
+        element: where it is named.
+        named: what it is called there; its name where it is None.
+    """
+    parent = model.frames.get(joint.parent or "")
+    if parent is None:
+        return None
+    frame = parent.moved(joint.origin)
+    link = model.robot.link_by_name.get(joint.child or "")
+    shapes = shapes_of(link) if link is not None else ()
+    round_ones = tuple(shape.geometry.radius for shape in shapes if isinstance(shape.geometry, (Cylinder, Sphere)))
+    middles = tuple(frame.moved(shape.origin).translation for shape in shapes)
+    return Wheel(
+        joint,
+        element,
+        joint.name if named is None else named,
+        frame.translation,
+        turned(frame.rotation, joint.axis),
+        round_ones if len(round_ones) == len(shapes) else (),
+        (frame.translation, *middles),
+    )
+
+
+def track(left: Wheel, right: Wheel, distances: Iterable[float]) -> tuple[float, str]:
+    """Return how far apart two wheels are [m], and what is: their shapes where those agree, else their joints.
+
+    Args:
+        left: a wheel.
+        right: the other.
+        distances: of their `middles`: of the joints, then of the shapes [m].
+    """
+    joints, *shapes = distances
+    names = f"`{left.joint.name}` and `{right.joint.name}`"
+    if not shapes or max(shapes) - min(shapes) > _SAME or abs(shapes[0] - joints) <= _SAME:
+        return joints, names
+    return shapes[0], f"the wheels at {names}"
+
+
+def same_turn(first: Vector, second: Vector) -> float:
+    """Return the largest difference between the rotation matrices of two triples of angles."""
+    return max(
+        abs(a - b) for rows in zip(rotation(first), rotation(second), strict=True) for a, b in zip(*rows, strict=True)
+    )
+
+
+__all__ = ["Frame", "TwoSided", "Wheel", "drives", "mismatch", "same_turn", "track", "wheel_of", "written"]

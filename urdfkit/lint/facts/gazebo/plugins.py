@@ -1,0 +1,124 @@
+"""What rules on ``<gazebo>`` have in common: plugins and their tables, what they refer to, who reads them."""
+
+from __future__ import annotations
+
+from urdfkit.lint.project.target import WITHOUT_CLASSIC
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.plugins import Parameter, PluginSpec
+    from urdfkit.description.urdf.robot import GazeboBlock, Plugin, Robot, SensorTag
+    from urdfkit.description.xml.element import Element
+    from urdfkit.lint.model.model import Model
+
+OUTSIDE_FRAMES = frozenset(("world", "map", "odom", "/world", "/map", "/odom", "base_footprint_odom"))
+"""Frames that are no links of the robot."""
+
+
+def plugins(robot: Robot) -> Iterator[tuple[Plugin, GazeboBlock, SensorTag | None]]:
+    """Yield every plugin with the block and the sensor it stands in."""
+    for block in robot.gazebo:
+        for plugin in block.plugins:
+            yield plugin, block, None
+        for sensor in block.sensors:
+            for plugin in sensor.plugins:
+                yield plugin, block, sensor
+
+
+def specs(plugin: Plugin) -> list[PluginSpec]:
+    """Return the tables of every generation that has a plugin of that file name."""
+    from urdfkit.description.plugins.unread_parameters import tables
+
+    return tables(plugin)
+
+
+def generations(plugin: Plugin) -> set[str]:
+    """Return the generations that have a plugin's library, by our tables or by its name; none where neither tells."""
+    from urdfkit.description.plugins.lookup import stem
+
+    found: set[str] = {spec.generation for spec in specs(plugin)}
+    name = stem("".join((plugin.filename or "").split()))
+    if name.startswith("gazebo_ros") and not found:
+        return {"ros1", "ros2"}
+    if name.startswith(("gz-sim", "ignition-gazebo", "gz_ros2_control", "ign_ros2_control")):
+        return {"gz"}
+    return found
+
+
+def allowed(model: Model) -> set[str]:
+    """Return the generations that a model's target has; all where it does not tell."""
+    if model.release in WITHOUT_CLASSIC:
+        return {"gz"}
+    every = {"ros1", "ros2", "gz"}
+    return {"gz": {"gz"}, "classic": {"ros1", "ros2"}, "ros1": {"ros1"}, "ros2": {"ros2", "gz"}}.get(
+        model.target or "", every
+    )
+
+
+def simulated_hardware(model: Model) -> tuple[str, ...] | None:
+    """Return the packages that bring ros2_control's hardware in the target's Gazebo; None where it may be any."""
+    if allowed(model) == {"gz"}:
+        return ("gz_ros2_control", "ign_ros2_control")
+    return ("gazebo_ros2_control",) if model.target == "classic" else None
+
+
+def is_foreign(plugin: Plugin, model: Model) -> bool:
+    """Whether the target has no such plugin: then nothing of it is read, and nothing else has to be said."""
+    found = generations(plugin)
+    return bool(found) and found.isdisjoint(allowed(model))
+
+
+def spec_of(plugin: Plugin, target: str | None) -> PluginSpec | None:
+    """Return the table a plugin is read by: that of the target's generation, else the one its spelling tells."""
+    found = specs(plugin)
+    if len(found) > 1 and target in ("ros1", "ros2"):
+        return next((spec for spec in found if spec.generation == target), found[0])
+    if len(found) > 1:
+        from urdfkit.description.plugins import match
+
+        return match(plugin) or found[0]
+    return found[0] if found else None
+
+
+def references(model: Model, kinds: tuple[str, ...]) -> Iterator[tuple[str, Element, Parameter, Plugin]]:
+    """Yield what plugins name, with the element that names it, in any generation's spelling."""
+    from urdfkit.description.plugins import values
+
+    for plugin, _, _ in plugins(model.robot):
+        seen: set[str] = set()
+        for spec in specs(plugin):
+            for parameter in spec.parameters:
+                if parameter.names in kinds and parameter.tag not in seen:
+                    seen.add(parameter.tag)
+                    for text, element in values(plugin, parameter):
+                        if text and "$" not in text and not model.is_unresolved(element):
+                            yield text, element, parameter, plugin
+
+
+def is_simulated(model: Model) -> bool:
+    """Whether the robot is meant for a simulator: the target is one, or it brings plugins or sensors for Gazebo."""
+    if model.target is not None and model.target not in ("ros1", "ros2", "moveit"):
+        return True
+    return any(block.plugins or block.sensors for block in model.robot.gazebo)
+
+
+def is_frame(text: str, robot: Robot) -> bool:
+    """Whether a frame is a link of the robot, perhaps with the name space of a robot before it, or none of a robot."""
+    return text in OUTSIDE_FRAMES or text in robot.link_by_name or text.rpartition("/")[2] in robot.link_by_name
+
+
+def lumped(robot: Robot) -> set[str]:
+    """Return the links that Gazebo makes part of their parents, as fixed joints lead to them that nothing preserves."""
+    kept = set()
+    for block in robot.gazebo:
+        for child in block.element.children:
+            says = (child.text or child.get("value") or "").strip().lower()
+            if child.tag in ("preserveFixedJoint", "disableFixedJointLumping") and says in ("true", "1"):
+                kept.add(block.reference)
+    return {
+        joint.child
+        for joint in robot.joints
+        if joint.type == "fixed" and joint.child and joint.name not in kept and joint.parent != "world"
+    }

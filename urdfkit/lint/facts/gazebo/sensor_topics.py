@@ -1,0 +1,120 @@
+"""The topics that sensors publish on, as far as a description tells: what is written, else what plugins take."""
+
+from __future__ import annotations
+
+from urdfkit.lint.facts.gazebo.plugins import plugins, spec_of
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.plugins import PluginSpec
+    from urdfkit.description.urdf.robot import Plugin, SensorTag
+    from urdfkit.description.xml.element import Element
+    from urdfkit.lint.model.model import Model
+
+_TOPICS = ("topic", "image_topic", "depth_topic", "cloud_topic")
+"""Meanings of parameters that name what a plugin of ROS 1 publishes; the calibration goes with the image."""
+
+_ROS_2 = {
+    "ray_sensor": ("~/out",),
+    "velodyne": ("~/out",),
+    "imu_sensor": ("~/out",),
+    "gps": ("~/out",),
+    "camera": ("{camera}/image_raw",),
+}
+"""Kind of a plugin → the topics of its node before they are remapped."""
+
+_SHARED = frozenset(("range", "hector_sonar", "sonar", "bumper"))
+"""Kinds whose messages tell by their frame where they come from: several on one topic are common, and read so."""
+
+_GZ = {
+    "rgbd": ("/image", "/depth_image", "/points"),
+    "rgbd_camera": ("/image", "/depth_image", "/points"),
+    "depth": ("", "/points"),
+    "depth_camera": ("", "/points"),
+    "gpu_lidar": ("", "/points"),
+    "gpu_ray": ("", "/points"),
+    "lidar": ("", "/points"),
+    "ray": ("", "/points"),
+}
+"""Type of a sensor of the new Gazebo → what it puts behind its topic (gz-sensors)."""
+
+
+@record(eq=False)
+class Published:
+    """A topic and what publishes on it.
+
+    Attributes:
+        topic: with its namespace.
+        name: of the sensor or plugin.
+        key: two of the same key are the same sensor twice, which is reported as such.
+        element: what names the topic; the plugin or sensor where nothing does.
+    """
+
+    topic: str
+    name: str
+    key: tuple[str, str]
+    element: Element
+
+
+def published(model: Model) -> Iterator[Published]:
+    """Yield the topics of the robot's sensors; those of the new Gazebo where a sensor has no plugin for the classic."""
+    classic: set[int] = set()
+    for plugin, block, sensor in plugins(model.robot):
+        spec = spec_of(plugin, model.target)
+        if sensor is not None and (plugin.filename or "").strip():
+            classic.add(id(sensor))
+        if spec is None or spec.generation == "gz" or spec.kind in _SHARED:
+            continue
+        name = (sensor.name if sensor is not None else None) or plugin.name or ""
+        key = (block.reference or "", name)
+        found = _of_ros_1(plugin, spec) if spec.generation == "ros1" else _of_ros_2(plugin, spec, sensor)
+        for topic, element in found:
+            if not model.is_unresolved(element) and "$" not in topic:
+                yield Published(topic, name, key, element)
+    for block in model.robot.gazebo:
+        for sensor in block.sensors:
+            written = sensor.element.find("topic")
+            if written is None or not written.text or "$" in written.text or id(sensor) in classic:
+                continue
+            for behind in _GZ.get(sensor.type or "", ("",)):
+                topic = f"/{written.text.strip('/')}{behind}"
+                yield Published(topic, sensor.name or "", (block.reference or "", sensor.name or ""), written)
+
+
+def _of_ros_1(plugin: Plugin, spec: PluginSpec) -> Iterator[tuple[str, Element]]:
+    from urdfkit.description.plugins import read
+
+    texts = read(plugin, spec)
+    for meaning in _TOPICS:
+        parameter = spec.by_meaning(meaning)
+        if parameter is not None and meaning in texts:
+            below = (texts.get("namespace", ""), texts.get("camera", ""))
+            yield _absolute(texts[meaning], *below), plugin.element.find(parameter.tag) or plugin.element
+
+
+def _of_ros_2(plugin: Plugin, spec: PluginSpec, sensor: SensorTag | None) -> Iterator[tuple[str, Element]]:
+    written = plugin.element.find("camera_name")
+    camera = written.text if written is not None else (sensor.name if sensor is not None else "") or ""
+    kind = plugin.element.find("output_type")
+    if kind is not None and kind.text.endswith("Range"):
+        return
+    ros = plugin.element.find("ros")
+    space = ros.find("namespace") if ros is not None else None
+    namespace = space.text if space is not None else ""
+    for default in _ROS_2.get(spec.kind, ()):
+        own = default.format(camera=camera).replace("~", plugin.name or "")
+        topic, element = own, plugin.element
+        for rule in (*ros.find_all("remapping"), *ros.find_all("argument")) if ros is not None else ():
+            old, _, new = rule.text.partition(":=")
+            if old.strip().replace("~", plugin.name or "").rpartition("/")[2] == own.rpartition("/")[2] and new:
+                topic, element = new.strip().replace("~", plugin.name or ""), rule
+        yield _absolute(topic, namespace), element
+
+
+def _absolute(topic: str, *below: str) -> str:
+    if topic.startswith("/"):
+        return f"/{topic.strip('/')}"
+    return "/" + "/".join(part.strip("/") for part in (*below, topic) if part.strip("/"))

@@ -1,0 +1,188 @@
+"""What the shapes of a link weigh together: volume, middle and spread of their union, in plain Python.
+
+Moments of single solids are closed forms, those of closed meshes sums over their triangles. Where primitives overlap,
+what is shared counts once: the share is found by evenly spread points in each of the shapes involved, every point
+weighed by the number of shapes it is in. Only the share is sampled, so shapes that do not touch come out exactly.
+"""
+
+from __future__ import annotations
+
+from math import cos, hypot, pi, sin, sqrt
+
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
+from urdfkit.lint.facts.inertia.inertia_tensor import Rows, squares
+from urdfkit.lint.model.placement import IDENTITY, box_around, rotation, volume_of
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from urdfkit.description.urdf.robot import Geometry, Pose, Vector
+    from urdfkit.lint.model.placement import Matrix
+
+POINTS = 20_000
+"""Points in each shape that overlaps another: the share comes out to about a thousandth of itself."""
+
+_STEPS = (0.8191725134, 0.6710436067, 0.5497004779)
+"""Steps of the evenly spread points (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018)."""
+
+
+@record
+class Moments:
+    """What fills a volume, at density 1, about the frame it is given in.
+
+    Attributes:
+        volume: [m³].
+        first: the integral of x, y and z [m⁴].
+        second: the integrals of x², xy, xz, y², yz and z² [m⁵].
+    """
+
+    volume: float
+    first: Vector
+    second: tuple[float, ...]
+
+    @property
+    def middle(self) -> Vector:
+        """The centre of the volume [m]."""
+        x, y, z = (value / self.volume for value in self.first)
+        return x, y, z
+
+    def tensor(self, mass: float, frame: Matrix = IDENTITY) -> tuple[float, ...]:
+        """Return ixx, ixy, ixz, iyy, iyz, izz [kg·m²] about the middle for a mass [kg], along the axes of a frame."""
+        density, (x, y, z) = mass / self.volume, self.middle
+        xx, xy, xz, yy, yz, zz = (
+            density * value - mass * shift
+            for value, shift in zip(self.second, (x * x, x * y, x * z, y * y, y * z, z * z), strict=True)
+        )
+        xy, xz, yz = 0.0 - xy, 0.0 - xz, 0.0 - yz  # not -0
+        rows: Rows = [[yy + zz, xy, xz], [xy, xx + zz, yz], [xz, yz, xx + yy]]
+        if frame is not IDENTITY:
+            rows = [
+                [sum(frame[k][i] * rows[k][n] * frame[n][j] for k in range(3) for n in range(3)) for j in range(3)]
+                for i in range(3)
+            ]
+        return rows[0][0], rows[0][1], rows[0][2], rows[1][1], rows[1][2], rows[2][2]
+
+
+def total(parts: Sequence[Moments]) -> Moments:
+    """Return the sum of several."""
+    x, y, z = (sum(part.first[i] for part in parts) for i in range(3))
+    second = tuple(sum(part.second[i] for part in parts) for i in range(6))
+    return Moments(sum(part.volume for part in parts), (x, y, z), second)
+
+
+def placed(moments: Moments, pose: Pose) -> Moments:
+    """Return the moments in the frame that `pose` is given in."""
+    rows, volume = rotation(pose.rpy), moments.volume
+    own = moments.second
+    square = ((own[0], own[1], own[2]), (own[1], own[3], own[4]), (own[2], own[4], own[5]))
+    shift, turned = pose.xyz, [sum(row[k] * moments.first[k] for k in range(3)) for row in rows]
+    first = [volume * a + b for a, b in zip(shift, turned, strict=True)]
+    second = []
+    for i, j in ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)):
+        inside = sum(rows[i][k] * square[k][n] * rows[j][n] for k in range(3) for n in range(3))
+        second.append(inside + shift[i] * turned[j] + turned[i] * shift[j] + volume * shift[i] * shift[j])
+    return Moments(volume, (first[0], first[1], first[2]), tuple(second))
+
+
+def of_primitive(shape: Geometry) -> Moments:
+    """Return the moments of a box, cylinder, sphere or capsule about its middle."""
+    volume = volume_of(shape)
+    x, y, z = squares(shape)
+    return Moments(volume, (0.0, 0.0, 0.0), (volume * x, 0.0, 0.0, volume * y, 0.0, volume * z))
+
+
+def union(shapes: Sequence[tuple[Geometry, Pose, Moments]]) -> tuple[Moments, float, bool]:
+    """Return the moments of all shapes together, the shared volume [m³], and whether a mesh may overlap others.
+
+    Args:
+        shapes: each with its pose and its moments about itself. What meshes share with others counts twice.
+    """
+    shapes = list(dict.fromkeys(shapes))
+    boxes = [box_around(shape, pose) if not isinstance(shape, Mesh) else None for shape, pose, _ in shapes]
+    parts = [placed(moments, pose) for _, pose, moments in shapes]
+    shared: list[Moments] = []
+    for index, (shape, pose, moments) in enumerate(shapes):
+        box = boxes[index]
+        near = [
+            (other, where)
+            for n, (other, where, _) in enumerate(shapes)
+            if n != index and box is not None and (around := boxes[n]) is not None and _meet(box, around)
+        ]
+        if near:
+            shared.append(_shared(shape, pose, near, moments.volume))
+    whole = total(parts)
+    if shared:
+        less = total(shared)
+        x, y, z = (a - b for a, b in zip(whole.first, less.first, strict=True))
+        second = tuple(a - b for a, b in zip(whole.second, less.second, strict=True))
+        whole = Moments(whole.volume - less.volume, (x, y, z), second)
+    meshes = sum(isinstance(shape, Mesh) for shape, *_ in shapes)
+    return whole, sum(part.volume for part in shared), meshes > 0 and len(shapes) > 1
+
+
+def _meet(first: tuple[Vector, Vector], second: tuple[Vector, Vector]) -> bool:
+    return all(first[0][i] < second[1][i] and second[0][i] < first[1][i] for i in range(3))
+
+
+def _shared(shape: Geometry, pose: Pose, near: list[tuple[Geometry, Pose]], volume: float) -> Moments:
+    """Return the part of a shape that others have a share in, weighed by what is theirs: 1 − 1/(number of owners)."""
+    rows, (a, b, c) = rotation(pose.rpy), pose.xyz
+    others = [(other, where.xyz, tuple(zip(*rotation(where.rpy), strict=True))) for other, where in near]
+    sums = [0.0] * 10
+    count = 0
+    for u, v, w in _spread(shape):
+        count += 1
+        x = a + rows[0][0] * u + rows[0][1] * v + rows[0][2] * w
+        y = b + rows[1][0] * u + rows[1][1] * v + rows[1][2] * w
+        z = c + rows[2][0] * u + rows[2][1] * v + rows[2][2] * w
+        owners = 1
+        for other, (p, q, r), back in others:
+            d, e, f = x - p, y - q, z - r
+            if _holds(other, *(row[0] * d + row[1] * e + row[2] * f for row in back)):
+                owners += 1
+        if owners > 1:
+            theirs = 1.0 - 1.0 / owners
+            for index, value in enumerate((1.0, x, y, z, x * x, x * y, x * z, y * y, y * z, z * z)):
+                sums[index] += theirs * value
+    amount, x, y, z, *second = (volume * value / count for value in sums)
+    return Moments(amount, (x, y, z), tuple(second))
+
+
+def _spread(shape: Geometry) -> Iterator[Vector]:
+    """Yield points that fill a shape evenly, in its own frame."""
+    for number in range(1, POINTS + 1):
+        s, t, u = (0.5 + number * step for step in _STEPS)
+        s, t, u = s % 1.0, t % 1.0, u % 1.0
+        if isinstance(shape, Box):
+            yield shape.size[0] * (s - 0.5), shape.size[1] * (t - 0.5), shape.size[2] * (u - 0.5)
+        elif isinstance(shape, Cylinder):
+            radius, angle = shape.radius * sqrt(s), 2.0 * pi * t
+            yield radius * cos(angle), radius * sin(angle), shape.length * (u - 0.5)
+        elif isinstance(shape, Sphere):
+            radius, angle, height = shape.radius * s ** (1.0 / 3.0), 2.0 * pi * t, 2.0 * u - 1.0
+            across = radius * sqrt(1.0 - height * height)
+            yield across * cos(angle), across * sin(angle), radius * height
+        elif isinstance(shape, Capsule):
+            radius = shape.radius
+            point = (
+                2.0 * radius * (s - 0.5),
+                2.0 * radius * (t - 0.5),
+                (shape.length + 2.0 * radius) * (u - 0.5),
+            )
+            if _holds(shape, *point):
+                yield point
+
+
+def _holds(shape: Geometry, x: float, y: float, z: float) -> bool:
+    """Return whether a point in the frame of a shape is in it."""
+    if isinstance(shape, Box):
+        return 2.0 * abs(x) <= shape.size[0] and 2.0 * abs(y) <= shape.size[1] and 2.0 * abs(z) <= shape.size[2]
+    if isinstance(shape, Cylinder):
+        return 2.0 * abs(z) <= shape.length and hypot(x, y) <= shape.radius
+    if isinstance(shape, Sphere):
+        return x * x + y * y + z * z <= shape.radius**2
+    if isinstance(shape, Capsule):
+        return hypot(x, y, max(abs(z) - shape.length / 2.0, 0.0)) <= shape.radius
+    return False

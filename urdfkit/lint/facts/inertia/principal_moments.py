@@ -1,0 +1,140 @@
+"""Principal moments of an inertia tensor, in plain Python."""
+
+from __future__ import annotations
+
+from math import isfinite, sqrt
+
+from urdfkit.description.xml.numbers import number
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from urdfkit.description.urdf.robot import Link
+    from urdfkit.description.xml.element import Element
+
+_COMPONENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+def principal_moments(link: Link) -> Iterator[tuple[tuple[float, float, float], Element]]:
+    """Yield the principal moments [kg·m²] of each ``<inertia>`` of a link, smallest first, and its element.
+
+    Readers differ in which of several they take, so each is looked at. One that cannot be read is left out.
+    """
+    if link.inertial is None:
+        return
+    for element in link.inertial.element.find_all("inertia"):
+        values = [number(element.attributes.get(name, "")) for name in _COMPONENTS]
+        known = [value for value in values if value is not None and isfinite(value)]
+        if len(known) == len(_COMPONENTS):
+            xx, xy, xz, yy, yz, zz = known
+            yield eigenvalues(xx, xy, xz, yy, yz, zz), element
+
+
+def eigenvalues(xx: float, xy: float, xz: float, yy: float, yz: float, zz: float) -> tuple[float, float, float]:
+    """Return the eigenvalues of a symmetric 3 × 3 matrix, smallest first.
+
+    Relative to the largest entry they are exact to about 1e-15: Jacobi's rotations on the matrix scaled to 1 (Golub and
+    Van Loan, Matrix Computations, 8.5).
+
+    Args:
+        xx: an entry, which has to be finite.
+        xy: another.
+        xz: another.
+        yy: another.
+        yz: another.
+        zz: another.
+    """
+    if xy == xz == yz == 0.0:
+        first, second, third = sorted((xx, yy, zz))
+        return first, second, third
+    scale = max(abs(xx), abs(xy), abs(xz), abs(yy), abs(yz), abs(zz))
+    if scale == 0.0:
+        return 0.0, 0.0, 0.0
+    a = [
+        [xx / scale, xy / scale, xz / scale],
+        [xy / scale, yy / scale, yz / scale],
+        [xz / scale, yz / scale, zz / scale],
+    ]
+    for _ in range(20):
+        if a[0][1] ** 2 + a[0][2] ** 2 + a[1][2] ** 2 < 1e-36:
+            break
+        for p, q in ((0, 1), (0, 2), (1, 2)):
+            _rotate(a, p, q)
+    first, second, third = sorted((a[0][0] * scale, a[1][1] * scale, a[2][2] * scale))
+    return first, second, third
+
+
+def _rotate(a: list[list[float]], p: int, q: int) -> None:
+    """Zero the entry p, q by one Jacobi rotation."""
+    if a[p][q] == 0.0:
+        return
+    tau = (a[q][q] - a[p][p]) / (2.0 * a[p][q])
+    t = (1.0 if tau >= 0 else -1.0) / (abs(tau) + sqrt(1.0 + tau * tau))
+    c = 1.0 / sqrt(1.0 + t * t)
+    s = t * c
+    r = 3 - p - q
+    a[p][p], a[q][q] = a[p][p] - t * a[p][q], a[q][q] + t * a[p][q]
+    a[p][q] = a[q][p] = 0.0
+    rp, rq = a[r][p], a[r][q]
+    a[r][p] = a[p][r] = c * rp - s * rq
+    a[r][q] = a[q][r] = s * rp + c * rq
+
+
+_ORDERS = {
+    "by columns (ixx, ixy, iyy, ixz, iyz, izz)": (0, 1, 3, 2, 4, 5),
+    "with the diagonal first (ixx, iyy, izz, ixy, ixz, iyz)": (0, 3, 4, 1, 5, 2),
+    "with the diagonal first (ixx, iyy, izz, ixy, iyz, ixz)": (0, 3, 5, 1, 4, 2),
+    "with the diagonal first (ixx, iyy, izz, iyz, ixz, ixy)": (0, 5, 4, 1, 3, 2),
+}
+"""Orders in which the six entries may have been given → where ixx, ixy, ixz, iyy, iyz and izz are among them."""
+
+
+def reordered(element: Element) -> tuple[str, tuple[float, ...]] | None:
+    """Return in which other order the entries of an ``<inertia>`` must have been given, and what they are then.
+
+    That is where the tensor as written has a moment that is not positive, and one other order alone gives a tensor that
+    a body can have, with a diagonal that outweighs its products. None for all others.
+
+    Args:
+        element: the ``<inertia>``.
+    """
+    values = [number(element.attributes.get(name, "")) for name in _COMPONENTS]
+    known = [value for value in values if value is not None and isfinite(value)]
+    if len(known) < len(_COMPONENTS) or not any(known[1:3]) or is_possible(known):
+        return None
+    found: dict[tuple[tuple[float, ...], ...], tuple[str, tuple[float, ...]]] = {}
+    for order, places in _ORDERS.items():
+        given = tuple(known[place] for place in places)
+        diagonal, products = (given[0], given[3], given[5]), (given[1], given[2], given[4])
+        if is_possible(given) and max(map(abs, products)) < 0.5 * min(diagonal):
+            found.setdefault((tuple(sorted(diagonal)), tuple(sorted(map(abs, products)))), (order, given))
+    return next(iter(found.values())) if len(found) == 1 else None
+
+
+def is_possible(values: Sequence[float]) -> bool:
+    """Return whether a body can have the six entries ixx, ixy, ixz, iyy, iyz, izz."""
+    xx, xy, xz, yy, yz, zz = values
+    small, middle, large = eigenvalues(xx, xy, xz, yy, yz, zz)
+    return small > 1e-9 * large and small + middle >= large * (1.0 - 1e-3)
+
+
+def shown(values: Sequence[float], *, digits: int = 3) -> list[str]:
+    """Return the values with as few significant digits (at least `digits`) as tell unlike sums of them apart."""
+    first, second, third = values
+    for enough in range(digits, 17):
+        texts = [f"{value:.{enough}g}" for value in values]
+        if (float(texts[0]) + float(texts[1]) < float(texts[2])) == (first + second < third):
+            return [_padded(value, enough) for value in values]
+    return [repr(value) for value in values]
+
+
+def _padded(value: float, digits: int) -> str:
+    text = f"{value:#.{digits}g}"
+    return text.rstrip(".") if "e" not in text else f"{value:.{digits}g}"
+
+
+def is_identity(element: Element) -> bool:
+    """Return whether an ``<inertia>`` is 1 on the diagonal and 0 beside it."""
+    values = [number(element.attributes.get(name, "")) for name in _COMPONENTS]
+    return values == [1.0, 0.0, 0.0, 1.0, 0.0, 1.0]

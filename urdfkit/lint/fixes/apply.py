@@ -1,0 +1,342 @@
+"""Mend files: edit literal source text, lint the result, and keep it only if nothing got worse (see `caused`).
+
+Bytes that no edit touches stay as they are: line ends, byte order marks, encodings, comments. Nothing is written before
+the mended text has been linted, and then each file is replaced in one move. Files outside the folders that were linted
+(installed packages, other people's) are never touched.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from urdfkit.description.xml.source import Overlay
+from urdfkit.errors import ResourceError
+from urdfkit.lint.engine.run import Options, Outcome, run
+from urdfkit.lint.fixes.regressions import Written, left_over, new_findings
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping, Sequence
+
+    from urdfkit.description.xml.source import Source, Span
+    from urdfkit.lint.finding import Edit, Finding
+    from urdfkit.lint.project.entry_files import Entry
+
+_ROUNDS = 10
+_SURROGATE = re.compile("[\ud800-\udfff]")
+
+
+@record(eq=False)
+class Change:
+    """One file that fixes change.
+
+    Attributes:
+        path: the file, absolute.
+        shown: what findings call it.
+        before: its bytes as they were read.
+        after: its bytes as they are to be.
+    """
+
+    path: Path
+    shown: str
+    before: bytes
+    after: bytes
+
+    def write(self) -> None:
+        """Replace the file in one move.
+
+        Raises:
+            ResourceError: it cannot be written, or somebody changed it since it was read.
+        """
+        from urdfkit.atomic import write_bytes
+
+        if self.path.read_bytes() != self.before:
+            raise ResourceError(f"{self.shown} was changed while it was being fixed; nothing was written to it")
+        write_bytes(self.path, self.after)
+
+    @property
+    def text(self) -> str:
+        """What the file is to hold, decoded."""
+        return _SURROGATE.sub("\ufffd", _Text(self.after).text)
+
+    def diff(self) -> str:
+        """Return the change as a unified diff, for ``git apply`` and ``patch -p1``."""
+        from difflib import unified_diff
+
+        old, new = (re.findall(r"[^\n]*\n|[^\n]+", _Text(content).text) for content in (self.before, self.after))
+        # As git has it: `git apply` takes it, and `patch -p1`.
+        names = (self.shown, self.shown) if self.shown.startswith("/") else (f"a/{self.shown}", f"b/{self.shown}")
+        lines = unified_diff(old, new, *names)
+        return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)
+
+
+@record(eq=False)
+class Fixed:
+    """What fixing came to.
+
+    Attributes:
+        outcome: what is left, linted on the mended text.
+        changes: the files to write.
+        fixed: how many findings were mended, by code.
+        notes: why something that could be fixed was not, one line each.
+    """
+
+    outcome: Outcome
+    changes: tuple[Change, ...]
+    fixed: dict[str, int]
+    notes: tuple[str, ...]
+
+
+def fix(
+    entries: Sequence[Entry],
+    options: Options,
+    *,
+    within: Iterable[Path],
+    unsafe: bool = False,
+    only: Callable[[Finding], bool] | None = None,
+) -> Fixed:
+    """Mend what can be mended, in memory; see `Change.write`.
+
+    Args:
+        entries: what to lint.
+        options: how to lint it.
+        within: folders (or files) whose files may be changed.
+        unsafe: apply unsafe fixes too.
+        only: mend the findings it says yes to; all where it is None.
+
+    Raises:
+        UsageError: a code or the target is not known.
+        ResourceError: an entry cannot be read.
+    """
+    return _Fixer(entries, options, tuple(path.resolve() for path in within), unsafe, only).fix()
+
+
+def may_be_changed(paths: Iterable[Path]) -> list[Path]:
+    """Return the folders that fixes may change files in, for the paths a user named.
+
+    That is a named folder itself, and for a named file its package, or the file alone where it is in none.
+    """
+    folders = []
+    for path in paths:
+        if path.is_dir():
+            folders.append(path.resolve())
+        elif path.is_file():
+            resolved = path.resolve()
+            package = next((folder for folder in resolved.parents if (folder / "package.xml").is_file()), None)
+            folders.append(package or resolved.parent)
+    return folders
+
+
+def changes(edits: Iterable[Edit], sources: Mapping[str, Source], *, within: Iterable[Path]) -> list[Change]:
+    """Return the files that edits change, in memory; see `Change.write`.
+
+    Args:
+        edits: changes that do not overlap, by the names of `sources`.
+        sources: the text of each file as it was read.
+        within: folders (or files) whose files may be changed.
+
+    Raises:
+        ResourceError: a file is outside of them, or in another encoding.
+    """
+    folders = [folder.resolve() for folder in within]
+    found = []
+    edits = list(edits)
+    for file in dict.fromkeys(edit.span.file for edit in edits):
+        path, source = Path.cwd() / file, sources[file]
+        real = path.resolve()
+        if not any(real == folder or folder in real.parents for folder in folders):
+            raise ResourceError(f"{file} is outside of the model's package; nothing was written")
+        content = path.read_bytes()
+        text = _Text(content)
+        if not text.agrees_with(source):
+            raise ResourceError(f"{file} is not in UTF-8 or UTF-16, or was changed meanwhile; nothing was written")
+        edited = text.text
+        for edit in sorted((edit for edit in edits if edit.span.file == file), key=lambda e: e.span, reverse=True):
+            start, end = _offsets(source, edit.span)
+            edited = edited[:start] + edit.text + edited[end:]
+        if edited != text.text:
+            found.append(Change(path, file, content, text.encoded(edited)))
+    return found
+
+
+class _Text:
+    """The text of a file and the way back to its exact bytes."""
+
+    def __init__(self, content: bytes) -> None:
+        if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+            self.codec, self.mark = ("utf-16-le" if content[:2] == b"\xff\xfe" else "utf-16-be"), content[:2]
+        else:
+            self.codec, self.mark = "utf-8", b"\xef\xbb\xbf" if content[:3] == b"\xef\xbb\xbf" else b""
+        # Bytes that are no UTF-8 (Latin-1 comments) come back as they were.
+        self.text = content[len(self.mark) :].decode(self.codec, errors="surrogateescape")
+
+    def encoded(self, text: str) -> bytes:
+        """Return the bytes of a text that was made from `text` by edits."""
+        return self.mark + text.encode(self.codec, errors="surrogateescape")
+
+    def overlay(self, text: str) -> str:
+        """Return a text that was made from `text` by edits as the linter sees it once it is written."""
+        seen = Overlay(_SURROGATE.sub("\ufffd", text))
+        stray = _SURROGATE.search(text)
+        if self.codec != "utf-8":
+            seen.flaw = 0, "UTF-16"
+        elif stray is not None:
+            seen.flaw = stray.start(), f"byte 0x{ord(stray[0]) - 0xDC00:02X}"
+        return seen
+
+    def agrees_with(self, source: Source) -> bool:
+        """Return whether offsets into the text that was linted hold in this one."""
+        return len(self.text) == len(source.text) and all(
+            ours == theirs or theirs == "�" for ours, theirs in zip(self.text, source.text, strict=True)
+        )
+
+
+class _Fixer:
+    """One call of `fix`."""
+
+    def __init__(
+        self,
+        entries: Sequence[Entry],
+        options: Options,
+        within: tuple[Path, ...],
+        unsafe: bool,
+        only: Callable[[Finding], bool] | None = None,
+    ) -> None:
+        self.entries, self.options, self.within, self.unsafe, self.only = entries, options, within, unsafe, only
+        self.originals: dict[Path, _Text] = {}
+        self.contents: dict[Path, bytes] = {}
+        self.shown: dict[Path, str] = {}
+        self.texts: dict[Path, str] = {}
+        self.names: dict[Path, Path] = {}
+        self.refused: set[tuple[str, str, str]] = set()
+        self.notes: dict[str, None] = {}
+
+    def fix(self) -> Fixed:
+        outcome = first = self._lint(self.texts)
+        for _ in range(_ROUNDS):
+            attempt = self._attempt([finding for finding in outcome.findings if self._is_wanted(finding)], outcome)
+            if attempt is None:
+                break
+            self.texts, outcome = attempt
+        changes = tuple(
+            Change(path, self.shown[path], self.contents[path], self.originals[path].encoded(text))
+            for path, text in sorted(self.texts.items())
+            if text != self.originals[path].text
+        )
+        left = _counts(outcome)
+        fixed = {code: count - left.get(code, 0) for code, count in _counts(first).items()}
+        fixed = {code: count for code, count in fixed.items() if count > 0} if changes else {}
+        return Fixed(outcome, changes, fixed, tuple(self.notes))
+
+    def _lint(self, texts: dict[Path, str]) -> Outcome:
+        # Lone surrogates stand for bytes that are no UTF-8; the linter saw U+FFFD there.
+        overlay = {str(path): self.originals[path].overlay(text) for path, text in texts.items()}
+        return run(self.entries, Options(**{**self.options.__dict__, "texts": overlay}), keep_going=True)
+
+    def _attempt(self, findings: Sequence[Finding], outcome: Outcome) -> tuple[dict[Path, str], Outcome] | None:
+        """Apply fixes at once; where that makes something worse, those of a part, and refuse the ones to blame."""
+        texts, written = self._edited(findings, outcome)
+        if texts == self.texts:
+            return None
+        mended = self._lint(texts)
+        new = new_findings(outcome, mended)
+        worse = [finding for finding in new if written.has_caused(finding, mended.sources[finding.file])]
+        alike = {_key(finding) for finding in findings}  # others may say the same elsewhere, and stay
+        before = [finding for finding in outcome.findings if _key(finding) in alike]
+        if not worse and any(True for _ in left_over(before, mended.findings)):
+            return texts, mended
+        if len(findings) == 1:
+            cause = f"that would have caused {_listed(worse)}" if worse else "it would still be there"
+            self.refused.add(_key(findings[0]))
+            self.notes[f"{findings[0].code} at {findings[0].file}:{findings[0].line} was not fixed: {cause}"] = None
+            return None
+        parts = [self._attempt(part, outcome) for part in _parts(findings)]
+        return next((part for part in parts if part is not None), None)
+
+    def _is_wanted(self, finding: Finding) -> bool:
+        fix = finding.fix
+        if fix is None or _key(finding) in self.refused or not (fix.safety == "safe" or self.unsafe):
+            return False
+        return self.only is None or self.only(finding)
+
+    def _edited(self, findings: Sequence[Finding], outcome: Outcome) -> tuple[dict[Path, str], Written]:
+        """Return the texts with the fixes applied that do not overlap; the rest has its turn in the next round."""
+        written = Written(guessed=any(finding.fix is not None and finding.fix.safety != "safe" for finding in findings))
+        taken: dict[str, dict[Edit, None]] = {}
+        for finding in findings:
+            edits = finding.fix.edits if finding.fix is not None else ()
+            if all(self._is_editable(edit.span.file, outcome) for edit in edits) and not any(
+                _overlaps(edit, other) for edit in edits for other in taken.get(edit.span.file, ())
+            ):
+                for edit in edits:
+                    taken.setdefault(edit.span.file, {})[edit] = None
+        texts = dict(self.texts)
+        for file, accepted in taken.items():
+            path, source = outcome.files[file], outcome.sources[file]
+            text = self.texts.get(path, self.originals[path].text)
+            changed: list[tuple[int, int, str]] = []
+            for edit in sorted(accepted, key=lambda edit: edit.span):
+                start, end = _offsets(source, edit.span)
+                changed.append((start, end, edit.text))
+            written.add(file, text, changed)
+            for start, end, put in reversed(changed):
+                text = text[:start] + put + text[end:]
+            texts[path] = text
+        return texts, written
+
+    def _is_editable(self, file: str, outcome: Outcome) -> bool:
+        path = outcome.files[file]
+        real = path.resolve()
+        if self.names.setdefault(real, path) != path:
+            return False  # The same file under another name: its turn comes under the first.
+        if not any(real == folder or folder in real.parents for folder in self.within):
+            self.notes[f"{file} was not fixed: it is outside of what was linted"] = None
+            return False
+        if path not in self.originals:
+            content = path.read_bytes()
+            text = _Text(content)
+            if not text.agrees_with(outcome.sources[file]):
+                self.notes[f"{file} was not fixed: its encoding is not UTF-8 or UTF-16"] = None
+                return False
+            self.contents[path], self.originals[path], self.shown[path] = content, text, file
+        return True
+
+
+def _offsets(source: Source, span: Span) -> tuple[int, int]:
+    return source.offset(span.line, span.column), source.offset(span.end_line, span.end_column)
+
+
+def _overlaps(edit: Edit, other: Edit) -> bool:
+    if edit == other:
+        return False
+    (a, b), (c, d) = (((e.span.line, e.span.column), (e.span.end_line, e.span.end_column)) for e in (edit, other))
+    return a == c or (a < d and c < b)
+
+
+def _key(finding: Finding) -> tuple[str, str, str]:
+    """Return what a finding is known by, wherever other fixes move it."""
+    return finding.code, finding.file, finding.message
+
+
+def _parts(findings: Sequence[Finding]) -> list[Sequence[Finding]]:
+    """Return the findings of each rule; halves where they are of one."""
+    codes = dict.fromkeys(finding.code for finding in findings)
+    if len(codes) > 1:
+        return [[finding for finding in findings if finding.code == code] for code in codes]
+    middle = len(findings) // 2
+    return [findings[:middle], findings[middle:]]
+
+
+def _counts(outcome: Outcome) -> dict[str, int]:
+    counts: dict[str, int] = {}
+    for finding in outcome.findings:
+        counts[finding.code] = counts.get(finding.code, 0) + 1
+    return counts
+
+
+def _listed(findings: Sequence[Finding]) -> str:
+    """Name the first finding of each rule, with its place and what it says."""
+    firsts = {finding.code: finding for finding in reversed(findings)}
+    return "; ".join(f"{code} at {found.file}:{found.line}, {found.message}" for code, found in firsts.items())

@@ -1,0 +1,241 @@
+"""The right mass, centre of mass and inertia of a link, from its shapes, and the edits that write them down."""
+
+from __future__ import annotations
+
+from urdfkit.errors import ResourceError, UrdfkitError
+from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
+from urdfkit.lint.facts.inertia.link_solids import of_primitive, union
+from urdfkit.lint.finding import Edit
+from urdfkit.lint.model.placement import rotation
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from urdfkit.description.urdf.robot import Geometry, Link, Pose, Vector
+    from urdfkit.description.xml.element import Element
+    from urdfkit.description.xml.source import Position, Source
+    from urdfkit.lint.facts.inertia.link_solids import Moments
+    from urdfkit.lint.model.model import Model
+    from urdfkit.lint.model.tags import Tag
+
+KINDS = ("collision", "visual")
+"""The shapes a link may be computed from."""
+
+
+@record
+class Right:
+    """What the shapes of a link give.
+
+    Attributes:
+        kind: ``collision`` or ``visual``: which shapes were taken.
+        count: how many.
+        volume: of all of them together [m³].
+        shared: what overlapping primitives share [m³]; it counts once in `volume`.
+        mass: [kg].
+        xyz: the centre of mass in the link's frame [m].
+        tensor: ixx, ixy, ixz, iyy, iyz, izz about it [kg·m²], along the axes of the present inertial frame.
+        notes: what had to be assumed, one line each.
+    """
+
+    kind: str
+    count: int
+    volume: float
+    shared: float
+    mass: float
+    xyz: Vector
+    tensor: tuple[float, ...]
+    notes: tuple[str, ...]
+
+
+def right(
+    model: Model, link: Link, *, mass: float | None = None, density: float | None = None, kind: str | None = None
+) -> Right:
+    """Compute mass, centre of mass and inertia of a link's shapes, filled evenly.
+
+    Args:
+        model: what the link is in.
+        link: the link.
+        mass: what it weighs [kg]; by default `density` times the volume, else what is written.
+        density: of what it is made of [kg/m³].
+        kind: which shapes to take; by default those for collisions, or the visual ones where there are none.
+
+    Raises:
+        ResourceError: it has no such shapes, no volume, no mass, or a mesh that cannot be read.
+        MissingDependencyError: a mesh needs trimesh, which is not installed.
+    """
+    kind = kind or ("collision" if link.collisions or not link.visuals else "visual")
+    items = link.collisions if kind == "collision" else link.visuals
+    if not items:
+        if not (link.collisions or link.visuals):
+            raise ResourceError(
+                f"link `{link.name}` has no shapes to compute an inertia from: give it a <collision> or <visual> first"
+            )
+        others = "collision" if kind == "visual" else "visual"
+        raise ResourceError(
+            f"link `{link.name}` has no {kind} shapes to compute from; it has {others} shapes: --from {others}"
+        )
+    notes: dict[str, None] = {}
+    shapes: list[tuple[Geometry, Pose, Moments]] = []
+    for item in items:
+        if item.geometry is None:
+            raise ResourceError(f"a {kind} shape of link `{link.name}` cannot be read: lint the file first")
+        shapes.append((item.geometry, item.origin, _moments(item.geometry, model, notes)))
+    whole, shared, mixed = union(shapes)
+    if mixed:
+        notes["what a mesh shares with other shapes counts twice"] = None
+    if whole.volume <= 0.0:
+        raise ResourceError(f"the {kind} shapes of link `{link.name}` have no volume")
+    written = link.inertial.mass if link.inertial is not None else None
+    if mass is None:
+        mass = density * whole.volume if density is not None else written
+    if mass is None or mass <= 0.0:
+        raise ResourceError(f"link `{link.name}` has no mass to go by: give --mass or --density")
+    frame = rotation(link.inertial.origin.rpy) if link.inertial is not None else rotation((0.0, 0.0, 0.0))
+    return Right(kind, len(items), whole.volume, shared, mass, whole.middle, whole.tensor(mass, frame), tuple(notes))
+
+
+def _moments(geometry: Geometry, model: Model, notes: dict[str, None]) -> Moments:
+    from urdfkit.description.urdf.robot import Mesh
+
+    if not isinstance(geometry, Mesh):
+        return of_primitive(geometry)
+    from urdfkit.lint.model.mesh_files import moments
+
+    found, note = moments(geometry, model)
+    if note:
+        notes[note] = None
+    return found
+
+
+def written(value: float, largest: float) -> str:
+    """Return a number as it is written into a file: six digits, and zero for what is rounding beside the `largest`."""
+    return "0" if abs(value) < 1e-9 * abs(largest) or value == 0.0 else f"{value:.6g}"
+
+
+def edits(model: Model, link: Link, value: Right) -> list[Edit]:
+    """Return the changes that write what was computed where a person wrote the ``<inertial>``.
+
+    Raises:
+        UrdfkitError: it is written in a macro, or included, in a place that several links share; or there is no
+            element of it to write to.
+    """
+    reach = max(abs(value.volume) ** (1.0 / 3.0), *map(abs, value.xyz))
+    largest = max(value.tensor)
+    texts = {
+        "origin": {"xyz": " ".join(written(part, 1e3 * reach) for part in value.xyz)},
+        "mass": {"value": written(value.mass, value.mass)},
+        "inertia": {n: written(part, largest) for n, part in zip(COMPONENTS, value.tensor, strict=True)},
+    }
+    inertial = link.element.find("inertial")
+    if inertial is None:
+        return [_new_block(model, link, texts)]
+    found: list[Edit] = []
+    missing: list[str] = []
+    for tag, attributes in texts.items():
+        children = list(inertial.find_all(tag))
+        if len(children) > 1:
+            raise UrdfkitError(
+                f"link `{link.name}` has {len(children)} <{tag}>: take one away first", position=_at(children[1])
+            )
+        if children:
+            found += _replaced(model, link, children[0], attributes)
+        elif tag != "origin" or any(abs(part) > 1e-6 * reach for part in value.xyz):
+            missing.append(_element(tag, attributes))
+    if missing:
+        found.append(_inserted(model, link, inertial, missing))
+    return found
+
+
+def _at(element: Element) -> Position:
+    return element.origin.position
+
+
+def _alone(model: Model, link: Link, element: Element) -> Tag:
+    """Return the tag of an element that only this link has.
+
+    Raises:
+        UrdfkitError: other links have it too, as it is in a macro that is called several times.
+    """
+    position = element.origin.position
+    same = [other for other in model.robot.element.walk() if other.origin.position == position]
+    if len(same) > 1:
+        chain = element.origin.expansions
+        macro = f"macro `{chain[0].macro}`" if chain else "a place"
+        raise UrdfkitError(
+            f"<{element.tag}> of link `{link.name}` is written in {macro} that has {len(same)} expansions: "
+            f"give the macro parameters for it, or write <inertial> into the link",
+            position=position,
+        )
+    tag = model.tag(position)
+    if tag is None or tag.name != element.tag:
+        raise UrdfkitError(f"<{element.tag}> of link `{link.name}` is not written there as such", position=position)
+    return tag
+
+
+def _replaced(model: Model, link: Link, element: Element, values: dict[str, str]) -> Iterator[Edit]:
+    tag = _alone(model, link, element)
+    source = model.document(element.origin.position.file).source
+    absent = []
+    for name, text in values.items():
+        attribute = tag.attributes.get(name)
+        if attribute is None:
+            if not (name == "xyz" and set(text.split()) == {"0"}):
+                absent.append(f'{name}="{text}"')
+        elif not _same(element.get(name), text):
+            yield Edit(source.span(attribute.value_start, attribute.value_end), text)
+    if absent:
+        end = max((attribute.end for attribute in tag.attributes.values()), default=tag.start + 1 + len(tag.name))
+        yield Edit(source.span(end, end), f" {' '.join(absent)}")
+
+
+def _same(text: str | None, other: str) -> bool:
+    """Whether two texts are the same numbers, to the six digits that are written."""
+    from urdfkit.description.xml.numbers import numbers
+
+    values, others = numbers(text or ""), numbers(other)
+    return (
+        values is not None
+        and others is not None
+        and len(values) == len(others)
+        and all(abs(a - b) <= 1e-6 * abs(b) for a, b in zip(values, others, strict=True))
+    )
+
+
+def _element(tag: str, attributes: dict[str, str]) -> str:
+    return f"<{tag} {' '.join(f'{name}={chr(34)}{text}{chr(34)}' for name, text in attributes.items())}/>"
+
+
+def _indent(source: Source, start: int) -> str:
+    before = source.line_before(start)
+    return before if not before.strip() else ""
+
+
+def _inserted(model: Model, link: Link, inertial: Element, elements: list[str]) -> Edit:
+    tag = _alone(model, link, inertial)
+    source = model.document(inertial.origin.position.file).source
+    if tag.close is None:
+        raise UrdfkitError(f"<inertial> of link `{link.name}` is empty: write it out first", position=_at(inertial))
+    if tag.children:
+        place = tag.children[-1].close_end
+        indent = _indent(source, tag.children[-1].start)
+    else:
+        place, indent = tag.end, f"{_indent(source, tag.start)}  "
+    return Edit(source.span(place, place), "".join(f"{source.line_end}{indent}{element}" for element in elements))
+
+
+def _new_block(model: Model, link: Link, texts: dict[str, dict[str, str]]) -> Edit:
+    tag = _alone(model, link, link.element)
+    source = model.document(link.element.origin.position.file).source
+    outer = _indent(source, tag.start)
+    inner = f"{outer}  "
+    if tag.children and not source.line_before(tag.children[0].start).strip():
+        inner = _indent(source, tag.children[0].start)
+    step = inner.removeprefix(outer) or "  "
+    lines = [f"{inner}<inertial>", *(f"{inner}{step}{_element(t, a)}" for t, a in texts.items()), f"{inner}</inertial>"]
+    block = "".join(f"{source.line_end}{line}" for line in lines)
+    if tag.close is None:  # <link name="…"/>
+        end = len(source.text[: tag.end - 2].rstrip())
+        return Edit(source.span(end, tag.end), f">{block}{source.line_end}{outer}</link>")
+    return Edit(source.span(tag.end, tag.end), block)

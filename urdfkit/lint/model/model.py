@@ -1,0 +1,300 @@
+"""Model: the robot being linted and every file it was read from."""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import cached_property
+
+from urdfkit.description.xml.source import Position, Source, Span
+from urdfkit.errors import ResourceError
+from urdfkit.lint.model.tags import Document
+from urdfkit.lint.model.xacro_prefix import URDF_CHILDREN, signatures
+from urdfkit.record import field, record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from pathlib import Path
+
+    from urdfkit.description.urdf.robot import Joint, Link, Mesh, Robot, Vector
+    from urdfkit.description.xacro.expanded import Expanded
+    from urdfkit.description.xacro.faults import Fault
+    from urdfkit.description.xml.element import Element
+    from urdfkit.lint.model.masked_names import Hidden
+    from urdfkit.lint.model.placement import Extent, Frame
+    from urdfkit.lint.model.tags import Attribute, Tag
+    from urdfkit.lint.model.xacro_prefix import Signature
+
+
+_DROPPING = frozenset(
+    (
+        "xml",
+        "undefined-macro",
+        "undefined-block",
+        "include-not-found",
+        "package-not-found",
+        "macro-arguments",
+        "recursion",
+        "too-many",
+        "conditional",
+    )
+)
+"""Kinds of faults after which elements are missing, or too many."""
+
+
+@record(eq=False)
+class Model:
+    """What the rules see.
+
+    Attributes:
+        expanded: the outcome of the recovering expansion, read as if no ``xacro:`` prefix were missing.
+        robot: the robot in it; empty where there is none.
+        target: the consumer it is meant for; None for all of them.
+        expand_as_written: makes the robot without mending prefixes; see `as_written`.
+        release: of the target (``jazzy``); empty where it does not matter.
+        texts: contents to read instead of those on disk, by absolute path.
+    """
+
+    expanded: Expanded
+    robot: Robot
+    target: str | None = None
+    expand_as_written: Callable[[], Robot] | None = field(default=None, repr=False)
+    release: str = ""
+    texts: Mapping[str, str] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def as_written(self) -> Robot:
+        """The robot that other tools see: what lacks its ``xacro:`` prefix is not expanded."""
+        if self.expand_as_written is None or not self.expanded.unprefixed:
+            return self.robot
+        return self.expand_as_written()
+
+    @cached_property
+    def is_incomplete(self) -> bool:
+        """Whether what is not there may be elsewhere.
+
+        That is so where elements were dropped, or kept, because of a fault, where the name of a link or joint is
+        misspelt, and in files without a link: they are a part of a robot that somebody includes.
+        """
+        if not self.robot.links:
+            return True
+        from urdfkit.lint.model.xacro_prefix import misspelt_in_robot
+
+        if any(misspelt_in_robot(child) is not None for child in self.robot.element.children):
+            return True
+        faults = (fault for fault in self.expanded.faults if "meant" not in fault.details)
+        return any(fault.kind in _DROPPING and not fault.message.startswith("unbound prefix") for fault in faults)
+
+    @cached_property
+    def misread(self) -> tuple[Fault, ...]:
+        """What of the files is no UTF-8, a fault for each that is XML for the rest."""
+        broken = {fault.position.file for fault in self.expanded.faults if fault.kind == "xml"}
+        sources = [one for one in self.expanded.sources.values() if one.flaw is not None and one.file not in broken]
+        if not sources:
+            return ()
+        from urdfkit.description.xacro.faults import Fault
+
+        is_xacro = self.expanded.path.suffix == ".xacro" or any(
+            "xmlns:xacro" in source.text for source in self.expanded.sources.values()
+        )
+        found = []
+        for source in sources:
+            at, what = source.flaw or (0, "")
+            message, refuses = f"{what} is no UTF-8", "xacro refuses" if is_xacro else "what reads it as text refuses"
+            if what == "UTF-16":
+                message, refuses = "the file is in UTF-16", "xacro refuses" if is_xacro else "urdfdom refuses"
+            fatal = is_xacro or what == "UTF-16"
+            facts = {"severity": "error" if fatal else "warning"}
+            found.append(Fault("encoding", f"{message}: {refuses} the file", source.position(at), details=facts))
+        return tuple(found)
+
+    @cached_property
+    def hidden(self) -> Hidden:
+        """What may be in what is missing: names that nothing has here; see `hidden.doubted`."""
+        from urdfkit.lint.model.masked_names import Hidden
+
+        return Hidden(self)
+
+    @cached_property
+    def missing_file(self) -> str:
+        """An included file, or the package of one, that is not there; empty when all are."""
+        for fault in self.expanded.faults:
+            if fault.kind in ("include-not-found", "package-not-found"):
+                return f"package `{fault.name}`" if fault.kind == "package-not-found" else str(fault.name)
+        return ""
+
+    @cached_property
+    def package(self) -> Path | None:
+        """The package that the entry file is in."""
+        from urdfkit.description.packages.related_files import package_of
+
+        return package_of(self.expanded.path)
+
+    def manifest(self, package: Path) -> str:
+        """Return the package.xml of a package, comments left out; empty where it cannot be read."""
+        from urdfkit.description.packages.related_files import manifest, uncommented
+
+        text = self.texts.get(str(package / "package.xml"))
+        return manifest(package) if text is None else uncommented(text)
+
+    @cached_property
+    def around(self) -> dict[str, Source]:
+        """The launch files and YAML of the package and of those beside it, as the user is shown.
+
+        Those are the packages that depend on it, and those whose settings a plugin of the robot reads. The package.xml
+        is one of them where it is no XML.
+        """
+        from urdfkit.description.xml.reader import read_source, shown_path
+
+        found: dict[str, Source] = {}
+        packages = self.expanded.packages
+        files = packages.around(self.package) if self.package is not None else []
+        for package in self._configured() if self.package is not None else ():
+            files = [*files, *(file for file in packages.around(package) if file not in files)]
+        if self.package is not None and _is_broken(self.package / "package.xml", self.texts):
+            files = [*files, self.package / "package.xml"]
+        for file in files:
+            try:
+                found[shown_path(file)] = read_source(file, shown_as=shown_path(file), texts=self.texts)
+            except ResourceError:
+                continue
+        return found
+
+    def _configured(self) -> list[Path]:
+        """Return the packages beside the robot's whose settings a plugin of it reads."""
+        from pathlib import Path
+
+        from urdfkit.description.packages.related_files import package_of
+
+        found: dict[Path, None] = {}
+        for block in self.robot.gazebo:
+            for plugin in block.plugins:
+                for child in plugin.element.find_all("parameters"):
+                    file = Path(child.text) if child.text.startswith("/") and "$" not in child.text else None
+                    package = package_of(file) if file is not None and file.is_file() else None
+                    if package is not None and self.package is not None and package.parent == self.package.parent:
+                        found[package] = None
+        found.pop(self.package, None)  # type: ignore[arg-type]
+        return list(found)
+
+    @cached_property
+    def macros_around(self) -> dict[str, list[Path]]:
+        """Macro → the files of the package, or of the entry's folder, that define it and were not read."""
+        from pathlib import Path
+
+        from urdfkit.lint.project.entry_files import near_descriptions
+
+        read = {str(Path(file).absolute()) for file in self.expanded.sources}
+        found: dict[str, list[Path]] = {}
+        for path, text in near_descriptions(self.package, self.expanded.path):
+            if str(path.absolute()) not in read:
+                for name, _ in signatures(text):
+                    found.setdefault(name, []).append(path.absolute())
+        return found
+
+    @cached_property
+    def signatures(self) -> dict[str, list[Signature]]:
+        """The parameters of every macro that any of the files defines, with prefix or without, by its name."""
+        found: dict[str, list[Signature]] = {}
+        for source in self.expanded.sources.values():
+            for name, signature in signatures(source.text):
+                found.setdefault(name, []).append(signature)
+        return found
+
+    @cached_property
+    def parts(self) -> tuple[Link | Joint, ...]:
+        """The links, then the joints."""
+        return (*self.robot.links, *self.robot.joints)
+
+    @cached_property
+    def elements(self) -> list[Element]:
+        """The links, joints and materials and what is in them, as far as URDF has such elements there."""
+        found: list[Element] = []
+        pending = [part for part in self.robot.element.children if part.tag in ("link", "joint", "material")]
+        for element in pending:  # It grows while it is walked through.
+            found.append(element)
+            allowed = URDF_CHILDREN.get(element.tag)
+            if allowed is not None and element.children:
+                pending += [child for child in element.children if child.tag in allowed]
+        return found
+
+    @cached_property
+    def frames(self) -> dict[str, Frame]:
+        """Link name → its frame in the root link, every joint at zero."""
+        from urdfkit.lint.model.placement import frames
+
+        return frames(self.robot)
+
+    @cached_property
+    def extents(self) -> dict[str, Extent]:
+        """Link name → what its shapes fill; links without shapes, or with one that cannot be known, are left out."""
+        from urdfkit.lint.model.placement import extent
+
+        counts = Counter(link.name for link in self.robot.links)
+        # Of what is there twice nobody knows which shapes count.
+        once = (link for link in self.robot.links if counts[link.name] == 1)
+        found = ((link.name, extent(link, self.box_of)) for link in once)
+        return {name: filled for name, filled in found if filled is not None}
+
+    def box_of(self, mesh: Mesh) -> tuple[Vector, Vector] | None:
+        """Return centre and size of the box around a mesh [m], scale included; None where it cannot be read."""
+        if mesh not in self._boxes:
+            from urdfkit.lint.model.mesh_files import box
+
+            self._boxes[mesh] = box(mesh, self)
+        return self._boxes[mesh]
+
+    @cached_property
+    def _boxes(self) -> dict[Mesh, tuple[Vector, Vector] | None]:
+        return {}
+
+    @cached_property
+    def _documents(self) -> dict[str, Document]:
+        return {}
+
+    def document(self, file: str) -> Document:
+        """Return the tags of one file, as written."""
+        if file not in self._documents:
+            self._documents[file] = Document(self.expanded.sources.get(file) or Source(file, ""))
+        return self._documents[file]
+
+    def tag(self, position: Position) -> Tag | None:
+        """Return the tag a person wrote there."""
+        return self.document(position.file).tag_at(position.line, position.column)
+
+    def span(self, position: Position, attribute: str | None = None) -> Span:
+        """Return the span of an attribute of the tag at `position`; else of the tag; else the position itself."""
+        tag = self.tag(position)
+        if tag is not None:
+            return self.document(position.file).span_of(tag, attribute)
+        return Span(position.file, position.line, position.column, position.line, position.column + 1)
+
+    def is_unresolved(self, element: Element, attribute: str | None = None) -> bool:
+        """Return whether xacro could not evaluate the attribute (or text): a fault says so already."""
+        return (element.origin.position, attribute) in self.expanded.unresolved
+
+    def literal(self, element: Element, attribute: str) -> Attribute | None:
+        """Return the attribute as written if it is written out: no expression, no entity, value as after expansion."""
+        tag = self.tag(element.origin.position)
+        written = tag.attributes.get(attribute) if tag is not None else None
+        if written is None or written.value != element.get(attribute) or "&" in written.value:
+            return None
+        return written
+
+    def shown(self, position: Position) -> str:
+        """Return a place as the user is shown it, without the column."""
+        return f"{position.file}:{position.line}"
+
+
+def _is_broken(manifest: Path, texts: Mapping[str, str]) -> bool:
+    """Whether a package.xml is no XML. It is there: it is what makes a folder a package."""
+    from xml.parsers import expat
+
+    text = texts.get(str(manifest))
+    try:
+        expat.ParserCreate().Parse(manifest.read_bytes() if text is None else text.encode(), True)
+    except OSError:
+        return False
+    except expat.ExpatError:
+        return True
+    return False

@@ -1,0 +1,167 @@
+"""The tags of a file exactly as written: where each name, attribute and comment begins and ends.
+
+Works on any text; of a file that is not well-formed it yields what can be told.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from functools import cached_property
+from itertools import islice
+
+from urdfkit.description.xml.reader import MAX_TAGS
+from urdfkit.description.xml.source import Source, Span
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+# What is never closed reaches to the end, so that it is looked at once. XML forbids `<` in attribute values: every
+# alternative stops there, so a stray quote cannot swallow the file.
+_TOKEN = (
+    r"<!--(?P<comment>.*?)(?:-->|\Z)|<!\[CDATA\[.*?(?:\]\]>|\Z)|<\?.*?(?:\?>|\Z)"
+    r"|<!DOCTYPE[^<>\[]*(?:\[.*?(?:\]|\Z)\s*)?>?"
+    r"|<(?P<close>/?)(?P<name>[^\s/>=<!?\"']+)(?P<attributes>(?:[^<>\"'/]|/(?!>)|\"[^\"<]*\"|'[^'<]*'){0,200000})(?P<empty>/?)>"
+)
+_ATTRIBUTE = r"([^\s=/\"'<>]+)\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
+
+
+class Attribute:
+    """An attribute as written; offsets into the text, `start` at its name, `value_end` before the closing quote."""
+
+    __slots__ = ("end", "name", "start", "value", "value_end", "value_start")
+
+    def __init__(self, name: str, value: str, start: int, value_start: int, value_end: int, end: int) -> None:
+        self.name, self.value = name, value
+        self.start, self.value_start, self.value_end, self.end = start, value_start, value_end, end
+
+
+class Tag:
+    """An element as written.
+
+    Attributes:
+        name: with prefix.
+        start: offset of ``<``.
+        end: offset after ``>`` of the start tag.
+        close: offset of ``</``; None for an empty element or one that is never closed.
+        close_end: offset after the whole element.
+    """
+
+    __slots__ = ("_text", "children", "close", "close_end", "empty", "end", "name", "parent", "start")
+
+    def __init__(self, text: str, name: str, start: int, end: int, empty: bool, parent: Tag | None) -> None:
+        self._text = text
+        self.name, self.start, self.end, self.empty, self.parent = name, start, end, empty, parent
+        self.children: list[Tag] = []
+        self.close: int | None = None
+        self.close_end = end
+
+    @property
+    def attributes(self) -> dict[str, Attribute]:
+        """The attributes by name, values as written (entities and expressions untouched)."""
+        found: dict[str, Attribute] = {}
+        for at in re.compile(_ATTRIBUTE).finditer(self._text, self.start + 1 + len(self.name), self.end):
+            group = 2 if at[2] is not None else 3
+            found[at[1]] = Attribute(at[1], at[group], at.start(), at.start(group), at.end(group), at.end())
+        return found
+
+    def walk(self) -> Iterator[Tag]:
+        """Yield this tag and all below it, in document order."""
+        pending = [self]
+        while pending:
+            tag = pending.pop()
+            yield tag
+            pending.extend(reversed(tag.children))
+
+    def ancestors(self) -> Iterator[Tag]:
+        """Yield the enclosing tags, nearest first."""
+        above = self.parent
+        while above is not None:
+            yield above
+            above = above.parent
+
+
+class Document:
+    """The tags and comments of one file, `MAX_TAGS` of them at most; read when first asked for.
+
+    Attributes:
+        source: its text.
+    """
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+
+    @property
+    def roots(self) -> list[Tag]:
+        """The top-level tags; one in a well-formed file."""
+        return self._read[0]
+
+    @property
+    def root(self) -> Tag | None:
+        """The first tag; without its children where nobody has asked for the others."""
+        if "_read" in self.__dict__:
+            return self.roots[0] if self.roots else None
+        text = self.source.text
+        for token in islice(re.finditer(_TOKEN, text, re.DOTALL), MAX_TAGS):
+            if token["name"] is not None and not token["close"]:
+                return Tag(text, token["name"], token.start(), token.end(), bool(token["empty"]), None)
+        return None
+
+    @property
+    def comments(self) -> list[tuple[int, int, str]]:
+        """Start, end and text of each comment."""
+        return self._read[1]
+
+    @cached_property
+    def _read(self) -> tuple[list[Tag], list[tuple[int, int, str]], dict[int, Tag]]:
+        text = self.source.text
+        roots: list[Tag] = []
+        comments: list[tuple[int, int, str]] = []
+        by_start: dict[int, Tag] = {}
+        open_tags: list[Tag] = []
+        opened: Counter[str] = Counter()
+        for token in islice(re.finditer(_TOKEN, text, re.DOTALL), MAX_TAGS):
+            name = token["name"]
+            if name is None:
+                if token["comment"] is not None:
+                    comments.append((token.start(), token.end(), token["comment"]))
+            elif token["close"]:
+                if opened[name]:
+                    _close(name, token.start(), token.end(), open_tags, opened)
+            else:
+                parent = open_tags[-1] if open_tags else None
+                tag = Tag(text, name, token.start(), token.end(), bool(token["empty"]), parent)
+                (parent.children if parent else roots).append(tag)
+                by_start[tag.start] = tag
+                if not tag.empty:
+                    open_tags.append(tag)
+                    opened[name] += 1
+        for tag in open_tags:
+            tag.close_end = len(text)
+        return roots, comments, by_start
+
+    def walk(self) -> Iterator[Tag]:
+        """Yield every tag in document order."""
+        for root in self.roots:
+            yield from root.walk()
+
+    def tag_at(self, line: int, column: int) -> Tag | None:
+        """Return the tag whose ``<`` is there."""
+        return self._read[2].get(self.source.offset(line, column))
+
+    def span_of(self, tag: Tag, attribute: str | None = None) -> Span:
+        """Return the span of an attribute with its value, or of the start tag where it has no such attribute."""
+        written = tag.attributes.get(attribute) if attribute is not None else None
+        if written is not None:
+            return self.source.span(written.start, written.end)
+        return self.source.span(tag.start, tag.end)
+
+
+def _close(name: str, start: int, end: int, open_tags: list[Tag], opened: Counter[str]) -> None:
+    """Close the innermost open tag of that name, and those inside it that were never closed."""
+    while (tag := open_tags.pop()).name != name:
+        tag.close_end = start
+        opened[tag.name] -= 1
+    opened[name] -= 1
+    tag.close, tag.close_end = start, end

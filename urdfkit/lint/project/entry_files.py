@@ -1,0 +1,314 @@
+"""Which files to lint: models, the fragments they include, and libraries of macros that nothing includes."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+from urdfkit.description.packages.related_files import LAUNCH, YAML, dependencies_in, manifest, neighbours, package_of
+from urdfkit.errors import ResourceError
+from urdfkit.record import record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+SUFFIXES = (".urdf", ".xacro")
+_TO_MERGE = (".urdf.new", ".xacro.new")
+"""What `urdfkit new --update` puts beside a robot that was edited; the parts it includes are there already."""
+_SKIPPED = frozenset(("build", "install", "devel", "log", "node_modules", "__pycache__"))
+_IGNORE_MARKS = frozenset(("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"))
+_MAX_DEPTH = 12
+_MAX_LOOSE = 200
+"""Files that are looked at where there is no package."""
+
+# Compiled on first use: to lint one named file takes none of the last four.
+_COMMENT = r"(?s)<!--.*?(?:-->|\Z)"  # one that is never closed is looked at once
+_FIRST = r"<([A-Za-z_][\w:.-]*)"
+_ROOT = r"<(robot)\b((?:\"[^\"]*\"|'[^']*'|[^>\"'])*)>|<[A-Za-z_]"
+_NAMED = r"(?<![\w:])name\s*="
+_INCLUDE = r"<(?:xacro:)?include\b[^<>]*?filename\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
+_MACRO = r"(?s)<(?:xacro:)?macro\b.*?</(?:xacro:)?macro\s*>"
+_CONTENT = r"<(?:link|joint|xacro:(?!macro|property|arg)\w)"
+_VARIABLE = r"\$\([^()]*\)|\$\{[^{}]*\}"
+
+
+@record(order=True)
+class Entry:
+    """One file to expand and lint.
+
+    Attributes:
+        path: the file.
+        only: report what is in these files; everything where it is empty.
+        is_library: it only defines macros: what it lacks, its users bring.
+    """
+
+    path: Path
+    only: tuple[Path, ...] = ()
+    is_library: bool = False
+
+
+def find_entries(paths: Iterable[str | Path]) -> list[Entry]:
+    """Return what to lint for the paths a user named.
+
+    Args:
+        paths: files, package folders, workspaces, or names of robots we ship.
+
+    Raises:
+        ResourceError: a path is not there, or there is no description in it.
+    """
+    found: dict[Entry, None] = {}
+    for path in paths:
+        named = Path(path)
+        if named.is_file():
+            found.update(dict.fromkeys(_of_file(named)))
+        elif named.is_dir():
+            found.update(dict.fromkeys(_of_folder(named)))
+        else:
+            found.update(dict.fromkeys(_of_name(str(path))))
+    return list(found)
+
+
+def find_each(paths: Iterable[str | Path]) -> tuple[list[Entry], tuple[str, ...]]:
+    """Return what to lint for the paths a user named, and why there is nothing at some of them, one line each.
+
+    Raises:
+        ResourceError: there is nothing at the only path.
+    """
+    paths = list(paths)
+    found: dict[Entry, None] = {}
+    refused: dict[str, None] = {}
+    for path in paths:
+        try:
+            found.update(dict.fromkeys(find_entries([path])))
+        except ResourceError as error:
+            if len(paths) == 1:
+                raise
+            refused[str(error)] = None
+    return list(found), tuple(refused)
+
+
+def _of_name(name: str) -> list[Entry]:
+    from urdfkit.resources import find_model, robot_names, robots_dir
+
+    if name in robot_names() and (robots_dir() / name).is_dir():
+        return _of_folder(robots_dir() / name)
+    # A variant of a robot we ship; or it says what is not there and the nearest right thing.
+    return [Entry(find_model([name]).path)]
+
+
+def _of_folder(folder: Path) -> list[Entry]:
+    found = _robots_in(folder)
+    if not found:
+        raise ResourceError(f"no robot description (.urdf or .xacro with a <robot> in it) in {folder}")
+    return found
+
+
+def descriptions(folder: Path) -> Iterator[tuple[Path, str]]:
+    """Yield every description and fragment in a folder, with its text, comments left out."""
+    yield from ((path, _text(path)) for path in _walk(folder, 0))
+
+
+def near_descriptions(package: Path | None, path: Path) -> Iterator[tuple[Path, str]]:
+    """Yield the descriptions of a package; without one, those in the folder of a file, and one below."""
+    if package is not None:
+        yield from descriptions(package)
+        return
+    folder = path.absolute().parent
+    files = sorted(file for file in (*folder.glob("*.xacro"), *folder.glob("*/*.xacro")) if file.is_file())
+    yield from ((file, _text(file)) for file in files[:_MAX_LOOSE])
+
+
+def _robots_in(folder: Path) -> list[Entry]:
+    texts = {path: _text(path) for path in _walk(folder, 0)}
+    robots = {path: text for path, text in texts.items() if _is_robot(text) or _is_broken(text)}
+    included = _included(robots)
+    alone = [path for path in robots if path not in included]
+    if waiting := _to_merge(alone):
+        alone = [path for path in alone if not any(_matches(text, path) for text in waiting.values())] or alone
+    found = [Entry(path, (), _is_robot(robots[path]) and _is_library(robots[path])) for path in alone]
+    return [*found, *(Entry(path, (), is_library=True) for path in _unreached(included, robots))]
+
+
+def _unreached(included: set[Path], robots: dict[Path, str]) -> list[Path]:
+    """Return the files that are no XML, and are included by way of one that is none either: it may not get to them."""
+    broken = {path for path, text in robots.items() if not _is_well_formed(text)} if included else set()
+    if len(broken) < 2:
+        return []
+    return [path for path in robots if path in included & broken and (_above(path, robots) - {path}) & broken]
+
+
+def _to_merge(paths: Iterable[Path]) -> dict[Path, str]:
+    """Return what waits in the folders of files, or above, to be merged into a robot; with the texts."""
+    folders = dict.fromkeys(folder for path in paths for folder in (path.parent, path.parent.parent))
+    waiting = (file for folder in folders for ending in _TO_MERGE for file in sorted(folder.glob(f"*{ending}*")))
+    return {file: text for file in waiting if file.is_file() and _is_robot(text := _text(file))}
+
+
+def _of_file(path: Path) -> list[Entry]:
+    """Return the file itself, or for a fragment the models that include it."""
+    if path.name.endswith((*LAUNCH, *YAML)):
+        return _around(path)
+    text = _text(path)
+    if _begins_with_robot(text) and not _may_be_library(text):
+        return [Entry(path)]
+    root = re.search(_ROOT, text)
+    is_robot = root is not None and root[1] is not None
+    is_named = root is not None and is_robot and re.search(_NAMED, root[2]) is not None
+    if not is_robot or (is_named and not _is_library(text)):
+        return [Entry(path)]
+    package = next((folder for folder in path.absolute().parents if (folder / "package.xml").is_file()), None)
+    if package is not None:
+        place = path.resolve()
+        robots = {other: text for other in _walk(package, 0) if _is_robot(text := _text(other))}
+    else:
+        place = Path(os.path.abspath(path))  # noqa: PTH100 - without what is in links
+        robots = _beside(place.parent)
+    waiting = _to_merge([place])
+    above = _includers(place, robots | waiting)
+    if above := [model for model in above if model not in waiting] or above:
+        return [Entry(_relative(model), (path,)) for model in above]
+    return [Entry(path, (), not is_named and _is_library(text))]
+
+
+def _may_be_library(text: str) -> bool:
+    """Whether a text may define macros and nothing else; most do not, and need no patterns."""
+    _, end, rest = text.rpartition("macro>")
+    return bool(end) and not any(tag in rest for tag in ("<link", "<joint", "<xacro:"))
+
+
+def _beside(folder: Path) -> dict[Path, str]:
+    """Return the robots and parts, with their texts, of a folder, its own folders and the one it lies in."""
+    files = (file for place in ("", "*/", "../") for end in SUFFIXES for file in sorted(folder.glob(f"{place}*{end}")))
+    near = dict.fromkeys(Path(os.path.normpath(file)) for file in files if file.is_file())
+    return {file: text for file in list(near)[:_MAX_LOOSE] if _is_robot(text := _text(file))}
+
+
+def _begins_with_robot(text: str) -> bool:
+    """Whether a text plainly is a robot with a name; most are, and need no patterns."""
+    start = text.lstrip("\ufeff \t\r\n")
+    if start.startswith("<?xml"):
+        start = start.partition("?>")[2].lstrip()
+    tag, end, _ = start.partition(">")
+    is_closed = bool(end) and tag.count('"') % 2 == 0 and tag.count("'") % 2 == 0
+    return is_closed and tag.startswith("<robot ") and ' name="' in tag
+
+
+def _around(path: Path) -> list[Entry]:
+    """Return the robots that a launch file or YAML is for: of its package, else of those beside it that that needs."""
+    package = package_of(path)
+    if package is None:
+        raise ResourceError(f"{path}: lies in no package, so there is no robot to compare it with")
+    needed = dependencies_in(manifest(package))
+    folders = [package, *(folder for name, folder in neighbours(package).items() if name in needed)]
+    for folder in folders:
+        found = [entry for entry in _robots_in(folder) if not entry.is_library]
+        if found:
+            return [Entry(_relative(entry.path), (path,)) for entry in found]
+    raise ResourceError(f"{path}: no robot description in its package, nor beside it in one that it depends on")
+
+
+def _relative(path: Path) -> Path:
+    here = Path.cwd()
+    return path.relative_to(here) if path.is_relative_to(here) else path
+
+
+def _includers(path: Path, robots: dict[Path, str]) -> list[Path]:
+    """Return the files nobody includes that reach `path` through includes."""
+    included = _included(robots)
+    return sorted(other for other in _above(path, robots) - {path} if other not in included)
+
+
+def _above(path: Path, robots: dict[Path, str]) -> set[Path]:
+    """Return a file and all that reach it through includes."""
+    reached = {path}
+    while True:
+        more = {other for other, text in robots.items() if any(_matches(text, known) for known in reached)}
+        if more <= reached:
+            return reached
+        reached |= more
+
+
+def _included(robots: dict[Path, str]) -> set[Path]:
+    patterns = {other: _patterns(text) for other, text in robots.items()}
+    return {
+        path
+        for path in robots
+        if any(pattern.search(path.as_posix()) for other in robots if other != path for pattern in patterns[other])
+    }
+
+
+def _matches(text: str, path: Path) -> bool:
+    return any(pattern.search(path.as_posix()) for pattern in _patterns(text))
+
+
+def _patterns(text: str) -> list[re.Pattern[str]]:
+    """Return what the paths of included files look like: the part after the last ``$(…)`` or ``..``, if any."""
+    found = []
+    for double, single in re.findall(_INCLUDE, text):
+        written = (double or single).replace("\\", "/").rpartition("../")[2].removeprefix("./")
+        written = re.sub(r"^\$\(find[^()]*\)/", "", written)
+        parts = [re.escape(part) for part in re.split(_VARIABLE, written)]
+        if any(parts):
+            found.append(re.compile(f"(^|/){'.*'.join(parts)}$"))
+    return found
+
+
+def _is_robot(text: str) -> bool:
+    root = re.search(_ROOT, text)
+    return root is not None and root[1] is not None
+
+
+def _is_broken(text: str) -> bool:
+    """Whether a file is none of another format, but empty, cut off, or a robot whose root is misspelt or gone."""
+    first = re.search(_FIRST, text)
+    if first is None or is_nearly_robot(first[1]):
+        return True
+    return not _is_robot(text) if first[1] == "robot" else "</robot>" in text and "<robot" not in text
+
+
+def _is_well_formed(text: str) -> bool:
+    """Whether a text is XML."""
+    from xml.parsers import expat
+
+    try:
+        expat.ParserCreate().Parse(text, True)
+    except (expat.ExpatError, UnicodeEncodeError):
+        return False
+    return True
+
+
+def is_nearly_robot(tag: str) -> bool:
+    """Whether a root element is called nearly ``robot``."""
+    from difflib import SequenceMatcher
+
+    return tag != "robot" and SequenceMatcher(None, tag.lower(), "robot").ratio() >= 0.75
+
+
+def _is_library(text: str) -> bool:
+    return not re.search(_CONTENT, re.sub(_MACRO, "", text))
+
+
+def _walk(folder: Path, depth: int) -> Iterator[Path]:
+    try:
+        with os.scandir(folder) as scan:
+            children = sorted(scan, key=lambda child: child.name)
+    except OSError:
+        return
+    if any(child.name in _IGNORE_MARKS for child in children):
+        return
+    for child in children:
+        if child.is_dir(follow_symlinks=False):
+            if depth < _MAX_DEPTH and child.name not in _SKIPPED and not child.name.startswith("."):
+                yield from _walk(folder / child.name, depth + 1)
+        # A link to nowhere is no file: an editor's lock, or what somebody else has not got.
+        elif child.name.endswith(SUFFIXES) and child.is_file():
+            yield folder / child.name
+
+
+def _text(path: Path) -> str:
+    from urdfkit.description.xml.source import Source
+
+    text = Source.read(path).text
+    return re.sub(_COMMENT, "", text) if "<!--" in text else text

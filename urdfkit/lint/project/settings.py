@@ -1,0 +1,201 @@
+"""Settings in files: ``urdfkit.toml``, or ``[tool.urdfkit]`` in pyproject.toml, nearest above what is linted.
+
+::
+
+    [lint]                                  # in pyproject.toml: [tool.urdfkit.lint]
+    target = "ros2"
+    select = ["E", "T"]
+    ignore = ["J413"]
+    exclude = ["third_party/*"]             # below the folder of this file
+    package-path = ["../common_ws/src"]
+    baseline = "lint-baseline.json"
+    arguments = {use_camera = "true"}       # values for $(arg …)
+    [lint.per-file-ignores]
+    "urdf/generated/*" = ["E008", "I"]
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from urdfkit.errors import UsageError, did_you_mean
+from urdfkit.record import field, record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from typing import Any
+
+_KINDS = {"list": "a list", "dict": "a table", "str": "a text"}
+_MARKS = (".git", ".hg", ".catkin_workspace", ".colcon")
+
+
+@record
+class Settings:
+    """What a file says; empty where there is none.
+
+    Attributes:
+        file: where it says so.
+        target: see ``--target``.
+        select: codes to report.
+        ignore: codes not to report.
+        exclude: patterns of files to leave out, below the folder of `file`.
+        package_path: folders to look for packages in.
+        baseline: the file of known findings.
+        arguments: values for ``$(arg …)``.
+        per_file: pattern of files → codes not to report in them.
+    """
+
+    file: Path | None = None
+    target: str | None = None
+    select: tuple[str, ...] = ()
+    ignore: tuple[str, ...] = ()
+    exclude: tuple[str, ...] = ()
+    package_path: tuple[Path, ...] = ()
+    baseline: Path | None = None
+    arguments: Mapping[str, str] = field(default_factory=dict)
+    per_file: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def matches(self, path: Path, pattern: str) -> bool:
+        """Whether a pattern of this file means `path`: the file, or a folder above it."""
+        from fnmatch import fnmatch
+
+        folder = self.file.parent if self.file is not None else Path.cwd()
+        resolved = path.resolve()
+        if not resolved.is_relative_to(folder.resolve()):
+            return False
+        inside = resolved.relative_to(folder.resolve())
+        wanted = pattern.rstrip("/")
+        return any(fnmatch(part.as_posix(), wanted) for part in (inside, *inside.parents[:-1]))
+
+
+def find(start: Path) -> Settings:
+    """Return the settings for what lies in `start`.
+
+    Raises:
+        UsageError: the file holds what is not known, or is no TOML.
+    """
+    start = start.absolute()
+    for folder in (start, *start.parents) if start.is_dir() else start.parents:
+        own, project = folder / "urdfkit.toml", folder / "pyproject.toml"
+        if own.is_file():
+            return read(own)
+        if project.is_file() and b"[tool.urdfkit" in project.read_bytes():
+            return read(project)
+        if any((folder / mark).exists() for mark in _MARKS) or folder == Path.home():
+            break
+    return Settings()
+
+
+def read(file: Path) -> Settings:
+    """Return the settings of a file.
+
+    Raises:
+        UsageError: it cannot be read, is no TOML, or holds what is not known.
+    """
+    import sys
+
+    if sys.version_info >= (3, 11):
+        import tomllib
+    else:
+        import tomli as tomllib  # type: ignore[import-not-found, unused-ignore]
+
+    try:
+        table: Any = tomllib.loads(file.read_text("utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise UsageError(f"cannot read {file}: {getattr(error, 'strerror', None) or 'it is not UTF-8'}") from error
+    except tomllib.TOMLDecodeError as error:
+        raise UsageError(f"{file} is no TOML: {error}") from error
+    if file.name == "pyproject.toml":
+        table = table.get("tool", {}).get("urdfkit", {})
+    _check(file, "", table, {"lint": dict})
+    lint: dict[str, Any] = table.get("lint", {})
+    _check(file, "lint.", lint, {key: kind for key, (kind, _) in _KEYS.items()})
+    values: dict[str, Any] = {"file": file}
+    for key, value in lint.items():
+        _, taken = _KEYS[key]
+        name = {"per-file-ignores": "per_file"}.get(key, key.replace("-", "_"))
+        values[name] = taken(file, f"lint.{key}", value)
+    settings = Settings(**values)
+    _check_words(settings)
+    return settings
+
+
+def _check_words(settings: Settings) -> None:
+    """Refuse codes and targets that there are not.
+
+    Raises:
+        UsageError: there is one; it names the file, not an option.
+    """
+    from urdfkit.lint.engine.checker import every_code
+    from urdfkit.lint.project.rule_selection import checked
+    from urdfkit.lint.project.target import known_target
+
+    of = f"{settings.file}: `lint."
+    checked(f"{of}select`", settings.select, every_code)
+    checked(f"{of}ignore`", settings.ignore, every_code)
+    for pattern, codes in settings.per_file.items():
+        checked(f"{of}per-file-ignores.{pattern}`", codes, every_code)
+    if settings.target is not None and settings.target.lower() != "any":
+        known_target(settings.target, f"{of}target`")
+
+
+def _check(file: Path, prefix: str, table: Any, known: Mapping[str, type]) -> None:
+    for key, value in table.items():
+        if key not in known:
+            hint = did_you_mean(key, known) or f"; there are {', '.join(known)}"
+            raise UsageError(f"{file}: there is no setting `{prefix}{key}`{hint}")
+        if not isinstance(value, known[key]):
+            kind = _KINDS[known[key].__name__]
+            raise UsageError(f"{file}: `{prefix}{key}` is {kind}, not {value!r}")
+
+
+def _text(_: Path, __: str, value: str) -> str:
+    return value
+
+
+def _texts(file: Path, name: str, value: list[Any]) -> tuple[str, ...]:
+    for item in value:
+        if not isinstance(item, str):
+            raise UsageError(f"{file}: `{name}` is a list of texts, not of {item!r}")
+    return tuple(value)
+
+
+def _path(file: Path, _: str, value: str) -> Path:
+    return file.parent / Path(value).expanduser()
+
+
+def _folders(file: Path, name: str, value: list[Any]) -> tuple[Path, ...]:
+    folders = tuple(file.parent / Path(text).expanduser() for text in _texts(file, name, value))
+    for folder in folders:
+        if not folder.is_dir():
+            raise UsageError(f"{file}: `{name}`: no folder {folder}")
+    return folders
+
+
+def _arguments(file: Path, name: str, value: dict[str, Any]) -> dict[str, str]:
+    words = {True: "true", False: "false"}
+    for key, item in value.items():
+        if not isinstance(item, (str, int, float)):
+            raise UsageError(f"{file}: `{name}.{key}` is one value, not {item!r}")
+    return {key: words[item] if isinstance(item, bool) else str(item) for key, item in value.items()}
+
+
+def _by_file(file: Path, name: str, value: dict[str, Any]) -> dict[str, tuple[str, ...]]:
+    for pattern, codes in value.items():
+        if not isinstance(codes, list):
+            raise UsageError(f"{file}: `{name}.{pattern}` is a list of codes, not {codes!r}")
+    return {pattern: _texts(file, f"{name}.{pattern}", codes) for pattern, codes in value.items()}
+
+
+_KEYS: dict[str, tuple[type, Callable[[Path, str, Any], Any]]] = {
+    "target": (str, _text),
+    "select": (list, _texts),
+    "ignore": (list, _texts),
+    "exclude": (list, _texts),
+    "package-path": (list, _folders),
+    "baseline": (str, _path),
+    "arguments": (dict, _arguments),
+    "per-file-ignores": (dict, _by_file),
+}
+"""Setting → what TOML has for it, and what it becomes."""

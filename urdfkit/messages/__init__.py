@@ -1,0 +1,52 @@
+"""The ROS messages that urdfkit publishes and reads, without ROS: a type name and values in, a message out.
+
+Definitions that rosbags lacks are beside `types`, one module per ROS package family.
+"""
+
+from urdfkit.messages.types import (
+    BOOL,
+    CLOCK,
+    FLOAT,
+    FLOATS,
+    JOINT_CONTROLLER_STATE,
+    JOINT_STATE,
+    ODOMETRY,
+    TF,
+    TRAJECTORY,
+    TRAJECTORY_STATE,
+    TWIST,
+    TWIST_STAMPED,
+    from_fields,
+    full_type_name,
+    header,
+    message_type,
+    stamp,
+    transform,
+    twist,
+    typestore,
+    vector,
+)
+
+__all__ = [
+    "BOOL",
+    "CLOCK",
+    "FLOAT",
+    "FLOATS",
+    "JOINT_CONTROLLER_STATE",
+    "JOINT_STATE",
+    "ODOMETRY",
+    "TF",
+    "TRAJECTORY",
+    "TRAJECTORY_STATE",
+    "TWIST",
+    "TWIST_STAMPED",
+    "from_fields",
+    "full_type_name",
+    "header",
+    "message_type",
+    "stamp",
+    "transform",
+    "twist",
+    "typestore",
+    "vector",
+]

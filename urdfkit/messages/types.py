@@ -1,0 +1,220 @@
+"""The ROS message types in use, taken from rosbags' typestore (ROS 2 definitions), and short constructors.
+
+rosbags and numpy are imported on first use, not with this module. Twists are linear first; quaternions x, y, z, w.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from typing import Any
+
+TWIST = "geometry_msgs/msg/Twist"
+ODOMETRY = "nav_msgs/msg/Odometry"
+JOINT_STATE = "sensor_msgs/msg/JointState"
+TF = "tf2_msgs/msg/TFMessage"
+CLOCK = "rosgraph_msgs/msg/Clock"
+BOOL = "std_msgs/msg/Bool"
+FLOAT = "std_msgs/msg/Float64"
+FLOATS = "std_msgs/msg/Float64MultiArray"
+TWIST_STAMPED = "geometry_msgs/msg/TwistStamped"
+TRAJECTORY = "trajectory_msgs/msg/JointTrajectory"
+JOINT_CONTROLLER_STATE = "control_msgs/msg/JointControllerState"
+TRAJECTORY_STATE = "control_msgs/msg/JointTrajectoryControllerState"
+
+
+@cache
+def message_type(name: str) -> Any:
+    """Return the class of a message type such as ``geometry_msgs/msg/Twist``.
+
+    Raises:
+        UsageError: no such type, with the nearest one.
+        MissingDependencyError: rosbags is not installed.
+    """
+    from urdfkit.errors import MissingDependencyError, UsageError, did_you_mean
+
+    types = _types()
+    if types is None:
+        raise MissingDependencyError("messages need rosbags: pip install 'urdfkit[sim]'")
+    full = full_type_name(name)
+    if full not in types:
+        raise UsageError(f"no message type `{name}`{did_you_mean(full, types)}")
+    return types[full]
+
+
+@cache
+def _store() -> Any:
+    """Return rosbags' typestore with the messages it lacks; None without rosbags."""
+    from urdfkit.messages.control import CONTROL_MESSAGES
+    from urdfkit.messages.sensors import SENSOR_MESSAGES
+    from urdfkit.messages.simulation import WORLD_MESSAGES
+    from urdfkit.messages.vision import VISION_MESSAGES
+
+    try:
+        from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+    except ImportError:
+        return None
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    known: dict[str, Any] = {}
+    for name, text in (CONTROL_MESSAGES | WORLD_MESSAGES | SENSOR_MESSAGES | VISION_MESSAGES).items():
+        (known[name],) = get_types_from_msg(text, name).values()  # whose own key has /msg/ in it for services too
+    store.register(known)
+    return store
+
+
+@cache
+def _types() -> dict[str, Any] | None:
+    store = _store()
+    return None if store is None else dict(store.types)
+
+
+def typestore() -> Any:
+    """Return rosbags' typestore, with the messages that it lacks.
+
+    Raises:
+        MissingDependencyError: rosbags is not installed.
+    """
+    from urdfkit.errors import MissingDependencyError
+
+    if (found := _store()) is None:
+        raise MissingDependencyError("messages need rosbags: pip install 'urdfkit[sim]'")
+    return found
+
+
+def full_type_name(name: str) -> str:
+    """Turn ``geometry_msgs/Twist`` into ``geometry_msgs/msg/Twist``; leave full names alone."""
+    parts = name.split("/")
+    return f"{parts[0]}/msg/{parts[1]}" if len(parts) == 2 else name
+
+
+def stamp(t: float) -> Any:
+    """Return a ``builtin_interfaces/msg/Time`` of simulated time `t` [s], rounded to the nanosecond."""
+    nanoseconds = round(t * 1e9)
+    return message_type("builtin_interfaces/msg/Time")(nanoseconds // 1_000_000_000, nanoseconds % 1_000_000_000)
+
+
+def header(t: float, frame_id: str) -> Any:
+    """Return a ``std_msgs/msg/Header``."""
+    return message_type("std_msgs/msg/Header")(stamp(t), frame_id)
+
+
+def vector(xyz: Sequence[float]) -> Any:
+    """Return a ``geometry_msgs/msg/Vector3``."""
+    return message_type("geometry_msgs/msg/Vector3")(float(xyz[0]), float(xyz[1]), float(xyz[2]))
+
+
+def twist(linear: Sequence[float], angular: Sequence[float]) -> Any:
+    """Return a ``geometry_msgs/msg/Twist`` [m/s, rad/s]."""
+    return message_type(TWIST)(vector(linear), vector(angular))
+
+
+def transform(t: float, frame: str, child: str, position: Sequence[float], quaternion: Sequence[float]) -> Any:
+    """Return a ``geometry_msgs/msg/TransformStamped``: where `child` is in `frame` [m; x y z w]."""
+    rotation = message_type("geometry_msgs/msg/Quaternion")(*(float(part) for part in quaternion))
+    placement = message_type("geometry_msgs/msg/Transform")(vector(position), rotation)
+    return message_type("geometry_msgs/msg/TransformStamped")(header(t, frame), child, placement)
+
+
+def from_fields(type: str, fields: Any) -> Any:
+    """Return a message with these fields, the others zero or empty, as ``rostopic pub`` fills them in.
+
+    Args:
+        type: its type.
+        fields: field → value, nested as the message is; None for none. A message may also be the list of its fields,
+            a time or duration seconds, and both may have ``secs`` and ``nsecs``, and a header ``seq``, as in ROS 1.
+
+    Raises:
+        UsageError: no such type or field, or a value of the wrong kind.
+    """
+    from urdfkit.errors import UsageError, did_you_mean
+
+    full = full_type_name(type)
+    kind = message_type(full)
+    layout = dict(_layouts()[full][1])
+    if full in _MOMENTS:
+        fields = _moment(full, fields)
+    elif full == "std_msgs/msg/Header" and isinstance(fields, dict):
+        fields = {name: value for name, value in fields.items() if name != "seq"}
+    if isinstance(fields, list) and len(fields) == len(layout):
+        fields = dict(zip(layout, fields, strict=True))
+    if fields is not None and not isinstance(fields, dict):
+        raise UsageError(f"`{fields}` is no {full}: write its fields, {', '.join(layout)}")
+    for name in fields or {}:
+        if name not in layout:
+            raise UsageError(
+                f"no field `{name}` in {full}{did_you_mean(str(name), layout)} (it has {', '.join(layout)})"
+            )
+    given = fields or {}
+    return kind(**{name: _value(full, name, description, given.get(name)) for name, description in layout.items()})
+
+
+_MOMENTS = ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration")
+
+
+def _moment(type: str, fields: Any) -> Any:
+    """Return the fields of a time or duration that may be seconds, or be written as in ROS 1.
+
+    Raises:
+        UsageError: a field is there twice, is no number, or more than the message can hold.
+    """
+    import math
+
+    from urdfkit.errors import UsageError
+
+    named = {"secs": "sec", "nsecs": "nanosec"}
+    if isinstance(fields, dict):
+        if len({named.get(name, name) for name in fields}) < len(fields):
+            raise UsageError(f"`{fields}` says the same twice: {type} has sec and nanosec")
+        fields = {named.get(name, name): value for name, value in fields.items()}
+        if not isinstance(fields.get("sec"), float):
+            return fields
+    seconds = fields.get("sec") if isinstance(fields, dict) else fields
+    if isinstance(seconds, bool) or not isinstance(seconds, int | float):
+        return fields
+    if not (-(2**31) if type.endswith("Duration") else 0) <= seconds < 2**31:
+        raise UsageError(f"`{seconds}` is no {type} that can be: seconds, at most {2**31 - 1}")
+    whole = math.floor(seconds)
+    rest = round((seconds - whole) * 1e9)
+    more = fields if isinstance(fields, dict) else {}
+    if rest and "nanosec" in more:
+        raise UsageError(f"`{fields}` has parts of a second twice: {type} has sec, a whole number, and nanosec")
+    return {**more, "sec": whole + rest // 10**9, **({"nanosec": rest % 10**9} if rest else {})}
+
+
+@cache
+def _layouts() -> dict[str, Any]:
+    return dict(_store().fielddefs)
+
+
+def _value(type: str, name: str, description: Any, value: Any) -> Any:
+    """Return the value of one field, by rosbags' description of it: (node type, details).
+
+    Raises:
+        UsageError: a value of the wrong kind.
+    """
+    import numpy as np
+
+    from urdfkit.errors import UsageError
+
+    node, details = int(description[0]), description[1]
+    if node == 2:
+        return from_fields(details, value)
+    if node == 1:
+        base = details[0]
+        try:
+            if base == "string":
+                return "" if value is None else str(value)
+            if base == "bool":
+                return bool(value)
+            return (float if base.startswith("float") else int)(0 if value is None else value)
+        except (TypeError, ValueError):
+            raise UsageError(f"field `{name}` of {type} is `{value}`; it must be {base}") from None
+    inner, length = details
+    items = [None] * length if value is None else value
+    if not isinstance(items, list) or (node == 3 and len(items) != length):
+        raise UsageError(
+            f"field `{name}` of {type} is `{value}`; it must be a list{f' of {length}' if node == 3 else ''}"
+        )
+    made = [_value(type, name, inner, item) for item in items]
+    base = inner[1][0] if int(inner[0]) == 1 else "string"
+    return made if base == "string" else np.array(made, dtype=base)

@@ -1,0 +1,242 @@
+"""Takes pictures by OpenGL."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from math import hypot
+from threading import Lock
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from urdfkit.scene.camera_model import Lens
+from urdfkit.scene.gl.draw_calls import Drawing, Shot
+from urdfkit.scene.gl.driver_probe import create, on_processor
+from urdfkit.scene.gl.shaders import ALL, BOTH, COLOR, DEEP, STILL
+from urdfkit.scene.gl.shadow_maps import EDGES, FINER, Rest, Shadows
+from urdfkit.scene.gl.shadow_regions import LARGE, Rectangle, shaded, union
+from urdfkit.scene.lights import Lighting
+from urdfkit.scene.ray_images import Painter, Picture
+from urdfkit.scene.rays.ray_scene import RayTable
+from urdfkit.scene.rays.shading.direct_lighting import DIRECTIONAL, SPOT
+
+Array = NDArray[np.float64]
+
+
+class GlPainter:
+    """Takes pictures of what is in a table of shapes; the counterpart of `Painter`.
+
+    Args:
+        table: the shapes; placed by whoever holds it.
+        lighting: what shines.
+        backend: how the device is reached, as `probe` says.
+        note: tells the user that the driver has failed.
+    """
+
+    def __init__(
+        self,
+        table: RayTable,
+        lighting: Lighting,
+        backend: str = "egl",
+        note: Callable[[str], None] = lambda _: None,
+    ) -> None:
+        import moderngl
+
+        self.table = table
+        self._error: type[Exception] = moderngl.Error
+        self._rays = Painter(table, lighting)
+        self._note = note
+        self._works = True
+        self._lock = Lock()
+        self._lights, self._air = lighting.lights, lighting.air
+        lamps = tuple((int(row[0]), bool(row[11])) for row in self._lights)
+        # Only suns have shadow maps: a lamp's would go all around it.
+        self._drawable = all(kind == DIRECTIONAL or not shadows for kind, shadows in lamps)
+        self._targets: dict[tuple[int, int, int], dict[str, Any]] = {}
+        self._ctx = create(backend)
+        self._on_processor = on_processor(str(self._ctx.info["GL_RENDERER"]))
+        with self._lock, self._ctx:
+            self._drawing = Drawing(self._ctx, table, self._rays.paint, lamps)
+            self._shadows = {
+                (k, name): Shadows(self._ctx, edge)
+                for k, (_, shadows) in enumerate(lamps)
+                if shadows and self._drawable
+                for name, edge in EDGES.items()
+            }
+        self._rest = Rest(len(table.shapes))
+
+    def take(
+        self,
+        lens: Lens,
+        frame: ArrayLike,
+        *,
+        near: float = 0.0,
+        far: float = np.inf,
+        samples: int = 1,
+        deep: bool = True,
+    ) -> Picture:
+        """Return a picture; through a distorted lens, or with lamps that cast shadows, by rays.
+
+        Args:
+            lens: what it is taken with.
+            frame: placement of the camera, which looks along x; shape (4, 4).
+            near: what is nearer is not seen [m].
+            far: what is farther is not seen [m].
+            samples: places in each pixel that its colour is the mean of; as many as the device has. A driver that
+                draws on the processor takes one, and rays the others, only where something ends: that is quicker.
+            deep: whether depths and shapes are wanted; without, they are empty.
+        """
+        if self._works and self._drawable and not lens.distortion:
+            try:
+                with self._lock, self._ctx:
+                    return self._take(lens, np.asarray(frame, dtype=float), near, far, samples, deep)
+            except self._error as error:
+                self._works = False
+                self._note(f"OpenGL has failed ({error}): pictures are taken by casting rays from now on")
+        return self._rays.take(lens, frame, near=near, far=far, samples=samples)
+
+    def _take(self, lens: Lens, frame: Array, near: float, far: float, samples: int, deep: bool) -> Picture:
+        turn, origin = frame[:3, :3], frame[:3, 3]
+        drawing = self._drawing
+        rows = drawing.rows(self.table.frames, turn, origin)
+        nearest, farthest = self._reach(origin)
+        corner = lens.focal_length / hypot(lens.focal_length, (lens.width - 1) / 2, (lens.height - 1) / 2)
+        low = near * corner if near > 0.0 else max(1e-3 * float(nearest.min(initial=1.0)), 1e-4)
+        high = max(min(max(float(farthest.max(initial=1.0)) * 1.001, 2.0 * low), far), 1.01 * low)
+        exact = bool((nearest < near).any() or (farthest > far).any())
+        shot = Shot(rows, nearest, nearest > near, exact, self._uniforms(lens, turn, origin, low, high, near, far))
+        target = self._target(lens, 1 if self._on_processor else min(samples, self._ctx.max_samples))
+        again = self._cast_shadows(shot, turn, origin, lens, low)
+        self._ctx.front_face = "cw"  # the picture's top row comes first
+        rgb = np.empty((lens.height, lens.width, 3), dtype=np.uint8)
+        target["color"].clear(*self._air[1].tolist(), 1.0)
+        at_once = deep and "all" in target
+        if at_once:
+            target["depth"].clear(np.inf)
+            target["shape"].clear(-1.0)
+        target["all" if at_once else "color"].use()
+        drawing.draw(shot, ALL if at_once else COLOR)
+        target["color"].use()
+        if again is not None:  # what shadows of moving things can fall on is drawn over
+            drawing.maps = BOTH
+            target["color"].scissor = again
+            self._ctx.depth_func = "<="
+            drawing.draw(shot)
+            self._ctx.depth_func = "<"
+            target["color"].scissor = None
+        if drawing.has_clear:
+            drawing.blend(shot)
+        if target["color"] is not target["plain"]:
+            self._ctx.copy_framebuffer(target["plain"], target["color"])
+        target["plain"].read_into(rgb, components=3, alignment=1)
+        if samples > 1 and self._on_processor:
+            self._rays.smooth(rgb, lens, frame, near=near, far=far, samples=samples)
+        if not deep:
+            return Picture(rgb, np.empty((0, 0), np.float32), np.empty((0, 0), np.int64))
+        target["deep"].use()
+        if not at_once:
+            target["deep"].clear(np.inf)
+            target["shape"].clear(-1.0)
+            drawing.draw(shot, DEEP)
+        if drawing.has_clear:
+            drawing.draw(shot, DEEP, clear=True)
+        depth = np.empty((lens.height, lens.width), dtype=np.float32)
+        target["depth"].read_into(depth, components=1, dtype="f4")
+        target["shape"].read_into(target["numbers"], components=1, dtype="f4")
+        return Picture(rgb, depth, target["numbers"].astype(np.int64))
+
+    def _reach(self, origin: Array) -> tuple[Array, Array]:
+        """Return how far the box of each shape is from the camera, at least and at most [m]; shape (shapes,) each."""
+        low, high = self.table.boxes[:, :3] - origin, self.table.boxes[:, 3:] - origin
+        off, on = np.maximum(np.maximum(low, -high), 0.0), np.maximum(np.abs(low), np.abs(high))
+        return np.sqrt((off * off).sum(axis=1)), np.sqrt((on * on).sum(axis=1))
+
+    def _uniforms(
+        self, lens: Lens, turn: Array, origin: Array, low: float, high: float, near: float, far: float
+    ) -> dict[str, Any]:
+        """Return the values of the shaders' uniforms."""
+        f, span = lens.focal_length, high - low
+        found: dict[str, Any] = {
+            "u_lens": (2 * f / lens.width, 2 * f / lens.height, (high + low) / span, -2 * high * low / span),
+            "u_reach": (near, min(far, 3e38)),
+            "u_air": tuple(self._air[0].tolist()),
+        }
+        for k, row in enumerate(self._lights):
+            kind, where = int(row[0]), row[1:4]
+            found[f"u_lamp{k}"] = tuple((where @ turn if kind == DIRECTIONAL else (where - origin) @ turn).tolist())
+            found[f"u_glow{k}"] = tuple(row[4:7].tolist())
+            found[f"u_sheen{k}"] = tuple(row[18:21].tolist())
+            if kind != DIRECTIONAL:
+                found[f"u_fall{k}"] = tuple(row[7:11].tolist())
+            if kind == SPOT:
+                found[f"u_towards{k}"] = tuple((row[12:15] @ turn).tolist())
+                found[f"u_cone{k}"] = tuple(row[15:18].tolist())
+        return found
+
+    def _cast_shadows(self, shot: Shot, turn: Array, origin: Array, lens: Lens, low: float) -> Rectangle | None:
+        """Bring the shadow maps up to date, and tell the shaders where they are.
+
+        Returns:
+            Where the picture has to be drawn once more, with the shadows of what moves; None where it need not.
+        """
+        if not self._shadows:
+            return None
+        drawing, table = self._drawing, self.table
+        casters = [batch for batch in drawing.batches if batch.model.casts]
+        solid = np.zeros(len(shot.rows), dtype=bool)
+        for batch in casters:
+            solid[batch.model.shapes] = True
+        solid &= ~drawing.clear
+        moving = self._rest.moving(table.frames, table.boxes) & solid
+        boxes, again = table.boxes, (0, 0, 0, 0)
+
+        def cast(k: int, name: str, wanted: NDArray[np.bool_], texel: float) -> None:
+            shadows = self._shadows[k, name]
+            fill = partial(drawing.fill, [(batch, batch.members(wanted)) for batch in casters], shot.rows)
+            shadows.cast(self._lights[k, 1:4], table, wanted, turn, origin, fill, texel=texel)
+            unit = 1 + list(self._shadows).index((k, name))
+            shot.uniforms[f"u_lift{k}{name}"] = shadows.lift
+            shot.uniforms[f"u_shade{k}{name}"] = shadows.matrix(turn, origin)
+            shadows.texture.use(location=unit)
+            shot.uniforms[f"u_map{k}{name}"] = unit
+
+        suns = [k for k, name in self._shadows if name == "s"]
+        for k in suns:
+            cast(k, "s", solid & ~moving, 0.0)
+        if moving.any():
+            wide = float((boxes[moving, 3:].max(axis=0) - boxes[moving, :3].min(axis=0)).max())
+            slack = 3.0 * max(wide / EDGES["m"], *(self._shadows[k, "s"].texel for k in suns))
+            again = union(
+                [shaded(boxes[moving], self._lights[k, 1:4], boxes, turn, origin, lens, low, slack) for k in suns]
+            )
+        drawing.maps = STILL
+        if not (again[2] and again[3]):
+            return None
+        for k in suns:
+            cast(k, "m", moving, self._shadows[k, "s"].texel / FINER)
+        if again[2] * again[3] > LARGE * lens.width * lens.height:
+            drawing.maps = BOTH
+            return None
+        return again
+
+    def _target(self, lens: Lens, samples: int) -> dict[str, Any]:
+        """Return the framebuffers of a size, and room for numbers read from them."""
+        size = lens.width, lens.height
+        key = (*size, samples)
+        if key not in self._targets:
+            ctx = self._ctx
+            rgba, depth, shape = ctx.renderbuffer(size, 4), *(ctx.renderbuffer(size, 1, dtype="f4") for _ in range(2))
+            z = ctx.depth_renderbuffer(size)
+            found: dict[str, Any] = {"numbers": np.empty((lens.height, lens.width), dtype=np.float32)}
+            found |= {"depth": ctx.framebuffer([depth]), "shape": ctx.framebuffer([shape])}
+            found["plain"] = found["color"] = ctx.framebuffer([rgba], z)
+            found["deep"] = ctx.framebuffer([depth, shape], z)
+            found["all"] = ctx.framebuffer([rgba, depth, shape], z)
+            if samples > 1:
+                fine = ctx.renderbuffer(size, 4, samples=samples)
+                found["color"] = ctx.framebuffer([fine], ctx.depth_renderbuffer(size, samples=samples))
+                del found["all"]
+            self._targets[key] = found
+        return self._targets[key]

@@ -1,0 +1,276 @@
+"""Meshes: a file → triangles in metres, each file read once."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import logging
+import re
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.description.packages.resolver import near_path
+from urdfkit.description.urdf.robot import Vector
+from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
+from urdfkit.scene.meshes.collada import harm, metres_per_unit
+from urdfkit.scene.meshes.mesh_appearance import colors_in, gloss_in, normals_in, places_in, texture_in
+from urdfkit.scene.meshes.stl import corners_of
+from urdfkit.scene.meshes.textures import Beside, Texture, is_as_read
+from urdfkit.scene.meshes.unique_rows import unique_rows
+
+FORMATS = (".stl", ".obj", ".dae", ".glb", ".gltf", ".ply")
+"""The file formats that are read."""
+
+MAX_BYTES = 256 * 2**20
+"""Largest mesh file that is read."""
+
+MAX_TRIANGLES = 5_000_000
+"""Largest number of triangles in one mesh."""
+
+_PULLS = re.compile(rb"<init_from>|\"uri\"")
+"""What names pictures beside the file."""
+
+_LFS = b"version https://git-lfs.github.com/spec/"
+
+
+@dataclass(frozen=True, eq=False)
+class TriMesh:
+    """Triangles in the frame of their shape; all arrays are read-only.
+
+    Attributes:
+        vertices: [m], shape (n, 3), float32.
+        faces: indices of vertices, counter-clockwise seen from outside, shape (m, 3), int32.
+        normals: unit normals of the vertices where the file has them, shape (n, 3), float32, or None (shade flat).
+        colors: colours of the vertices where the file has them, shape (n, 4), uint8, or None.
+        uv: where in its texture each vertex is, from the lower left corner, shape (n, 2), float32, or None.
+        textures: pictures on its surface.
+        face_textures: for each triangle which of them, -1 for none; shape (m,), int32, or None.
+        face_gloss: for each triangle colour, 0..1, and exponent of its gloss; shape (m, 4), float32, or None.
+        missing: names of pictures that the file asks for and that are not there, or are none.
+        broken: those of them that are there, and no pictures.
+        hash: hexadecimal digest of all of the above: equal meshes have equal hashes.
+    """
+
+    vertices: NDArray[np.float32] = field(repr=False)
+    faces: NDArray[np.int32] = field(repr=False)
+    normals: NDArray[np.float32] | None = field(default=None, repr=False)
+    colors: NDArray[np.uint8] | None = field(default=None, repr=False)
+    hash: str = ""
+    uv: NDArray[np.float32] | None = field(default=None, repr=False)
+    textures: tuple[Texture, ...] = field(default=(), repr=False)
+    face_textures: NDArray[np.int32] | None = field(default=None, repr=False)
+    missing: tuple[str, ...] = ()
+    face_gloss: NDArray[np.float32] | None = field(default=None, repr=False)
+    broken: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        digest = hashlib.sha256("".join(texture.hash for texture in self.textures).encode())
+        for name in ("vertices", "faces", "normals", "colors", "uv", "face_textures", "face_gloss"):
+            array = getattr(self, name)
+            if array is not None:
+                array.flags.writeable = False
+                digest.update(f"{name}{array.shape}".encode())
+                digest.update(np.ascontiguousarray(array).data)
+        object.__setattr__(self, "hash", digest.hexdigest()[:32])
+
+    @cached_property
+    def bounds(self) -> NDArray[np.float64]:
+        """Lowest and highest corner [m]; shape (2, 3)."""
+        return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)], dtype=float)
+
+
+class MeshLoader:
+    """Reads mesh files and remembers them by content, so that a mesh used ten times is read once.
+
+    Keep one over several scenes (live reload) to read again only what has changed.
+    """
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[str, str, Vector, str, bool], tuple[TriMesh, dict[Path, tuple[int, int]]]] = {}
+
+    def load(self, path: Path, scale: Vector = (1.0, 1.0, 1.0), *, places: bool = False) -> TriMesh:
+        """Return the triangles of a file.
+
+        A COLLADA file is brought to metres by its ``<unit meter="…">``; its ``<up_axis>`` is ignored, as RViz and
+        Gazebo do. Instances are flattened, the scale may mirror.
+
+        Args:
+            path: the mesh file.
+            scale: factors along x, y, z.
+            places: keep what the file says of places on a texture, though it may name none.
+
+        Raises:
+            ResourceError: the file is missing, too large, no mesh, a Git LFS pointer or broken.
+            MissingDependencyError: trimesh is not installed.
+        """
+        if path.suffix.lower() not in FORMATS:
+            raise ResourceError(
+                f"mesh {path.name} is of a format that is not read{did_you_mean(path.suffix, FORMATS)}; "
+                f"supported: {' '.join(FORMATS)}"
+            )
+        content = _read(path)
+        side_files = b"".join(_side_files(path, content))
+        beside = str(path.parent) if _PULLS.search(content) or side_files else ""
+        key = (hashlib.sha256(content + side_files).hexdigest(), path.suffix.lower(), scale, beside, places)
+        known = self._known.get(key)
+        if known is None or not is_as_read(known[1]):
+            files = Beside(path, MAX_BYTES)
+            known = self._known[key] = _parse(path, content, scale, files, places), files.read
+        return known[0]
+
+
+def _read(path: Path) -> bytes:
+    """Return the content of a mesh file that can be one."""
+    try:
+        if not path.is_file():
+            raise ResourceError(f"no mesh file {path}{near_path(path)}")
+        if (size := path.stat().st_size) > MAX_BYTES:
+            raise ResourceError(
+                f"mesh {path.name} has {size / 2**20:.0f} MiB; at most {MAX_BYTES // 2**20} MiB are read: decimate it"
+            )
+        content = path.read_bytes()
+    except OSError as error:
+        raise ResourceError(f"cannot read mesh {path}: {error.strerror or error}") from error
+    if content.startswith(_LFS):
+        raise ResourceError(f"mesh {path.name} is a Git LFS pointer, not the mesh: run `git lfs pull`")
+    if path.suffix.lower() == ".dae" and (reason := harm(content)) is not None:
+        raise ResourceError(f"mesh {path.name} is refused: {reason}")
+    if path.suffix.lower() == ".stl" and b"facet" not in content:  # binary: 80 bytes, a count, 50 bytes a triangle
+        count = int.from_bytes(content[80:84], "little")
+        if len(content) < 84 + 50 * count or len(content) < 84:
+            raise ResourceError(f"mesh {path.name} is cut off: {len(content)} bytes, {84 + 50 * count} expected")
+    return content
+
+
+def _side_files(path: Path, content: bytes) -> Iterator[bytes]:
+    """Yield the material libraries of an OBJ file: its colours are in them."""
+    if path.suffix.lower() == ".obj":
+        for name in re.findall(rb"^\s*mtllib[ \t]+(.+?)\s*$", content, re.MULTILINE):
+            try:
+                yield Beside(path, MAX_BYTES)[name.decode(errors="replace")]
+            except KeyError:
+                continue
+
+
+def _parse(path: Path, content: bytes, scale: Vector, beside: Beside, places: bool) -> TriMesh:
+    if path.suffix.lower() == ".stl" and (corners := corners_of(content)) is not None and not places:
+        return _of_corners(path, corners, np.array(scale, dtype=float))
+    try:
+        import trimesh
+    except ImportError as error:
+        raise MissingDependencyError("meshes need trimesh: pip install 'urdfkit[view]'") from error
+    suffix = path.suffix.lower()
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            logging.getLogger("trimesh").setLevel(logging.CRITICAL)
+            scene = trimesh.load_scene(io.BytesIO(content), file_type=suffix[1:], resolver=beside, process=False)
+            parts = list(_parts(scene))
+    except ResourceError:
+        raise
+    except Exception as error:  # whatever the reader of the format stumbled over
+        reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
+        raise ResourceError(f"mesh {path.name} cannot be read: {reason}") from error
+    factor = metres_per_unit(content) if suffix == ".dae" else 1.0
+    mesh = _merge(path, parts, np.array(scale, dtype=float) * factor, places)
+    missing, broken = (tuple(dict.fromkeys(names)) for names in (beside.missing, beside.broken))
+    return replace(mesh, missing=missing, broken=broken) if missing else mesh
+
+
+def _parts(scene: Any) -> Iterator[tuple[Any, Any]]:
+    """Yield every instance of a mesh in a loaded scene, with its transform."""
+    total = 0
+    for node in scene.graph.nodes_geometry:
+        transform, name = scene.graph[node]
+        geometry = scene.geometry[name]
+        if hasattr(geometry, "faces"):
+            total += len(geometry.faces)
+            if total > MAX_TRIANGLES:
+                raise ResourceError(f"a mesh of more than {MAX_TRIANGLES} triangles is not read: decimate it")
+            yield geometry, np.asarray(transform, dtype=float)
+
+
+def _of_corners(path: Path, corners: NDArray[np.float32], scale: NDArray[np.float64]) -> TriMesh:
+    """Return triangles of shape (m, 3, 3), scaled; corners in the same place become one vertex."""
+    if len(corners) > MAX_TRIANGLES:
+        raise ResourceError(f"a mesh of more than {MAX_TRIANGLES} triangles is not read: decimate it")
+    points = (corners.reshape(-1, 3).astype(float) * scale).astype(np.float32) + np.float32(0)
+    if not np.isfinite(points).all():
+        raise ResourceError(f"mesh {path.name} is broken: a vertex is not a finite number")
+    rows, index = _unique(np.ascontiguousarray(points))
+    faces = index.astype(np.int32).reshape(-1, 3)
+    if np.prod(scale) < 0:  # a mirror turns triangles inside out
+        faces = faces[:, ::-1]
+    return TriMesh(vertices=rows, faces=np.ascontiguousarray(faces))
+
+
+def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64], places: bool) -> TriMesh:
+    """Flatten the parts into one mesh, scaled; vertices that agree in everything become one."""
+    vertices, faces, normals, colors, uvs, wrapped, glosses = [], [], [], [], [], [], []
+    textures: dict[str, Texture] = {}
+    start = 0
+    for part, transform in parts:
+        linear = scale[:, None] * transform[:3, :3]
+        points = np.asarray(part.vertices, dtype=float) @ linear.T + scale * transform[:3, 3]
+        triangles = np.asarray(part.faces, dtype=np.int64).reshape(-1, 3)
+        if triangles.size and (triangles.min() < 0 or triangles.max() >= len(points)):
+            raise ResourceError(f"mesh {path.name} is broken: a triangle names a vertex that is not there")
+        if np.linalg.det(linear) < 0:  # a mirror turns triangles inside out
+            triangles = triangles[:, ::-1]
+        vertices.append(points)
+        faces.append(triangles + start)
+        normals.append(normals_in(part, linear))
+        colors.append(colors_in(part))
+        texture = texture_in(part)
+        uvs.append(places_in(part) if places or texture is not None else None)
+        if texture is not None:
+            textures.setdefault(texture.hash, texture)
+        wrapped.append(np.full(len(triangles), -1 if texture is None else list(textures).index(texture.hash)))
+        glosses.append(np.tile(np.array(gloss_in(part), dtype=np.float32), (len(triangles), 1)))
+        start += len(points)
+    if not start or not sum(map(len, faces)):
+        raise ResourceError(f"mesh {path.name} holds no triangles")
+    columns = [np.concatenate(vertices).astype(np.float32) + np.float32(0)]  # -0.0 becomes 0.0: rows compare by bits
+    if not np.isfinite(columns[0]).all():
+        raise ResourceError(f"mesh {path.name} is broken: a vertex is not a finite number")
+    has_normals = all(n is not None for n in normals)
+    has_colors = any(c is not None for c in colors)
+    if has_normals:
+        columns.append(np.concatenate([n for n in normals if n is not None]).astype(np.float32))
+    if has_colors:
+        filled = [
+            np.full((len(v), 4), 255, np.uint8) if c is None else c for v, c in zip(vertices, colors, strict=True)
+        ]
+        columns.append(np.ascontiguousarray(np.concatenate(filled)).view(np.float32))
+    if has_places := any(uv is not None for uv in uvs):
+        columns.insert(1, np.concatenate(
+            [np.zeros((len(v), 2)) if uv is None else uv for v, uv in zip(vertices, uvs, strict=True)]
+        ).astype(np.float32) + np.float32(0))  # fmt: skip
+    rows, index = _unique(np.ascontiguousarray(np.hstack(columns)))
+    bare = 5 if has_places else 3  # columns before the normals
+    return TriMesh(
+        vertices=np.ascontiguousarray(rows[:, :3]),
+        faces=np.ascontiguousarray(index[np.concatenate(faces)].astype(np.int32)),
+        normals=np.ascontiguousarray(rows[:, bare : bare + 3]) if has_normals else None,
+        colors=np.ascontiguousarray(rows[:, -1:]).view(np.uint8).reshape(-1, 4) if has_colors else None,
+        uv=np.ascontiguousarray(rows[:, 3:5]) if has_places else None,
+        textures=tuple(textures.values()),
+        face_textures=np.concatenate(wrapped).astype(np.int32) if textures else None,
+        face_gloss=np.concatenate(glosses) if any(each[:, 3].any() for each in glosses) else None,
+    )
+
+
+def _unique(rows: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
+    """Return the distinct rows in order of first appearance, and for each row which of them it is."""
+    first, inverse = unique_rows(rows.view(np.uint32))
+    order = np.argsort(first)
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    return rows[first[order]], rank[inverse]

@@ -1,0 +1,59 @@
+"""One part of a mesh file, as trimesh has read it: what the file says of its looks."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.scene.meshes.textures import Texture, texture_of
+from urdfkit.scene.specular import MATT, Gloss, gloss_from
+
+
+def normals_in(part: Any, linear: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """Return the vertex normals written in the file, turned and scaled with the part; None where there are none."""
+    if "vertex_normals" not in part._cache.cache:
+        return None
+    written = np.asarray(part.vertex_normals, dtype=float)
+    if written.shape != part.vertices.shape or np.linalg.det(linear) == 0:
+        return None
+    turned = written @ np.linalg.inv(linear)  # normals go with the inverse transpose
+    length = np.linalg.norm(turned, axis=1, keepdims=True)
+    unit: NDArray[np.float64] = np.divide(turned, length, out=np.zeros_like(turned), where=length > 0)
+    return unit
+
+
+def colors_in(part: Any) -> NDArray[np.uint8] | None:
+    """Return colours per vertex written in the file, for a material its main colour."""
+    visual = part.visual
+    if visual.kind == "vertex":
+        return np.asarray(visual.vertex_colors, dtype=np.uint8)
+    if visual.kind == "texture":
+        color = np.asarray(visual.material.main_color, dtype=np.uint8)
+        return np.tile(color, (len(part.vertices), 1))
+    return None
+
+
+def gloss_in(part: Any) -> Gloss:
+    """Return the gloss that the material of a part asks for: ``Ks`` and ``Ns`` of an OBJ file's."""
+    written = getattr(getattr(part.visual, "material", None), "kwargs", None) or {}
+    return gloss_from(written.get("ks"), written.get("ns")) or MATT
+
+
+def places_in(part: Any) -> NDArray[np.float64] | None:
+    """Return where on a texture the vertices of a part are; None where nothing says so."""
+    if part.visual.kind != "texture" or part.visual.uv is None or len(part.visual.uv) != len(part.vertices):
+        return None
+    found = np.asarray(part.visual.uv, dtype=float)
+    return found if np.isfinite(found).all() else None
+
+
+def texture_in(part: Any) -> Texture | None:
+    """Return the picture on a part, where it has one and says where on it its vertices are."""
+    if places_in(part) is None:
+        return None
+    try:
+        return texture_of(part.visual.material)
+    except (OSError, ValueError, SyntaxError):  # what Pillow raises for broken pictures
+        return None

@@ -1,0 +1,129 @@
+"""Pictures on visuals, by the ``<texture>`` of a URDF material: on meshes where their vertices say, round solids.
+
+A solid becomes a mesh. The picture is upright on each side of a box, and lies on top and bottom as seen from there with
+x to the right; once round a cylinder, both ends of which are cut out of it; on a sphere as the earth is on a map.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Sphere
+from urdfkit.errors import ResourceError
+from urdfkit.scene.meshes.loader import TriMesh
+from urdfkit.scene.meshes.textures import Texture, read_texture
+
+Array = NDArray[np.float64]
+
+AROUND = 64
+"""Facets around."""
+
+
+class Wrapper:
+    """Puts pictures on shapes, and reads each once.
+
+    Args:
+        resolve: finds the file that a name means; raises ResourceError.
+    """
+
+    def __init__(self, resolve: Callable[[str], Path]) -> None:
+        self._resolve = resolve
+        self._known: dict[str, Texture | None] = {}
+        self._broken: set[str] = set()
+
+    def wrapped(self, geometry: Geometry, mesh: TriMesh | None, name: str) -> TriMesh | None:
+        """Return a shape with a picture on it.
+
+        Args:
+            geometry: of the shape.
+            mesh: its triangles, where it is a mesh.
+            name: of the picture, as written.
+
+        Returns:
+            `mesh` with the picture; one that misses it by name where the picture is not there or is none; None where
+            nothing says where on it the picture is.
+        """
+        if name not in self._known:
+            try:
+                self._known[name] = read_texture(self._resolve(name))
+            except (ResourceError, FileNotFoundError):
+                self._known[name] = None
+            except (OSError, ValueError, SyntaxError):  # what Pillow raises
+                self._known[name] = None
+                self._broken.add(name)
+        texture = self._known[name]
+        found = mesh if mesh is not None else solid(geometry)
+        if texture is None or found is None:
+            broken = (*found.broken, name) if found and name in self._broken else ()
+            return found and replace(found, missing=(*found.missing, name), broken=broken)
+        if found.uv is None:
+            return None
+        wrapped = np.zeros(len(found.faces), dtype=np.int32)
+        return replace(found, colors=None, textures=(texture,), face_textures=wrapped, missing=(), broken=())
+
+
+def solid(geometry: Geometry) -> TriMesh | None:
+    """Return the triangles of a solid, with places on a picture; None for a mesh."""
+    match geometry:
+        case Box(size=size):
+            return _box(np.array(size))
+        case Cylinder(radius=radius, length=length):
+            rim, z = np.array([0.0, 1.0, 1.0, 1.0, 1.0, 0.0]), np.array([-1.0, -1.0, -1.0, 1.0, 1.0, 1.0])
+            out, up = np.array([0.0, 0, 1, 1, 0, 0]), np.array([-1.0, -1, 0, 0, 1, 1])
+            found = _turned(radius * rim, length / 2 * z, out, up, np.array([0.0, 0, 0, 1, 1, 1]))
+            ends = np.abs(found.normals[:, 2]) > 0.5 if found.normals is not None else np.zeros(0, dtype=bool)
+            assert found.uv is not None
+            flat = found.vertices[:, :2] / (2 * radius) * np.where(found.vertices[:, 2:] > 0, (1, 1), (1, -1)) + 0.5
+            return replace(found, uv=np.where(ends[:, None], flat, found.uv).astype(np.float32))
+        case Sphere(radius=radius):
+            angle = np.linspace(-np.pi / 2, np.pi / 2, AROUND // 2 + 1)
+            cos, sin = np.cos(angle), np.sin(angle)
+            return _turned(radius * cos, radius * sin, cos, sin, angle / np.pi + 0.5)
+        case Capsule(radius=radius, length=length):
+            half = np.linspace(0.0, np.pi / 2, AROUND // 4 + 1)
+            angle = np.concatenate([-half[::-1], half])
+            lift = np.where(np.arange(len(angle)) < len(half), -length / 2, length / 2)
+            z = radius * np.sin(angle) + lift
+            return _turned(radius * np.cos(angle), z, np.cos(angle), np.sin(angle), (z - z[0]) / (z[-1] - z[0]))
+    return None
+
+
+def _box(size: Array) -> TriMesh:
+    x, y, z = np.eye(3)
+    vertices, normals = [], []
+    for normal, right, up in ((x, y, z), (-x, -y, z), (y, -x, z), (-y, x, z), (z, x, y), (-z, x, -y)):
+        corners = [normal + a * right + b * up for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        vertices += [corner * size / 2 for corner in corners]
+        normals += [normal] * 4
+    faces = np.concatenate([np.array([[0, 1, 2], [0, 2, 3]]) + 4 * side for side in range(6)])
+    uv = np.tile([[0, 0], [1, 0], [1, 1], [0, 1]], (6, 1))
+    return TriMesh(
+        np.array(vertices, dtype=np.float32), faces.astype(np.int32), np.array(normals, dtype=np.float32),
+        uv=uv.astype(np.float32),
+    )  # fmt: skip
+
+
+def _turned(rim: Array, z: Array, out: Array, up: Array, t: Array) -> TriMesh:
+    """Return a line turned about z, with normals that lean out and up, and how high on the picture its points are."""
+    turn = np.linspace(-np.pi, np.pi, AROUND + 1)
+    cos, sin, count = np.cos(turn), np.sin(turn), len(rim)
+
+    def around(radial: Array, axial: Array) -> NDArray[np.float32]:
+        rows = [radial[:, None] * cos, radial[:, None] * sin, np.repeat(axial[:, None], len(turn), 1)]
+        return np.stack(rows, -1).reshape(-1, 3).astype(np.float32)
+
+    s = np.tile(np.linspace(0.0, 1.0, AROUND + 1), count)
+    row, column = (each.ravel() for each in np.mgrid[: count - 1, :AROUND])
+    a = row * (AROUND + 1) + column
+    b, c, d = a + 1, a + AROUND + 2, a + AROUND + 1
+    vertices = around(rim, z)
+    faces = np.concatenate([np.stack([a, b, c], -1), np.stack([a, c, d], -1)])
+    first, second = (vertices[faces[:, k]] - vertices[faces[:, 0]] for k in (1, 2))
+    faces = faces[np.linalg.norm(np.cross(first, second), axis=1) > 1e-12]
+    uv = np.column_stack([s, np.repeat(t, AROUND + 1)]).astype(np.float32)
+    return TriMesh(vertices, faces.astype(np.int32), around(out, up), uv=uv)

@@ -1,0 +1,206 @@
+"""The scene table: every shape of every body, once, for sensors and viewer alike."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.description.sdf import Cone, Ellipsoid, Plane
+from urdfkit.description.urdf.robot import Collision, Geometry, Link, Material, Mesh, Robot, Visual
+from urdfkit.description.xml.element import Element
+from urdfkit.description.xml.source import Position
+from urdfkit.errors import ResourceError
+from urdfkit.scene.colors import DEFAULT, Palette, Rgba
+from urdfkit.scene.meshes.loader import MeshLoader, TriMesh
+from urdfkit.scene.meshes.texture_mapping import Wrapper
+from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.segmentation_labels import labels_of
+from urdfkit.scene.specular import MATT, Gloss
+
+Role = Literal["visual", "collision"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shape:
+    """Something that can be seen or touched.
+
+    Attributes:
+        name: unique in the scene, ``body/role/…`` with the name written in the description or a number.
+        body: name of the body (link) it is fixed to.
+        role: ``visual`` or ``collision``.
+        geometry: box, cylinder, sphere, capsule or mesh as written; in a world, plane, ellipsoid and cone, too.
+        placement: of the shape in its body, shape (4, 4), read-only.
+        rgba: colour and opacity, 0..1; the colour is `DEFAULT`'s where the description names none.
+        has_color: whether the description names a colour; if not, the mesh's own colours are to be shown.
+        mesh: the triangles of a mesh, its scale applied; None for the other geometries.
+        laser_retro: what a lidar reads as intensity.
+        label: what a segmentation camera reads; 0 for none.
+        gloss: colour, 0..1, and exponent of what shines back at lights; matt where the exponent is zero.
+        position: where its texture is named, else its mesh; None where neither is written anywhere.
+    """
+
+    name: str
+    body: str
+    role: Role
+    geometry: Geometry | Plane | Ellipsoid | Cone
+    placement: NDArray[np.float64] = field(repr=False)
+    rgba: Rgba = DEFAULT
+    has_color: bool = False
+    mesh: TriMesh | None = None
+    laser_retro: float = 0.0
+    label: int = 0
+    gloss: Gloss = MATT
+    position: Position | None = None
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """A shape that is not there, as its mesh cannot be had.
+
+    Attributes:
+        name: as its `Shape` would have.
+        body: name of the link it would be fixed to.
+        role: ``visual`` or ``collision``.
+        error: why, with the place where the mesh is named.
+    """
+
+    name: str
+    body: str
+    role: Role
+    error: ResourceError
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """What there is to see and to touch.
+
+    Attributes:
+        bodies: names of the bodies; poses come as arrays of shape (len(bodies), 7) in this order.
+        shapes: all shapes, body by body.
+        problems: what was left out, when it was not to raise.
+    """
+
+    bodies: tuple[str, ...]
+    shapes: tuple[Shape, ...]
+    problems: tuple[LeftOut, ...] = ()
+
+    @cached_property
+    def body_index(self) -> dict[str, int]:
+        """Body name → its row in an array of poses."""
+        return {name: row for row, name in enumerate(self.bodies)}
+
+    def with_role(self, role: Role) -> tuple[Shape, ...]:
+        """Return the visuals or the collisions."""
+        return tuple(shape for shape in self.shapes if shape.role == role)
+
+
+def scene_of(robot: Robot, *, strict: bool = True, meshes: MeshLoader | None = None) -> Scene:
+    """Return the scene of one robot; its bodies are the links in document order.
+
+    Args:
+        robot: a loaded robot; its `packages` resolve the URIs of meshes.
+        strict: raise on the first mesh that cannot be had; if not, its shape is left out and noted in `problems`.
+        meshes: reads the mesh files; pass the same one again to read only what has changed.
+
+    Raises:
+        ResourceError: a mesh is missing or broken (`strict`), with the place where it is named.
+    """
+    meshes = meshes or MeshLoader()
+    palette, wrapper = Palette(robot), Wrapper(lambda name: _resolve(robot, name))
+    links = robot.link_by_name_in_order()
+    retros, labels = _laser_retros(robot), labels_of(robot)
+    shapes: list[Shape] = []
+    problems: list[LeftOut] = []
+    for link in links:
+        names: set[str] = set()
+        for role, number, item in _items(link):
+            if item.geometry is None:
+                continue
+            name = f"{link.name}/{role}/{item.name or number}"
+            while name in names:
+                name += "_"
+            names.add(name)
+            mesh = None
+            material = palette.textured(item) if isinstance(item, Visual) else None
+            picture, position = (material.texture, _texture_position(material)) if material else (None, None)
+            if isinstance(item.geometry, Mesh):
+                position = position or _mesh_position(item)
+                try:
+                    mesh = _load(robot, item, item.geometry, meshes, places=bool(picture))
+                except ResourceError as error:
+                    if strict:
+                        raise
+                    problems.append(LeftOut(name, link.name, role, error))
+                    continue
+            color = palette.of(link.name, item) if isinstance(item, Visual) else None
+            covered = wrapper.wrapped(item.geometry, mesh, picture) if picture else None
+            mesh = covered or mesh
+            rgba = color or DEFAULT
+            if role == "visual" and (opacity := palette.opacity(link.name)) < 1.0:
+                rgba = (*rgba[:3], rgba[3] * opacity)
+            placed = pose_matrix(item.origin)
+            retro, label = retros.get(link.name, 0.0), labels.get(link.name, labels.get("", 0))
+            gloss = palette.gloss(link.name) if role == "visual" else MATT
+            shown = bool(color and not covered)
+            looks = rgba, shown, mesh, retro, label, gloss, position
+            shapes.append(Shape(name, link.name, role, item.geometry, placed, *looks))
+    return Scene(tuple(link.name for link in links), tuple(shapes), tuple(problems))
+
+
+def _laser_retros(robot: Robot) -> dict[str, float]:
+    """Return link → the ``<laserRetro>`` of its ``<gazebo reference=…>`` block, where it is a number."""
+    found: dict[str, float] = {}
+    for block in robot.gazebo:
+        written: Element | None = block.element.find("laserRetro") or block.element.find("laser_retro")
+        if block.reference and written is not None:
+            try:
+                found[block.reference] = float(written.text)
+            except ValueError:
+                continue
+    return found
+
+
+def _items(link: Link) -> list[tuple[Role, int, Visual | Collision]]:
+    visuals: Sequence[Visual | Collision] = link.visuals
+    found: list[tuple[Role, int, Visual | Collision]] = [("visual", k, item) for k, item in enumerate(visuals)]
+    return [*found, *(("collision", k, item) for k, item in enumerate(link.collisions))]
+
+
+def _load(
+    robot: Robot, item: Visual | Collision, geometry: Mesh, meshes: MeshLoader, *, places: bool = False
+) -> TriMesh:
+    """Return the triangles of a mesh.
+
+    Raises:
+        ResourceError: with the position of the ``<mesh>`` element.
+    """
+    try:
+        return meshes.load(_resolve(robot, geometry.uri), geometry.scale, places=places)
+    except ResourceError as error:
+        raise ResourceError(error.message, position=_mesh_position(item)) from error
+
+
+def _mesh_position(item: Visual | Collision) -> Position:
+    """Return where the mesh of a shape is named."""
+    return next((e for e in item.element.walk() if e.tag == "mesh"), item.element).origin.position
+
+
+def _texture_position(material: Material) -> Position:
+    """Return where the picture of a material is named."""
+    return (material.element.find("texture") or material.element).origin.position
+
+
+def _resolve(robot: Robot, uri: str) -> Path:
+    """Return the file a mesh URI means; a relative one is relative to the description's entry file."""
+    entry = robot.files[0] if robot.files else Path("robot.urdf")
+    if robot.packages is not None:
+        return robot.packages.resolve(uri, entry)
+    if uri.startswith(("package://", "model://")):
+        raise ResourceError(f"mesh `{uri}` cannot be found: the robot was not loaded from a file")
+    return entry.parent / uri.removeprefix("file://")

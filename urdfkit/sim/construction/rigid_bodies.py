@@ -1,0 +1,290 @@
+"""What a world holds besides robots: bodies of the engine, and trees of links and joints."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.description.plugins import match
+from urdfkit.description.sdf import Cone, Ellipsoid, Plane, World, WorldLink, WorldModel, WorldShape
+from urdfkit.description.sdf.model_as_robot import Group, Tree, all_kept, groups_of, tree_of
+from urdfkit.description.sdf.poses import compose
+from urdfkit.description.sdf.shapes import plugins_of
+from urdfkit.description.urdf.robot import Geometry, Mesh, Pose
+from urdfkit.errors import SimulationError
+from urdfkit.scene import MeshLoader, Scene, Shape
+from urdfkit.scene.colors import DEFAULT, GAZEBO
+from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.scene_table import Role
+from urdfkit.sim.construction.convex_hulls import hull_of
+from urdfkit.sim.construction.validation import impossible
+from urdfkit.sim.engine import Body, Piece, Surface
+from urdfkit.sim.state.poses import seven
+
+Array = NDArray[np.float64]
+Placed = tuple[str, Pose, WorldLink]
+"""Name in the model, pose in it, and link."""
+
+
+def bodies_of(world: World) -> tuple[Body, ...]:
+    """Return the bodies of a world; what joints move, and what has plugins, is no body but a tree.
+
+    Raises:
+        SimulationError: something in it cannot be simulated, with its place.
+    """
+    require_no_joints(world)
+    meshes = MeshLoader()
+    ground = None if world.ground is None else world.ground.name
+    return tuple(
+        body for model in world.models for body in bodies_of_model(model, meshes, is_ground=model.name == ground)
+    )
+
+
+def require_no_joints(world: World) -> None:
+    """Refuse joints between models.
+
+    Raises:
+        SimulationError: there is one, with its place.
+    """
+    for joint in world.joints:
+        raise SimulationError(
+            f"joint `{joint.name}` of the world cannot be simulated: joints join links of one model",
+            position=joint.position,
+        )
+
+
+def parts_of(model: WorldModel) -> Iterator[tuple[str, bool, list[Placed]]]:
+    """Yield name, whether it is static, and the links of each body of a model; the first link's frame is the body's.
+
+    A body has the name of its model, with ``::`` and the name of the link where there are several.
+    """
+    if model.static:
+        links = list(model.all_links())
+        for link in links:
+            yield model.name if len(links) == 1 else f"{model.name}::{link[0]}", True, [link]
+        return
+    for group in groups_of(model):
+        if is_tree(model, group):
+            continue
+        if not group.bolted:
+            yield group.name, False, list(group.links)
+            continue
+        for link in group.links:
+            yield group.name if len(group.links) == 1 else f"{model.name}::{link[0]}", True, [link]
+
+
+def trees_of(model: WorldModel) -> tuple[Tree, ...]:
+    """Return what of a model is simulated as a robot is: what joints move, and what has plugins or sensors.
+
+    Raises:
+        SimulationError: a joint cannot be simulated, with its place.
+    """
+    if model.static:
+        return ()
+    return tuple(tree_of(model, group) for group in groups_of(model) if is_tree(model, group))
+
+
+def is_tree(model: WorldModel, group: Group) -> bool:
+    """Whether links are simulated as a robot is, not as a body."""
+    return group.moves or (not group.bolted and has_plugins(model, group))
+
+
+def has_plugins(model: WorldModel, group: Group) -> bool:
+    """Whether plugins that we know, or sensors, are about these links."""
+    if any(kept.element.tag == "sensor" for _, _, link in group.links for kept in link.kept):
+        return True
+    return group.first and any(match(plugin) is not None for plugin in plugins_of(tuple(all_kept(model))))
+
+
+def bodies_of_model(model: WorldModel, meshes: MeshLoader, *, is_ground: bool) -> Iterator[Body]:
+    """Yield the bodies of a model. The plane that is the world's ground is left to the engine.
+
+    Raises:
+        SimulationError: something in it cannot be simulated, with its place.
+    """
+    for name, static, links in parts_of(model):
+        if not static:
+            yield _merged(name, model.pose, links, meshes)
+            continue
+        _, pose, link = links[0]
+        pieces = tuple(
+            _piece(shape, np.eye(4), name, meshes)
+            for shape in touchable(link)
+            if not (is_ground and isinstance(shape.geometry, Plane))
+        )
+        if pieces or not is_ground:
+            yield Body(name, seven(compose(model.pose, pose)), pieces, static=True)
+
+
+def scene_of_tree(tree: Tree, meshes: MeshLoader) -> Scene:
+    """Return the shapes of a tree, under the names that its links have in `Tree.robot`.
+
+    Raises:
+        SimulationError: something in it cannot be simulated, with its place.
+        ResourceError: a mesh is broken.
+    """
+    shapes: list[Shape] = []
+    for name, link in tree.links.items():
+        _require_ordinary(link, tree.name)
+        for shape in touchable(link):
+            if isinstance(shape.geometry, Plane):
+                raise _endless(tree.name, shape)
+            shapes.append(_shape(shape, f"{name}/collision/{shape.name}", name, "collision", np.eye(4), meshes))
+        shapes += _looks(name, link, np.eye(4), meshes, len(shapes))
+    return Scene(tuple(link.name for link in tree.robot.links), tuple(shapes))
+
+
+def surfaces_of_tree(tree: Tree, note: Callable[[str], None]) -> dict[str, Surface]:
+    """Return link → how it rubs: all collisions of a link alike, as the smoothest where they are written to differ.
+
+    Args:
+        tree: of a world.
+        note: tells the user something.
+    """
+    found = {}
+    for name, link in tree.links.items():
+        surfaces = [_surface(shape) for shape in link.collisions]
+        if not surfaces:
+            continue
+        found[name] = min(surfaces, key=lambda surface: surface.mu)
+        if any(each.mu != found[name].mu for each in surfaces):
+            note(
+                f"{link.position}: the collisions of link `{link.name}` rub differently, which links on joints cannot: "
+                f"all have mu {found[name].mu:g}"
+            )
+    return found
+
+
+def looks_of(world: World) -> tuple[Shape, ...]:
+    """Return what the bodies of a world look like, each shape under the name that its body has in `bodies_of`.
+
+    Planes, and visuals whose mesh is not there, are left out.
+
+    Raises:
+        ResourceError: a mesh is broken.
+    """
+    meshes = MeshLoader()
+    found: list[Shape] = []
+    for model in world.models:
+        for body, _, links in parts_of(model):
+            into = np.linalg.inv(pose_matrix(links[0][1]))
+            for _, pose, link in links:
+                found += _looks(body, link, into @ pose_matrix(pose), meshes, len(found))
+    return tuple(found)
+
+
+def _looks(body: str, link: WorldLink, frame: Array, meshes: MeshLoader, number: int) -> list[Shape]:
+    shown = [s for s in link.visuals if not isinstance(s.geometry, Plane) and (s.file or type(s.geometry) is not Mesh)]
+    return [
+        _shape(shape, f"{body}/visual/{number + k}", body, "visual", frame, meshes) for k, shape in enumerate(shown)
+    ]
+
+
+def _merged(name: str, around: Pose, links: Sequence[Placed], meshes: MeshLoader) -> Body:
+    """Return one free body of links that hold together, in the frame of the first."""
+    frame = pose_matrix(links[0][1])
+    masses, centres, tensors, pieces = [], [], [], []
+    for _, pose, link in links:
+        _require_ordinary(link, name)
+        inside = np.linalg.inv(frame) @ pose_matrix(pose)
+        inertial = link.inertial
+        axes = inside @ pose_matrix(inertial.pose)
+        ixx, ixy, ixz, iyy, iyz, izz = (
+            getattr(inertial, entry) for entry in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+        )
+        tensor = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
+        masses.append(inertial.mass)
+        centres.append(axes[:3, 3])
+        tensors.append(axes[:3, :3] @ tensor @ axes[:3, :3].T)
+        for shape in touchable(link):
+            if isinstance(shape.geometry, Plane):
+                raise _endless(name, shape)
+            pieces.append(_piece(shape, inside, name, meshes))
+    mass = float(sum(masses))
+    weights = np.array(masses) / mass if mass > 0.0 else np.full(len(masses), 1.0 / len(masses))
+    centre = weights @ np.array(centres)
+    inertia = np.zeros((3, 3))
+    for m, c, tensor in zip(masses, centres, tensors, strict=True):
+        off = c - centre
+        inertia += tensor + m * (off @ off * np.eye(3) - np.outer(off, off))
+    where = seven(compose(around, links[0][1]))
+    light = [0.0 if link.gravity else m for (_, _, link), m in zip(links, masses, strict=True)]
+    light_centre = np.array(light) @ np.array(centres) / sum(light) if any(light) else np.zeros(3)
+    return Body(
+        name,
+        where,
+        tuple(pieces),
+        mass=mass,
+        centre=tuple(centre.tolist()),
+        inertia=inertia.tolist(),
+        weightless=float(sum(light)),
+        weightless_centre=tuple(light_centre.tolist()),
+    )
+
+
+def _require_ordinary(link: WorldLink, name: str) -> None:
+    if why := impossible(link.inertial):
+        raise SimulationError(
+            f"the inertia of link `{link.name}` of `{name}` is impossible: {why}", position=link.position
+        )
+    if link.kinematic:
+        raise SimulationError(
+            f"link `{link.name}` of `{name}` asks to be moved by command only, which cannot be simulated yet",
+            position=link.position,
+        )
+
+
+def _endless(name: str, shape: WorldShape) -> SimulationError:
+    return SimulationError(
+        f"`{name}` is free to move and holds a plane without end: make it static", position=shape.position
+    )
+
+
+def touchable(link: WorldLink) -> Iterator[WorldShape]:
+    """Yield the collisions of a link that push back."""
+    for shape in link.collisions:
+        if shape.surface.collide_bitmask and not shape.surface.collide_without_contact:
+            yield shape
+
+
+def _color(shape: WorldShape) -> tuple[float, float, float, float] | None:
+    rgba = shape.rgba or GAZEBO.get(shape.material.removeprefix("Gazebo/"))
+    return None if rgba is None else (*rgba[:3], rgba[3] * (1.0 - shape.transparency))
+
+
+def _piece(shape: WorldShape, frame: Array, name: str, meshes: MeshLoader) -> Piece:
+    return Piece(_shape(shape, shape.name, name, "collision", frame, meshes), _surface(shape))
+
+
+def _surface(shape: WorldShape) -> Surface:
+    return Surface(shape.surface.mu, shape.surface.mu2, shape.surface.fdir1 if any(shape.surface.fdir1) else None)
+
+
+def _shape(shape: WorldShape, name: str, body: str, role: Role, frame: Array, meshes: MeshLoader) -> Shape:
+    """Return a shape of a world as viewer and engine know it; `frame` is that of its link."""
+    geometry: Any = shape.geometry
+    placement = frame @ pose_matrix(shape.pose)
+    mesh = None
+    if isinstance(geometry, Plane):
+        placement[:3, :3] = placement[:3, :3] @ _upright(np.array(geometry.normal))
+    elif isinstance(geometry, (Cone, Ellipsoid)):
+        mesh, geometry = hull_of(geometry), Mesh("")
+    elif isinstance(geometry, Mesh):
+        mesh = meshes.load(Path(shape.file), geometry.scale)
+    rgba = _color(shape) if role == "visual" else None
+    return Shape(
+        name, body, role, cast("Geometry", geometry), placement, rgba or DEFAULT, rgba is not None, mesh,
+        shape.laser_retro,
+    )  # fmt: skip
+
+
+def _upright(normal: Array) -> Array:
+    """Return a rotation that takes z to a unit vector."""
+    across = np.eye(3)[int(np.argmin(np.abs(normal)))]
+    x = np.cross(across, normal)
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, np.cross(normal, x), normal])

@@ -1,0 +1,91 @@
+"""Where a robot starts: pose of its root link, joints, velocities; set down on the ground where no height is given."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError
+from urdfkit.kinematics import Kinematics
+from urdfkit.scene import Scene, lowest_point
+from urdfkit.sim.state.arguments import vector
+from urdfkit.sim.state.quaternion import from_rpy, rotate
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Spawn:
+    """Where and how a robot starts.
+
+    Attributes:
+        x: of the root link [m].
+        y: [m].
+        z: [m]; None sets the robot down so that its lowest collision point touches the ground.
+        roll: fixed-axis angles [rad].
+        pitch: [rad].
+        yaw: [rad].
+        twist: velocity of the root link [m/s] and its angular velocity [rad/s], along the world's axes.
+        joints: joint → position [rad] or [m].
+        velocities: joint → velocity [rad/s] or [m/s].
+    """
+
+    x: float = 0.0
+    y: float = 0.0
+    z: float | None = None
+    roll: float = 0.0
+    pitch: float = 0.0
+    yaw: float = 0.0
+    twist: tuple[float, float, float, float, float, float] = (0.0,) * 6
+    joints: Mapping[str, float] = field(default_factory=dict)
+    velocities: Mapping[str, float] = field(default_factory=dict)
+
+    def place(self, kinematics: Kinematics, scene: Scene, ground: float | None) -> Array:
+        """Return the pose of the root link: x y z [m] and quaternion x y z w; shape (7,).
+
+        Args:
+            kinematics: the robot's model.
+            scene: its shapes.
+            ground: height of what is below [m]; None for nothing.
+
+        Raises:
+            SimulationError: not a finite number.
+            KinematicsError: an unknown joint.
+        """
+        pose = (self.x, self.y, 0.0 if self.z is None else self.z, self.roll, self.pitch, self.yaw)
+        vector(pose, 6, "where a robot starts", "m, rad")
+        vector(self.twist, 6, "the velocity a robot starts with", "m/s, rad/s")
+        quaternion = from_rpy(self.roll, self.pitch, self.yaw)
+        height = self.z
+        if height is None:
+            height = 0.0 if ground is None else ground
+            if ground is not None and (lowest := self._lowest(kinematics, scene, quaternion)) is not None:
+                height -= lowest
+        return np.array([self.x, self.y, height, *quaternion])
+
+    def _lowest(self, kinematics: Kinematics, scene: Scene, quaternion: tuple[float, ...]) -> float | None:
+        upright = np.array([0.0, 0.0, 0.0, *quaternion])
+        if kinematics.floating_base:
+            return lowest_point(scene, kinematics.link_poses(kinematics.configuration(self.joints, base=upright)))
+        from urdfkit.sim.state.mechanics import link_poses
+
+        return lowest_point(scene, link_poses(kinematics, kinematics.configuration(self.joints), upright))
+
+    def configuration(self, kinematics: Kinematics, pose: Array) -> tuple[Array, Array]:
+        """Return q and v at the start.
+
+        Raises:
+            KinematicsError: an unknown joint, or a value that is no finite number.
+            JointLimitError: a joint outside its limits.
+            SimulationError: a twist for a robot that is bolted down.
+        """
+        floats = kinematics.floating_base
+        q = kinematics.configuration(self.joints, base=pose if floats else None, check_limits=bool(self.joints))
+        if not floats and any(self.twist):
+            raise SimulationError("a robot with a fixed base cannot start with a velocity of its root link")
+        inverse = np.array([-pose[3], -pose[4], -pose[5], pose[6]])
+        twist = np.array([*rotate(inverse, self.twist[:3]), *rotate(inverse, self.twist[3:])])
+        return q, kinematics.velocity(self.velocities, base=twist if floats else None, q=q)

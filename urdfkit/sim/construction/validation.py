@@ -1,0 +1,120 @@
+"""What no body and no joint can be, said with its place before anything is computed with it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import isfinite
+from typing import Protocol
+
+import numpy as np
+
+from urdfkit.description.urdf.robot import Collision, Joint, Link, Mesh, Robot
+from urdfkit.description.xacro.diagnosis import chain_words
+from urdfkit.description.xml.element import Element
+from urdfkit.errors import SimulationError
+
+IMPOSSIBLE = 1e-3
+"""How far moments of inertia may be from those of a body, relative to the largest: rounded numbers are (I502, I503)."""
+
+Wrong = tuple[str, Element]
+"""What is wrong, and where."""
+
+
+class Tensor(Protocol):
+    """A tensor of inertia [kg·m²]."""
+
+    @property
+    def ixx(self) -> float: ...  # noqa: D102 - as it is written
+    @property
+    def ixy(self) -> float: ...  # noqa: D102
+    @property
+    def ixz(self) -> float: ...  # noqa: D102
+    @property
+    def iyy(self) -> float: ...  # noqa: D102
+    @property
+    def iyz(self) -> float: ...  # noqa: D102
+    @property
+    def izz(self) -> float: ...  # noqa: D102
+
+
+def require_sound(robot: Robot) -> None:
+    """Refuse bodies and joints that cannot be.
+
+    Raises:
+        SimulationError: the first of them, with its place.
+    """
+    for message, element in unsound(robot):
+        raise SimulationError(message + chain_words(element.origin.expansions), position=element.origin.position)
+
+
+def unsound(robot: Robot) -> Iterator[Wrong]:
+    """Yield whatever no body and no joint can be, and where it is written."""
+    for link in robot.links:
+        yield from _masses(link)
+        for collision in link.collisions:
+            yield from _sizes(link, collision)
+    for joint in robot.joints:
+        yield from _joint(joint)
+
+
+def _masses(link: Link) -> Iterator[Wrong]:
+    inertial = link.inertial
+    if inertial is None:
+        return
+    if inertial.mass is not None and inertial.mass < 0.0:
+        element = inertial.element.find("mass") or inertial.element
+        yield f"link `{link.name}` has a mass of {inertial.mass:g} kg; it must be positive", element
+    if (i := inertial.inertia) is None:
+        return
+    if why := impossible(i):
+        yield f"the inertia of link `{link.name}` is impossible: {why}", i.element
+
+
+def impossible(i: Tensor) -> str:
+    """Return why no body has a tensor of inertia; empty where one may."""
+    tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
+    a, b, c = np.linalg.eigvalsh(tensor).tolist()
+    if a < -IMPOSSIBLE * max(abs(a), abs(c)):
+        why = "one is negative"
+    elif c - a - b > IMPOSSIBLE * c:
+        why = "the largest exceeds the sum of the others, which no distribution of mass has"
+    else:
+        return ""
+    return f"of its principal moments {a:.6g}, {b:.6g} and {c:.6g} kg·m² {why}"
+
+
+def _sizes(link: Link, collision: Collision) -> Iterator[Wrong]:
+    shape = collision.geometry
+    if shape is None or isinstance(shape, Mesh):
+        return
+    element = collision.element.find("geometry") or collision.element
+    for name in ("size", "radius", "length"):
+        for length in np.atleast_1d(getattr(shape, name, 1.0)).tolist():
+            # A capsule without a cylindrical part is a sphere.
+            if not (length > 0.0 or (name == "length" and type(shape).__name__ == "Capsule" and length == 0.0)):
+                kind = type(shape).__name__.lower()
+                written = element.find(kind) or element
+                yield f"the {kind} of link `{link.name}` has a {name} of {length:g} m; it must be positive", written
+
+
+def _joint(joint: Joint) -> Iterator[Wrong]:
+    if not joint.is_movable:
+        return
+    unit, force = ("m", "N") if joint.type == "prismatic" else ("rad", "N·m")
+    limit, dynamics = joint.limit, joint.dynamics
+    if limit is not None and joint.type in ("revolute", "prismatic"):
+        lower, upper = limit.lower or 0.0, limit.upper or 0.0
+        if lower > upper:
+            yield (
+                f"joint `{joint.name}`: its lower limit {lower:g} {unit} is above its upper limit {upper:g} {unit}",
+                limit.element,
+            )
+    if limit is not None:
+        for name, value, its in (("effort", limit.effort, force), ("velocity", limit.velocity, f"{unit}/s")):
+            if value is not None and value < 0.0:
+                yield f"joint `{joint.name}`: {name} limit {value:g} {its}; it must not be negative", limit.element
+    if dynamics is not None:
+        damping = ("damping", dynamics.damping, f"{force}·s/{unit}")
+        for name, value, its in (damping, ("friction", dynamics.friction, force)):
+            if not (isfinite(value) and value >= 0.0):
+                yield f"joint `{joint.name}`: {name} {value:g} {its}; it must not be negative", dynamics.element

@@ -1,0 +1,188 @@
+"""One robot of an engine: its targets and its state."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError
+from urdfkit.kinematics.model import Kinematics
+from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, STEPS, Arrays
+from urdfkit.sim.engine.scalar_views import numbers
+from urdfkit.sim.engine.state_conversion import configuration, positions, set_configuration
+
+Array = NDArray[np.float64]
+
+
+class Part:
+    """A robot of an engine. Per-dof arrays are in the order of ``kinematics.model``'s ``v``.
+
+    Args:
+        kinematics: the robot.
+        arrays: the engine's.
+        tree: its number among the engine's robots.
+
+    Attributes:
+        motor_velocity: target of the velocity motor of each dof [rad/s or m/s]; shape (nv,).
+        motor_effort: what that motor can do [N·m or N]; 0 is no motor; shape (nv,).
+        applied: effort added to each dof [N·m or N]; shape (nv,).
+        position_target: target of the position servo of each dof [rad or m]; shape (nv,).
+        kp: its stiffness, [N·m/rad] or [N/m]; 0 is none; shape (nv,).
+        kd: its damping towards `velocity_target`, [N·m·s/rad] or [N·s/m]; 0 is none; shape (nv,).
+        velocity_target: [rad/s or m/s]; shape (nv,).
+        servo_effort: what the servo can do [N·m or N]; infinite at the start; shape (nv,).
+        ki: gain of the integral of the servo's error, of velocity where `kp` is 0 and `kd` is not; shape (nv,).
+        i_min: least effort of the integral [N·m or N]; shape (nv,).
+        i_max: most effort of the integral; both are 0 at the start, so that it has none; shape (nv,).
+        antiwindup: 1 where the integral stops growing there, 0 where only its effort does; shape (nv,).
+        feedforward: effort added to the servo's, within its limit [N·m or N]; shape (nv,).
+        integral: of the error [rad·s, m·s, rad or m]; shape (nv,).
+    """
+
+    def __init__(self, kinematics: Kinematics, arrays: Arrays, tree: int) -> None:
+        self.kinematics = kinematics
+        self._arrays = arrays
+        self._tree = tree
+        first, beyond = arrays["tree_dof"][tree : tree + 2].tolist()
+        a = {name: arrays[name][first:beyond] for name in _PER_DOF}
+        self.motor_velocity, self.motor_effort, self.applied = a["motor_velocity"], a["motor_effort"], a["applied"]
+        self.position_target, self.velocity_target = a["position_target"], a["velocity_target"]
+        self.kp, self.kd, self.servo_effort = a["kp"], a["kd"], a["servo_effort"]
+        self.ki, self.i_min, self.i_max, self.antiwindup = a["ki"], a["i_min"], a["i_max"], a["antiwindup"]
+        self.feedforward, self.integral = a["feedforward"], a["integral"]
+        self._own_v, self._own_effort, self._own_tau = a["v"], a["effort"], a["tau"]
+        self._v, self._effort, self._tau = _read_only(a["v"]), _read_only(a["effort"]), _read_only(a["tau"])
+        self._given: tuple[int, Array] | None = None
+        self._counts, self._against = numbers(arrays["counts"]), numbers(arrays["contact_against"])
+
+    @property
+    def q(self) -> Array:
+        """Configuration in the layout of ``kinematics.model``, a copy; shape (nq,). Set it by `put`."""
+        return configuration(self.kinematics.model, self._arrays, self._tree)
+
+    @property
+    def v(self) -> Array:
+        """Velocity, a floating base's twist in its own axes and linear first; read-only, shape (nv,)."""
+        return self._v
+
+    @property
+    def positions(self) -> Array:
+        """Position of each dof [rad or m], continuous joints not wrapped; NaN for those of floating joints; (nv,)."""
+        return positions(self._arrays, self._tree)
+
+    @property
+    def weightless(self) -> tuple[Array, Array]:
+        """Mass [kg] of each body that gravity does not pull, and its centre in the body [m]; shapes (n,), (n, 3)."""
+        bodies = slice(*self._arrays["tree_body"][self._tree : self._tree + 2].tolist())
+        return self._arrays["weightless"][bodies], self._arrays["weightless_centre"][bodies]
+
+    @property
+    def asleep(self) -> bool:
+        """Whether it is at rest and left alone until something happens to it or is asked of it."""
+        return bool(self._arrays["asleep"][self._tree])
+
+    @property
+    def effort(self) -> Array:
+        """Effort that motors and servos exerted in the last step [N·m or N]; read-only, shape (nv,)."""
+        return self._effort
+
+    @property
+    def tau(self) -> Array:
+        """All effort of the last step but contacts and limits: motors, servos, damping, friction, `applied`; (nv,)."""
+        return self._tau
+
+    def set_base_velocity(self, twist: Sequence[float]) -> None:
+        """Set the floating base's twist, in its own axes and linear first; what it meets in the step may change it.
+
+        Where a wall, say, took from the velocity that the step before was given, the base is taken back by what the
+        first half of this step would go into it.
+
+        Raises:
+            SimulationError: the robot has no floating base, or a value is not finite.
+        """
+        if not self.kinematics.floating_base:
+            raise SimulationError(f"robot `{self.kinematics.robot.name}` has no floating base to move")
+        if len(twist) != 6 or not all(math.isfinite(part) for part in twist):
+            raise SimulationError(f"a twist is six finite numbers, not {tuple(twist)}")
+        v = np.array(twist, dtype=float)
+        step, given = self._counts[STEPS], self._given
+        if given is not None and given[0] == step - 1 and self._met_something():
+            dt = float(self._arrays["numbers"][DT])
+            # Linear velocities stay constant in space while the base turns.
+            linear = pin.exp3(-dt * given[1][3:]) @ given[1][:3]
+            taken = np.concatenate([linear, given[1][3:]]) - self._own_v[:6]
+            self._shift_base(-0.5 * dt * taken)
+        self._own_v[:6] = v
+        self._given = step, v
+
+    def _met_something(self) -> bool:
+        """Return whether the robot touched anything but the ground in the last step."""
+        n = self._counts[FOUND_CONTACTS]
+        if max(self._against[:n].tolist(), default=-1) < 0:
+            return False
+        a = self._arrays
+        tree_of = np.append(a["body_tree"], -1)
+        mine = (tree_of[a["contact_body"][:n]] == self._tree) | (tree_of[a["contact_other"][:n]] == self._tree)
+        return bool((mine & (a["contact_against"][:n] >= 0)).any())
+
+    def _shift_base(self, by: Array) -> None:
+        """Move the floating base in its own axes [m, rad]."""
+        at = int(self._arrays["tree_s"][self._tree])
+        s = self._arrays["s"][at : at + 7]
+        rotation = pin.Quaternion(s[3:].copy())
+        s[:3] += rotation.matrix() @ by[:3]
+        s[3:] = (rotation * pin.Quaternion(pin.exp3_quat(by[3:]))).normalized().coeffs()
+
+    def put(self, q: Array | None = None, v: Array | None = None) -> None:
+        """Put the robot at `q`, `v` (neutral, zero); targets stay.
+
+        Raises:
+            SimulationError: wrong shape, or not finite.
+        """
+        model = self.kinematics.model
+        q = self.kinematics.neutral() if q is None else _checked("q", q, model.nq)
+        v = np.zeros(model.nv) if v is None else _checked("v", v, model.nv)
+        set_configuration(model, self._arrays, q, self._tree)
+        self._own_v[:] = v
+        self._own_effort[:] = self._own_tau[:] = self.integral[:] = 0.0
+        self._arrays["still"][self._tree] = 0.0
+
+
+_PER_DOF = (
+    "motor_velocity",
+    "motor_effort",
+    "applied",
+    "position_target",
+    "velocity_target",
+    "kp",
+    "kd",
+    "servo_effort",
+    "ki",
+    "i_min",
+    "i_max",
+    "antiwindup",
+    "feedforward",
+    "integral",
+    "v",
+    "effort",
+    "tau",
+)
+
+
+def _checked(name: str, values: Array, size: int) -> Array:
+    found = np.asarray(values, dtype=float)
+    if found.shape != (size,):
+        raise SimulationError(f"{name} has shape {found.shape}; this robot needs ({size},)")
+    if not np.isfinite(found).all():
+        raise SimulationError(f"{name} has an entry that is not finite: {found[~np.isfinite(found)][0]}")
+    return found
+
+
+def _read_only(array: Array) -> Array:
+    view = array[:]
+    view.flags.writeable = False
+    return view

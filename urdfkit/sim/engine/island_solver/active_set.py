@@ -1,0 +1,201 @@
+"""What every row of an island does, found by trying: velocities and impulses for what they are taken to do, and mended.
+
+With rows that hold taken for stiff dampers, the impulses are corrected until the rows are where they should be (the
+method of multipliers), starting from those of the last step. If the law then forbids something, rows are let go or
+held, or contacts slide (see `slip`), some times over.
+
+Source: M. R. Hestenes, J. Optim. Theory Appl. 4 (1969) 303-320: multipliers.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from urdfkit.sim.engine.arrays import At
+from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.island_solver.active_set_revision import revise, start_over
+from urdfkit.sim.engine.island_solver.block_assembly import assemble
+from urdfkit.sim.engine.island_solver.block_matrix import eliminate
+from urdfkit.sim.engine.island_solver.block_products import push_contact, push_row, row_speeds, take_momentum
+from urdfkit.sim.engine.island_solver.coulomb_direction import STIFFNESS, follow, substitute_all
+from urdfkit.sim.engine.solver.row_states import HOLDS, SLIDES
+
+NOT_MET, MET, CONTRADICT = range(3)
+"""Whether rows are where they should be."""
+ROUNDS = 8
+"""Most corrections of the impulses."""
+SLIDING_ROUNDS = 3
+"""The same where contacts slide, before their directions are taken anew."""
+REVISIONS = 8
+"""How often what rows do is changed before it is given up."""
+LEAST = 1e-12
+"""Ratio of the impulses that are rounding to the largest that can be: they let nothing slide."""
+CONTRARY = 5e-3
+"""Velocity [m/s or rad/s] by which rows that contradict each other may be off: 5 µm in a step of 1 ms."""
+
+
+@inlined
+def push_all(floats: Any, integers: Any, rows: int, rest: Any) -> None:
+    """Add to `rest` what all rows exert at the velocities that they are off by."""
+    stiffness = field(floats, integers, At.g)
+    off = field(floats, integers, At.y)
+    mu = field(floats, integers, At.mu)
+    near = field(floats, integers, At.near_x)
+    x = field(floats, integers, At.x)
+    state = field(integers, integers, At.state)
+    k = 0
+    while k < rows:
+        if mu[k] > 0.0:
+            if state[k] == SLIDES:
+                a, b = near[k + 1], near[k + 2]
+                c, across = x[k] - stiffness[k] * off[k], near[k] * (a * off[k + 2] - b * off[k + 1])
+                first, second = b * across - mu[k] * c * a, -a * across - mu[k] * c * b
+                push_contact(floats, integers, k, c, first, second, rest)
+            elif state[k] == HOLDS:
+                c, first = x[k] - stiffness[k] * off[k], x[k + 1] - stiffness[k + 1] * off[k + 1]
+                second = x[k + 2] - stiffness[k + 2] * off[k + 2]
+                push_contact(floats, integers, k, c, first, second, rest)
+            k += 3
+            continue
+        c = x[k]
+        if state[k] == HOLDS:
+            c -= stiffness[k] * off[k]
+        if c != 0.0:
+            push_row(floats, integers, k, c, rest)
+        k += 1
+
+
+@inlined
+def turn(floats: Any, integers: Any, k: int) -> float:
+    """Turn friction against the slip; return the velocity by which that, or the normal, is not where it should be."""
+    stiffness = field(floats, integers, At.g)
+    velocity = field(floats, integers, At.y)
+    mu = field(floats, integers, At.mu)
+    near = field(floats, integers, At.near_x)
+    x = field(floats, integers, At.x)
+    w, first, second = velocity[k], velocity[k + 1], velocity[k + 2]
+    a, b = near[k + 1], near[k + 2]
+    c = x[k] - stiffness[k] * w
+    forward, across = a * first + b * second, a * second - b * first
+    turned = near[k] * across
+    off = abs(turned)
+    if forward > 0.0:
+        size = math.sqrt(first * first + second * second)
+        off = mu[k] * abs(c) * (1.0 - forward / size) + abs(mu[k] * c * across / size - turned)
+        a, b = first / size, second / size
+    near[k + 1], near[k + 2] = a, b
+    x[k], x[k + 1], x[k + 2] = c, -mu[k] * c * a, -mu[k] * c * b
+    return float(max(abs(w), off * STIFFNESS / stiffness[k]))
+
+
+@compiled
+def correct(floats: Any, integers: Any, root: int, rows: int, n: int, sliding: int, tiny: float) -> int:
+    """Find velocities and impulses of the rows that hold or slide; return whether all are where they should be.
+
+    Before and after, y is the velocity of each row that should be none.
+    """
+    stiffness = field(floats, integers, At.g)
+    g = field(floats, integers, At.slip)
+    off = field(floats, integers, At.y)
+    mu = field(floats, integers, At.mu)
+    x = field(floats, integers, At.x)
+    speed = field(floats, integers, At.block_v)
+    rest = field(floats, integers, At.block_f)
+    state = field(integers, integers, At.state)
+    for _ in range(ROUNDS if sliding == 0 else SLIDING_ROUNDS):
+        for d in range(n):
+            rest[d] = 0.0
+        take_momentum(floats, integers, root, speed, rest)
+        push_all(floats, integers, rows, rest)
+        if not substitute_all(floats, integers, n, sliding, rest):
+            return NOT_MET
+        moved = worst = 0.0
+        for d in range(n):
+            speed[d] += rest[d]
+            moved = max(moved, abs(rest[d]))
+        row_speeds(floats, integers, rows, speed, off, 0)
+        for k in range(rows):
+            off[k] += g[k]
+            if state[k] == HOLDS:
+                x[k] -= stiffness[k] * off[k]
+                worst = max(worst, abs(off[k]))
+        if sliding > 0:
+            for k in range(rows):
+                if state[k] == SLIDES and mu[k] > 0.0:
+                    worst = max(worst, turn(floats, integers, k))
+        if worst <= tiny:
+            return MET
+        if moved <= tiny:
+            return CONTRADICT if worst <= CONTRARY else NOT_MET
+    return NOT_MET
+
+
+@inlined
+def ease(floats: Any, integers: Any, rows: int, tiny: float) -> bool:
+    """Let rows that hold take back less of what they are off, or close less of a gap, so that none contradicts another.
+
+    Returns:
+        Whether that is enough. It is not where motors or friction are among them: these have to give in instead.
+    """
+    high = field(floats, integers, At.high)
+    bias = field(floats, integers, At.row_bias)
+    g = field(floats, integers, At.slip)
+    off = field(floats, integers, At.y)
+    state = field(integers, integers, At.state)
+    for k in range(rows):
+        if state[k] == HOLDS:
+            error = abs(off[k])
+            if error > tiny and (high[k] < math.inf or error > abs(bias[k])):
+                return False
+    for k in range(rows):
+        if state[k] == HOLDS:
+            g[k] -= off[k]
+    return True
+
+
+@compiled
+def try_states(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: float, most: float) -> int:
+    """Find what rows do, beginning with what ``state`` says; return how many sets were tried, 0 if in vain.
+
+    Impulses beyond `most` come of rows that contradict each other: what they say about the rest means nothing.
+    """
+    state = field(integers, integers, At.state)
+    x = field(floats, integers, At.x)
+    one_before = two_before = -1
+    changed = True
+    for tried in range(REVISIONS):
+        if changed:
+            start_over(floats, integers, rows, n)
+        assemble(floats, integers, root, rows, n, False)
+        if not eliminate(floats, integers, n):
+            return 0
+        sliding = follow(floats, integers, rows, n)
+        there = correct(floats, integers, root, rows, n, sliding, tiny)
+        if there == CONTRADICT:
+            # As of a table on four feet: they are met as nearly as can be, and no impulses grow of what is left.
+            there = NOT_MET
+            if ease(floats, integers, rows, tiny):
+                start_over(floats, integers, rows, n)
+                there = correct(floats, integers, root, rows, n, sliding, tiny)
+        if there == NOT_MET:
+            largest = 0.0
+            for k in range(rows):
+                largest = max(largest, abs(x[k]))
+            if not largest <= most:
+                return 0
+        changed = revise(floats, integers, rows, tiny, LEAST * most)
+        if changed:
+            # Where what rows do comes round again, it will for ever.
+            now = 0
+            for k in range(rows):
+                now = 5 * now + state[k] + 1
+            if now in (one_before, two_before):
+                return 0
+            one_before, two_before = now, one_before
+        else:
+            if there != NOT_MET:
+                return tried + 1
+            if sliding == 0:
+                return 0
+    return 0

@@ -1,0 +1,116 @@
+"""Islands whose rows contradict each other, or slide in many places: a convex problem, and another from its result.
+
+A round minimises a convex function (see `cones`) from the last step's velocities and impulses: what lies, lies there
+already. The first rounds are soft, which takes few steps, the others a hundred times as hard. Rounds end once the next
+would change nothing.
+
+Penetrations that are to be taken back seldom fit together where a body lies on more points than it needs; each round
+leaves of them what it could not take back. Without that impulses would grow, of rows that can never be met.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from urdfkit.sim.engine.arrays import At
+from urdfkit.sim.engine.compilation import compiled, field
+from urdfkit.sim.engine.island_solver.active_set import try_states
+from urdfkit.sim.engine.island_solver.block_products import row_speed
+from urdfkit.sim.engine.island_solver.convex_newton import descend, leave_wedged, set_out, take_over
+from urdfkit.sim.engine.island_solver.coulomb_direction import slide, stiffen
+from urdfkit.sim.engine.solver.row_states import SLIDES
+
+HARDNESS = (1e-3, 1e-3, 1e-3, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2, 1e-2)
+"""Of each round, the stiffness of its rows over that of rows that hold."""
+BALANCE = (1e-3, 1e-3, 1e-3, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7, 1e-7)
+"""Of each round, the part of the impulses by which it may be out of balance."""
+MORE_ROUNDS = 40
+"""Most rounds, all after those like the last: an arm between a wall and what drives it there takes some twenty."""
+NEARER, STUCK = 0.98, 8
+"""By which factor a round comes nearer than all before, and how many that do not are borne: more are a contradiction.
+
+Where slips and impulses drive each other, rounds go about their goal in a spiral, five or so away from it at a time.
+"""
+OFF = 1e-4
+"""Velocity [m/s or rad/s] that the next round must still change for there to be more than those of the table."""
+HEAP = 100
+"""Rows beyond which an island is a heap."""
+HEAP_ROUNDS = 2
+"""Most rounds of a heap: the next step goes on from there."""
+GROSS = 1e-3
+"""Velocity [m/s or rad/s] by which rounds may leave a heap off the law: beyond, what is pushed down sinks."""
+TRIED_AFTER = 5
+"""Rounds after which what rows do is tried once more, see `states`: where slips are slow to settle that is quicker."""
+SOLVED = 1e-10
+"""Velocity [m/s or rad/s] that the next round may still change where the law is met."""
+NEAR = 5e-6
+"""The same where rounds gain nothing more, as where rows still contradict each other."""
+GAIN = 0.4
+"""Ratio of what a round changes to the change before that is no gain."""
+MEMORY = 0.99
+"""How much of the last step's impulses is started from."""
+
+
+@compiled
+def try_from_here(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: float, most: float) -> bool:
+    """Try what rows do in the result of a round; return whether the law is met, and leave the result if it is not."""
+    speed = field(floats, integers, At.block_v)
+    kept = field(floats, integers, At.sum_v)
+    g = field(floats, integers, At.slip)
+    before = field(floats, integers, At.before)
+    mu = field(floats, integers, At.mu)
+    x = field(floats, integers, At.x)
+    near = field(floats, integers, At.near_x)
+    state = field(integers, integers, At.state)
+    stiffen(floats, integers, rows)
+    for d in range(n):
+        kept[d] = speed[d]
+    for k in range(rows):
+        before[k] = x[k]
+        if state[k] == SLIDES and mu[k] > 0.0:
+            first = row_speed(floats, integers, k + 1, speed) + g[k + 1]
+            second = row_speed(floats, integers, k + 2, speed) + g[k + 2]
+            slide(floats, integers, k, near[k + 1], near[k + 2], math.sqrt(first * first + second * second), x[k])
+    if try_states(floats, integers, root, rows, n, tiny, most) > 0:
+        return True
+    for d in range(n):
+        speed[d] = kept[d]
+    for k in range(rows):
+        x[k] = before[k]
+    return False
+
+
+@compiled
+def go_round(floats: Any, integers: Any, root: int, rows: int, n: int, tiny: float, most: float) -> int:
+    """Go on from the velocities of now and the impulses ``before``, until the law is met or no better met.
+
+    Returns:
+        How many rounds it took, one more than the most where velocities only come near the law; 0 for a heap where
+        they do not: rows are no longer what they were, then.
+    """
+    x = field(floats, integers, At.x)
+    before = field(floats, integers, At.before)
+    for k in range(rows):
+        x[k] = MEMORY * before[k]
+    off, least, stuck = math.inf, math.inf, 0
+    heap = rows > HEAP
+    for done in range(HEAP_ROUNDS if heap else MORE_ROUNDS):
+        if done == TRIED_AFTER and try_from_here(floats, integers, root, rows, n, tiny, most):
+            return done
+        row = min(done, len(HARDNESS) - 1)
+        set_out(floats, integers, rows, HARDNESS[row], done > 0)
+        descend(floats, integers, root, rows, n, BALANCE[row])
+        was = off
+        off = take_over(floats, integers, rows)
+        if off <= max(tiny, SOLVED) or GAIN * was < off <= NEAR:
+            return done + 1
+        leave_wedged(floats, integers, rows)
+        if done + 1 < len(HARDNESS):
+            least = off
+            continue
+        stuck = 0 if off < NEARER * least else stuck + 1
+        least = min(least, off)
+        if off <= OFF or stuck >= STUCK:
+            break
+    return 0 if heap and off > GROSS else MORE_ROUNDS + 1

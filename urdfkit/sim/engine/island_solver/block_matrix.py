@@ -1,0 +1,275 @@
+"""The matrix M + Jᵀ·D·J of an island in blocks, one for each tree and for each pair of trees with a row between them.
+
+It is factored in the order in which the fewest blocks fill in, the minimum degree, after D. J. Rose, Graph Theory and
+Computing, 1972.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from urdfkit.sim.engine.arrays import At
+from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.island_solver.block_products import load_six, times_six
+from urdfkit.sim.engine.math.simd import put, six
+
+MOST_TREES = 62
+"""Most trees of an island: as many as a number has bits."""
+
+
+@inlined
+def bits(mask: int) -> int:
+    """Return how many bits are set."""
+    count = 0
+    while mask != 0:
+        mask &= mask - 1
+        count += 1
+    return count
+
+
+@compiled
+def arrange(floats: Any, integers: Any, root: int, rows: int) -> int:
+    """Order the trees of an island for elimination; return how many dofs they have, 0 if there are too many trees.
+
+    Afterwards ``block_tree`` lists the trees in order, ``tree_block`` their places in it, ``block_first`` where their
+    dofs start, and ``block_after`` those after each that it shares a block with, as bits. For each row ``at_a`` and
+    ``at_b`` tell where the dofs of its trees start, ``of_a`` and ``of_b`` how many these are: none where there is but
+    one tree.
+    """
+    tree_dof = field(integers, integers, At.tree_dof)
+    island_next = field(integers, integers, At.island_next)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    at_a = field(integers, integers, At.at_a)
+    at_b = field(integers, integers, At.at_b)
+    of_a = field(integers, integers, At.of_a)
+    of_b = field(integers, integers, At.of_b)
+    block_tree = field(integers, integers, At.block_tree)
+    tree_block = field(integers, integers, At.tree_block)
+    block_first = field(integers, integers, At.block_first)
+    block_after = field(integers, integers, At.block_after)
+    count = 0
+    tree = root
+    while tree >= 0:
+        if count == MOST_TREES:
+            return 0
+        block_tree[count], tree_block[tree], block_after[count] = tree, count, 0
+        count += 1
+        tree = island_next[tree]
+    one = 1
+    for k in range(rows):
+        if row_b[k] >= 0:
+            a, b = tree_block[row_a[k]], tree_block[row_b[k]]
+            block_after[a] |= one << b
+            block_after[b] |= one << a
+    # Of those left, the one with the fewest neighbours goes next, and its neighbours become each other's.
+    first = 0
+    for k in range(count):
+        best, fewest = k, MOST_TREES + 1
+        for j in range(k, count):
+            degree = bits(block_after[j])
+            if degree < fewest:
+                best, fewest = j, degree
+        if best != k:
+            # They exchange places, and so do their bits.
+            block_tree[k], block_tree[best] = block_tree[best], block_tree[k]
+            block_after[k], block_after[best] = block_after[best], block_after[k]
+            for j in range(count):
+                mask = block_after[j]
+                differ = ((mask >> k) ^ (mask >> best)) & one
+                block_after[j] = mask ^ ((differ << k) | (differ << best))
+        mask = block_after[k]
+        for j in range(k + 1, count):
+            if (mask >> j) & one:
+                block_after[j] = (block_after[j] | mask) & ~((one << j) | (one << k))
+        tree = block_tree[k]
+        tree_block[tree] = k
+        block_first[k] = first
+        first += tree_dof[tree + 1] - tree_dof[tree]
+    block_first[count] = first
+    for k in range(rows):
+        a, b = row_a[k], row_b[k]
+        at_a[k], of_a[k] = block_first[tree_block[a]], tree_dof[a + 1] - tree_dof[a]
+        at_b[k] = of_b[k] = 0
+        if b >= 0:
+            at_b[k], of_b[k] = block_first[tree_block[b]], tree_dof[b + 1] - tree_dof[b]
+    return first
+
+
+@inlined
+def take_six(K: Any, n: int, i: int, first: int, start: int) -> None:
+    """Take off six numbers of row i what six eliminated rows have there."""
+    here, at, to = i * n + start, first * n + i, first * n + start
+    rest = six(K, here) - K[at] * six(K, to) - K[at + n] * six(K, to + n) - K[at + 2 * n] * six(K, to + 2 * n)
+    at, to = at + 3 * n, to + 3 * n
+    put(K, here, rest - K[at] * six(K, to) - K[at + n] * six(K, to + n) - K[at + 2 * n] * six(K, to + 2 * n))
+
+
+@compiled
+def eliminate(floats: Any, integers: Any, n: int) -> bool:
+    """Factor K = UᵀU in B block by block, its diagonal inverted; return whether it was positive."""
+    block_first = field(integers, integers, At.block_first)
+    block_after = field(integers, integers, At.block_after)
+    K = field(floats, integers, At.B)
+    one = 1
+    k = 0
+    while block_first[k] < n:
+        first, beyond, mask = block_first[k], block_first[k + 1], block_after[k]
+        for d in range(first, beyond):
+            pivot = K[d * n + d]
+            if not pivot > 0.0:
+                return False
+            inverse = 1.0 / math.sqrt(pivot)
+            K[d * n + d] = inverse
+            for j in range(d + 1, beyond):
+                K[d * n + j] *= inverse
+            for i in range(d + 1, beyond):
+                c = K[d * n + i]
+                for j in range(i, beyond):
+                    K[i * n + j] -= c * K[d * n + j]
+            left, b = mask, k
+            while left != 0:
+                b += 1
+                while not (mask >> b) & one:
+                    b += 1
+                left &= left - 1
+                start, size = block_first[b], block_first[b + 1] - block_first[b]
+                if size == 6:
+                    own = inverse * six(K, d * n + start)
+                    put(K, d * n + start, own)
+                    for i in range(d + 1, beyond):
+                        here = i * n + start
+                        put(K, here, six(K, here) - K[d * n + i] * own)
+                    continue
+                for j in range(start, start + size):
+                    K[d * n + j] *= inverse
+                for i in range(d + 1, beyond):
+                    c = K[d * n + i]
+                    for j in range(start, start + size):
+                        K[i * n + j] -= c * K[d * n + j]
+        left, b = mask, k
+        while left != 0:
+            b += 1
+            while not (mask >> b) & one:
+                b += 1
+            rest = left
+            left &= left - 1
+            e = b - 1
+            while rest != 0:
+                e += 1
+                while not (mask >> e) & one:
+                    e += 1
+                rest &= rest - 1
+                start, size = block_first[e], block_first[e + 1] - block_first[e]
+                for i in range(block_first[b], block_first[b + 1]):
+                    if size == 6 and beyond - first == 6:
+                        take_six(K, n, i, first, start)
+                        continue
+                    for d in range(first, beyond):
+                        c = K[d * n + i]
+                        for j in range(start, start + size):
+                            K[i * n + j] -= c * K[d * n + j]
+        k += 1
+    return True
+
+
+@inlined
+def forward_six(K: Any, n: int, d: int, x: Any) -> Any:
+    """Return of x, from d on, what a block of six makes of it on the way forward."""
+    at = d * n + d
+    a = x[d] * K[at]
+    b = (x[d + 1] - a * K[at + 1]) * K[at + n + 1]
+    c = (x[d + 2] - a * K[at + 2] - b * K[at + n + 2]) * K[at + 2 * n + 2]
+    at, to = at + 3, at + 2 * n + 3
+    e = (x[d + 3] - a * K[at] - b * K[at + n] - c * K[to]) * K[to + n]
+    f = (x[d + 4] - a * K[at + 1] - b * K[at + n + 1] - c * K[to + 1] - e * K[to + n + 1]) * K[to + 2 * n + 1]
+    g = x[d + 5] - a * K[at + 2] - b * K[at + n + 2] - c * K[to + 2] - e * K[to + n + 2] - f * K[to + 2 * n + 2]
+    return a, b, c, e, f, g * K[to + 3 * n + 2]
+
+
+@inlined
+def backward_six(K: Any, n: int, d: int, x: Any) -> None:
+    """Do with a block of six, from d on, what is to be done on the way back."""
+    at = d * n + d
+    to = at + 3 * n + 3
+    g = x[d + 5] * K[to + 2 * n + 2]
+    f = (x[d + 4] - K[to + n + 2] * g) * K[to + n + 1]
+    e = (x[d + 3] - K[to + 1] * f - K[to + 2] * g) * K[to]
+    to = at + 2 * n + 2
+    c = (x[d + 2] - K[to + 1] * e - K[to + 2] * f - K[to + 3] * g) * K[to]
+    to = at + n + 1
+    b = (x[d + 1] - K[to + 1] * c - K[to + 2] * e - K[to + 3] * f - K[to + 4] * g) * K[to]
+    a = x[d] - K[at + 1] * b - K[at + 2] * c - K[at + 3] * e - K[at + 4] * f - K[at + 5] * g
+    x[d], x[d + 1], x[d + 2], x[d + 3], x[d + 4], x[d + 5] = a * K[at], b, c, e, f, g
+
+
+@inlined
+def take_product(K: Any, at: int, start: int, n: int, x: Any, d: int) -> None:
+    """Take off x, from d on, what a block of six by six, at a place of K, makes of x from `start` on."""
+    own = load_six(x, start)
+    for k in range(6):
+        x[d + k] -= times_six(K, at + k * n, own)
+
+
+@compiled
+def substitute(floats: Any, integers: Any, n: int, x: Any) -> None:
+    """Turn x into K⁻¹·x."""
+    block_first = field(integers, integers, At.block_first)
+    block_after = field(integers, integers, At.block_after)
+    K = field(floats, integers, At.B)
+    one = 1
+    k = 0
+    while block_first[k] < n:
+        first, beyond, mask = block_first[k], block_first[k + 1], block_after[k]
+        sixes = beyond - first == 6
+        if sixes:
+            a, c, e, f, g, h = forward_six(K, n, first, x)
+            x[first], x[first + 1], x[first + 2] = a, c, e
+            x[first + 3], x[first + 4], x[first + 5] = f, g, h
+        else:
+            for d in range(first, beyond):
+                c = x[d] * K[d * n + d]
+                x[d] = c
+                for j in range(d + 1, beyond):
+                    x[j] -= c * K[d * n + j]
+        b = k
+        while mask >> (b + 1) != 0:
+            b += 1
+            if not (mask >> b) & one:
+                continue
+            start, size = block_first[b], block_first[b + 1] - block_first[b]
+            if sixes and size == 6:
+                at = first * n + start
+                rest = six(x, start) - x[first] * six(K, at) - x[first + 1] * six(K, at + n)
+                rest = rest - x[first + 2] * six(K, at + 2 * n) - x[first + 3] * six(K, at + 3 * n)
+                put(x, start, rest - x[first + 4] * six(K, at + 4 * n) - x[first + 5] * six(K, at + 5 * n))
+                continue
+            for d in range(first, beyond):
+                for j in range(start, start + size):
+                    x[j] -= x[d] * K[d * n + j]
+        k += 1
+    while k > 0:
+        k -= 1
+        first, beyond, mask = block_first[k], block_first[k + 1], block_after[k]
+        sixes = beyond - first == 6
+        b = k
+        while mask >> (b + 1) != 0:
+            b += 1
+            if not (mask >> b) & one:
+                continue
+            start, size = block_first[b], block_first[b + 1] - block_first[b]
+            if sixes and size == 6:
+                take_product(K, first * n + start, start, n, x, first)
+                continue
+            for d in range(first, beyond):
+                for j in range(start, start + size):
+                    x[d] -= K[d * n + j] * x[j]
+        if sixes:
+            backward_six(K, n, first, x)
+            continue
+        for d in range(beyond - 1, first - 1, -1):
+            c = x[d]
+            for j in range(d + 1, beyond):
+                c -= K[d * n + j] * x[j]
+            x[d] = c * K[d * n + d]

@@ -1,0 +1,268 @@
+"""Islands that are too large for blocks, or that rounds do not come near to: sweeps over their contacts.
+
+One contact after the other gets the impulse that puts it right, all others staying as they are (block Gauss-Seidel,
+projected onto the law): held where its cone allows that, or else sliding, or open. Impulses begin with those of the
+last step, so that what one step leaves the next goes on with; what rests is exact after a while. A sweep costs as much
+as there are contacts, and there are no more than `SWEEPS`.
+
+Penetrations that are to be taken back contradict each other where a body lies on more points than it needs: some sweeps
+later what could not be taken back is left, or impulses would grow with each sweep.
+
+Sources: M. Jean, Comput. Methods Appl. Mech. Eng. 177 (1999) 235-257 (contact by contact); F. Jourdan, P. Alart, M.
+Jean, ibid. 155 (1998) 31-47 (Gauss-Seidel for Coulomb's law).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from urdfkit.sim.engine.arrays import WIDTH, At
+from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.dynamics.mass_matrix import solve_transposed
+
+SWEEPS = 60
+"""Most sweeps of a step."""
+LEAVE_EVERY = 10
+"""Sweeps after which what could not be taken back of penetrations is left."""
+STILL = 1e-9
+"""Change of velocity [m/s or rad/s] in a sweep that ends them."""
+FLAT = 1e-9
+"""Determinant of what three rows of a contact feel of the masses, over the product of its diagonal, that is none."""
+KEPT = 9
+"""Numbers kept of a contact: the inverse of what its rows feel of the masses, and what single rows feel."""
+
+
+@inlined
+def speed_of(floats: Any, integers: Any, k: int) -> float:
+    """Return what the impulses so far make of a whitened row's velocity [m/s or rad/s]."""
+    tree_dof = field(integers, integers, At.tree_dof)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    Y = field(floats, integers, At.Y)
+    u = field(floats, integers, At.u)
+    total = field(floats, integers, At.g)[k]
+    at, tree = k * integers[WIDTH], row_a[k]
+    first, size = tree_dof[tree], tree_dof[tree + 1] - tree_dof[tree]
+    for d in range(size):
+        total += Y[at + d] * u[first + d]
+    tree = row_b[k]
+    if tree >= 0:
+        at += size
+        first = tree_dof[tree]
+        for d in range(tree_dof[tree + 1] - first):
+            total += Y[at + d] * u[first + d]
+    return float(total)
+
+
+@inlined
+def give(floats: Any, integers: Any, k: int, c: float) -> None:
+    """Let the trees of a whitened row have an impulse along it."""
+    tree_dof = field(integers, integers, At.tree_dof)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    Y = field(floats, integers, At.Y)
+    u = field(floats, integers, At.u)
+    at, tree = k * integers[WIDTH], row_a[k]
+    first, size = tree_dof[tree], tree_dof[tree + 1] - tree_dof[tree]
+    for d in range(size):
+        u[first + d] += c * Y[at + d]
+    tree = row_b[k]
+    if tree >= 0:
+        at += size
+        first = tree_dof[tree]
+        for d in range(tree_dof[tree + 1] - first):
+            u[first + d] += c * Y[at + d]
+
+
+@inlined
+def felt(floats: Any, integers: Any, i: int, j: int) -> float:
+    """Return the product of two whitened rows of the same trees."""
+    tree_dof = field(integers, integers, At.tree_dof)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    Y = field(floats, integers, At.Y)
+    a, b, width = row_a[i], row_b[i], integers[WIDTH]
+    size = tree_dof[a + 1] - tree_dof[a]
+    if b >= 0:
+        size += tree_dof[b + 1] - tree_dof[b]
+    total = 0.0
+    for d in range(size):
+        total += Y[i * width + d] * Y[j * width + d]
+    return total
+
+
+@inlined
+def keep_inverse(A: Any, at: int, a: float, b: float, c: float, d: float, e: float, f: float) -> None:
+    """Keep the inverse of [[a, d, e], [d, b, f], [e, f, c]], and what single rows feel."""
+    aa, bb, cc = b * c - f * f, a * c - e * e, a * b - d * d
+    determinant = a * aa + d * (e * f - d * c) + e * (d * f - b * e)
+    A[at + 6], A[at + 7] = 1.0 / a, 1.0 / max(b, c) if max(b, c) > 0.0 else 0.0
+    # Where there is no inverse the rows are taken one by one.
+    A[at + 8] = 1.0 if determinant > FLAT * a * b * c else 0.0
+    if determinant > FLAT * a * b * c:
+        inverse = 1.0 / determinant
+        A[at], A[at + 1], A[at + 2] = aa * inverse, bb * inverse, cc * inverse
+        A[at + 3], A[at + 4], A[at + 5] = (
+            (e * f - d * c) * inverse,
+            (d * f - b * e) * inverse,
+            (d * e - a * f) * inverse,
+        )
+
+
+@compiled
+def prepare(floats: Any, integers: Any, rows: int) -> None:
+    """Turn rows J into Y = J·L⁻¹, and find what contacts and rows feel of the masses: in A, `KEPT` for each row."""
+    width = integers[WIDTH]
+    tree_dof = field(integers, integers, At.tree_dof)
+    row_a = field(integers, integers, At.row_a)
+    row_b = field(integers, integers, At.row_b)
+    v = field(floats, integers, At.v_start)
+    Y = field(floats, integers, At.Y)
+    A = field(floats, integers, At.A)
+    g = field(floats, integers, At.g)
+    bias = field(floats, integers, At.row_bias)
+    mu = field(floats, integers, At.mu)
+    for k in range(rows):
+        free = bias[k]
+        at = k * width
+        for side in range(2):
+            tree = row_a[k] if side == 0 else row_b[k]
+            if tree < 0:
+                continue
+            first, beyond = tree_dof[tree], tree_dof[tree + 1]
+            for d in range(first, beyond):
+                free += Y[at - first + d] * v[d]
+            solve_transposed(floats, integers, first, beyond, Y, at - first)
+            at += beyond - first
+        g[k] = free
+    k = 0
+    while k < rows:
+        own, at = felt(floats, integers, k, k), KEPT * k // 3
+        if mu[k] > 0.0:
+            ss, tt = felt(floats, integers, k + 1, k + 1), felt(floats, integers, k + 2, k + 2)
+            ns, nt = felt(floats, integers, k, k + 1), felt(floats, integers, k, k + 2)
+            keep_inverse(A, at, own, ss, tt, ns, nt, felt(floats, integers, k + 1, k + 2))
+            k += 3
+            continue
+        A[3 * k] = 1.0 / own if own > 0.0 else 0.0
+        k += 1
+
+
+@inlined
+def put_right(floats: Any, integers: Any, k: int) -> float:
+    """Give a contact the impulse that puts it right where all others stay; return by how much velocities change."""
+    mu = field(floats, integers, At.mu)
+    x = field(floats, integers, At.x)
+    A = field(floats, integers, At.A)
+    at = 3 * k
+    n, a, b = x[k], x[k + 1], x[k + 2]
+    w = speed_of(floats, integers, k)
+    if n == 0.0 and w >= 0.0:
+        return 0.0
+    s, t = speed_of(floats, integers, k + 1), speed_of(floats, integers, k + 2)
+    if A[at + 8] > 0.0:
+        p = n - A[at] * w - A[at + 3] * s - A[at + 4] * t
+        q = a - A[at + 3] * w - A[at + 1] * s - A[at + 5] * t
+        r = b - A[at + 4] * w - A[at + 5] * s - A[at + 2] * t
+        if q * q + r * r <= mu[k] * mu[k] * p * p and p > 0.0:
+            x[k], x[k + 1], x[k + 2] = p, q, r
+            give(floats, integers, k, p - n)
+            give(floats, integers, k + 1, q - a)
+            give(floats, integers, k + 2, r - b)
+            return float(max(abs(w), max(abs(s), abs(t))))
+    p = max(0.0, n - A[at + 6] * w)
+    give(floats, integers, k, p - n)
+    q = r = 0.0
+    if p > 0.0:
+        q = a - A[at + 7] * speed_of(floats, integers, k + 1)
+        r = b - A[at + 7] * speed_of(floats, integers, k + 2)
+        size, most = math.sqrt(q * q + r * r), mu[k] * p
+        if size > most:
+            q, r = q * most / size, r * most / size
+    give(floats, integers, k + 1, q - a)
+    give(floats, integers, k + 2, r - b)
+    x[k], x[k + 1], x[k + 2] = p, q, r
+    moved = abs(p - n) / A[at + 6]
+    if A[at + 7] > 0.0:
+        moved = max(moved, max(abs(q - a), abs(r - b)) / A[at + 7])
+    return float(moved)
+
+
+@inlined
+def leave_unmet(floats: Any, integers: Any, rows: int) -> None:
+    """Take back of penetrations only what the velocities of now allow."""
+    low = field(floats, integers, At.low)
+    high = field(floats, integers, At.high)
+    bias = field(floats, integers, At.row_bias)
+    g = field(floats, integers, At.g)
+    for k in range(rows):
+        if low[k] == 0.0 and high[k] == math.inf and bias[k] < 0.0:
+            w = speed_of(floats, integers, k)
+            if w < 0.0:
+                taken = min(-w, -bias[k])
+                g[k] += taken
+                bias[k] += taken
+
+
+@inlined
+def work_of(floats: Any, integers: Any, rows: int) -> Any:
+    """Return the power that impulses meet before them, x·g, and the energy that they bring by themselves, x·A·x/2."""
+    x = field(floats, integers, At.x)
+    y = field(floats, integers, At.y)
+    met = brought = 0.0
+    for k in range(rows):
+        met += x[k] * y[k]
+        brought += 0.5 * x[k] * (speed_of(floats, integers, k) - y[k])
+    return met, brought
+
+
+@compiled
+def sweep(floats: Any, integers: Any, rows: int) -> int:
+    """Find the impulses x of an island as nearly as some sweeps do, and add to u what they do.
+
+    Of the rows Y is J, and becomes whitened; of the trees u is what `smooth_motion` left there.
+
+    Returns:
+        How many sweeps it took; one more than the most where more would have changed something.
+    """
+    low = field(floats, integers, At.low)
+    high = field(floats, integers, At.high)
+    mu = field(floats, integers, At.mu)
+    x = field(floats, integers, At.x)
+    y = field(floats, integers, At.y)
+    A = field(floats, integers, At.A)
+    before = field(floats, integers, At.before)
+    prepare(floats, integers, rows)
+    for k in range(rows):
+        y[k] = speed_of(floats, integers, k)
+    for k in range(rows):
+        x[k] = before[k]
+        give(floats, integers, k, x[k])
+    done = 0
+    moved = math.inf
+    while done < SWEEPS and moved > STILL:
+        moved = 0.0
+        k = 0
+        while k < rows:
+            if mu[k] > 0.0:
+                moved = max(moved, put_right(floats, integers, k))
+                k += 3
+                continue
+            if A[3 * k] > 0.0:
+                old = x[k]
+                x[k] = min(high[k], max(low[k], old - A[3 * k] * speed_of(floats, integers, k)))
+                give(floats, integers, k, x[k] - old)
+                moved = max(moved, abs(x[k] - old) / A[3 * k])
+            k += 1
+        done += 1
+        if done % LEAVE_EVERY == 0:
+            leave_unmet(floats, integers, rows)
+    met, brought = work_of(floats, integers, rows)
+    if met + brought > 0.0:
+        # Impulses never bring energy: they are all made smaller, and stay in their cones.
+        share = max(0.0, -met / brought)
+        for k in range(rows):
+            give(floats, integers, k, (share - 1.0) * x[k])
+            x[k] *= share
+    return done if moved <= STILL else SWEEPS + 1

@@ -1,0 +1,23 @@
+"""The parts of the step that the reference provider shares: contact geometry and the solver."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from urdfkit.sim.engine.contacts.contact_search import candidates, touching
+from urdfkit.sim.engine.solver.active_set_newton import solve
+
+
+def find_candidates(floats: Any, integers: Any) -> int:
+    """List pairs and mark trees, as `search.candidates` does, for bodies placed by other means."""
+    return candidates(floats, integers)
+
+
+def find_contacts(floats: Any, integers: Any, pairs: int) -> int:
+    """Find the contacts, as `search.touching` does, of bodies placed by other means."""
+    return touching(floats, integers, pairs)
+
+
+def find_impulses(floats: Any, integers: Any, rows: int) -> int:
+    """Solve rows written by other means; return what `solve` does."""
+    return solve(floats, integers, rows)

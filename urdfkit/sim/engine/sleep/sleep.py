@@ -1,0 +1,137 @@
+"""Sleep: trees at rest are left as they are, with the forces they rest on, until something happens to them.
+
+An island falls asleep once all its trees have been at rest for `PATIENCE`, see `rest`, with nothing asked of them.
+Where it touches with something round it is enough that its bodies are slow: rigid bodies roll on for ever where real
+ones would come to rest. The contacts of sleepers are kept from the end of their room on, so that they can be told and
+found again.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from urdfkit.sim.engine.arrays import CONTACTS, DT, LAST_PAIRS, SLEEPING, TREES, At
+from urdfkit.sim.engine.collision.support_points import CAPSULE, CYLINDER, SPHERE
+from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.contacts.broadphase import bound
+from urdfkit.sim.engine.contacts.warm_start import copy_contact
+from urdfkit.sim.engine.dynamics.mass_matrix import place
+from urdfkit.sim.engine.math.spatial_algebra import ZERO, store_spatial, store_vector
+from urdfkit.sim.engine.sleep.sleep_criteria import ASKED, PATIENCE, asked_of, grow_calm, is_free_body
+
+
+@inlined
+def is_round(floats: Any, integers: Any, shape: int) -> bool:
+    """Return whether a shape is round and on a body that nothing holds."""
+    if shape < 0:
+        return False
+    body = field(integers, integers, At.shape_body)[shape]
+    kind = field(integers, integers, At.shape_kind)[shape]
+    if body < 0 or kind not in (SPHERE, CYLINDER, CAPSULE):
+        return False
+    return is_free_body(integers, field(integers, integers, At.body_tree)[body])
+
+
+@compiled
+def rolls(floats: Any, integers: Any, root: int) -> bool:
+    """Return whether an island touches with something that can roll."""
+    contact_next = field(integers, integers, At.contact_next)
+    contact_shape = field(integers, integers, At.contact_shape)
+    contact_against = field(integers, integers, At.contact_against)
+    k = field(integers, integers, At.island_contact)[root]
+    while k >= 0:
+        if is_round(floats, integers, contact_shape[k]) or is_round(floats, integers, contact_against[k]):
+            return True
+        k = contact_next[k]
+    return False
+
+
+@compiled
+def let_sleep(floats: Any, integers: Any, contacts: int) -> None:
+    """Let the islands sleep that have been at rest for long enough, or slow where something rolls."""
+    asleep = field(integers, integers, At.asleep)
+    island = field(integers, integers, At.island)
+    island_next = field(integers, integers, At.island_next)
+    island_contact = field(integers, integers, At.island_contact)
+    tree_floats = field(integers, integers, At.tree_floats)
+    still = field(floats, integers, At.still)
+    dt = field(floats, integers, At.numbers)[DT]
+    for root in range(integers[TREES]):
+        if asleep[root] != 0 or island[root] != root:
+            continue
+        quiet = slow = True
+        tree = root
+        while tree >= 0:
+            grow_calm(floats, integers, tree, dt)
+            # What floats and touches nothing is on its way.
+            lies = island_contact[root] >= 0 or tree_floats[tree] == 0
+            quiet = quiet and lies and still[2 * tree] >= PATIENCE
+            slow = slow and lies and max(still[2 * tree], still[2 * tree + 1]) >= PATIENCE
+            tree = island_next[tree]
+        if quiet or (slow and rolls(floats, integers, root)):
+            lie_down(floats, integers, root, contacts)
+
+
+@inlined
+def lie_down(floats: Any, integers: Any, root: int, contacts: int) -> None:
+    """Let an island sleep, if there is room to keep its contacts."""
+    most_contacts = integers[CONTACTS]
+    asleep = field(integers, integers, At.asleep)
+    island_next = field(integers, integers, At.island_next)
+    island_contact = field(integers, integers, At.island_contact)
+    contact_next = field(integers, integers, At.contact_next)
+    contact_against = field(integers, integers, At.contact_against)
+    contact_row = field(integers, integers, At.contact_row)
+    last_at = field(integers, integers, At.last_at)
+    last_feature = field(integers, integers, At.last_feature)
+    counts = field(integers, integers, At.counts)
+    needed, k = 0, island_contact[root]
+    while k >= 0:
+        needed += 1
+        k = contact_next[k]
+    if contacts + counts[SLEEPING] + needed > most_contacts:
+        return
+    k = island_contact[root]
+    while k >= 0:
+        copy_contact(floats, integers, k, most_contacts - 1 - counts[SLEEPING])
+        counts[SLEEPING] += 1
+        # Of this step's contacts it is no more.
+        contact_row[k] = -1
+        if contact_against[k] >= 0:
+            for j in range(counts[LAST_PAIRS]):
+                if last_at[j] == k:
+                    last_feature[j] = -1
+        k = contact_next[k]
+    tree = root
+    while tree >= 0:
+        asleep[tree] = root + 1
+        stop(floats, integers, tree)
+        tree = island_next[tree]
+
+
+@inlined
+def stop(floats: Any, integers: Any, tree: int) -> None:
+    """Take the last of a tree's velocity and note where it lies and what is asked of it."""
+    s = field(floats, integers, At.s)
+    v = field(floats, integers, At.v)
+    s_ahead = field(floats, integers, At.s_ahead)
+    P = field(floats, integers, At.P)
+    twist = field(floats, integers, At.twist)
+    asked = field(floats, integers, At.asked)
+    tree_body = field(integers, integers, At.tree_body)
+    tree_dof = field(integers, integers, At.tree_dof)
+    tree_s = field(integers, integers, At.tree_s)
+    tree_floats = field(integers, integers, At.tree_floats)
+    first = tree_s[tree]
+    for k in range(first, tree_s[tree + 1]):
+        s_ahead[k] = s[k]
+    for d in range(tree_dof[tree], tree_dof[tree + 1]):
+        v[d] = 0.0
+        for k in range(ASKED):
+            asked[ASKED * d + k] = asked_of(floats, integers, d, k)
+    if tree_floats[tree] != 0:
+        store_vector(P, tree, (s[first], s[first + 1], s[first + 2]))
+    place(floats, integers, tree, s, False)
+    for b in range(tree_body[tree], tree_body[tree + 1]):
+        store_spatial(twist, b, (ZERO, ZERO))
+    bound(floats, integers, tree, field(floats, integers, At.numbers)[DT])

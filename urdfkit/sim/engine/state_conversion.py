@@ -1,0 +1,113 @@
+"""The engine's coordinates as Pinocchio's configuration, contacts as records, and back."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError
+from urdfkit.sim.engine.arrays import FOUND_CONTACTS, HAS_PAIRS, SLEEPING, Arrays
+from urdfkit.sim.engine.contact_surface import Contact
+from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR
+from urdfkit.sim.engine.layout.collision_shapes import Touching
+
+Array = NDArray[np.float64]
+
+
+def configuration(model: Any, arrays: Arrays, tree: int = 0) -> Array:
+    """Return q of a robot in Pinocchio's layout; shape (nq,)."""
+    q = np.empty(model.nq)
+    s = arrays["s"]
+    for b, at in enumerate(_starts(arrays, tree)):
+        iq, nq = model.idx_qs[b + 1], model.nqs[b + 1]
+        if nq == 2:
+            q[iq], q[iq + 1] = np.cos(s[at]), np.sin(s[at])
+        elif nq == 4:
+            q[iq : iq + 4] = s[at], s[at + 1], np.cos(s[at + 2]), np.sin(s[at + 2])
+        else:
+            q[iq : iq + nq] = s[at : at + nq]
+    return q
+
+
+def set_configuration(model: Any, arrays: Arrays, q: Array, tree: int = 0) -> None:
+    """Write the coordinates of a robot's configuration in Pinocchio's layout."""
+    s = arrays["s"]
+    for b, at in enumerate(_starts(arrays, tree)):
+        iq, nq = model.idx_qs[b + 1], model.nqs[b + 1]
+        if nq == 2:
+            s[at] = np.arctan2(q[iq + 1], q[iq])
+        elif nq == 4:
+            s[at : at + 3] = q[iq], q[iq + 1], np.arctan2(q[iq + 3], q[iq + 2])
+        else:
+            s[at : at + nq] = q[iq : iq + nq]
+            if nq == 7:
+                norm = float(np.linalg.norm(s[at + 3 : at + 7]))
+                if not norm > 1e-9:
+                    raise SimulationError(f"q has no orientation for joint `{model.names[b + 1]}`: its quaternion is 0")
+                s[at + 3 : at + 7] /= norm
+
+
+def _starts(arrays: Arrays, tree: int) -> NDArray[np.int64]:
+    """Return where the coordinates of each body of a tree start."""
+    first, beyond = arrays["tree_body"][tree : tree + 2]
+    return arrays["first_s"][first:beyond]
+
+
+def positions(arrays: Arrays, tree: int = 0) -> Array:
+    """Return the position of each dof of a tree, NaN for those of floating joints; shape (nv,)."""
+    found = arrays["s"][arrays["dof_s"] % max(1, len(arrays["s"]))]
+    for b, kind in enumerate(arrays["kind"]):
+        if kind == FREE:
+            found[arrays["first_v"][b] : arrays["first_v"][b + 1]] = np.nan
+    first, beyond = arrays["tree_dof"][tree : tree + 2]
+    return np.array(found[first:beyond])
+
+
+def turning(arrays: Arrays, v: Array) -> Array:
+    """Return how fast linear velocities in their own turning axes change when they are constant in space."""
+    found = np.zeros_like(v)
+    for kind, d in zip(arrays["kind"], arrays["first_v"], strict=False):
+        if kind == FREE:
+            found[d : d + 3] = np.cross(v[d + 3 : d + 6], v[d : d + 3])
+        elif kind == PLANAR:
+            found[d : d + 2] = v[d + 2] * np.array([-v[d + 1], v[d]])
+    return found
+
+
+def contacts(arrays: Arrays, touches: Sequence[Touching], ground: str, dt: float) -> tuple[Contact, ...]:
+    """Return the contacts of the last step and those of what sleeps, with their forces."""
+    found = []
+    alone = len(arrays["tree_floats"]) == 1 and not arrays["numbers"][HAS_PAIRS]
+    kept = len(arrays["contact_row"]) - 1 - np.arange(int(arrays["counts"][SLEEPING]))
+    for k in (*range(int(arrays["counts"][FOUND_CONTACTS])), *kept.tolist()):
+        frame = arrays["contact_frame"][k].reshape(3, 3)
+        if int(arrays["contact_row"][k]) < 0:  # nothing can move that point along the normal, so there is no force
+            continue
+        at, impulse = int(arrays["contact_row"][k]), arrays["contact_impulse"][k]
+        if alone:
+            rubs = arrays["contact_mu"][k] > 0.0
+            impulse = np.array([*(arrays["x"][at + 1 : at + 3] if rubs else (0.0, 0.0)), arrays["x"][at]])
+        tree = int(arrays["body_tree"][arrays["contact_body"][k]])
+        against = int(arrays["contact_against"][k])
+        mine, other = touches[int(arrays["contact_shape"][k])], None if against < 0 else touches[against]
+        found.append(
+            Contact(
+                mine.link,
+                ground if other is None else other.link,
+                _vector(arrays["contact_origin"][tree] + arrays["contact_point"][k]),
+                _vector(frame[2]),
+                -float(arrays["contact_gap"][k]),
+                _vector(impulse @ frame / dt),
+                mine.number,
+                -1 if other is None else other.number,
+            )
+        )
+    return tuple(found)
+
+
+def _vector(values: Array) -> tuple[float, float, float]:
+    x, y, z = values.tolist()
+    return (x, y, z)

@@ -1,0 +1,160 @@
+"""The step of a tree that nothing holds: no contact, limit, motor, servo, effort, dry friction or damping.
+
+There energy shows every error, so the step is the classical Runge-Kutta method of fourth order. A floating joint's
+rotation is R = R₀·exp(θ), and θ is what is integrated: θ̇ = ω + θ×ω/2 + θ×(θ×ω)/12 up to the order that counts
+(H. Munthe-Kaas, High order Runge-Kutta methods on manifolds, 1999); its linear velocity is that along the axes of what
+it moves in.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from urdfkit.sim.engine.arrays import At
+from urdfkit.sim.engine.compilation import compiled, field, inlined
+from urdfkit.sim.engine.constraints.joint_servos import smooth_motion
+from urdfkit.sim.engine.dynamics.integration import move, turned_by
+from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR, place, solve_forward, terms
+from urdfkit.sim.engine.elementary import sine_cosine
+from urdfkit.sim.engine.math.spatial_algebra import add, cross, rotate, scale, turn_of
+
+
+@inlined
+def flies(floats: Any, integers: Any, first: int, beyond: int, rows: int) -> bool:
+    """Return whether nothing holds or pushes the dofs of a tree that has so many rows, no contact and no servo."""
+    damping = field(floats, integers, At.damping)
+    applied = field(floats, integers, At.applied)
+    if rows > 0:
+        return False
+    for d in range(first, beyond):  # noqa: SIM110
+        if damping[d] != 0.0 or applied[d] != 0.0:
+            return False
+    return True
+
+
+@compiled
+def fly(floats: Any, integers: Any, tree: int, dt: float) -> None:
+    """Advance a tree by a step.
+
+    Half of it, at the velocities of the start, has been gone already; and half, at those of the end, is left to go.
+    """
+    tree_body = field(integers, integers, At.tree_body)
+    tree_dof = field(integers, integers, At.tree_dof)
+    tree_s = field(integers, integers, At.tree_s)
+    tree_floats = field(integers, integers, At.tree_floats)
+    base = field(floats, integers, At.base)
+    s = field(floats, integers, At.s)
+    v = field(floats, integers, At.v)
+    v_start = field(floats, integers, At.v_start)
+    s_first = field(floats, integers, At.s_ahead)
+    P = field(floats, integers, At.P)
+    slope_s = field(floats, integers, At.slope_s)
+    slope_v = field(floats, integers, At.slope_v)
+    sum_s = field(floats, integers, At.sum_s)
+    sum_v = field(floats, integers, At.sum_v)
+    first, beyond = tree_dof[tree], tree_dof[tree + 1]
+    move(floats, integers, tree_body[tree], tree_body[tree + 1], s, v, -0.5 * dt)
+    for k in range(tree_s[tree], tree_s[tree + 1]):
+        s_first[k] = s[k]
+    remember_velocities(floats, integers, tree)
+    for d in range(first, beyond):
+        sum_s[d] = sum_v[d] = slope_s[d] = slope_v[d] = 0.0
+    for stage in range(4):
+        ahead = 0.5 * dt
+        if stage == 0:
+            ahead = 0.0
+        elif stage == 3:
+            ahead = dt
+        go(floats, integers, tree, slope_s, slope_v, ahead)
+        for k in range(3):
+            P[3 * tree + k] = s[tree_s[tree] + k] if tree_floats[tree] != 0 else base[3 * tree + k]
+        for d in range(first, beyond):
+            v_start[d] = v[d]
+        place(floats, integers, tree, s, False)
+        terms(floats, integers, tree)
+        smooth_motion(floats, integers, first, beyond, dt)
+        solve_forward(floats, integers, first, beyond)
+        find_slopes(floats, integers, tree, ahead, dt)
+        weight = 1.0 / 6.0 if stage in (0, 3) else 1.0 / 3.0
+        for d in range(first, beyond):
+            sum_s[d] += weight * slope_s[d]
+            sum_v[d] += weight * slope_v[d]
+    go(floats, integers, tree, sum_s, sum_v, dt)
+    move(floats, integers, tree_body[tree], tree_body[tree + 1], s, v, -0.5 * dt)
+
+
+@inlined
+def remember_velocities(floats: Any, integers: Any, tree: int) -> None:
+    """Note the velocities in ``v_ahead``, linear ones along the axes of what the joint moves in."""
+    tree_body = field(integers, integers, At.tree_body)
+    kind = field(integers, integers, At.kind)
+    first_s = field(integers, integers, At.first_s)
+    first_v = field(integers, integers, At.first_v)
+    s, v = field(floats, integers, At.s), field(floats, integers, At.v)
+    v_first = field(floats, integers, At.v_ahead)
+    for i in range(tree_body[tree], tree_body[tree + 1]):
+        at, d = first_s[i], first_v[i]
+        for k in range(d, first_v[i + 1]):
+            v_first[k] = v[k]
+        if kind[i] == FREE:
+            linear = rotate(turn_of(s[at + 3], s[at + 4], s[at + 5], s[at + 6]), (v[d], v[d + 1], v[d + 2]))
+            v_first[d], v_first[d + 1], v_first[d + 2] = linear
+        elif kind[i] == PLANAR:
+            sine, cosine = sine_cosine(s[at + 2])
+            v_first[d], v_first[d + 1] = cosine * v[d] - sine * v[d + 1], sine * v[d] + cosine * v[d + 1]
+
+
+@compiled
+def go(floats: Any, integers: Any, tree: int, slope_s: Any, slope_v: Any, ahead: float) -> None:
+    """Set coordinates and velocities to those at the start plus `ahead` times the slopes."""
+    tree_body = field(integers, integers, At.tree_body)
+    kind = field(integers, integers, At.kind)
+    first_s = field(integers, integers, At.first_s)
+    first_v = field(integers, integers, At.first_v)
+    s, v = field(floats, integers, At.s), field(floats, integers, At.v)
+    s_first, v_first = field(floats, integers, At.s_ahead), field(floats, integers, At.v_ahead)
+    for i in range(tree_body[tree], tree_body[tree + 1]):
+        at, d = first_s[i], first_v[i]
+        for k in range(d, first_v[i + 1]):
+            v[k] = v_first[k] + ahead * slope_v[k]
+        for k in range(3 if kind[i] >= PLANAR else 1):
+            s[at + k] = s_first[at + k] + ahead * slope_s[d + k]
+        if kind[i] == FREE:
+            turn = (ahead * slope_s[d + 3], ahead * slope_s[d + 4], ahead * slope_s[d + 5])
+            x, y, z, w = turned_by(s_first[at + 3], s_first[at + 4], s_first[at + 5], s_first[at + 6], turn)
+            s[at + 3], s[at + 4], s[at + 5], s[at + 6] = x, y, z, w
+            v[d], v[d + 1], v[d + 2] = rotate(turn_of(-x, -y, -z, w), (v[d], v[d + 1], v[d + 2]))
+        elif kind[i] == PLANAR:
+            sine, cosine = sine_cosine(s[at + 2])
+            v[d], v[d + 1] = cosine * v[d] + sine * v[d + 1], cosine * v[d + 1] - sine * v[d]
+
+
+@inlined
+def find_slopes(floats: Any, integers: Any, tree: int, ahead: float, dt: float) -> None:
+    """Find how coordinates and velocities change, from v and from what they gain in a step, in u."""
+    tree_body = field(integers, integers, At.tree_body)
+    kind = field(integers, integers, At.kind)
+    first_s = field(integers, integers, At.first_s)
+    first_v = field(integers, integers, At.first_v)
+    s, v, u = field(floats, integers, At.s), field(floats, integers, At.v), field(floats, integers, At.u)
+    slope_s, slope_v = field(floats, integers, At.slope_s), field(floats, integers, At.slope_v)
+    for i in range(tree_body[tree], tree_body[tree + 1]):
+        at, d = first_s[i], first_v[i]
+        if kind[i] == FREE:
+            R = turn_of(s[at + 3], s[at + 4], s[at + 5], s[at + 6])
+            turn = (ahead * slope_s[d + 3], ahead * slope_s[d + 4], ahead * slope_s[d + 5])
+            rate = (v[d + 3], v[d + 4], v[d + 5])
+            once = cross(turn, rate)
+            rate = add(rate, add(scale(0.5, once), scale(1.0 / 12.0, cross(turn, once))))
+            slope_s[d], slope_s[d + 1], slope_s[d + 2] = rotate(R, (v[d], v[d + 1], v[d + 2]))
+            slope_s[d + 3], slope_s[d + 4], slope_s[d + 5] = rate
+            slope_v[d], slope_v[d + 1], slope_v[d + 2] = rotate(R, (u[d] / dt, u[d + 1] / dt, u[d + 2] / dt))
+            for k in range(d + 3, d + 6):
+                slope_v[k] = u[k] / dt
+            continue
+        for k in range(d, first_v[i + 1]):
+            slope_s[k], slope_v[k] = v[k], u[k] / dt
+        if kind[i] == PLANAR:
+            sine, cosine = sine_cosine(s[at + 2])
+            for one in (slope_s, slope_v):
+                one[d], one[d + 1] = cosine * one[d] - sine * one[d + 1], sine * one[d] + cosine * one[d + 1]

@@ -1,0 +1,102 @@
+"""The step: from one configuration and velocity to the next, all in one compiled call."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_PAIRS, FOUND_ROWS, STEPS, TREES, At
+from urdfkit.sim.engine.compilation import field
+from urdfkit.sim.engine.constraints.joint_servos import account
+from urdfkit.sim.engine.contacts.contact_search import candidates, touching
+from urdfkit.sim.engine.contacts.warm_start import remember, remember_pairs
+from urdfkit.sim.engine.dynamics.tree_motion import begin, drift, evaluate, look_ahead
+from urdfkit.sim.engine.sleep.sleep import let_sleep
+from urdfkit.sim.engine.sleep.wake import rouse_disturbed, rouse_touched
+from urdfkit.sim.engine.stepping.islands import join
+from urdfkit.sim.engine.stepping.solve_island import settle
+
+
+def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
+    """Advance by `steps`; return how many were done: fewer only if the state stopped being finite.
+
+    A step moves half its way with the old velocity, finds there the new one, and moves the other half with that
+    (Moreau's scheme; without contacts, the leapfrog): positions are right to second order, at the cost of one
+    evaluation. Contacts are those of where the step is expected to end, so that a wheel's velocity points where the
+    wheel then does.
+
+    With `only_terms`, compute poses, M and bias of the state as it is, and advance nothing.
+    """
+    trees = integers[TREES]
+    dt = field(floats, integers, At.numbers)[DT]
+    v = field(floats, integers, At.v)
+    tree_dof = field(integers, integers, At.tree_dof)
+    near = field(integers, integers, At.near)
+    asleep = field(integers, integers, At.asleep)
+    island = field(integers, integers, At.island)
+    counts = field(integers, integers, At.counts)
+    if only_terms:
+        for tree in range(trees):
+            begin(floats, integers, tree)
+        return 0
+    for done in range(steps):
+        for tree in range(trees):
+            if asleep[tree] == 0:
+                remember(floats, integers, tree)
+        remember_pairs(floats, integers)
+        if done == 0:
+            rouse_disturbed(floats, integers)
+        awake = 0
+        for tree in range(trees):
+            if asleep[tree] == 0:
+                awake += 1
+                drift(floats, integers, tree, 0.5 * dt)
+                begin(floats, integers, tree)
+        if awake == 0:
+            # Nothing will happen before the next call.
+            counts[FOUND_CONTACTS] = counts[FOUND_ROWS] = counts[FOUND_PAIRS] = 0
+            counts[STEPS] += steps - done
+            return steps
+        while True:
+            pairs = candidates(floats, integers)
+            if pairs < 0:
+                return done
+            meeting = False
+            for tree in range(trees):
+                if near[tree] != 0 and asleep[tree] == 0:
+                    meeting = True
+                    look_ahead(floats, integers, tree, 0.5 * dt)
+            contacts = 0
+            if meeting:
+                contacts = touching(floats, integers, pairs)
+                if contacts < 0:
+                    return done
+            if not rouse_touched(floats, integers, contacts):
+                break
+            for tree in range(trees):
+                if near[tree] != 0 and asleep[tree] == 0:
+                    evaluate(floats, integers, tree)
+        join(floats, integers, trees, contacts)
+        all_rows = 0
+        for root in range(trees):
+            if island[root] != root or asleep[root] != 0:
+                continue
+            rows = settle(floats, integers, root)
+            if rows < 0:
+                return done
+            all_rows += rows
+        total = 0.0
+        for tree in range(trees):
+            if asleep[tree] != 0:
+                continue
+            first, beyond = tree_dof[tree], tree_dof[tree + 1]
+            account(floats, integers, first, beyond, dt)
+            for d in range(first, beyond):
+                total += v[d]
+            drift(floats, integers, tree, 0.5 * dt)
+        counts[FOUND_CONTACTS], counts[FOUND_ROWS], counts[FOUND_PAIRS] = contacts, all_rows, pairs
+        if not math.isfinite(total):
+            return done
+        let_sleep(floats, integers, contacts)
+        counts[STEPS] += 1
+    return steps

@@ -1,0 +1,128 @@
+"""Action: a goal that a controller pursues, see `action_topics` for how it comes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.sim.plugins.controllers.actions.action_topics import (
+    ABORTED,
+    PREEMPTED,
+    REJECTED,
+    SUCCEEDED,
+    Actionlib,
+    Goal,
+    RclAction,
+)
+from urdfkit.sim.plugins.controllers.controller import Report
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from urdfkit.sim.plugins.controllers.controller import Law
+    from urdfkit.sim.state.robot_state import State
+
+__all__ = ["ABORTED", "SUCCEEDED", "Action", "RefusalError"]
+
+STATUS_RATE = 5.0
+"""How often actionlib publishes the states [Hz] (its ``status_frequency``)."""
+
+
+class RefusalError(Exception):
+    """A goal cannot be pursued.
+
+    Args:
+        text: why.
+        result: fields of the result.
+    """
+
+    def __init__(self, text: str, **result: Any) -> None:
+        super().__init__(text)
+        self.result = result
+
+
+class Action:
+    """One goal at a time; a new one takes the place of the one before.
+
+    Args:
+        law: the controller.
+        name: of the action, below the controller's.
+        kind: the type of its messages without ``ActionGoal``, such as ``control_msgs/msg/GripperCommand``.
+        pursue: is given each goal; raises `RefusalError` for one that cannot be pursued.
+        stop: is called when the goal is cancelled.
+        feedback: returns what builds the fields of the feedback.
+        rate: of the feedback [Hz].
+        clock: returns the time [s].
+
+    Attributes:
+        goal: the one that is pursued.
+    """
+
+    def __init__(
+        self,
+        law: Law,
+        name: str,
+        kind: str,
+        *,
+        pursue: Callable[[Any], None],
+        stop: Callable[[], None],
+        feedback: Callable[[State], Callable[[], dict[str, Any]]],
+        rate: float,
+        clock: Callable[[], float],
+    ) -> None:
+        self._clock, self._law = clock, law
+        self._pursue, self._stop, self._feedback = pursue, stop, feedback
+        self.goal: Goal | None = None
+        self._last: Goal | None = None
+        topics = Actionlib if law.hardware.ros == 1 else RclAction
+        self._topics = topics(law, name, kind, take=self._take, cancel=self._cancel, clock=clock)
+        told, dt = self._topics.feedback, law.hardware.setup.dt
+        law.publications.append(Report(told, rate, dt, lambda: law.running and self.goal is not None, self._tell))
+        if self._topics.repeats:
+            law.report(self._topics.states, STATUS_RATE, self._list)
+
+    def end(self, state: int, text: str = "", /, **result: Any) -> None:
+        """Tell that the goal was reached or will not be; does nothing without one."""
+        if self.goal is not None:
+            goal, self.goal = self.goal, None
+            self._close(goal, state, text, result)
+
+    def give_up(self, text: str) -> None:
+        """Tell that something else has taken the goal's place."""
+        self.end(PREEMPTED, text)
+
+    def _take(self, goal: Goal, wanted: Any) -> None:
+        try:
+            self._pursue(wanted)
+        except RefusalError as refusal:
+            self._law.note(f"refused a goal: {refusal}")
+            self._close(goal, REJECTED, str(refusal), refusal.result, last=self.goal is None)
+            return
+        self.give_up("another goal has taken its place")
+        self.goal = self._last = goal
+        self._topics.states.publish(self._topics.status(self._clock(), goal))
+
+    def _cancel(self, name: str, until: float) -> None:
+        # Without a name all goals are meant, or those sent up to a time (action_server_base.h, CancelGoal.srv).
+        goal = self.goal
+        if goal is not None and (name == goal.name or (not name and not until) or (until and goal.sent <= until)):
+            self._stop()
+            self.give_up("cancelled")
+
+    def _close(self, goal: Goal, state: int, text: str, result: dict[str, Any], *, last: bool = True) -> None:
+        goal.state, goal.text = state, text
+        if last:
+            self._last = goal
+        topics = self._topics
+        if (message := topics.result(goal, result)) is not None:
+            topics.results.publish(message)
+            topics.states.publish(topics.status(self._clock(), goal))
+
+    def _list(self, state: State) -> Callable[[], Any]:
+        message = self._topics.status(state.t, self._last)
+        return lambda: message
+
+    def _tell(self, state: State) -> Callable[[], Any]:
+        assert self.goal is not None  # it is only told while there is one
+        t, fields, goal = state.t, self._feedback(state), replace(self.goal)
+        return lambda: self._topics.progress(t, goal, fields())

@@ -1,0 +1,214 @@
+"""How goals of an action come and what is told of them: the topics of actionlib (ROS 1) and of rcl_action (ROS 2).
+
+Sources: actionlib; the design of ROS 2 actions (design.ros2.org/articles/actions.html) and action_msgs. What ROS 2 does
+by services, a bus does by topics under the services' names: requests are listened to, and ``get_result`` answers when a
+goal has ended.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.messages import from_fields, header, message_type, stamp
+from urdfkit.messages.control import GOAL_ID, GOAL_STATUSES
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from urdfkit.bus import Topic
+    from urdfkit.sim.plugins.controllers.controller import Law
+
+ACTIVE, PREEMPTED, SUCCEEDED, ABORTED, REJECTED = 1, 2, 3, 4, 5
+"""States of a goal (actionlib_msgs/GoalStatus)."""
+
+ROS_2 = {ACTIVE: 2, PREEMPTED: 5, SUCCEEDED: 4, ABORTED: 6}
+"""The same by action_msgs/GoalStatus: executing, canceled, succeeded, aborted. What is rejected has no state there."""
+
+STATES_2 = "action_msgs/msg/GoalStatusArray"
+CANCEL_2 = "action_msgs/srv/CancelGoal_Request"
+
+
+@dataclass
+class Goal:
+    """A goal that was sent.
+
+    Attributes:
+        id: as the sender named it, or as we did: a message.
+        name: the same as text.
+        stamp: when it was sent (ROS 1) or came (ROS 2).
+        state: `ACTIVE`, …
+        text: why.
+    """
+
+    id: Any
+    name: str
+    stamp: Any
+    state: int = ACTIVE
+    text: str = ""
+
+    @property
+    def sent(self) -> float:
+        """Its stamp [s]."""
+        return seconds(self.stamp)
+
+
+class ActionTopics(ABC):
+    """The topics of an action.
+
+    Args:
+        law: the controller.
+        name: of the action, below the controller's.
+        kind: the type of its messages without ``ActionGoal``, such as ``control_msgs/msg/GripperCommand``.
+        take: is called with each goal and what it asks for.
+        cancel: is called with the name of a goal, empty for all, and the time until which they were sent [s], or zero.
+        clock: returns the time [s].
+
+    Attributes:
+        feedback: topic of the feedback.
+        states: topic of the states.
+        results: topic of the results.
+        repeats: whether the states are told again and again.
+    """
+
+    feedback: Topic
+    states: Topic
+    results: Topic
+    repeats: bool
+
+    def __init__(
+        self,
+        law: Law,
+        name: str,
+        kind: str,
+        *,
+        take: Callable[[Goal, Any], None],
+        cancel: Callable[[str, float], None],
+        clock: Callable[[], float],
+    ) -> None:
+        self._law, self._kind, self._base = law, kind, law.topic(name)
+        self._take, self._cancel, self._clock = take, cancel, clock
+        self._count = 0
+        self.configure()
+
+    @abstractmethod
+    def configure(self) -> None:
+        """Advertise and subscribe."""
+
+    @abstractmethod
+    def status(self, t: float, goal: Goal | None) -> Any:
+        """Return the message of the states."""
+
+    @abstractmethod
+    def result(self, goal: Goal, fields: dict[str, Any]) -> Any:
+        """Return the message of a result; None where there is none."""
+
+    @abstractmethod
+    def progress(self, t: float, goal: Goal, fields: dict[str, Any]) -> Any:
+        """Return the message of the feedback."""
+
+
+class Actionlib(ActionTopics):
+    """``goal`` and ``cancel`` are listened to, ``feedback``, ``result`` and ``status`` published."""
+
+    repeats = True
+
+    def configure(self) -> None:
+        """Advertise and subscribe."""
+        law, base, kind, bus = self._law, self._base, self._kind, self._law.hardware.setup.bus
+        law.listen(f"{base}/goal", f"{kind}ActionGoal", self._goal)
+        law.listen(f"{base}/cancel", GOAL_ID, lambda m: self._cancel(m.id, seconds(m.stamp)))
+        self.results = bus.advertise(f"{base}/result", f"{kind}ActionResult")
+        self.states = bus.advertise(f"{base}/status", GOAL_STATUSES)
+        self.feedback = bus.advertise(f"{base}/feedback", f"{kind}ActionFeedback")
+
+    def _goal(self, message: Any) -> None:
+        self._count += 1
+        name = message.goal_id.id or f"{self._law.name}-{self._count}"
+        sent = message.goal_id.stamp if seconds(message.goal_id.stamp) else stamp(self._clock())
+        self._take(Goal(message_type(GOAL_ID)(sent, name), name, sent), message.goal)
+
+    def _about(self, goal: Goal) -> Any:
+        return message_type("actionlib_msgs/msg/GoalStatus")(goal.id, goal.state, goal.text)
+
+    def status(self, t: float, goal: Goal | None) -> Any:
+        """Return the message of the states."""
+        return message_type(GOAL_STATUSES)(header(t, ""), [] if goal is None else [self._about(goal)])
+
+    def result(self, goal: Goal, fields: dict[str, Any]) -> Any:
+        """Return the message of a result."""
+        message = from_fields(f"{self._kind}ActionResult", {"result": fields})
+        message.header, message.status = header(self._clock(), ""), self._about(goal)
+        return message
+
+    def progress(self, t: float, goal: Goal, fields: dict[str, Any]) -> Any:
+        """Return the message of the feedback."""
+        message = from_fields(f"{self._kind}ActionFeedback", None)
+        message.header, message.status = header(t, ""), self._about(goal)
+        for name, value in fields.items():
+            setattr(message.feedback, name, value)
+        return message
+
+
+class RclAction(ActionTopics):
+    """Below ``_action``: ``send_goal`` and ``cancel_goal`` are listened to, what is told of them is published.
+
+    States are told as they change.
+    """
+
+    repeats = False
+
+    def configure(self) -> None:
+        """Advertise and subscribe."""
+        law, bus = self._law, self._law.hardware.setup.bus
+        base, kind = f"{self._base}/_action", self._kind.replace("/msg/", "/action/")
+        self._progress, self._answer = f"{kind}_FeedbackMessage", f"{kind}_GetResult_Response"
+        law.listen(f"{base}/send_goal", f"{kind}_SendGoal_Request", self._goal)
+        law.listen(f"{base}/cancel_goal", CANCEL_2, self._end)
+        self.results = bus.advertise(f"{base}/get_result", self._answer)
+        self.states = bus.advertise(f"{base}/status", STATES_2)
+        self.feedback = bus.advertise(f"{base}/feedback", self._progress)
+
+    def _goal(self, message: Any) -> None:
+        self._count += 1
+        id, name = message.goal_id, _hex(message.goal_id)
+        if not name:  # nobody named it: the count does
+            id.uuid[-8:] = list(self._count.to_bytes(8, "big"))
+            name = _hex(id)
+        self._take(Goal(id, name, stamp(self._clock())), message.goal)
+
+    def _end(self, message: Any) -> None:
+        self._cancel(_hex(message.goal_info.goal_id), seconds(message.goal_info.stamp))
+
+    def status(self, t: float, goal: Goal | None) -> Any:
+        """Return the message of the states."""
+        if goal is None or goal.state not in ROS_2:
+            return message_type(STATES_2)([])
+        about = message_type("action_msgs/msg/GoalInfo")(goal.id, goal.stamp)
+        return message_type(STATES_2)([message_type("action_msgs/msg/GoalStatus")(about, ROS_2[goal.state])])
+
+    def result(self, goal: Goal, fields: dict[str, Any]) -> Any:
+        """Return the message of a result; None for a goal that was rejected."""
+        if goal.state not in ROS_2:
+            return None
+        return from_fields(self._answer, {"status": ROS_2[goal.state], "result": fields})
+
+    def progress(self, t: float, goal: Goal, fields: dict[str, Any]) -> Any:
+        """Return the message of the feedback."""
+        message = from_fields(self._progress, None)
+        message.goal_id = goal.id
+        for name, value in fields.items():
+            setattr(message.feedback, name, value)
+        return message
+
+
+def seconds(stamp: Any) -> float:
+    """Return a ``builtin_interfaces/msg/Time`` in seconds."""
+    return float(stamp.sec + 1e-9 * stamp.nanosec)
+
+
+def _hex(uuid: Any) -> str:
+    """Return a UUID as text, empty where it is zero."""
+    found = bytes(int(byte) for byte in uuid.uuid)
+    return found.hex() if any(found) else ""

@@ -1,0 +1,187 @@
+"""Outputs: a joint under one interface (position, velocity, effort), and how the simulated hardware obeys it.
+
+Sources: gazebo_ros_pkgs noetic-devel, gazebo_ros_control/src/default_robot_hw_sim.cpp; gz_ros2_control, gz_system.cpp;
+gazebo_ros2_control, gazebo_system.cpp.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from math import inf
+from typing import TYPE_CHECKING, ClassVar
+
+from urdfkit.sim.plugins.controllers.joint_handle import LOOK, NEAR, Follower, JointHandle
+
+if TYPE_CHECKING:
+    from urdfkit.sim.plugins.controllers.joint_limits import JointLimits
+    from urdfkit.sim.plugins.controllers.pid import Gains
+    from urdfkit.sim.state.joint_commands import Motors
+    from urdfkit.sim.state.robot_state import State
+
+INTERFACES = ("position", "velocity", "effort")
+"""What a joint may be commanded by."""
+
+
+BRISK = 0.5
+"""From this part of the fastest on an effort is looked after in every control period."""
+
+
+class Output(ABC):
+    """One interface of one joint.
+
+    Args:
+        handle: the joint.
+        period: of the control loop [s].
+        limits: of what may be commanded, where they are enforced (ROS 1).
+
+    Attributes:
+        follower: what obeys by PID; None where nothing does.
+    """
+
+    interface: ClassVar[str]
+
+    def __init__(self, handle: JointHandle, period: float, limits: JointLimits | None = None) -> None:
+        self.handle = handle
+        self.period = period
+        self.limits = limits
+        self.command = 0.0
+        self.follower: Follower | None = None
+
+    @property
+    def claim(self) -> tuple[str, str]:
+        """Joint and interface."""
+        return self.handle.name, self.interface
+
+    def start(self, state: State) -> None:
+        """Make the present the command: standing where it stands, or doing nothing."""
+        self.command = 0.0
+
+    @abstractmethod
+    def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
+        """Obey a command; return how long that needs no attention [s]: 0 is until the next control period.
+
+        Args:
+            state: the present.
+            motors: what to write to.
+            command: [rad] or [m], [rad/s] or [m/s], [N·m] or [N].
+            velocity: the rate of change of a position command.
+        """
+
+    def keep(self, state: State, motors: Motors) -> float:
+        """Obey the last command once more; see `write`."""
+        return self.write(state, motors, self.command)
+
+
+class EffortOutput(Output):
+    """Efforts are exerted, within ``<limit effort>``, and not beyond ``<limit velocity>`` (ROS 1)."""
+
+    interface = "effort"
+
+    def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
+        """Obey a command; return how long that needs no attention [s]."""
+        self.command = command
+        limits, name = self.limits, self.handle.name
+        if limits is None or (command == 0.0 and limits.soft is None):
+            self.handle.exert(motors, command)
+            return inf
+        speed = state.velocity(name)
+        self.handle.exert(motors, limits.exerting(command, state.position(name), speed))
+        if limits.soft is None and limits.velocity == inf:
+            return inf
+        return LOOK if limits.soft is None and abs(speed) < BRISK * limits.velocity else 0.0
+
+
+class VelocityOutput(Output):
+    """Velocities: by a motor as strong as ``<limit effort>``, or by PID where there are gains."""
+
+    interface = "velocity"
+
+    def __init__(
+        self, handle: JointHandle, period: float, gains: Gains | None = None, limits: JointLimits | None = None
+    ) -> None:
+        super().__init__(handle, period, limits)
+        self.follower = Follower(handle, gains) if gains is not None else None
+
+    def start(self, state: State) -> None:
+        """Command zero."""
+        super().start(state)
+        if self.follower is not None:
+            self.follower.integral.reset()
+
+    def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
+        """Obey a command; return how long that needs no attention [s]."""
+        self.command = command
+        soft = self.limits is not None and self.limits.soft is not None
+        if self.limits is not None:
+            command = self.limits.turning(command, state.position(self.handle.name))
+        if self.follower is None:
+            self.handle.turn(motors, command)
+            return 0.0 if soft else inf
+        self.follower.chase(state, motors, command, self.period)
+        return 0.0 if self.follower.gains.d or soft else self.follower.rest()
+
+
+class PositionOutput(Output):
+    """Positions: set whatever that takes, or by PID where there are gains.
+
+    In ROS 1 the command moves no faster than the joint may, and not beyond where it may be.
+    """
+
+    interface = "position"
+
+    def __init__(
+        self, handle: JointHandle, period: float, gains: Gains | None = None, limits: JointLimits | None = None
+    ) -> None:
+        super().__init__(handle, period, limits)
+        self.follower = Follower(handle, gains) if gains is not None else None
+
+    @property
+    def has_gains(self) -> bool:
+        """Whether positions are reached by PID."""
+        return self.follower is not None
+
+    def start(self, state: State) -> None:
+        """Command standing where it stands."""
+        self.command = self._granted = state.position(self.handle.name)
+        if self.follower is not None:
+            self.follower.integral.reset()
+
+    def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
+        """Obey a command; return how long that needs no attention [s]."""
+        self.command = command
+        now, moving = state.position(self.handle.name), False
+        command = self.handle.target(command, now)
+        if self.limits is not None:
+            before, self._granted = self._granted, self.limits.position(command, self._granted, self.period)
+            # A command that is still on its way has the velocity of its way.
+            if moving := abs(self._granted - command) > NEAR and abs(self._granted - before) > NEAR:
+                command, velocity = self._granted, (self._granted - before) / self.period
+            elif abs(self._granted - command) > NEAR:
+                command = self._granted
+        if self.follower is None:
+            return inf if self.handle.place(motors, state, command, self.period) and not moving else 0.0
+        self.follower.follow(state, motors, command, velocity)
+        return 0.0 if moving else self.follower.rest()
+
+
+class ProportionalOutput(Output):
+    """Positions as gz_ros2_control goes there: velocity = error · gain · update rate, as strong as the effort limit."""
+
+    interface = "position"
+
+    def __init__(self, handle: JointHandle, period: float, gain: float) -> None:
+        super().__init__(handle, period)
+        self._rate = gain / period
+
+    def start(self, state: State) -> None:
+        """Command standing where it stands."""
+        self.command = state.position(self.handle.name)
+
+    def write(self, state: State, motors: Motors, command: float, velocity: float = 0.0) -> float:
+        """Obey a command; return how long that needs no attention [s]."""
+        self.command = command
+        now = state.position(self.handle.name)
+        error = self.handle.target(command, now) - now
+        near = abs(error) < NEAR
+        self.handle.turn(motors, 0.0 if near else self._rate * error)
+        return 1.0 if near and abs(state.velocity(self.handle.name)) < NEAR else 0.0

@@ -1,0 +1,228 @@
+"""ControlLoop: the controllers of one robot, loaded, started and stopped, and updated in every control period."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, inf
+from typing import TYPE_CHECKING
+
+from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.sim.plugins.controllers.controller_types import load_law
+from urdfkit.sim.state.ticks import NEVER, Ticks
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from urdfkit.description.control import Settings
+    from urdfkit.sim.plugins.controllers.command_output import Output
+    from urdfkit.sim.plugins.controllers.controller import Hardware, Law
+    from urdfkit.sim.plugins.controllers.joint_handle import Follower
+    from urdfkit.sim.plugins.publishers import Publication
+    from urdfkit.sim.state.joint_commands import Motors
+    from urdfkit.sim.state.robot_state import State
+
+STATES = {1: ("running", "stopped"), 2: ("active", "inactive")}
+"""What ros_control and ros2_control call a controller at work and one that is only loaded."""
+
+
+@dataclass(frozen=True)
+class ControllerStatus:
+    """One controller, as ``list_controllers`` reports it.
+
+    Attributes:
+        name: without its namespace.
+        namespace: of its controller manager.
+        type: of the controller.
+        state: ``running`` or ``stopped`` (ROS 1), ``active`` or ``inactive`` (ROS 2), ``unloaded``.
+        claims: ``joint/interface`` of everything it commands.
+    """
+
+    name: str
+    namespace: str
+    type: str
+    state: str
+    claims: tuple[str, ...]
+
+
+class ControlLoop:
+    """What a controller manager does, for one robot.
+
+    Args:
+        namespace: the controller manager's.
+        known: name → parameters of every controller that is configured.
+        hardware: what they may command.
+        hold: joints that no controller commands stay where they are; without, they are free.
+    """
+
+    def __init__(self, namespace: str, known: dict[str, Settings], hardware: Hardware, *, hold: bool = True) -> None:
+        self.namespace = namespace
+        self.known = known
+        self.hardware = hardware
+        self.laws: dict[str, Law] = {}
+        self.publications: list[Publication] = []
+        self.halted = False
+        self._hold = hold
+        self._state: State | None = None
+        self._ticks = Ticks(1.0 / hardware.period, hardware.setup.dt)
+        self._wake = 0
+        self._first: dict[str, Output] = {}
+        for (joint, _), output in hardware.outputs.items():
+            self._first.setdefault(joint, output)
+
+    # Time
+
+    def due(self, step: int) -> bool:
+        """Whether a control period with something to do begins at a step."""
+        return self._wake <= step and self._ticks.falls_on(step)
+
+    def after(self, step: int) -> int:
+        """Return the first such step after a step."""
+        return NEVER if self._wake >= NEVER else self._ticks.after(max(step, self._wake - 1))
+
+    def wake(self) -> None:
+        """Have something to do in the next control period."""
+        self._wake = 0
+
+    def followers(self) -> Iterator[tuple[str, Follower]]:
+        """Yield whatever obeys by PID, with a path to tell it by: ``CONTROLLER/JOINT``, or ``hardware/JOINT``."""
+        for law in self.laws.values():
+            for follower in law.followers:
+                yield f"{law.name}/{follower.handle.name}", follower
+        for output in self.hardware.outputs.values():
+            if output.follower is not None:
+                yield f"hardware/{output.follower.handle.name}", output.follower
+
+    def begin(self, state: State) -> None:
+        """Begin where the robot is; whatever runs begins anew."""
+        self._state = state
+        self.halted = False
+        for output in self.hardware.outputs.values():
+            output.handle.reset()
+            output.start(state)
+        for law in self._running():
+            law.start(state)
+        self.wake()
+
+    def update(self, state: State, motors: Motors) -> None:
+        """Let every running controller command its joints, and the others stay."""
+        rest = inf
+        free = dict(self._first)
+        if not self.halted:
+            for law in self._running():
+                rest = min(rest, law.update(state, motors))
+                for output in law.outputs:
+                    free.pop(output.handle.name, None)
+        for output in free.values():
+            if self._hold or self.halted:
+                rest = min(rest, output.keep(state, motors))
+            else:
+                output.handle.release(motors)
+        dt = self.hardware.setup.dt
+        self._wake = NEVER if rest == inf else state.step + max(1, ceil(rest / dt - 1e-6))
+
+    def halt(self, halted: bool) -> None:
+        """Stop everything at once, or go on."""
+        if halted and not self.halted and self._state is not None:
+            for output in self.hardware.outputs.values():
+                output.start(self._state)
+        self.halted = halted
+        self.wake()
+
+    def _running(self) -> list[Law]:
+        return [law for law in self.laws.values() if law.running]
+
+    # The controller manager's services
+
+    def status(self) -> tuple[ControllerStatus, ...]:
+        """Return every controller that is configured."""
+        found = []
+        running, stopped = STATES[self.hardware.ros]
+        for name, settings in self.known.items():
+            law = self.laws.get(name)
+            state = "unloaded" if law is None else running if law.running else stopped
+            claims = () if law is None else tuple("/".join(output.claim) for output in law.outputs)
+            found.append(ControllerStatus(name, self.namespace, settings.text("type", ""), state, claims))
+        return tuple(found)
+
+    def load(self, name: str) -> bool:
+        """Load a controller; False for one that we do not simulate.
+
+        Raises:
+            SimulationError: there is none of that name.
+            DescriptionError: its parameters make no sense, with their place.
+        """
+        if name not in self.known:
+            raise SimulationError(f"no controller `{name}` in {self.namespace or '/'}{did_you_mean(name, self.known)}")
+        if name in self.laws:
+            return True
+        law = load_law(name, self.known[name], self.hardware)
+        if law is None:
+            kind = self.known[name].text("type", "")
+            place = self.known[name].group("type").position
+            self.hardware.setup.note(f"{place}: controller `{name}`: {kind} is not simulated")
+            return False
+        self.laws[name] = law
+        self.publications += law.publications
+        return True
+
+    def unload(self, name: str) -> None:
+        """Forget a controller; it has to be stopped.
+
+        Raises:
+            SimulationError: it runs, or there is none.
+        """
+        law = self._loaded(name)
+        if law.running:
+            raise SimulationError(f"controller `{name}` runs; stop it before it is unloaded")
+        for publication in law.publications:
+            self.publications.remove(publication)
+        del self.laws[name]
+
+    def switch(self, start: Iterable[str] = (), stop: Iterable[str] = ()) -> None:
+        """Stop some controllers and start others, all or none of it.
+
+        Raises:
+            SimulationError: one is not there, or wants a joint that another one has; names both.
+        """
+        stopping = [self._loaded(name) for name in stop]
+        starting = [self._loaded(name) for name in start if self.load(name)]
+        after = [law for law in self._running() if law not in stopping]
+        after += [law for law in starting if law not in after]
+        owners: dict[str, Law] = {}
+        for law in after:
+            for output in law.outputs:
+                joint = output.handle.name
+                owner = owners.setdefault(joint, law)
+                if owner is not law:
+                    raise SimulationError(
+                        f"controller `{law.name}` needs joint `{joint}`, which `{owner.name}` has; stop one of them"
+                    )
+        for law in stopping:
+            law.stop()
+            law.running = False
+            for output in law.outputs:
+                if output.interface != "position" and self._state is not None:
+                    output.start(self._state)
+        for law in starting:
+            if not law.running:
+                law.running = True
+                if self._state is not None:
+                    law.start(self._state)
+        self.wake()
+
+    def start_all(self) -> None:
+        """Start what is configured, one after the other; one whose joints are taken stays loaded, with a note."""
+        for name in self.known:
+            try:
+                self.switch(start=[name])
+            except SimulationError as error:
+                if name not in self.laws:
+                    raise
+                self.hardware.setup.note(f"not started: {error}")
+
+    def _loaded(self, name: str) -> Law:
+        if name not in self.laws:
+            if name in self.known:
+                raise SimulationError(f"controller `{name}` is not loaded")
+            raise SimulationError(f"no controller `{name}` in {self.namespace or '/'}{did_you_mean(name, self.known)}")
+        return self.laws[name]

@@ -1,0 +1,59 @@
+"""What controller_manager is asked by services, as topics that carry the requests under the services' own names.
+
+Sources: ros_control noetic, controller_manager; ros2_control, controller_manager. What fails is noted, as nothing can
+be answered.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.errors import UrdfkitError
+from urdfkit.messages.control import CONFIGURE, LOAD, SWITCH, UNLOAD
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
+
+BEST_EFFORT = 1
+"""The strictness with which what cannot be switched is left out."""
+
+
+def serve(loop: ControlLoop, manager: str = "controller_manager") -> None:
+    """Do what is asked of a control loop.
+
+    Args:
+        loop: the controllers.
+        manager: name of its node.
+    """
+    hardware = loop.hardware
+
+    def listen(service: str, type: str, act: Callable[[Any], object]) -> None:
+        topic = hardware.resolve(f"{manager}/{service}")
+
+        def receive(message: Any) -> None:
+            try:
+                act(message)
+            except UrdfkitError as error:
+                hardware.setup.note(f"{topic}: {error}")
+
+        hardware.setup.bus.subscribe(topic, type, receive)
+
+    def switch(message: Any) -> None:
+        start = [*message.activate_controllers, *message.start_controllers]
+        stop = [*message.deactivate_controllers, *message.stop_controllers]
+        if message.strictness != BEST_EFFORT:
+            loop.switch(start=start, stop=stop)
+            return
+        for one in [{"stop": [name]} for name in stop] + [{"start": [name]} for name in start]:
+            try:
+                loop.switch(**one)
+            except UrdfkitError as error:
+                hardware.setup.note(f"{hardware.resolve(f'{manager}/switch_controller')}: {error}")
+
+    listen("load_controller", LOAD, lambda message: loop.load(message.name))
+    listen("unload_controller", UNLOAD, lambda message: loop.unload(message.name))
+    listen("switch_controller", SWITCH, switch)
+    if hardware.ros == 2:  # loading configures
+        listen("configure_controller", CONFIGURE, lambda message: loop.load(message.name))

@@ -1,0 +1,115 @@
+"""Controllers: list, load, start, stop and switch, whatever plugin they live in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+from urdfkit.errors import SimulationError, did_you_mean
+
+if TYPE_CHECKING:
+    from urdfkit.sim.plugins.controllers.control_loop import ControllerStatus, ControlLoop
+    from urdfkit.sim.plugins.publishers import Publication
+    from urdfkit.sim.state.robot_state import State
+
+
+class Controllers:
+    """The controllers of a simulation; what the services of controller_manager do.
+
+    Controllers go by name, or by namespace and name (``/rrbot/joint1_position_controller``).
+
+    Args:
+        loops: the control loops, one per plugin.
+        stir: called when something of them may be due sooner than it was.
+
+    Attributes:
+        each_publications: per loop, what its loaded controllers publish while they run.
+    """
+
+    def __init__(self, loops: Sequence[ControlLoop], stir: Callable[[], None] = lambda: None) -> None:
+        self._loops = tuple(loops)
+        self._stir = stir
+        self.each_publications: tuple[Sequence[Publication], ...] = tuple(loop.publications for loop in self._loops)
+
+    @property
+    def publications(self) -> list[Publication]:
+        """What the loaded controllers publish while they run."""
+        return [publication for publications in self.each_publications for publication in publications]
+
+    @property
+    def command_topics(self) -> dict[str, str]:
+        """Topic → type, of the velocity commands that running controllers listen to."""
+        laws = [law for loop in self._loops for law in loop.laws.values() if law.running]
+        return {topic: kind for law in laws for topic, kind in law.commands.items()}
+
+    def odometry(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
+        """Return odometry frame → position [m] and quaternion x y z w at which running controllers have the robot."""
+        laws = [law for loop in self._loops for law in loop.laws.values() if law.running]
+        return {law.reckoning.frame: law.reckoning.estimate(state) for law in laws if law.reckoning is not None}
+
+    def list(self) -> tuple[ControllerStatus, ...]:
+        """Return every controller that is configured, loaded or not."""
+        return tuple(status for loop in self._loops for status in loop.status())
+
+    def load(self, name: str) -> None:
+        """Load a controller.
+
+        Raises:
+            UrdfkitError: there is none of that name, or its parameters make no sense.
+        """
+        loop, own = self._find(name)
+        self._stir()
+        if not loop.load(own):
+            raise SimulationError(f"controller `{name}`: its type is not simulated")
+
+    def unload(self, name: str) -> None:
+        """Forget a controller; it has to be stopped.
+
+        Raises:
+            SimulationError: there is none of that name, or it runs.
+        """
+        loop, own = self._find(name)
+        self._stir()
+        loop.unload(own)
+
+    def start(self, *names: str) -> None:
+        """Start controllers, loading them where they are not.
+
+        Raises:
+            UrdfkitError: one is not there, makes no sense, or wants a joint that another one has.
+        """
+        self.switch(start=names)
+
+    def stop(self, *names: str) -> None:
+        """Stop controllers: a position is held, velocities and efforts become zero.
+
+        Raises:
+            SimulationError: one is not there.
+        """
+        self.switch(stop=names)
+
+    def switch(self, start: Sequence[str] = (), stop: Sequence[str] = ()) -> None:
+        """Stop some controllers and start others in the same control period, all or none of those in one namespace.
+
+        Raises:
+            UrdfkitError: one is not there, makes no sense, or wants a joint that another one has; names both.
+        """
+        wanted: dict[int, tuple[set[str], set[str]]] = {}
+        for side, names in enumerate((start, stop)):
+            for name in names:
+                loop, own = self._find(name)
+                wanted.setdefault(self._loops.index(loop), (set(), set()))[side].add(own)
+        self._stir()
+        for number, (starting, stopping) in wanted.items():
+            self._loops[number].switch(start=starting, stop=stopping)
+
+    def _find(self, name: str) -> tuple[ControlLoop, str]:
+        for loop in self._loops:
+            prefix = loop.namespace.rstrip("/") + "/"
+            own = name[len(prefix) :] if name.startswith(prefix) and len(prefix) > 1 else name.lstrip("/")
+            if own in loop.known:
+                return loop, own
+        known = [status.name for status in self.list()]
+        if not known:
+            raise SimulationError(f"no controller `{name}`: this robot has none")
+        raise SimulationError(f"no controller `{name}`{did_you_mean(name, known)} (known: {', '.join(known)})")

@@ -1,0 +1,75 @@
+"""The controllers of ros_control and ros2_control that we know, by the names of their types."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from urdfkit.errors import DescriptionError, did_you_mean
+from urdfkit.sim.plugins.controllers.joints.forward_command import Forward, ForwardGroup
+from urdfkit.sim.plugins.controllers.joints.gripper import Gripper
+from urdfkit.sim.plugins.controllers.joints.joint_state_broadcaster import JointStatePublisher
+from urdfkit.sim.plugins.controllers.joints.parallel_gripper import ParallelGripper
+from urdfkit.sim.plugins.controllers.joints.pid_position import PidGroup, PidPosition, PidVelocity
+from urdfkit.sim.plugins.controllers.mobile_base.diff_drive import DiffDriveController
+from urdfkit.sim.plugins.controllers.mobile_base.four_wheel_steering import FourWheelSteeringController
+from urdfkit.sim.plugins.controllers.mobile_base.mecanum import MecanumController
+from urdfkit.sim.plugins.controllers.mobile_base.steering import SteeringController
+from urdfkit.sim.plugins.controllers.trajectory.joint_trajectory import TrajectoryFollower
+
+if TYPE_CHECKING:
+    from urdfkit.description.control import Settings
+    from urdfkit.sim.plugins.controllers.controller import Hardware, Law
+
+LAWS: tuple[type[Law], ...] = (
+    JointStatePublisher,
+    Forward,
+    ForwardGroup,
+    PidPosition,
+    PidVelocity,
+    PidGroup,
+    TrajectoryFollower,
+    DiffDriveController,
+    Gripper,
+    ParallelGripper,
+    SteeringController,
+    FourWheelSteeringController,
+    MecanumController,
+)
+"""Every controller; a test fails if one is missing here."""
+
+ELSEWHERE = (
+    "admittance_controller/AdmittanceController",
+    "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
+    "force_torque_sensor_controller/ForceTorqueSensorController",
+    "gpio_controllers/GpioCommandController",
+    "gripper_controllers/GripperActionController",
+    "imu_sensor_broadcaster/IMUSensorBroadcaster",
+    "imu_sensor_controller/ImuSensorController",
+    "pid_controller/PidController",
+    "pos_vel_controllers/JointTrajectoryController",
+    "pos_vel_acc_controllers/JointTrajectoryController",
+    "range_sensor_broadcaster/RangeSensorBroadcaster",
+    "steering_controllers_library/SteeringControllersLibrary",
+    "tricycle_controller/TricycleController",
+)
+"""Controllers that exist and that we do not simulate."""
+
+
+def load_law(name: str, settings: Settings, hardware: Hardware) -> Law | None:
+    """Return a controller, configured; None for one that exists, or may, but that we do not simulate.
+
+    Raises:
+        DescriptionError: no such type in a package that we know, or a parameter that makes no sense, with its place.
+    """
+    kind = settings.text("type")
+    known = [name for law in LAWS for name in law.types]
+    for law in LAWS:
+        if kind in law.types:
+            return law(name, settings, hardware)
+    if kind in ELSEWHERE:
+        return None
+    package, packages = kind.partition("/")[0], {name.partition("/")[0] for name in known}
+    if package not in packages and not did_you_mean(package, packages):
+        return None  # somebody's own: Gazebo would need its library, and goes on without
+    hint = did_you_mean(kind, (*known, *ELSEWHERE))
+    raise DescriptionError(f"no controller type `{kind}`{hint}", position=settings.group("type").position)

@@ -1,0 +1,188 @@
+"""The new Gazebo's JointPositionController and JointController.
+
+Sources: gz-sim main, src/systems/joint_position_controller/JointPositionController.cc and
+src/systems/joint_controller/JointController.cc; gz-math PID.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import inf, isfinite
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.errors import SimulationError
+from urdfkit.messages import FLOAT
+from urdfkit.sim.plugins.base import Controller, Setup
+from urdfkit.sim.plugins.controllers.joint_handle import Follower, JointHandle
+from urdfkit.sim.plugins.controllers.pid import Gains
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.state.ticks import NEVER
+
+if TYPE_CHECKING:
+    from urdfkit.description.plugins import PluginSpec
+    from urdfkit.description.urdf.robot import Plugin
+    from urdfkit.sim.state.joint_commands import Motors
+    from urdfkit.sim.state.robot_state import State
+
+
+class _GzJoint:
+    """What both have in common: joints, a topic, PID gains, limits of the command."""
+
+    def __init__(self, plugin: Plugin, spec: PluginSpec, setup: Setup) -> None:
+        read = self.read = Parameters(plugin, spec, setup.names)
+        self.setup = setup
+        names = read.texts("joints")
+        if not names:
+            raise SimulationError(
+                f"<{read.tag('joints')}> is missing: it says which joint to control", position=read.place("joints")
+            )
+        place = read.place("joints")
+        joints = setup.kinematics.robot.joint_by_name
+        self.handles = [JointHandle(setup.kinematics, joints[setup.joint(name, place)]) for name in names]
+        for meaning in ("use_actuator_message",):
+            if read.flag(meaning):
+                setup.note(f"{read.place(meaning)}: <{read.tag(meaning)}> is not simulated: commands are numbers")
+        gains = Gains(
+            read.number("p_gain"), read.number("i_gain"), read.number("d_gain"),
+            read.number("i_min"), read.number("i_max"), True,
+        )  # fmt: skip
+        for meaning in ("p_gain", "i_gain", "d_gain"):
+            if read.number(meaning) < 0.0:
+                raise SimulationError(
+                    f"<{read.tag(meaning)}> is {read.number(meaning):g}; a negative gain drives the joint away",
+                    position=read.place(meaning),
+                )
+        self.followers = [Follower(handle, gains) for handle in self.handles]
+        self.least, self.most = read.number("min_command"), read.number("max_command")
+        self.offset = read.number("command_offset")
+        if self.most < self.least:
+            raise SimulationError(
+                f"commands from {self.least:g} to {self.most:g} leave nothing", position=read.place("max_command")
+            )
+        topics = Topics(plugin, spec)
+        topic = read.text("command_topic").replace("{joint}", names[0])
+        if sub := read.text("command_subtopic"):
+            topic = f"/model/{setup.model}/{sub}"
+        self.topic = topics.resolve(topic)
+
+    def listen(self, take: Any) -> None:
+        """Hand every finite command on."""
+
+        def receive(message: Any) -> None:
+            if isfinite(message.data):
+                take(float(message.data))
+            else:
+                self.setup.note(f"dropped a command on {self.topic} that is not finite")
+
+        self.setup.bus.subscribe(self.topic, FLOAT, receive)
+
+    def bounds(self, handle: JointHandle) -> tuple[float, float]:
+        """Return the middle of what a joint may be made to exert, and how far that may go from there [N·m] or [N]."""
+        least, most = max(self.least, -handle.limit), min(self.most, handle.limit)
+        return (least + most) / 2, max(0.0, (most - least) / 2)
+
+
+class _Servo(Controller):
+    """A plugin that commands joints by itself: no controller manager, and nothing to do until a command comes."""
+
+    _joint: _GzJoint
+    _by_effort: bool
+    _initial: float
+
+    def _start(self, setup: Setup, initial: str) -> None:
+        """Read what both have, and where or how fast to begin."""
+        self._joint = _GzJoint(self.plugin, self.spec, setup)
+        self._dt, self._wake = setup.dt, 0
+        self._initial = self._wanted = self._joint.read.number(initial)
+        self._joint.listen(self._take)
+
+    def _take(self, value: float) -> None:
+        self._wanted, self._wake = value, 0
+
+    def begin(self, state: State) -> None:
+        """Go back to what it begins with."""
+        self._wanted, self._wake = self._initial, 0
+        for follower in self._joint.followers:
+            follower.integral.reset()
+
+    def followers(self) -> Iterator[tuple[str, Follower]]:
+        """Yield whatever obeys by PID: ``joint_position_controller/JOINT``, ``joint_controller/JOINT``."""
+        if self._by_effort:
+            for follower in self._joint.followers:
+                yield f"{self.kind}/{follower.handle.name}", follower
+
+    def wake(self) -> None:
+        """Look at the command anew."""
+        self._wake = 0
+
+    def due(self, step: int) -> bool:
+        """Whether `write` is to be called before a step."""
+        return self._wake <= step
+
+    def after(self, step: int) -> int:
+        """Return the first step after a step before which it is."""
+        return max(step + 1, self._wake)
+
+    def read(self, state: State) -> None:
+        """Do nothing: it publishes nothing."""
+
+
+class JointPositionController(_Servo):
+    """A PID on position whose output is an effort, or a velocity with ``use_velocity_commands``."""
+
+    kind = "joint_position_controller"
+
+    def configure(self, setup: Setup) -> None:
+        """Read the parameters and subscribe.
+
+        Raises:
+            SimulationError: a parameter makes no sense, with its place.
+        """
+        self._start(setup, "initial_position")
+        self._by_effort = not self._joint.read.flag("use_velocity_commands")
+
+    def write(self, state: State, motors: Motors) -> None:
+        """Command the joints."""
+        joint = self._joint
+        if not self._by_effort:
+            # As fast as it may, and in one step over what is left.
+            for handle in joint.handles:
+                error = self._wanted - state.position(handle.name)
+                handle.turn(motors, min(joint.most, max(-joint.most, error / self._dt)))
+            self._wake = state.step + 1
+            return
+        for follower in joint.followers:
+            # The command is clamped between bounds that need not lie evenly about zero.
+            middle, half = joint.bounds(follower.handle)
+            follower.follow(state, motors, self._wanted, feedforward=joint.offset - middle, limit=half)
+            if middle:
+                motors.exert(follower.handle.name, middle)
+        self._wake = NEVER
+
+
+class JointController(_Servo):
+    """A velocity: by the joint's motor, or by a PID whose output is an effort with ``use_force_commands``."""
+
+    kind = "joint_controller"
+
+    def configure(self, setup: Setup) -> None:
+        """Read the parameters and subscribe.
+
+        Raises:
+            SimulationError: a parameter makes no sense, with its place.
+        """
+        self._start(setup, "initial_velocity")
+        self._by_effort = self._joint.read.flag("use_force_commands")
+
+    def write(self, state: State, motors: Motors) -> None:
+        """Command the joints."""
+        joint = self._joint
+        rest = inf
+        for follower in joint.followers:
+            if not self._by_effort:
+                follower.handle.turn(motors, self._wanted)
+                continue
+            follower.chase(state, motors, self._wanted, self._dt, limit=joint.most)
+            rest = min(rest, 0.0 if follower.gains.d else follower.rest())
+        self._wake = NEVER if rest == inf else state.step + max(1, round(rest / self._dt))

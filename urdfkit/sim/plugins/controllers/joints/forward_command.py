@@ -1,0 +1,94 @@
+"""Controllers that hand commands on to the hardware, for one joint or a group.
+
+Sources: ros_controllers noetic, forward_command_controller, {position,velocity,effort}_controllers; ros2_controllers,
+forward_command_controller.
+"""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import TYPE_CHECKING, ClassVar
+
+from urdfkit.errors import DescriptionError, did_you_mean
+from urdfkit.messages import FLOAT, FLOATS
+from urdfkit.sim.plugins.controllers.command_output import INTERFACES, PositionOutput
+from urdfkit.sim.plugins.controllers.controller import Law
+
+if TYPE_CHECKING:
+    from urdfkit.sim.state.joint_commands import Motors
+    from urdfkit.sim.state.robot_state import State
+
+
+class Forward(Law):
+    """One joint: ``command`` (Float64)."""
+
+    types: ClassVar[dict[str, str]] = {
+        "position_controllers/JointPositionController": "position",
+        "velocity_controllers/JointVelocityController": "velocity",
+        "effort_controllers/JointEffortController": "effort",
+    }
+
+    def configure(self) -> None:
+        """Read the parameters and subscribe.
+
+        Raises:
+            DescriptionError: no joint, or one that cannot be commanded so.
+        """
+        self.settings.text("joint")
+        (entry,) = self.settings.texts("joint")[:1]
+        self.outputs = (self.hardware.output(entry, self.types[self.type]),)
+        self.listen(self.topic("command"), FLOAT, lambda message: self.take([float(message.data)]))
+        (output,) = self.outputs
+        if isinstance(output, PositionOutput) and not output.has_gains and self.settings.find("pid") is not None:
+            self.hardware.setup.note(
+                f"{self.settings.place.file}: {self.type} does not read `pid`: the hardware takes "
+                "gazebo_ros_control/pid_gains/JOINT, and without those the position is set, whatever that takes"
+            )
+
+    def start(self, state: State) -> None:
+        """Begin where the robot is."""
+        super().start(state)
+        self._values = [output.command for output in self.outputs]
+
+    def take(self, values: list[float]) -> None:
+        """Take a command; one of the wrong length, or that is not finite, is dropped with a note."""
+        if len(values) != len(self.outputs):
+            self.note(f"dropped a command of {len(values)} values; it has {len(self.outputs)} joints")
+        elif not all(map(isfinite, values)):
+            self.note("dropped a command that is not finite")
+        else:
+            self._values = values
+
+    def update(self, state: State, motors: Motors) -> float:
+        """Command the outputs."""
+        return min(output.write(state, motors, value) for output, value in zip(self.outputs, self._values, strict=True))
+
+
+class ForwardGroup(Forward):
+    """Several joints: ``command`` (ROS 1) or ``commands`` (ROS 2), Float64MultiArray."""
+
+    types: ClassVar[dict[str, str]] = {
+        "position_controllers/JointGroupPositionController": "position",
+        "velocity_controllers/JointGroupVelocityController": "velocity",
+        "effort_controllers/JointGroupEffortController": "effort",
+        "forward_command_controller/ForwardCommandController": "",
+    }
+
+    def configure(self) -> None:
+        """Read the parameters and subscribe.
+
+        Raises:
+            DescriptionError: no joints, or one that cannot be commanded so.
+        """
+        interface = self.types[self.type] or self.settings.text("interface_name")
+        if interface not in INTERFACES:
+            raise DescriptionError(
+                f"no interface `{interface}`{did_you_mean(interface, INTERFACES)} (it is {', '.join(INTERFACES)})",
+                position=self.settings.group("interface_name").position,
+            )
+        joints = self.settings.texts("joints")
+        if not joints:
+            self.settings.text("joints")
+        self.outputs = tuple(self.hardware.output(entry, interface) for entry in joints)
+        topic = self.topic("command" if self.hardware.ros == 1 else "commands")
+        self.listen(topic, FLOATS, lambda message: self.take([float(value) for value in message.data]))

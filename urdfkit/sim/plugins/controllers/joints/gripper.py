@@ -1,0 +1,148 @@
+"""gripper_action_controller: one joint that is told to close until it is there or stalls.
+
+Sources: ros_controllers noetic, gripper_action_controller_impl.h; ros2_controllers, gripper_controllers.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from urdfkit.errors import DescriptionError
+from urdfkit.sim.plugins.controllers.actions.action_goal import ABORTED, SUCCEEDED, Action, RefusalError
+from urdfkit.sim.plugins.controllers.controller import Law
+from urdfkit.sim.plugins.controllers.joint_handle import Follower
+from urdfkit.sim.plugins.controllers.pid import read_gains
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from urdfkit.sim.state.joint_commands import Motors
+    from urdfkit.sim.state.robot_state import State
+
+MONITOR_RATE = 20.0
+"""Default ``action_monitor_rate`` [Hz]."""
+
+
+class Gripper(Law):
+    """Positions, or efforts from a PID (``gains/JOINT``) up to ``max_effort``, as goals of ``gripper_cmd``."""
+
+    types: ClassVar[dict[str, str]] = {
+        "position_controllers/GripperActionController": "position",
+        "effort_controllers/GripperActionController": "effort",
+    }
+    kind: ClassVar[str] = "control_msgs/msg/GripperCommand"
+    """Of its goals, as `Action` wants it."""
+
+    def configure(self) -> None:
+        """Read the parameters, advertise and subscribe.
+
+        Raises:
+            DescriptionError: no joint or no gains, or one that makes no sense.
+        """
+        read = self.settings
+        read.text("joint")
+        (entry,) = read.texts("joint")[:1]
+        output = self.hardware.output(entry, self.types[self.type])
+        self.outputs = (output,)
+        self._name = output.handle.name
+        self._follower: Follower | None = None
+        self._usual = abs(read.number("max_effort", 0.0))
+        if output.interface == "effort":
+            gains = read_gains(read, f"gains/{self._name}", self.hardware.setup.note)
+            if gains is None:
+                raise DescriptionError(
+                    f"`{self.name}` has no `gains/{self._name}`, which it needs", position=read.place
+                )
+            self._follower = Follower(output.handle, gains, output.limits)
+            if self._usual == 0.0:
+                self.note("`max_effort` is 0 when left out: without a goal the gripper is limp")
+        self._near = abs(read.number("goal_tolerance", 0.01))
+        self._still = read.number("stall_velocity_threshold", 0.001)
+        self._patience = read.number("stall_timeout", 1.0)
+        self._content = self.hardware.ros == 2 and read.flag("allow_stalling", False)
+        self._action = Action(
+            self, "gripper_cmd", self.kind, pursue=self._pursue, stop=self._hold,
+            feedback=self._feedback, rate=read.number("action_monitor_rate", MONITOR_RATE),
+            clock=lambda: self._present.t,
+        )  # fmt: skip
+
+    @property
+    def followers(self) -> tuple[Follower, ...]:
+        """What obeys by PID: where it commands an effort."""
+        return () if self._follower is None else (self._follower,)
+
+    def start(self, state: State) -> None:
+        """Hold where it is."""
+        super().start(state)
+        self._present = state
+        self._action.give_up("the controller was started anew")
+        if self._follower is not None:
+            self._follower.integral.reset()
+        self._hold()
+
+    def stop(self) -> None:
+        """Give up the goal."""
+        self._action.give_up("the controller was stopped")
+
+    def _hold(self) -> None:
+        self._wanted, self._most = self._present.position(self._name), self._usual
+
+    def _pursue(self, goal: Any) -> None:
+        """Take a goal.
+
+        Raises:
+            RefusalError: it is not finite, or not for one joint.
+        """
+        position, most = self._read(goal.command)
+        if not (abs(position) < float("inf") and abs(most) < float("inf")):
+            raise RefusalError(f"a gripper cannot go to {position} with {most}")
+        self._wanted, self._most = position, abs(most)
+        self._moved = self._present.t
+
+    def update(self, state: State, motors: Motors) -> float:
+        """Command the output, and see whether the goal is reached."""
+        goal = self._action.goal
+        if goal is not None:
+            self._judge(state)
+        if self._follower is None:
+            rest = self.outputs[0].write(state, motors, self._wanted)
+        else:
+            position = self._follower.handle.target(self._wanted, state.position(self._name))
+            self._follower.follow(state, motors, position, limit=self._most)
+            rest = self._follower.rest()
+        return 0.0 if goal is not None else rest
+
+    def _judge(self, state: State) -> None:
+        position, velocity = state.position(self._name), state.velocity(self._name)
+        if abs(self._wanted - position) < self._near:
+            self._action.end(SUCCEEDED, **self._result(state, reached_goal=True))
+        elif abs(velocity) > self._still:
+            self._moved = state.t
+        elif state.t - self._moved > self._patience:
+            end = SUCCEEDED if self._content else ABORTED
+            self._action.end(end, "stalled", **self._result(state, stalled=True))
+
+    # What differs between kinds of goals
+
+    def command(self, position: float) -> dict[str, Any]:
+        """Return the fields of a goal.
+
+        Args:
+            position: to go to [rad or m].
+        """
+        return {"command": {"position": position, "max_effort": self._usual}}
+
+    def _read(self, command: Any) -> tuple[float, float]:
+        """Return the position and the greatest effort of a goal.
+
+        Raises:
+            RefusalError: it is not for one joint.
+        """
+        return float(command.position), float(command.max_effort)
+
+    def _result(self, state: State, **more: bool) -> dict[str, Any]:
+        return {"position": state.position(self._name), "effort": state.effort(self._name), **more}
+
+    def _feedback(self, state: State) -> Callable[[], dict[str, Any]]:
+        result = self._result(state)
+        return lambda: result

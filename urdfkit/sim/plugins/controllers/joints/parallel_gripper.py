@@ -1,0 +1,63 @@
+"""parallel_gripper_action_controller: a gripper of one position, whose goals and results are joint states.
+
+It takes the place of the other gripper controllers of ROS 2 from Jazzy on.
+
+Sources: ros2_controllers 4.20, parallel_gripper_controller; control_msgs, ParallelGripperCommand.action.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from urdfkit.messages import JOINT_STATE, from_fields
+from urdfkit.sim.plugins.controllers.actions.action_goal import RefusalError
+from urdfkit.sim.plugins.controllers.joints.gripper import Gripper
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from urdfkit.sim.state.robot_state import State
+
+
+class ParallelGripper(Gripper):
+    """Positions, as goals of ``gripper_cmd``."""
+
+    types: ClassVar[dict[str, str]] = {"parallel_gripper_action_controller/GripperActionController": "position"}
+    kind = "control_msgs/msg/ParallelGripperCommand"
+
+    def configure(self) -> None:
+        """Read the parameters, advertise and subscribe.
+
+        Raises:
+            DescriptionError: no joint, or a parameter that makes no sense.
+        """
+        super().configure()
+        for name in ("max_effort_interface", "max_velocity_interface"):
+            if self.settings.text(name, ""):
+                self.note(f"`{name}` is left out: Gazebo's hardware has no such interface, the controller fails there")
+
+    def command(self, position: float) -> dict[str, Any]:
+        """Return the fields of a goal.
+
+        Args:
+            position: to go to [rad or m].
+        """
+        return {"command": {"name": [self._name], "position": [position]}}
+
+    def _read(self, command: Any) -> tuple[float, float]:
+        """Return the position of a goal; velocities and efforts count for interfaces that Gazebo has not.
+
+        Raises:
+            RefusalError: it is not for one joint.
+        """
+        if len(command.position) != 1:
+            raise RefusalError(f"a gripper takes one position, not {len(command.position)}")
+        return float(command.position[0]), self._usual
+
+    def _result(self, state: State, **more: bool) -> dict[str, Any]:
+        joint = {"position": [state.position(self._name)], "effort": [state.effort(self._name)]}
+        return {"state": {"name": [self._name], **joint}, **more}
+
+    def _feedback(self, state: State) -> Callable[[], dict[str, Any]]:
+        result = self._result(state)
+        return lambda: {"state": from_fields(JOINT_STATE, result["state"])}

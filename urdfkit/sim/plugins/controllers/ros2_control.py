@@ -1,0 +1,210 @@
+"""gz_ros2_control and gazebo_ros2_control: the controllers of ROS 2, from ``<ros2_control>`` and ``<parameters>``.
+
+Sources: gz_ros2_control, gz_ros2_control_plugin.cpp and gz_system.cpp; gazebo_ros2_control, gazebo_system.cpp.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from urdfkit.description.control import Settings, node_settings, read_settings
+from urdfkit.description.packages.resolver import near_path
+from urdfkit.description.plugins.controller_plugins import GAZEBO_ROS2_CONTROL
+from urdfkit.description.xml.numbers import number
+from urdfkit.errors import ResourceError, SimulationError, did_you_mean
+from urdfkit.sim.plugins.base import Controller, Setup
+from urdfkit.sim.plugins.controllers.command_output import (
+    INTERFACES,
+    EffortOutput,
+    Output,
+    PositionOutput,
+    ProportionalOutput,
+    VelocityOutput,
+)
+from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
+from urdfkit.sim.plugins.controllers.controller import Hardware
+from urdfkit.sim.plugins.controllers.controller_manager import serve
+from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.topic_names import Topics
+
+if TYPE_CHECKING:
+    from urdfkit.description.xml.element import Element
+    from urdfkit.description.xml.source import Position
+    from urdfkit.sim.state.joint_commands import Motors
+    from urdfkit.sim.state.robot_state import State
+
+SIMULATED = (
+    "gz_ros2_control/GazeboSimSystem",
+    "ign_ros2_control/IgnitionSystem",
+    "gazebo_ros2_control/GazeboSystem",
+)
+"""Hardware plugins that stand for the simulator."""
+
+UPDATE_RATE = 100.0
+"""Default of the controller manager [Hz]."""
+
+_FIND = re.compile(r"\$\(\s*(?:find|find-pkg-share)\s+([^()\s]+)\s*\)")
+
+
+class Ros2Control(Controller):
+    """The joints of the robot's ``<ros2_control>`` blocks and the controllers of its parameter files."""
+
+    loop: ControlLoop
+    kind = "ros2_control"
+
+    def configure(self, setup: Setup) -> None:
+        """Find the joints and the controllers, and start them.
+
+        Raises:
+            UrdfkitError: a file is not there, or a parameter makes no sense, with its place.
+        """
+        read = Parameters(self.plugin, self.spec, setup.names)
+        topics = Topics(self.plugin, GAZEBO_ROS2_CONTROL)
+        namespace = topics.resolve("").rstrip("/")
+        root = self._parameters(setup, read)
+        boss = node_settings(root, namespace, read.text("controller_manager") or "controller_manager")
+        rate = boss.number("update_rate", UPDATE_RATE)
+        if rate <= 0:
+            raise SimulationError(f"`update_rate` is {rate:g} Hz", position=boss.group("update_rate").position)
+        period = max(setup.dt, 1.0 / rate)
+        gain = read.number("position_gain", 0.1) if self.spec.generation == "gz" else None
+        hardware = Hardware(setup, topics.resolve, 2, period, {}, (), lambda: loop.wake(), "<command_interface>")
+        hardware.joints = tuple(self._joints(setup, hardware, gain))
+        known = _controllers(root, namespace, boss)
+        hold = self.spec.generation != "gz" or read.flag("hold_joints")
+        loop = self.loop = ControlLoop(namespace, known, hardware, hold=hold)
+        if not known:
+            setup.note(f"{self.plugin.element.origin.position}: no controllers: `controller_manager` configures none")
+        loop.start_all()
+        serve(loop, read.text("controller_manager") or "controller_manager")
+
+    def _parameters(self, setup: Setup, read: Parameters) -> Settings:
+        position = read.place("configuration")
+        found = Settings("", position)
+        paths = setup.parameter_files or tuple(_path(t, setup, position) for t in read.texts("configuration"))
+        for path in paths:
+            more = read_settings(path, separator=".")
+            found = found.merged(more) if found.children else more
+        return found
+
+    def _joints(self, setup: Setup, hardware: Hardware, gain: float | None) -> list[str]:
+        """Fill the hardware's outputs; return the joints whose state is known."""
+        joints: list[str] = []
+        for block in setup.kinematics.robot.ros2_control:
+            plugin = next((e for e in block.element.walk() if e.tag == "plugin"), None)
+            name = plugin.text.strip() if plugin is not None else ""
+            if name not in SIMULATED:
+                place = (plugin or block.element).origin.position
+                setup.note(
+                    f"{place}: hardware `{name}` is not the simulator's{did_you_mean(name, SIMULATED)}: "
+                    "its joints are not controlled"
+                )
+                continue
+            for element in block.element.find_all("joint"):
+                own = setup.joint(element.get("name") or "", element.origin.position)
+                joints.append(own)
+                for output in self._outputs(element, own, setup, hardware.period, gain):
+                    hardware.outputs[output.claim] = output
+        return joints
+
+    def _outputs(self, element: Element, joint: str, setup: Setup, period: float, gain: float | None) -> list[Output]:
+        handle = JointHandle(setup.kinematics, setup.kinematics.robot.joint_by_name[joint])
+        found: list[Output] = []
+        for interface in element.find_all("command_interface"):
+            kind = interface.get("name") or ""
+            if kind not in INTERFACES:
+                raise SimulationError(
+                    f"no command interface `{kind}`{did_you_mean(kind, INTERFACES)} (it is {', '.join(INTERFACES)})",
+                    position=interface.origin.position,
+                )
+            if joint in setup.kinematics.mimic_names:
+                setup.note(f"{interface.origin.position}: joint `{joint}` mimics another: it takes no commands")
+            elif kind == "effort":
+                found.append(EffortOutput(handle, period))
+            elif kind == "velocity":
+                found.append(VelocityOutput(handle, period))
+            else:
+                found.append(
+                    PositionOutput(handle, period) if gain is None else ProportionalOutput(handle, period, gain)
+                )
+        for interface in element.find_all("state_interface"):
+            for parameter in interface.find_all("param"):
+                if parameter.get("name") == "initial_value" and interface.get("name") == "position":
+                    value = number(parameter.text)
+                    if value is None:
+                        raise SimulationError(
+                            f"initial_value `{parameter.text}` of joint `{joint}` is no number",
+                            position=parameter.origin.position,
+                        )
+                    if joint not in setup.kinematics.mimic_names:
+                        self.initial_positions[joint] = value
+        return sorted(found, key=lambda output: INTERFACES.index(output.interface))
+
+    def begin(self, state: State) -> None:
+        """Begin where the robot is."""
+        self.loop.begin(state)
+
+    def due(self, step: int) -> bool:
+        """Whether `write` is to be called before a step."""
+        return self.loop.due(step)
+
+    def after(self, step: int) -> int:
+        """Return the first step after a step before which it is."""
+        return self.loop.after(step)
+
+    def write(self, state: State, motors: Motors) -> None:
+        """Let the controllers command the joints."""
+        self.loop.update(state, motors)
+
+    def read(self, state: State) -> None:
+        """Do nothing: controllers publish at rates of their own."""
+
+
+def _controllers(root: Settings, namespace: str, boss: Settings) -> dict[str, Settings]:
+    """Return name → parameters of what has a ``type``: at the controller manager, or (newer) among its own."""
+    known = {}
+    for name, entry in boss.children.items():
+        if (kind := entry.children.get("type")) is not None and kind.value:
+            own = node_settings(root, namespace, name)
+            children = {**own.children, "type": kind}
+            known[name] = Settings(name, own.position, None, None, children, own.key or entry.key)
+    for path, _ in root.walk():
+        node, _, last = path.rpartition("/")
+        name = node.rpartition("/")[2]
+        if last == "ros__parameters" and name not in known:
+            own = node_settings(root, namespace, name)
+            if (kind := own.children.get("type")) is not None and "/" in (kind.value or ""):
+                known[name] = own
+    return known
+
+
+def _path(text: str, setup: Setup, position: Position) -> Path:
+    """Return the file a ``<parameters>`` means.
+
+    Raises:
+        SimulationError: there is none, at its place, with the nearest.
+    """
+    robot = setup.kinematics.robot
+    packages, folder = robot.packages, (robot.files[0].parent if robot.files else Path())
+    try:
+        if packages is not None:
+            text = _FIND.sub(lambda match: str(packages.find(match[1])), text.strip())
+            if "://" in text:
+                return packages.resolve(text, folder)
+    except ResourceError as error:
+        raise SimulationError(error.message, position=position) from None
+    path = folder / text.strip()
+    if path.is_file():
+        return path
+    moved = packages.relocate(path) if packages is not None else None
+    if moved is not None:
+        return moved
+    # What installs as <share>/config may lie in the sources as bringup/config.
+    for package in (folder for folder in path.parents if (folder / "package.xml").is_file()):
+        found = sorted(package.glob(f"*/{path.relative_to(package)}"))
+        if len(found) == 1:
+            return found[0]
+    raise SimulationError(f"no file {text.strip()}{near_path(path)}", position=position)

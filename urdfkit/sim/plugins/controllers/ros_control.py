@@ -1,0 +1,158 @@
+"""gazebo_ros_control: the controllers of ROS 1, from ``<transmission>`` and the parameters that a launch file loads.
+
+Source: gazebo_ros_pkgs noetic-devel, gazebo_ros_control/src/{gazebo_ros_control_plugin,default_robot_hw_sim}.cpp.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from urdfkit.description.control import Settings, find_configuration
+from urdfkit.description.control.ros1_controllers import controllers
+from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.messages import BOOL
+from urdfkit.sim.plugins.base import Controller, Setup
+from urdfkit.sim.plugins.controllers.command_output import EffortOutput, Output, PositionOutput, VelocityOutput
+from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
+from urdfkit.sim.plugins.controllers.controller import Hardware
+from urdfkit.sim.plugins.controllers.controller_manager import serve
+from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
+from urdfkit.sim.plugins.controllers.joint_limits import read_limits
+from urdfkit.sim.plugins.controllers.pid import read_gains
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.topic_names import Topics
+
+if TYPE_CHECKING:
+    from urdfkit.description.control import Configuration
+    from urdfkit.description.urdf.robot import Transmission
+    from urdfkit.sim.state.joint_commands import Motors
+    from urdfkit.sim.state.robot_state import State
+
+INTERFACES = {
+    "EffortJointInterface": "effort",
+    "PositionJointInterface": "position",
+    "VelocityJointInterface": "velocity",
+}
+"""Hardware interfaces that DefaultRobotHWSim offers."""
+
+
+class GazeboRosControl(Controller):
+    """The joints of the robot's transmissions and the controllers in its namespace."""
+
+    loop: ControlLoop
+    kind = "gazebo_ros_control"
+
+    def configure(self, setup: Setup) -> None:
+        """Find the joints and the controllers; start those that a launch file starts, or all.
+
+        Raises:
+            UrdfkitError: a transmission, or a controller's parameters, make no sense, with their place.
+        """
+        read = Parameters(self.plugin, self.spec, setup.names)
+        topics = Topics(self.plugin, self.spec, namespace=setup.model)
+        robot = setup.kinematics.robot
+        namespace = topics.resolve("").rstrip("/")
+        found = find_configuration(robot, namespace, setup.parameter_files)
+        settings = found.settings if found is not None else Settings("", self.plugin.element.origin.position)
+        known = controllers(settings)
+        period = max(setup.dt, read.number("control_period", setup.dt))
+        of_hardware = self._hardware_settings(setup, read, found, settings)
+        hardware = Hardware(setup, topics.resolve, 1, period, {}, (), lambda: loop.wake())
+        for transmission in robot.transmissions:
+            output = _output(transmission, of_hardware, setup, period)
+            hardware.outputs.setdefault(output.claim, output)
+        hardware.joints = tuple(dict.fromkeys(name for name, _ in hardware.outputs))
+        if not hardware.outputs:
+            setup.note(f"{self.plugin.element.origin.position}: no <transmission>: there is nothing to control")
+        loop = self.loop = ControlLoop(namespace, known, hardware)
+        if found is None:
+            setup.note(
+                f"no controllers for {namespace or '/'}: no launch file or YAML configures any; see --controllers"
+            )
+        else:
+            setup.note(f"controllers of {namespace or '/'}: {found.source}")
+        if found is not None and found.started is not None:
+            for name in found.started:
+                loop.switch(start=[name])
+        else:
+            loop.start_all()
+        serve(loop)
+        if stop := read.text("emergency_stop_topic"):
+            setup.bus.subscribe(topics.resolve(stop), BOOL, lambda message: loop.halt(bool(message.data)))
+
+    def _hardware_settings(
+        self, setup: Setup, read: Parameters, found: Configuration | None, settings: Settings
+    ) -> Settings:
+        """Return where hardware looks for gains and limits: in Kinetic at the root unless ``legacyModeNS`` is false.
+
+        Source: gazebo_ros_pkgs kinetic-devel, gazebo_ros_control_plugin.cpp.
+        """
+        legacy = setup.distro.name == "kinetic" and read.text("legacy_namespace").lower() not in ("false", "0")
+        if not legacy or found is None or found.root is None or not found.settings.children:
+            return settings
+        if settings.find("gazebo_ros_control/pid_gains") is not None and settings is not found.root:
+            setup.note(
+                f"{settings.group('gazebo_ros_control').place}: Kinetic reads gains at /gazebo_ros_control/pid_gains, "
+                "not here, unless <legacyModeNS>false</legacyModeNS>"
+            )
+        return found.root
+
+    def begin(self, state: State) -> None:
+        """Begin where the robot is."""
+        self.loop.begin(state)
+
+    def due(self, step: int) -> bool:
+        """Whether `write` is to be called before a step."""
+        return self.loop.due(step)
+
+    def after(self, step: int) -> int:
+        """Return the first step after a step before which it is."""
+        return self.loop.after(step)
+
+    def write(self, state: State, motors: Motors) -> None:
+        """Let the controllers command the joints."""
+        self.loop.update(state, motors)
+
+    def read(self, state: State) -> None:
+        """Do nothing: controllers publish at rates of their own."""
+
+
+def _output(transmission: Transmission, settings: Settings, setup: Setup, period: float) -> Output:
+    """Return what a transmission offers.
+
+    Raises:
+        SimulationError: not one joint, or no hardware interface that Gazebo has; at its place.
+    """
+    name, place = transmission.name or "", transmission.element.origin.position
+    if len(transmission.joints) != 1:
+        raise SimulationError(
+            f"transmission `{name}` has {len(transmission.joints)} joints; Gazebo simulates those of one",
+            position=place,
+        )
+    (joint,) = transmission.joints
+    interfaces = joint.hardware_interfaces
+    if not interfaces:
+        interfaces = tuple(kind for actuator in transmission.actuators for kind in actuator.hardware_interfaces)
+        if not interfaces:
+            raise SimulationError(
+                f"transmission `{name}` lacks <hardwareInterface> in its <joint>, "
+                "such as hardware_interface/EffortJointInterface",
+                position=joint.element.origin.position,
+            )
+        setup.note(f"{place}: transmission `{name}`: <hardwareInterface> belongs into <joint>, not <actuator>")
+    kind = interfaces[0].strip().removeprefix("hardware_interface/")
+    if kind not in INTERFACES:
+        raise SimulationError(
+            f"transmission `{name}`: Gazebo has no interface `{interfaces[0]}`{did_you_mean(kind, INTERFACES)} "
+            f"(it has {', '.join(INTERFACES)})",
+            position=joint.element.origin.position,
+        )
+    own = setup.joint(joint.name or "", joint.element.origin.position)
+    written = setup.kinematics.robot.joint_by_name[own]
+    handle, limits = JointHandle(setup.kinematics, written), read_limits(written, settings, setup.note)
+    handle.lower, handle.upper = limits.lower, limits.upper
+    handle.limit, handle.fastest = limits.effort, limits.velocity
+    if INTERFACES[kind] == "effort":
+        return EffortOutput(handle, period, limits)
+    gains = read_gains(settings, f"gazebo_ros_control/pid_gains/{own}", setup.note)
+    return (PositionOutput if INTERFACES[kind] == "position" else VelocityOutput)(handle, period, gains, limits)

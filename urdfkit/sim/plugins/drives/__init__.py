@@ -1,0 +1,27 @@
+"""Drives the simulator knows, in the order they are tried."""
+
+from __future__ import annotations
+
+from urdfkit.sim.plugins.base import Drive
+from urdfkit.sim.plugins.drives.ackermann import Ackermann
+from urdfkit.sim.plugins.drives.ackermann_steering import AckermannSteering
+from urdfkit.sim.plugins.drives.diff_drive import DiffDrive
+from urdfkit.sim.plugins.drives.mecanum_drive import MecanumDrive
+from urdfkit.sim.plugins.drives.odometry_publisher import OdometryPublisher
+from urdfkit.sim.plugins.drives.planar_move import PlanarMove
+from urdfkit.sim.plugins.drives.skid_steer import SkidSteer
+from urdfkit.sim.plugins.drives.tricycle import Tricycle
+from urdfkit.sim.plugins.drives.velocity_control import VelocityControl
+
+DRIVES: tuple[type[Drive], ...] = (
+    DiffDrive,
+    SkidSteer,
+    PlanarMove,
+    VelocityControl,
+    Ackermann,
+    AckermannSteering,
+    Tricycle,
+    MecanumDrive,
+    OdometryPublisher,
+)
+"""Every drive; a test walks this folder and fails if one is missing here."""

@@ -1,0 +1,200 @@
+"""Ackermann drive: gazebo_ros_ackermann_drive (ROS 2). The command's angular.z is the steering angle, not a rate.
+
+Source: gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ackermann_drive.cpp. Gazebo exerts an effort for one step
+after each update; here the same impulse is spread over the time until the next update.
+"""
+
+from __future__ import annotations
+
+from math import atan2, copysign, dist, hypot, tan
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.errors import SimulationError
+from urdfkit.messages import message_type
+from urdfkit.sim.plugins.base import Drive, Setup
+from urdfkit.sim.plugins.drives.gazebo_pid import Pid
+from urdfkit.sim.plugins.drives.odometry_output import from_world, odometer
+from urdfkit.sim.plugins.drives.steering_joints import put
+from urdfkit.sim.plugins.drives.velocity_command import Command
+from urdfkit.sim.plugins.drives.wheel_geometry import wheel_centre, wheel_radius
+from urdfkit.sim.plugins.drives.wheel_messages import Wheels
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.state.joint_commands import effort_limit
+from urdfkit.sim.state.mechanics import in_the_world
+from urdfkit.sim.state.ticks import Ticks
+
+if TYPE_CHECKING:
+    from urdfkit.sim.state.joint_commands import Motors
+    from urdfkit.sim.state.robot_state import State
+
+JOINTS = (
+    "front_right_joint",
+    "front_left_joint",
+    "rear_right_joint",
+    "rear_left_joint",
+    "right_steering_joint",
+    "left_steering_joint",
+)
+"""The joints it cannot do without, in the order it publishes them."""
+
+HAND_WHEEL = "steering_wheel_joint"
+"""The driver's wheel, which turns along where there is one."""
+
+
+class Ackermann(Drive):
+    """Two steered front wheels and two driven rear wheels, all by PID: linear.x [m/s] and the steering angle [rad].
+
+    Track, wheel base and wheel radius are those of the collisions. Driving backwards the wheels steer the other way.
+    """
+
+    kind = "ackermann"
+
+    def configure(self, setup: Setup) -> None:
+        """Read the parameters, advertise and subscribe.
+
+        Raises:
+            SimulationError: a parameter makes no sense, with its place.
+        """
+        read = Parameters(self.plugin, self.spec, setup.names)
+        topics = Topics(self.plugin, self.spec)
+        self._setup = setup
+        self._read_geometry(setup, read)
+        self._read_gains(setup, read)
+        self.write_rate = self.read_rate = read.number("update_rate")
+        self._ticks = Ticks(self.write_rate, setup.dt)
+        self._command = Command(setup, topics.resolve("cmd_vel"), self._aim)
+        self._aim()
+        self.commands = (self._command.topic,)
+        self._odometer = odometer(
+            setup,
+            read,
+            topics,
+            published=read.flag("publish_odometry"),
+            with_tf=read.flag("publish_odometry_tf"),
+            twist_covariance=True,
+        )
+        hand_wheel = (self._hand_wheel,) if self._hand_wheel else ()
+        self._wheels = Wheels(
+            setup,
+            (*self._joints.values(), *hand_wheel),
+            with_tf=read.flag("publish_wheel_tf"),
+            base=read.text("base_frame"),
+        )
+        self._distance_topic = self._angle_topic = None
+        if read.flag("publish_distance"):
+            self._distance_topic = setup.bus.advertise(topics.resolve("distance"), "std_msgs/msg/Float32")
+        if read.flag("publish_steer_angle"):
+            self._angle_topic = setup.bus.advertise(topics.resolve("steerangle"), "std_msgs/msg/Float32")
+        self._distance = 0.0
+        self._last: tuple[float, ...] | None = None
+
+    def _read_geometry(self, setup: Setup, read: Parameters) -> None:
+        """Find the joints, and measure the car."""
+        self._joints = {meaning: setup.joint(read.text(meaning), read.place(meaning)) for meaning in JOINTS}
+        self._hand_wheel = ""
+        if read.has(HAND_WHEEL):
+            self._hand_wheel = setup.joint(read.text(HAND_WHEEL), read.place(HAND_WHEEL))
+        elif HAND_WHEEL in setup.kinematics.joint_names:
+            self._hand_wheel = HAND_WHEEL
+        centres = {meaning: wheel_centre(setup.kinematics, joint) for meaning, joint in self._joints.items()}
+        front_left, front_right = centres["front_left_joint"], centres["front_right_joint"]
+        rear_left, rear_right = centres["rear_left_joint"], centres["rear_right_joint"]
+        self._track = dist(front_left, front_right)
+        front = [(left + right) / 2 for left, right in zip(front_left, front_right, strict=True)]
+        rear = [(left + right) / 2 for left, right in zip(rear_left, rear_right, strict=True)]
+        self._base = dist(front, rear)
+        if self._track <= 0 or self._base <= 0:
+            raise SimulationError(
+                f"the wheels are {self._track:g} m apart and the axles {self._base:g} m; both must be positive",
+                position=read.place("front_left_joint"),
+            )
+        self._radius = wheel_radius(setup.kinematics, self._joints["rear_right_joint"], read.place("rear_right_joint"))
+        self._fastest = read.number("max_speed", positive=True)
+        self._steepest = read.number("max_steer", positive=True)
+        self._ratio = self._steepest / read.number("max_steering_angle", positive=True)
+        written = setup.kinematics.robot.joint_by_name
+        self._strengths = {meaning: effort_limit(written[joint]) for meaning, joint in self._joints.items()}
+
+    def _read_gains(self, setup: Setup, read: Parameters) -> None:
+        def pid(meaning: str) -> Pid:
+            p, i, d = read.vector(f"{meaning}_gains", 3)
+            least, most = read.vector(f"{meaning}_range", 2)
+            made = Pid(p, i, d, least, most)
+            if made.idle:
+                tag = read.tag(f"{meaning}_gains")
+                what = "drive" if meaning == "speed" else f"steer with its {meaning.partition('_')[0]} wheel"
+                setup.note(f"{read.place(f'{meaning}_gains')}: <{tag}> is 0 0 0, so the robot does not {what}")
+            return made
+
+        self._pids = {meaning: pid(meaning) for meaning in ("speed", "right_steering", "left_steering")}
+
+    def write(self, state: State, motors: Motors) -> None:
+        """Exert efforts on steering and rear wheels."""
+        joints, pids, period = self._joints, self._pids, self._ticks.period
+        drive = pids["speed"].update(state.velocity(joints["rear_right_joint"]) - self._turning, period)
+        self._exert("rear_right_joint", drive, motors)
+        self._exert("rear_left_joint", drive, motors)
+        off = state.position(joints["right_steering_joint"]) - self._right
+        self._exert("right_steering_joint", pids["right_steering"].update(off, period), motors)
+        off = state.position(joints["left_steering_joint"]) - self._left
+        self._exert("left_steering_joint", pids["left_steering"].update(off, period), motors)
+        if self._hand_wheel:
+            put(
+                self._hand_wheel,
+                self._mean_angle(state) / self._ratio,
+                period,
+                setup=self._setup,
+                state=state,
+                motors=motors,
+            )
+
+    def _exert(self, meaning: str, effort: float, motors: Motors) -> None:
+        most = self._strengths[meaning]
+        motors.exert(self._joints[meaning], max(-most, min(most, effort)) / self._ticks.steps)
+
+    def _aim(self) -> None:
+        """Find how fast the wheels shall turn [rad/s], and where the steered ones shall point [rad]."""
+        wanted, angle = self._command.linear[0], self._command.angular[2]
+        self._turning = max(-self._fastest, min(self._fastest, wanted)) / self._radius
+        self._right, self._left = self.angles(copysign(1.0, wanted) * angle)
+
+    def angles(self, wanted: float) -> tuple[float, float]:
+        """Return the angles [rad] of the right and the left wheel at which both circle the same point."""
+        slope = tan(max(-self._steepest, min(self._steepest, wanted)))
+        skew = self._track / 2 / self._base * slope
+        return atan2(slope, 1 + skew), atan2(slope, 1 - skew)
+
+    def read(self, state: State) -> None:
+        """Publish odometry, the true pose in the world, wheel transforms, the distance so far, the steering angle."""
+        pose, twist = state.base_pose, state.base_twist
+        self._odometer.publish(state.t, lambda: from_world(pose, in_the_world(pose, twist)))
+        self._wheels.publish(state)
+        if self._distance_topic is not None:
+            here = pose[:2]
+            if self._last is not None:
+                self._distance += hypot(here[0] - self._last[0], here[1] - self._last[1])
+            self._last, distance = here, self._distance
+            self._distance_topic.offer(lambda: self._number(distance))
+        if self._angle_topic is not None:
+            angle = self._mean_angle(state)
+            self._angle_topic.offer(lambda: self._number(angle))
+
+    def _mean_angle(self, state: State) -> float:
+        return sum(state.position(self._joints[f"{side}_steering_joint"]) for side in ("left", "right")) / 2
+
+    def _number(self, value: float) -> Any:
+        return message_type("std_msgs/msg/Float32")(value)
+
+    def estimate(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
+        """Return where the robot is: this odometry knows."""
+        return {self._odometer.frame: (state.base_pose[:3], state.base_pose[3:])}
+
+    def reset(self) -> None:
+        """Forget commands, the integrals of errors and the distance."""
+        self._command.clear()
+        self._aim()
+        for pid in self._pids.values():
+            pid.reset()
+        self._distance = 0.0
+        self._last = None

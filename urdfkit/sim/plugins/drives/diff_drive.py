@@ -1,0 +1,247 @@
+"""Differential drive: gazebo_ros_diff_drive (ROS 1, ROS 2) and the new Gazebo's DiffDrive system.
+
+Sources: gazebo_ros_pkgs noetic-devel and ros2, gazebo_plugins/src/gazebo_ros_diff_drive.cpp; gz-sim main,
+src/systems/diff_drive/DiffDrive.cc. Until Lunar, ROS 1 had left and right swapped (``legacyMode``); that is emulated
+for those distributions only.
+"""
+
+from __future__ import annotations
+
+from copy import copy
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.errors import SimulationError
+from urdfkit.messages import BOOL
+from urdfkit.sim.plugins.base import Drive, Setup
+from urdfkit.sim.plugins.drives.odometry_output import Estimate, by_encoder, from_wheels, from_world, odometer
+from urdfkit.sim.plugins.drives.speed_limits import limiter
+from urdfkit.sim.plugins.drives.velocity_command import Command
+from urdfkit.sim.plugins.drives.wheel_geometry import turns_right
+from urdfkit.sim.plugins.drives.wheel_messages import Wheels
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.plugins.wheel_odometry import WheelOdometry
+
+if TYPE_CHECKING:
+    from urdfkit.description.plugins import PluginSpec
+    from urdfkit.description.urdf.robot import Plugin
+    from urdfkit.sim.state.joint_commands import Motors
+    from urdfkit.sim.state.robot_state import State
+
+CLOSE = 0.01
+"""Wheel speeds nearer to their target than this [m/s] are set directly, whatever the acceleration limit."""
+
+
+class DiffDrive(Drive):
+    """Two wheels (or pairs of them) turned at v ± w·separation/2.
+
+    A command holds until the next one. There is no correction for a wheel whose axis points the other way.
+    """
+
+    kind = "diff_drive"
+
+    def __init__(self, plugin: Plugin, spec: PluginSpec) -> None:
+        super().__init__(plugin, spec)
+        self._gz = spec.generation == "gz"
+        self._enabled = True
+
+    def configure(self, setup: Setup) -> None:
+        """Read the parameters, advertise and subscribe.
+
+        Raises:
+            SimulationError: a parameter makes no sense, with its place.
+        """
+        read = Parameters(self.plugin, self.spec, setup.names)
+        topics = self._topics(setup)
+        self._setup = setup
+        self._read_wheels(setup, read)
+        # The new Gazebo has no torque of its own: the joints' <limit effort> holds.
+        self._torque = None if self._gz else read.number("max_wheel_torque", unsigned=True)
+        self._acceleration = read.number("max_wheel_acceleration", unsigned=True)
+        self._instructed = [0.0] * (2 * len(self._pairs))
+        if self._gz:
+            self.read_rate = read.number("odometry_rate")
+            self._limiters = (limiter(read, "linear"), limiter(read, "angular"))
+        else:
+            self.write_rate = self.read_rate = read.number("update_rate")
+        self._period = max(setup.dt, 1 / self.write_rate if self.write_rate > 0 else 0.0)
+        self._listen(setup, read, topics)
+        self._announce(setup, read, topics)
+
+    def _topics(self, setup: Setup) -> Topics:
+        return Topics(self.plugin, self.spec, namespace=setup.model)
+
+    def _read_wheels(self, setup: Setup, read: Parameters) -> None:
+        """Find the joints, and separation and radius of each pair."""
+        left, right = read.texts("left_joint"), read.texts("right_joint")
+        pairs = int(read.number("wheel_pairs", len(left), positive=True)) if left and right else 0
+        if not pairs or len(left) != pairs or len(right) != pairs:
+            place = read.place("wheel_pairs" if read.has("wheel_pairs") else "left_joint")
+            wanted = f"{pairs} of each" if pairs else "as many of one as of the other, at least one"
+            raise SimulationError(
+                f"{len(left)} <{read.tag('left_joint')}> and {len(right)} <{read.tag('right_joint')}>; "
+                f"this drive needs {wanted}",
+                position=place,
+            )
+        names = {meaning: [setup.joint(n, read.place(meaning)) for n in texts]
+                 for meaning, texts in (("left_joint", left), ("right_joint", right))}  # fmt: skip
+        self._pairs = tuple(zip(names["left_joint"], names["right_joint"], strict=True))
+        self._swapped = self._legacy(setup, read)
+        separations = read.numbers("wheel_separation", positive=True)
+        if self._gz:
+            radii: tuple[float, ...] = read.numbers("wheel_radius", positive=True)
+        else:
+            radii = tuple(diameter / 2 for diameter in read.numbers("wheel_diameter", positive=True))
+        # The first value serves every pair in the new Gazebo; in ROS 2 what is missing takes the default.
+        rest = (separations[0], radii[0]) if self._gz else (0.34, 0.075)
+        self._separations = (separations + (rest[0],) * pairs)[:pairs]
+        self._radii = (radii + (rest[1],) * pairs)[:pairs]
+
+    def _legacy(self, setup: Setup, read: Parameters) -> bool:
+        """Whether left and right are swapped: always before Kinetic, and in Kinetic and Lunar unless told otherwise."""
+        if self.spec.generation != "ros1" or not setup.distro.before("melodic"):
+            if self.spec.generation == "ros1" and not setup.distro.name:
+                self._note_legacy(setup, read)
+            return False
+        text = read.text("legacy_mode").lower()
+        return setup.distro.before("kinetic") or text not in ("false", "0")
+
+    def _note_legacy(self, setup: Setup, read: Parameters) -> None:
+        """Tell the user about a model that seems to rely on swapped sides."""
+        place, remedy = read.place("legacy_mode"), "--ros-distro kinetic swaps them"
+        if read.text("legacy_mode").lower() in ("true", "1"):
+            setup.note(f"{place}: legacyMode (left and right swapped, until Lunar) is off: left is left; {remedy}")
+        elif not read.has("legacy_mode") and turns_right(setup.kinematics, *self._pairs[0]):
+            setup.note(
+                f"{place}: joint `{self._pairs[0][0]}` turns the robot as a right wheel does, as models from before "
+                f"Melodic were written (left and right swapped); {remedy}"
+            )
+
+    def _listen(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        self._command = Command(setup, topics.resolve(read.text("command_topic", "cmd_vel")), self._wake)
+        self.commands = (self._command.topic,)
+        if self._gz:
+            setup.bus.subscribe(f"/model/{setup.model}/enable", BOOL, self._enable)
+
+    def _announce(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        self._encoder = by_encoder(read)
+        published = self._gz or read.flag("publish_odometry")
+        # <publishOdomTF> is read since Kinetic; before, the message's transform always came with it.
+        with_tf = self._gz or read.flag("publish_odometry_tf")
+        if self.spec.generation == "ros1":
+            with_tf = published and (with_tf or setup.distro.before("kinetic"))
+        self._odometer = odometer(
+            setup,
+            read,
+            topics,
+            published=published,
+            with_tf=with_tf,
+            twist_covariance=self.spec.generation == "ros2",
+        )
+        self._odometry = WheelOdometry(self._separations[0], exact=self._gz)
+        self._last_read = 0.0
+        wheel_states = self.spec.generation == "ros1" and read.flag("publish_wheel_joint_state")
+        self._wheels = Wheels(
+            setup,
+            [joint for pair in self._pairs for joint in pair],
+            with_tf=not self._gz and read.flag("publish_wheel_tf"),
+            states=topics.resolve("joint_states") if wheel_states else None,
+        )
+
+    # Commands
+
+    def _wake(self) -> None:
+        self.resting = False
+
+    def _enable(self, message: Any) -> None:
+        self._enabled = bool(message.data)
+        if not self._enabled:
+            self._command.clear()
+        self.resting = False
+
+    # Before the step
+
+    def write(self, state: State, motors: Motors) -> None:
+        """Set the wheels' velocity motors."""
+        if not self._odometry.started:
+            self._measure(state)
+        v, w = self._command.linear[0], self._command.angular[2]
+        if self._gz:
+            if not self._enabled:
+                v = w = 0.0
+            linear, angular = self._limiters
+            granted = linear.limit(v, self._period), angular.limit(w, self._period)
+            self.resting = linear.settled(v) and angular.settled(w)
+            v, w = granted
+        else:
+            self.resting = self._acceleration == 0.0
+        for i, (pair, separation, radius) in enumerate(zip(self._pairs, self._separations, self._radii, strict=True)):
+            speeds = [v - w * separation / 2, v + w * separation / 2]
+            if self._swapped:
+                speeds.reverse()
+            if self._acceleration != 0.0:
+                self._accelerate(i, pair, radius, speeds, state)
+            for joint, speed in zip(pair, speeds, strict=True):
+                motors.drive(joint, speed / radius, self._torque)
+
+    def _accelerate(self, i: int, pair: tuple[str, str], radius: float, speeds: list[float], state: State) -> None:
+        """Replace wheel speeds [m/s] by what the acceleration limit grants, as gazebo_ros_diff_drive does.
+
+        ROS 1 jumps to the target as soon as one wheel is close to its own, ROS 2 when both are.
+        """
+        now = [state.velocity(joint) * radius for joint in pair]
+        near = [abs(speed - current) < CLOSE for speed, current in zip(speeds, now, strict=True)]
+        if any(near) if self.spec.generation == "ros1" else all(near):
+            return
+        most = self._acceleration * self._period
+        for side in (0, 1):
+            self._instructed[2 * i + side] += max(-most, min(most, speeds[side] - now[side]))
+            speeds[side] = self._instructed[2 * i + side]
+
+    # After the step
+
+    def read(self, state: State) -> None:
+        """Publish odometry, wheel transforms and wheel states."""
+        t = state.t
+        if self._encoder:
+            self._measure(state)
+        now = self._estimate(state, t - self._last_read)
+        self._last_read = t
+        self._odometer.publish(t, lambda: now)
+        self._wheels.publish(state)
+
+    def _measure(self, state: State) -> None:
+        """Bring the wheel odometry up to date. Only the first pair has encoders."""
+        self._odometry.update(*self._rolled(state))
+
+    def _rolled(self, state: State) -> tuple[float, float]:
+        (left, right), radius = self._pairs[0], self._radii[0]
+        if self._swapped:
+            left, right = right, left
+        return state.position(left) * radius, state.position(right) * radius
+
+    def _estimate(self, state: State, period: float) -> Estimate:
+        if self._encoder:
+            return from_wheels(self._odometry, period or self._setup.dt, signed=self._gz)
+        return from_world(state.base_pose, state.base_velocity)
+
+    def estimate(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
+        """Return where the drive believes the robot to be, whether or not it publishes that."""
+        if not self._encoder:
+            return {self._odometer.frame: (state.base_pose[:3], state.base_pose[3:])}
+        ahead = copy(self._odometry)
+        ahead.update(*self._rolled(state))
+        now = from_wheels(ahead, self._setup.dt, signed=True)
+        return {self._odometer.frame: (now.position, now.quaternion)}
+
+    def reset(self) -> None:
+        """Forget commands and odometry."""
+        self._command.clear()
+        self._enabled = True
+        self.resting = False
+        self._instructed = [0.0] * len(self._instructed)
+        self._odometry = WheelOdometry(self._separations[0], exact=self._gz)
+        self._last_read = 0.0
+        if self._gz:
+            for limited in self._limiters:
+                limited.reset()

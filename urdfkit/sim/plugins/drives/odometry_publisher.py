@@ -1,0 +1,111 @@
+"""Odometry publisher: the new Gazebo's OdometryPublisher, for robots whose drive has no odometry.
+
+Source: gz-sim main, src/systems/odometry_publisher/OdometryPublisher.cc. It differentiates poses over each step and
+takes the mean of ten; here velocities are those of the moment.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from urdfkit.errors import SimulationError
+from urdfkit.sim.plugins.base import Drive, Setup
+from urdfkit.sim.plugins.drives.odometry_output import Estimate, Odometer, from_world
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.state.quaternion import from_rpy, product, rotate
+
+if TYPE_CHECKING:
+    from urdfkit.sim.state.joint_commands import Motors
+    from urdfkit.sim.state.robot_state import State
+
+Vector = tuple[float, float, float]
+
+
+class OdometryPublisher(Drive):
+    """Publishes the true pose in the world, and the velocity in the robot's own axes, with noise on it if asked."""
+
+    kind = "odometry_publisher"
+    resting = True
+
+    def configure(self, setup: Setup) -> None:
+        """Read the parameters and advertise.
+
+        Raises:
+            SimulationError: a parameter makes no sense, with its place.
+        """
+        read = Parameters(self.plugin, self.spec, setup.names)
+        topics = Topics(self.plugin, self.spec)
+        self.read_rate = read.number("odometry_rate")
+        dimensions = read.text("dimensions")
+        if dimensions not in ("2", "3"):
+            raise SimulationError(
+                f"<{read.tag('dimensions')}> is `{dimensions}`; it must be 2 or 3", position=read.place("dimensions")
+            )
+        self._flat = dimensions == "2"
+        x, y, z = read.vector("xyz_offset", 3)
+        self._offset = (x, y, z)
+        roll, pitch, yaw = read.vector("rpy_offset", 3)
+        self._turn = from_rpy(roll, pitch, yaw)
+        self._noise = read.number("gaussian_noise", unsigned=True)
+        self._random = setup.random
+        frame, child = read.text("odometry_frame"), read.text("base_frame")
+        self._odometers = (
+            Odometer(
+                setup.bus,
+                topic=topics.resolve(read.text("odometry_topic")),
+                tf_topic=topics.resolve(read.text("tf_topic")),
+                frame=frame,
+                child=child,
+                covariance=None,
+            ),
+            Odometer(
+                setup.bus,
+                topic=topics.resolve(read.text("covariance_topic")),
+                tf_topic=None,
+                frame=frame,
+                child=child,
+                covariance=(self._noise**2,) * 6,
+                twist_covariance=True,
+            ),
+        )
+
+    def write(self, state: State, motors: Motors) -> None:
+        """Move nothing."""
+
+    def read(self, state: State) -> None:
+        """Publish."""
+        now = self._with_noise(self._estimate(state))
+        for odometer in self._odometers:
+            odometer.publish(state.t, lambda: now)
+
+    def _estimate(self, state: State) -> Estimate:
+        """Return pose and twist of the frame at the offset."""
+        pose, velocity = state.base_pose, state.base_velocity
+        arm, quaternion = rotate(pose[3:], self._offset), product(pose[3:], self._turn)
+        position = (pose[0] + arm[0], pose[1] + arm[1], pose[2] + arm[2])
+        (vx, vy, vz), (wx, wy, wz) = velocity[:3], velocity[3:]
+        linear = (vx + wy * arm[2] - wz * arm[1], vy + wz * arm[0] - wx * arm[2], vz + wx * arm[1] - wy * arm[0])
+        if self._flat:
+            now = from_world((*position, *quaternion), (*linear, wx, wy, wz))
+            return Estimate((position[0], position[1], 0.0), quaternion, now.linear, now.angular)
+        back = (-quaternion[0], -quaternion[1], -quaternion[2], quaternion[3])
+        return Estimate(position, quaternion, rotate(back, linear), rotate(back, (wx, wy, wz)))
+
+    def _with_noise(self, now: Estimate) -> Estimate:
+        if self._noise == 0.0:
+            return now
+        linear, angular = (self._shaken(part) for part in (now.linear, now.angular))
+        return Estimate(now.position, now.quaternion, linear, angular)
+
+    def _shaken(self, vector: Vector) -> Vector:
+        x, y, z = self._random.normal(0.0, self._noise, 3).tolist()
+        return vector[0] + x, vector[1] + y, vector[2] + z
+
+    def estimate(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
+        """Return where it says the robot is."""
+        now = self._estimate(state)
+        return {self._odometers[0].frame: (now.position, now.quaternion)}
+
+    def reset(self) -> None:
+        """Nothing is remembered."""

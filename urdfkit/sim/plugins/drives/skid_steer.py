@@ -1,0 +1,55 @@
+"""Skid steer: gazebo_ros_skid_steer_drive (ROS 1). ROS 2 and the new Gazebo use the differential drive with more pairs.
+
+Source: gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_skid_steer_drive.cpp.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from urdfkit.sim.plugins.drives.diff_drive import DiffDrive
+from urdfkit.sim.plugins.drives.odometry_output import odometer
+from urdfkit.sim.plugins.drives.wheel_messages import Wheels
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.plugins.wheel_odometry import WheelOdometry
+
+if TYPE_CHECKING:
+    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.plugins.parameters import Parameters
+
+
+class SkidSteer(DiffDrive):
+    """Two wheels on each side, turned at v ± w·separation/2; what they do to the robot is friction's to say.
+
+    Odometry is the true pose in the world, its message without height. Sides never were swapped.
+    """
+
+    kind = "skid_steer"
+
+    def _topics(self, setup: Setup) -> Topics:
+        # Unlike the differential drive, this one has no namespace where none is written.
+        return Topics(self.plugin, self.spec)
+
+    def _read_wheels(self, setup: Setup, read: Parameters) -> None:
+        def joint(meaning: str) -> str:
+            return setup.joint(read.text(meaning), read.place(meaning))
+
+        self._pairs = tuple((joint(f"left_{end}_joint"), joint(f"right_{end}_joint")) for end in ("front", "rear"))
+        self._separations = (read.number("wheel_separation", positive=True),) * 2
+        self._radii = (read.number("wheel_diameter", positive=True) / 2,) * 2
+        self._swapped = False
+
+    def _announce(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        self._encoder = False
+        self._odometer = odometer(
+            setup,
+            read,
+            topics,
+            published=True,
+            with_tf=read.flag("publish_odometry_tf"),
+            twist_covariance=True,
+            flat=True,
+        )
+        self._odometry = WheelOdometry(self._separations[0])
+        self._last_read = 0.0
+        self._wheels = Wheels(setup, (), with_tf=False)

@@ -1,0 +1,84 @@
+"""Velocity, acceleration and jerk limits.
+
+Those of the new Gazebo's drives (gz-math, SpeedLimiter.cc) and of ROS 2's diff_drive_controller (control_toolbox,
+rate_limiter.hpp).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from urdfkit.sim.plugins.parameters import Parameters
+
+
+@dataclass(slots=True)
+class SpeedLimiter:
+    """Limits a velocity and its derivatives. Applied in the order jerk, acceleration, velocity, as gz-math does.
+
+    Attributes:
+        velocity: lowest and highest [m/s] or [rad/s].
+        acceleration: lowest and highest [m/s²] or [rad/s²].
+        jerk: lowest and highest [m/s³] or [rad/s³].
+        last: the velocity granted last.
+        before: the one granted before that.
+        backward: lowest and highest acceleration while going backwards, where it differs.
+        jerk_when_slowing: limit the jerk of slowing down too.
+    """
+
+    velocity: tuple[float, float] = (-inf, inf)
+    acceleration: tuple[float, float] = (-inf, inf)
+    jerk: tuple[float, float] = (-inf, inf)
+    last: float = 0.0
+    before: float = 0.0
+    backward: tuple[float, float] | None = None
+    jerk_when_slowing: bool = True
+
+    def limit(self, wanted: float, dt: float) -> float:
+        """Return the velocity granted `dt` [s] after the last one."""
+        granted = wanted
+        change = (self.last - self.before) / dt
+        wish = (granted - self.last) / dt
+        if self.jerk_when_slowing or (wish - change) * wish > 0.0:
+            granted = self.last + (change + _clamp((wish - change) / dt, self.jerk) * dt) * dt
+        granted = self.last + _clamp((granted - self.last) / dt, self._accelerations()) * dt
+        granted = _clamp(granted, self.velocity)
+        if abs(granted - wanted) < 1e-12:
+            granted = wanted
+        self.before, self.last = self.last, granted
+        return granted
+
+    def _accelerations(self) -> tuple[float, float]:
+        if self.backward is None or self.last > 0.0:
+            return self.acceleration
+        return self.backward if self.last < 0.0 else (self.backward[0], self.acceleration[1])
+
+    def settled(self, wanted: float) -> bool:
+        """Whether going on wanting the same changes nothing any more."""
+        return self.last == self.before == _clamp(wanted, self.velocity)
+
+    def reset(self) -> None:
+        """Stand still."""
+        self.last = self.before = 0.0
+
+
+def _clamp(value: float, bounds: tuple[float, float]) -> float:
+    return max(bounds[0], min(bounds[1], value))
+
+
+def limiter(read: Parameters, which: str) -> SpeedLimiter:
+    """Read the limits of the ``linear`` or ``angular`` velocity: its own where they are written, else the common ones.
+
+    Raises:
+        SimulationError: one is no finite number.
+    """
+
+    def bound(end: str, quantity: str, unlimited: float) -> float:
+        return read.number(f"{end}_{which}_{quantity}", read.number(f"{end}_{quantity}", unlimited))
+
+    def bounds(quantity: str) -> tuple[float, float]:
+        return bound("min", quantity, -inf), bound("max", quantity, inf)
+
+    return SpeedLimiter(bounds("velocity"), bounds("acceleration"), bounds("jerk"))

@@ -1,0 +1,74 @@
+"""What drives publish about their wheels: transforms and joint states."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.messages import JOINT_STATE, TF, header, message_type, transform
+
+if TYPE_CHECKING:
+    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.state.robot_state import Snapshot, State
+
+
+class Wheels:
+    """Publishes where the wheels are and how they turn.
+
+    Args:
+        setup: the drive's.
+        joints: the wheels' joints, in the order they are published.
+        with_tf: publish the transform of each wheel in the link that carries it.
+        states: topic of their joint states; None to publish none.
+        measured: joint states have velocities and efforts, not only positions.
+        named_by_joint: the transform's child frame is the joint's name (gazebo_ros_tricycle_drive), not the link's.
+        base: the frame that all transforms are in and that is the root link's (gazebo_ros_ackermann_drive); that of the
+            link that carries the wheel when empty.
+    """
+
+    def __init__(
+        self,
+        setup: Setup,
+        joints: Sequence[str],
+        *,
+        with_tf: bool,
+        states: str | None = None,
+        measured: bool = False,
+        named_by_joint: bool = False,
+        base: str = "",
+    ) -> None:
+        self._base, self._root = base, setup.kinematics.root
+        self._robot = setup.kinematics.robot
+        self._joints = tuple(joints)
+        self._measured = measured
+        self._named_by_joint = named_by_joint
+        self._tf = setup.bus.advertise("/tf", TF) if with_tf else None
+        self._states = setup.bus.advertise(states, JOINT_STATE) if states else None
+
+    def publish(self, state: State) -> None:
+        """Offer transforms and joint states of this moment."""
+        t = state.t
+        if self._tf is not None:
+            moved = state.snapshot()
+            self._tf.offer(lambda: self._transforms(t, moved))
+        if self._states is not None:
+            columns = [[state.position(joint) for joint in self._joints]]
+            if self._measured:
+                columns.append([state.velocity(joint) for joint in self._joints])
+                columns.append([state.effort(joint) for joint in self._joints])
+            self._states.offer(lambda: self._message(t, columns))
+
+    def _transforms(self, t: float, moved: Snapshot) -> Any:
+        links = []
+        for name in self._joints:
+            joint = self._robot.joint_by_name[name]
+            position, quaternion = moved.placement(joint.child, self._root if self._base else joint.parent)
+            child = name if self._named_by_joint else joint.child or ""
+            links.append(transform(t, self._base or joint.parent or "", child, position, quaternion))
+        return message_type(TF)(links)
+
+    def _message(self, t: float, columns: list[list[float]]) -> Any:
+        import numpy as np
+
+        arrays = [np.array(column) for column in columns] + [np.zeros(0)] * (3 - len(columns))
+        return message_type(JOINT_STATE)(header(t, ""), list(self._joints), *arrays)

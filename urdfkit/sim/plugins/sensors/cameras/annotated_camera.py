@@ -1,0 +1,233 @@
+"""Cameras of the new Gazebo that tell things apart by their labels: segmentation and bounding boxes.
+
+A thing has the label that a label system (``gz-sim-label-system``) in its model, or in one of its visuals, gives it;
+what has none is background. One instance is what has the same label in one model.
+
+Sources: gz-sensors, SegmentationCameraSensor.cc and BoundingBoxCameraSensor.cc; gz-rendering,
+Ogre2SegmentationMaterialSwitcher.cc; ros_gz_bridge, convert/vision_msgs.cpp, which is how ROS hears of boxes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.messages import header, message_type
+from urdfkit.messages.vision import DETECTIONS_2D, DETECTIONS_3D
+from urdfkit.scene import Shape
+from urdfkit.sim.plugins.sensors.cameras.bounding_boxes import Box2D, Box3D, draw, full_box, space_box, visible_box
+from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Sight
+from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, image
+
+if TYPE_CHECKING:
+    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.plugins.parameters import Parameters
+    from urdfkit.sim.plugins.topic_names import Topics
+    from urdfkit.sim.world.scene_view import Layout
+
+Array = NDArray[np.float64]
+Numbers = NDArray[np.int64]
+
+SEMANTIC = ("semantic",)
+PANOPTIC = ("instance", "panoptic")
+
+VISIBLE = ("2d", "visible_2d", "visible_box_2d")
+"""Boxes round what is seen of a thing."""
+
+FULL = ("full_2d", "full_box_2d")
+"""Boxes round what is hidden, too."""
+
+SPACE = ("3d",)
+"""Boxes in space."""
+
+BOX_TYPES = (*VISIBLE, *FULL, *SPACE)
+
+LINE = (0, 255, 0)
+
+
+def owner(shape: Shape) -> tuple[str, int]:
+    """Return the model that a shape is of, and its label."""
+    return shape.body.partition("::")[0], shape.label
+
+
+def instances(sight: Sight) -> tuple[Numbers, Numbers]:
+    """Return label and number of the instance of every pixel, zero for background; shape (height, width) each.
+
+    Instances of a label are counted from 1, in the order in which they are in the scene.
+    """
+    known = np.array([*instances_of(sight.shapes), (0, 0)], dtype=np.int64)
+    return known[sight.picture.shapes, 0], known[sight.picture.shapes, 1]  # -1 is the last, background
+
+
+def instances_of(shapes: Sequence[Shape]) -> list[tuple[int, int]]:
+    """Return label and number of the instance of every shape, zeros for background."""
+    counts: dict[int, int] = {}
+    known: dict[tuple[str, int], int] = {}
+    found = []
+    for shape in shapes:
+        who = owner(shape)
+        if shape.label and who not in known:
+            known[who] = counts[shape.label] = counts.get(shape.label, 0) + 1
+        found.append((shape.label, known[who]) if shape.label else (0, 0))
+    return found
+
+
+def colors_of(numbers: Numbers) -> NDArray[np.uint8]:
+    """Return a colour for each number, the same for the same, black for zero; shape (…, 3)."""
+    mixed = numbers.astype(np.uint64) * np.uint64(0x9E3779B97F4A7C15)  # Knuth's multiplicative hash
+    found = np.stack([(mixed >> np.uint64(shift)) & np.uint64(255) for shift in (56, 40, 24)], axis=-1)
+    return np.where(numbers[..., None] > 0, np.maximum(found, 1), 0).astype(np.uint8)
+
+
+class GzSegmentationCamera(Camera):
+    """A segmentation camera: labels in a picture for programs, and one of colours for people."""
+
+    kind = "gz_segmentation_camera"
+
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        written = self.optics.element.find("segmentation_type")
+        kind = "semantic" if written is None or not written.text else written.text.lower()
+        if kind not in (*SEMANTIC, *PANOPTIC):
+            raise SimulationError(
+                f"<segmentation_type> is `{kind}`{did_you_mean(kind, (*SEMANTIC, *PANOPTIC))}; it must be "
+                + ", ".join((*SEMANTIC, *PANOPTIC)),
+                position=None if written is None else written.origin.position,
+            )
+        self._apart = kind in PANOPTIC
+        name, bus = topics.resolve(read.text("image_topic")), setup.bus
+        self.topics = (
+            bus.advertise(f"{name}/colored_map", IMAGE),
+            bus.advertise(f"{name}/labels_map", IMAGE),
+            bus.advertise(f"{name}/camera_info", CAMERA_INFO),
+        )
+
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the messages of the first of `topics`."""
+        return self._colored, self._labels
+
+    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+        """Return what makes the messages of the others."""
+        return (self.info,)
+
+    def _colored(self, sight: Sight) -> Any:
+        labels, numbers = instances(sight)
+        return image(sight.t, self.frame, colors_of(labels + 256 * numbers if self._apart else labels), "rgb8")
+
+    def _labels(self, sight: Sight) -> Any:
+        """Return the label three times, or the instance's low and high byte and the label.
+
+        Source: gz-rendering, Ogre2SegmentationMaterialSwitcher::ColorForVisual: red is the number of the instance
+        modulo 256, green that number divided by 256, blue the label; the first instance of a label has number 1.
+        """
+        labels, numbers = instances(sight)
+        planes = (numbers % 256, numbers // 256, labels) if self._apart else (labels, labels, labels)
+        return image(sight.t, self.frame, np.stack(planes, axis=-1).astype(np.uint8), "rgb8")
+
+
+@dataclass(frozen=True, eq=False)
+class Boxed:
+    """What a bounding-box camera saw.
+
+    Attributes:
+        sight: the picture.
+        boxes: of the things in it, by label and number of the instance.
+    """
+
+    sight: Sight
+    boxes: tuple[Box2D | Box3D, ...]
+
+
+class GzBoundingBoxCamera(Camera):
+    """A bounding-box camera: a box round each thing that is seen, and the picture with them drawn in."""
+
+    kind = "gz_bounding_box_camera"
+
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        written = self.optics.element.find("box_type")
+        self._type = "2d" if written is None or not written.text else written.text.strip().lower()
+        if self._type not in BOX_TYPES:
+            raise SimulationError(
+                f"boxes of type `{self._type}` are not made{did_you_mean(self._type, BOX_TYPES)}; there are "
+                + ", ".join(BOX_TYPES),
+                position=None if written is None else written.origin.position,
+            )
+        name, bus = topics.resolve(read.text("image_topic")), setup.bus
+        self.topics = (
+            bus.advertise(name, DETECTIONS_3D if self._type in SPACE else DETECTIONS_2D),
+            bus.advertise(f"{name}_image", IMAGE),
+            bus.advertise(f"{name.rpartition('/')[0]}/camera_info", CAMERA_INFO),
+        )
+
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the messages of the first of `topics`."""
+        return self._detections, self._drawn
+
+    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+        """Return what makes the messages of the others."""
+        return (self.info,)
+
+    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Boxed:
+        sight = super()._look(t, layout, frame, random)
+        table = self._surroundings.view(layout).table("visual", layout)
+        labels, numbers = instances(sight)
+        whole, known = labels + 256 * numbers, instances_of(sight.shapes)
+        boxes: list[Box2D | Box3D] = []
+        for one in np.unique(whole[whole > 0]).tolist():
+            label, shapes = one % 256, [k for k, each in enumerate(known) if each == (one % 256, one // 256)]
+            if self._type in VISIBLE:
+                boxes.append(visible_box(label, whole == one))
+            elif self._type in FULL:
+                boxes.append(full_box(label, table, shapes, sight.frame, self.optics.lens))
+            else:
+                boxes.append(space_box(label, table, shapes, sight.frame))
+        return Boxed(sight, tuple(boxes))
+
+    def _detections(self, boxed: Boxed) -> Any:
+        return detections(header(boxed.sight.t, self.frame), boxed.boxes, space=self._type in SPACE)
+
+    def _drawn(self, boxed: Boxed) -> Any:
+        picture = boxed.sight.picture.rgb.copy()
+        for box in boxed.boxes:
+            draw(picture, box, self.optics.lens, LINE)
+        return image(boxed.sight.t, self.frame, picture, "rgb8")
+
+
+def detections(head: Any, boxes: Sequence[Box2D | Box3D], *, space: bool) -> Any:
+    """Return the Detection2DArray, or the Detection3DArray, of boxes (ros_gz_bridge, convert/vision_msgs.cpp)."""
+    hypothesis, possible = (_type(name) for name in ("ObjectHypothesis", "ObjectHypothesisWithPose"))
+    array, detection = (_type(f"Detection{3 if space else 2}D{end}") for end in ("Array", ""))
+    found = []
+    for box in boxes:
+        results = [possible(hypothesis(str(box.label), 1.0), _nowhere())]
+        found.append(detection(head, results, _box_message(box), ""))
+    return array(head, found)
+
+
+def _box_message(box: Box2D | Box3D) -> Any:
+    if isinstance(box, Box2D):
+        middle = _type("Pose2D")(_type("Point2D")((box.left + box.right) / 2, (box.top + box.bottom) / 2), 0.0)
+        return _type("BoundingBox2D")(middle, float(box.right - box.left), float(box.bottom - box.top))
+    import pinocchio
+
+    point, turn, vector, pose = (
+        message_type(f"geometry_msgs/msg/{name}") for name in ("Point", "Quaternion", "Vector3", "Pose")
+    )
+    middle = pose(point(*box.centre.tolist()), turn(*pinocchio.Quaternion(box.axes).coeffs().tolist()))
+    return _type("BoundingBox3D")(middle, vector(*box.size.tolist()))
+
+
+def _type(name: str) -> Any:
+    return message_type(f"vision_msgs/msg/{name}")
+
+
+def _nowhere() -> Any:
+    pose = message_type("geometry_msgs/msg/Pose")(
+        message_type("geometry_msgs/msg/Point")(0.0, 0.0, 0.0),
+        message_type("geometry_msgs/msg/Quaternion")(0.0, 0.0, 0.0, 1.0),
+    )
+    return message_type("geometry_msgs/msg/PoseWithCovariance")(pose, np.zeros(36))

@@ -1,0 +1,193 @@
+"""Cameras: what they look through and with, and those of the new Gazebo that publish by themselves.
+
+The camera looks along the x axis of its link, as in Gazebo; the frame in the header is whatever the plugin is told, by
+custom an optical one. The principal point that Gazebo Classic tells is one pixel off the one it draws with, (W + 1)/2
+instead of (W - 1)/2; that is kept, as robots' drivers know it.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.scene import Shape
+from urdfkit.scene.camera_model import Distortion
+from urdfkit.scene.ray_images import Picture
+from urdfkit.sim.plugins.sensors.cameras.camera_optics import (
+    CAMERA_INFO,
+    IMAGE,
+    Optics,
+    camera_info,
+    cameras_of,
+    image,
+    optics_of,
+)
+from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
+from urdfkit.sim.plugins.sensors.ray_sensor import Mounted
+from urdfkit.sim.plugins.sensors.sensor_values import pose_of
+
+if TYPE_CHECKING:
+    from urdfkit.description.urdf.robot import SensorTag
+    from urdfkit.description.xml.element import Element
+    from urdfkit.scene.renderer import TakesPictures
+    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.plugins.parameters import Parameters
+    from urdfkit.sim.plugins.topic_names import Topics
+    from urdfkit.sim.world.scene_view import Layout
+
+Array = NDArray[np.float64]
+
+SEVERAL = ("multicamera", "stereo_camera")
+"""Types of sensors that have more than one camera."""
+
+MOST_LOST = 0.25
+"""A larger part of the picture that nothing gets to is remarked on; that of a fish-eye's corners is smaller."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sight:
+    """What a camera saw.
+
+    Attributes:
+        t: when [s].
+        picture: colours, depths and shapes.
+        shapes: what the picture's shapes are, in the order of its numbers.
+        frame: where the camera was; shape (4, 4).
+    """
+
+    t: float
+    picture: Picture
+    shapes: tuple[Shape, ...]
+    frame: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Eye:
+    """One of a sensor's cameras.
+
+    Attributes:
+        name: of the camera; empty where it has none.
+        pose: in the sensor; shape (4, 4).
+        optics: how it is built.
+        noise: on its pictures.
+        focal: length that camera_info tells [px].
+        cx: principal point that it tells [px].
+        cy: principal point that it tells [px].
+        baseline: to the left camera of a pair [m].
+    """
+
+    name: str
+    pose: Array
+    optics: Optics
+    noise: Noise
+    focal: float
+    cx: float
+    cy: float
+    baseline: float
+
+    def info(self, frame: str, t: float) -> Any:
+        """Return the CameraInfo, which nothing has to be looked at for."""
+        return camera_info(t, frame, self.optics.lens, focal=self.focal, cx=self.cx, cy=self.cy, baseline=self.baseline)
+
+    def look(self, t: float, view: TakesPictures, frame: Array, random: np.random.Generator, *, deep: bool) -> Sight:
+        """Return what is seen from where the sensor is; `deep` with depths and shapes."""
+        optics, placed = self.optics, frame @ self.pose
+        picture = view.take(optics.lens, placed, near=optics.near, far=optics.far, samples=optics.samples, deep=deep)
+        if self.noise:
+            noisy = self.noise.on(picture.rgb / 255.0, random)
+            picture = replace(picture, rgb=np.rint(255.0 * np.clip(noisy, 0.0, 1.0)).astype(np.uint8))
+        return Sight(t, picture, view.table.shapes, placed)
+
+
+class Camera(Mounted):
+    """A sensor of one or more cameras; what it publishes is its subclass's to say.
+
+    Attributes:
+        eyes: its cameras.
+        deep: whether it tells depths, or which shapes it sees.
+        sensor_frame: its own, which looks along x; `frame` may be an optical one.
+    """
+
+    namespace = "{model}"
+    deep = True
+
+    def _prepare(self, setup: Setup, sensor: SensorTag, read: Parameters, topics: Topics) -> None:
+        several = cameras_of(sensor)
+        if sensor_type(setup) not in SEVERAL:
+            several = several[:1]
+        self.eyes = [self._eye(each, setup, read) for each in several]
+        self.optics = self.eyes[0].optics
+        self.sensor_frame = self.frame
+        if (optical := self.optics.element.find("optical_frame_id")) is not None and optical.text:
+            self.frame = optical.text
+        self._advertise(setup, read, topics)
+
+    def _eye(self, camera: Element, setup: Setup, read: Parameters) -> Eye:
+        optics = optics_of(camera)
+        written = Distortion(*(read.number(meaning) for meaning in ("k1", "k2", "p1", "p2", "k3")))
+        if written and not optics.lens.distortion:
+            optics = replace(optics, lens=replace(optics.lens, distortion=written))
+        if (lost := optics.lens.lost) > MOST_LOST:
+            place = (camera.find("distortion") or camera).origin.position
+            setup.note(f"{place}: through this distortion nothing gets to {lost:.0%} of the picture, which stays empty")
+        lens, gz = optics.lens, self.spec.generation == "gz"
+        return Eye(
+            camera.get("name") or "",
+            pose_of(camera),
+            optics,
+            noise_of(camera, setup.random),
+            read.number("focal_length") or lens.focal_length,
+            read.number("cx") or (lens.width + (0 if gz else 1)) / 2,
+            read.number("cy") or (lens.height + (0 if gz else 1)) / 2,
+            read.number("baseline"),
+        )
+
+    @abstractmethod
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        """Read what is the plugin's own and fill `topics`."""
+
+    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
+        painter = self._surroundings.view(layout).painter(layout)
+        return self.eyes[0].look(t, painter, frame, random, deep=self.deep)
+
+    def _image(self, sight: Sight) -> Any:
+        return image(sight.t, self.frame, sight.picture.rgb, self.optics.encoding)
+
+    def info(self, t: float) -> Any:
+        """Return the CameraInfo of the first camera."""
+        return self.eyes[0].info(self.frame, t)
+
+    def topic_of(self, read: Parameters, topics: Topics, meaning: str, name: str, eye: str = "") -> str:
+        """Return a topic of a camera: below its name, under what is written for `meaning`, else as `name`."""
+        return topics.resolve(f"{read.text('camera')}/{eye}/{read.text(meaning, name)}".replace("//", "/").lstrip("/"))
+
+
+class GzCamera(Camera):
+    """A camera of the new Gazebo, which publishes by itself."""
+
+    kind = "gz_camera"
+    deep = False
+
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        picture = topics.resolve(read.text("image_topic"))
+        written = self.optics.element.find("camera_info_topic")
+        info = written.text if written is not None and written.text else f"{picture.rpartition('/')[0]}/camera_info"
+        self.topics = (setup.bus.advertise(picture, IMAGE), setup.bus.advertise(topics.resolve(info), CAMERA_INFO))
+
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the messages of the first of `topics`."""
+        return (self._image,)
+
+    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+        """Return what makes the messages of the others."""
+        return (self.info,)
+
+
+def sensor_type(setup: Setup) -> str:
+    """Return the type of the sensor that is being configured."""
+    return (setup.sensor.type or "").strip() if setup.sensor is not None else ""

@@ -1,0 +1,111 @@
+"""Depth cameras: gazebo_ros_openni_kinect and _depth_camera of ROS 1, depth and RGB-D cameras of the new Gazebo."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Sight
+from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, depth_image
+from urdfkit.sim.plugins.sensors.cameras.depth_points import points, within
+from urdfkit.sim.plugins.sensors.cloud_messages import POINT_CLOUD_2
+
+if TYPE_CHECKING:
+    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.plugins.parameters import Parameters
+    from urdfkit.sim.plugins.topic_names import Topics
+
+
+class DepthCamera(Camera):
+    """gazebo_ros_depth_camera of ROS 1: what is too near is NaN."""
+
+    kind = "depth_camera"
+
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        self._min_depth, self._max_depth = read.number("min_depth"), read.number("max_depth", np.inf)
+        self._millimetres = read.flag("millimetres")
+
+        def topic(meaning: str, type: str) -> Any:
+            return setup.bus.advertise(self.topic_of(read, topics, meaning, ""), type)
+
+        self.topics = (
+            topic("image_topic", IMAGE),
+            topic("depth_topic", IMAGE),
+            topic("cloud_topic", POINT_CLOUD_2),
+            topic("info_topic", CAMERA_INFO),
+            topic("depth_info_topic", CAMERA_INFO),
+        )
+
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the messages of the first of `topics`."""
+        return self._image, self._depth, self._points
+
+    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+        """Return what makes the messages of the others."""
+        return self.info, self.info
+
+    def _deep(self, sight: Sight) -> NDArray[np.float32]:
+        return within(sight.picture.depth, self._min_depth, self._max_depth)
+
+    def _depth(self, sight: Sight) -> Any:
+        return depth_image(sight.t, self.frame, self._deep(sight), millimetres=self._millimetres)
+
+    def _points(self, sight: Sight) -> Any:
+        return points(sight.t, self.frame, self.optics.lens, self._deep(sight), sight.picture.rgb)
+
+
+class OpenniKinect(DepthCamera):
+    """gazebo_ros_openni_kinect of ROS 1: what is too near or too far is NaN."""
+
+    kind = "openni_kinect"
+
+
+class GzDepthCamera(Camera):
+    """A depth camera of the new Gazebo: what is too far is +inf; its points are in the axes of the sensor."""
+
+    kind = "gz_depth_camera"
+
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        name, bus = topics.resolve(read.text("image_topic")), setup.bus
+        self.topics = (
+            bus.advertise(name, IMAGE),
+            bus.advertise(f"{name}/points", POINT_CLOUD_2),
+            bus.advertise(f"{name.rpartition('/')[0]}/camera_info", CAMERA_INFO),
+        )
+
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the messages of the first of `topics`."""
+        return self._depth, self._points
+
+    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+        """Return what makes the messages of the others."""
+        return (self.info,)
+
+    def _depth(self, sight: Sight) -> Any:
+        return depth_image(sight.t, self.frame, sight.picture.depth)
+
+    def _points(self, sight: Sight) -> Any:
+        picture = sight.picture
+        return points(sight.t, self.sensor_frame, self.optics.lens, picture.depth, picture.rgb, optical=False)
+
+
+class GzRgbdCamera(GzDepthCamera):
+    """An RGB-D camera of the new Gazebo: the same with pictures, all below its topic."""
+
+    kind = "gz_rgbd_camera"
+
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        name, bus = topics.resolve(read.text("image_topic")), setup.bus
+        self.topics = (
+            bus.advertise(f"{name}/image", IMAGE),
+            bus.advertise(f"{name}/depth_image", IMAGE),
+            bus.advertise(f"{name}/points", POINT_CLOUD_2),
+            bus.advertise(f"{name}/camera_info", CAMERA_INFO),
+        )
+
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the messages of the first of `topics`."""
+        return self._image, self._depth, self._points

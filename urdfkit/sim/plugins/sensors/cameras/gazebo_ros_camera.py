@@ -1,0 +1,77 @@
+"""gazebo_ros_camera: the plugin of one camera in ROS 1, and of every kind of camera in ROS 2."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.sim.plugins.sensors.cameras.camera import SEVERAL, Camera, Sight, sensor_type
+from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, depth_image
+from urdfkit.sim.plugins.sensors.cameras.depth_points import points, within
+from urdfkit.sim.plugins.sensors.cameras.multicamera import MultiCamera
+from urdfkit.sim.plugins.sensors.cloud_messages import POINT_CLOUD_2
+
+if TYPE_CHECKING:
+    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.plugins.parameters import Parameters
+    from urdfkit.sim.plugins.topic_names import Topics
+    from urdfkit.sim.world.scene_view import Layout
+
+Array = NDArray[np.float64]
+
+
+class RosCamera(MultiCamera):
+    """gazebo_ros_camera of ROS 1 and ROS 2.
+
+    In ROS 2 with depths and points on a sensor of type depth, and with all cameras on one of type multicamera.
+    What is too near is -inf, what is too far +inf in ROS 2's depths, and NaN in its points.
+    """
+
+    kind = "camera"
+
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        self._several = self.spec.generation == "ros2" and (sensor_type(setup) in SEVERAL)
+        if self._several:
+            super()._advertise(setup, read, topics)
+            return
+        self.deep = self.spec.generation == "ros2" and sensor_type(setup) == "depth"
+        self._min_depth, self._max_depth = read.number("min_depth", 0.4), read.number("max_depth", np.inf)
+
+        def topic(type: str, name: str, meaning: str = "") -> Any:
+            return setup.bus.advertise(self.topic_of(read, topics, meaning, name), type)
+
+        looked = [topic(IMAGE, "image_raw", "image_topic")]
+        plain = [topic(CAMERA_INFO, "camera_info", "info_topic")]
+        if self.deep:
+            looked += [topic(IMAGE, "depth/image_raw"), topic(POINT_CLOUD_2, "points")]
+            plain.append(topic(CAMERA_INFO, "depth/camera_info"))
+        self.topics = (*looked, *plain)
+
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the messages of the first of `topics`."""
+        if self._several:
+            return super().messages()
+        return (self._image, self._depth, self._points) if self.deep else (self._image,)
+
+    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+        """Return what makes the messages of the others."""
+        if self._several:
+            return super().remarks()
+        return (self.info, self.info) if self.deep else (self.info,)
+
+    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
+        look = super()._look if self._several else partial(Camera._look, self)
+        return look(t, layout, frame, random)
+
+    def _depth(self, sight: Sight) -> Any:
+        depth = sight.picture.depth
+        deep = np.where(depth >= self._max_depth, np.inf, np.where(depth <= self._min_depth, -np.inf, depth))
+        return depth_image(sight.t, self.frame, deep.astype(np.float32))
+
+    def _points(self, sight: Sight) -> Any:
+        deep = within(sight.picture.depth, self._min_depth, self._max_depth)
+        return points(sight.t, self.frame, self.optics.lens, deep, sight.picture.rgb)

@@ -1,0 +1,88 @@
+"""The new Gazebo's logical camera: the models whose origin is in a frustum, whatever stands between."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError
+from urdfkit.messages import header, message_type
+from urdfkit.messages.sensors import GZ_LOGICAL_IMAGE, GZ_LOGICAL_MODEL
+from urdfkit.scene.placement import pose_matrices
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.sensors.ray_sensor import Mounted
+from urdfkit.sim.plugins.sensors.sensor_values import number
+from urdfkit.sim.state.quaternion import from_matrix
+
+if TYPE_CHECKING:
+    from urdfkit.description.urdf.robot import SensorTag
+    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.plugins.topic_names import Topics
+    from urdfkit.sim.world.scene_view import Layout
+
+Array = NDArray[np.float64]
+Sight = tuple[float, Array, list[tuple[str, Array]]]
+"""When, where the camera is, shape (4, 4), and name and placement of each model in the world."""
+
+
+class GzLogicalCamera(Mounted):
+    """A logical camera: it looks along the x axis of its link."""
+
+    kind = "gz_logical_camera"
+
+    def _prepare(self, setup: Setup, sensor: SensorTag, read: Parameters, topics: Topics) -> None:
+        inside = sensor.element.find("logical_camera")
+        self._near, self._far = (
+            number(inside, tag, default, least=0.0) for tag, default in (("near", 0.0), ("far", 1.0))
+        )
+        if self._near >= self._far:
+            raise SimulationError(
+                f"a logical camera that sees from {self._near:g} m to {self._far:g} m sees nothing",
+                position=(inside or sensor.element).origin.position,
+            )
+        self._across = np.tan(number(inside, "horizontal_fov", 1.0, least=0.0) / 2)
+        self._aspect = number(inside, "aspect_ratio", 1.0, least=1e-9)
+        self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), GZ_LOGICAL_IMAGE),)
+
+    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Sight:
+        seen: list[tuple[str, Array]] = []
+        names = [model.name for model in layout.world.models]
+        for name in names:
+            pose = layout.bodies.get(name)
+            if pose is None:
+                pose = next((each for body, each in layout.bodies.items() if body.startswith(f"{name}::")), None)
+            if pose is not None:
+                seen.append((name, pose_matrices(np.array(pose))[0]))
+        for name, _, moment in layout.robots:
+            if name not in names and name != self._robot:
+                seen.append((name, pose_matrices(moment.link_poses()[0])[0]))
+        inside = [(name, placement) for name, placement in seen if self._holds(frame, placement[:3, 3])]
+        return t, frame, inside
+
+    def _holds(self, frame: Array, point: Array) -> bool:
+        """Whether a point of the world is in the frustum."""
+        x, y, z = frame[:3, :3].T @ (point - frame[:3, 3])
+        return bool(
+            self._near <= x <= self._far and abs(y) <= x * self._across and abs(z) <= x * self._across / self._aspect
+        )
+
+    def messages(self) -> tuple[Callable[[Sight], Any], ...]:
+        """Return what makes the message of each of `topics`."""
+        return (self._message,)
+
+    def _message(self, sight: Sight) -> Any:
+        t, frame, seen = sight
+        model = message_type(GZ_LOGICAL_MODEL)
+        models = [model(name, _pose(np.linalg.inv(frame) @ placement)) for name, placement in seen]
+        return message_type(GZ_LOGICAL_IMAGE)(header(t, self.frame), _pose(frame), models)
+
+
+def _pose(placement: Array) -> Any:
+    turn = from_matrix(placement[:3, :3])
+    return message_type("geometry_msgs/msg/Pose")(
+        message_type("geometry_msgs/msg/Point")(*placement[:3, 3].tolist()),
+        message_type("geometry_msgs/msg/Quaternion")(*turn.tolist()),
+    )

@@ -1,0 +1,81 @@
+"""Several cameras of one sensor, as stereo pairs are: gazebo_ros_multicamera of ROS 1, gazebo_ros_camera of ROS 2.
+
+All look at the same moment. The frame is one for all, as in Gazebo; in a pair, the projection matrix of the right one
+says how far to the right of the left one it is (``P[3] = -f · hackBaseline``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError
+from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Eye, Sight
+from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, image
+
+if TYPE_CHECKING:
+    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.plugins.parameters import Parameters
+    from urdfkit.sim.plugins.topic_names import Topics
+    from urdfkit.sim.world.scene_view import Layout
+
+Array = NDArray[np.float64]
+Looks = Callable[[int], Sight]
+"""Returns what a camera of the sensor saw, by its number; each looks only when it is asked."""
+
+
+class MultiCamera(Camera):
+    """Cameras called left and right, below ``CAMERA/left`` and ``CAMERA/right``; ROS 2 takes any names."""
+
+    kind = "multicamera"
+
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        named = [(side, eye) for eye in self.eyes if (side := self._side(eye))]
+        if not named:
+            element = self.optics.element
+            raise SimulationError(
+                "gazebo_ros_multicamera knows cameras by `left` and `right` in their names; here are "
+                + ", ".join(f"`{eye.name}`" for eye in self.eyes),
+                position=element.origin.position,
+            )
+        ros1 = self.spec.generation == "ros1"
+        self.eyes = [replace(eye, baseline=0.0) if ros1 and side == "left" else eye for side, eye in named]
+        bus = setup.bus
+
+        def topic(type: str, name: str, meaning: str) -> list[Any]:
+            return [bus.advertise(self.topic_of(read, topics, meaning, name, side), type) for side, _ in named]
+
+        images = topic(IMAGE, "image_raw", "image_topic")
+        self.topics = (*images, *topic(CAMERA_INFO, "camera_info", "info_topic"))
+
+    def _side(self, eye: Eye) -> str:
+        if self.spec.generation != "ros1":
+            return eye.name
+        return next((side for side in ("left", "right") if side in eye.name), "")
+
+    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Looks:
+        @cache
+        def look(number: int) -> Sight:
+            # Each draws its noise from a stream of its own: who else is listened to changes nothing.
+            own = np.random.Generator(random.bit_generator.jumped(number))  # type: ignore[attr-defined]
+            painter = self._surroundings.view(layout).painter(layout)
+            return self.eyes[number].look(t, painter, frame, own, deep=False)
+
+        return look
+
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the pictures."""
+        return tuple(partial(self._image_of, number) for number in range(len(self.eyes)))
+
+    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+        """Return what makes the camera_info of each."""
+        return tuple(partial(eye.info, self.frame) for eye in self.eyes)
+
+    def _image_of(self, number: int, looks: Looks) -> Any:
+        sight = looks(number)
+        return image(sight.t, self.frame, sight.picture.rgb, self.eyes[number].optics.encoding)

@@ -1,0 +1,235 @@
+"""Contact sensors: gazebo_ros_bumper of ROS 1 and ROS 2, and the new Gazebo's contact system.
+
+They tell what touches the collisions that are named in their ``<contact>``: where, along which normal (towards the
+sensor's side), how deep, and what pushes it there. Everything is in the world's axes, whatever ``frameName`` says, as
+in the plugin's source; torques are about the centre of mass of the link. While somebody listens, the simulation stops
+at every step, so that a touch between two messages is told in the later one, with the last of its steps.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError
+from urdfkit.messages import BOOL, header, message_type, vector
+from urdfkit.messages.sensors import CONTACT_STATE, CONTACTS_STATE, GZ_CONTACT, GZ_CONTACTS, GZ_JOINT_WRENCH
+from urdfkit.messages.simulation import ENTITY
+from urdfkit.sim.plugins.base import Sensor, Setup
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.sensors.contact.watched_contacts import Point, Seen, Touch, Watch
+from urdfkit.sim.plugins.sensors.link_sensor import carrier
+from urdfkit.sim.plugins.sensors.sensor_values import rate_of
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.state.ticks import NEVER
+
+if TYPE_CHECKING:
+    from urdfkit.description.xml.element import Element
+    from urdfkit.sim.state.robot_state import State
+    from urdfkit.sim.world.scene_view import Layout
+
+Array = NDArray[np.float64]
+
+
+class Contacts(Sensor):
+    """A contact sensor."""
+
+    def configure(self, setup: Setup) -> None:
+        """Find the collisions that are named, and advertise.
+
+        Raises:
+            SimulationError: there is none, or none of that name, with its place.
+        """
+        sensor = setup.sensor
+        if sensor is None or setup.surroundings is None:
+            raise SimulationError(
+                "a contact sensor stands in a <sensor> of a link, and in none here",
+                position=self.plugin.element.origin.position,
+            )
+        link = carrier(setup)
+        self.name = sensor.name or "sensor"
+        read = Parameters(self.plugin, self.spec, {**setup.names, "link": link, "sensor": self.name})
+        self.frame = read.text("frame").lstrip("/")
+        self.rate = rate_of(sensor.element, read)
+        self._surroundings = setup.surroundings
+        self._watch = Watch(setup, [(sensor.element, link)])
+        self._seen: Seen = {}
+        self._advertise(setup, sensor.element, read)
+
+    @abstractmethod
+    def _advertise(self, setup: Setup, element: Element, read: Parameters) -> None:
+        """Fill `topics`."""
+
+    def next_stop(self, step: int) -> int:
+        """Return the next step while somebody listens."""
+        return NEVER if super().next_stop(step) == NEVER else step + 1
+
+    def catch_up(self, state: State) -> None:
+        """Take note of what touches, and measure what has fallen due."""
+        self._seen.update(self._watch.look(state))
+        super().catch_up(state)
+
+    def reset(self) -> None:
+        """Start again at step 0."""
+        super().reset()
+        self._seen = {}
+
+    def measure(self, state: State, count: int) -> None:
+        """Publish."""
+        seen, self._seen = self._seen, {}
+        self._offer(state.t, seen, self._surroundings.layout(), count)
+
+    @abstractmethod
+    def _offer(self, t: float, seen: Seen, layout: Layout, count: int) -> None:
+        """Publish what was seen."""
+
+
+class Bumper(Contacts):
+    """gazebo_ros_bumper of ROS 1 and ROS 2: a ContactsState, empty where nothing touches."""
+
+    kind = "bumper"
+
+    def _advertise(self, setup: Setup, element: Element, read: Parameters) -> None:
+        topics = Topics(self.plugin, self.spec)
+        self.topics = (setup.bus.advertise(topics.resolve(read.text("topic") or "bumper_states"), CONTACTS_STATE),)
+
+    def _offer(self, t: float, seen: Seen, layout: Layout, count: int) -> None:
+        self.topics[0].offer(partial(self._message, t, seen, layout), count=count)
+
+    def _message(self, t: float, seen: Seen, layout: Layout) -> Any:
+        touches = self._watch.touches(seen, layout)
+        states = [_state(touch, k, len(touches), t) for k, touch in enumerate(touches)]
+        return message_type(CONTACTS_STATE)(header(t, self.frame), states)
+
+
+class GzContact(Contacts):
+    """A contact sensor of the new Gazebo: Contacts whenever something touches, and nothing else."""
+
+    kind = "gz_contact"
+
+    def _advertise(self, setup: Setup, element: Element, read: Parameters) -> None:
+        self.rate = 0.0  # systems/contact/Contact.cc looks at no rate
+        contact = element.find("contact")
+        written = None if contact is None else contact.find("topic")
+        name = (written.text if written is not None else "") or read.text("topic")
+        self.topics = (setup.bus.advertise(Topics(self.plugin, self.spec).resolve(name), GZ_CONTACTS),)
+
+    def _offer(self, t: float, seen: Seen, layout: Layout, count: int) -> None:
+        if touches := self._watch.touches(seen, layout):
+            self.topics[0].offer(partial(self._message, t, touches))
+
+    def _message(self, t: float, touches: list[Touch]) -> Any:
+        def vectors(name: str, touch: Touch) -> list[Any]:
+            return [vector(getattr(point, name).tolist()) for point in touch.points]
+
+        contacts = [
+            message_type(GZ_CONTACT)(
+                _entity(touch.mine), _entity(touch.other), vectors("position", touch), vectors("normal", touch),
+                np.array([point.depth for point in touch.points]), [_joint_wrench(touch, p, t) for p in touch.points],
+            )
+            for touch in touches
+        ]  # fmt: skip
+        return message_type(GZ_CONTACTS)(header(t, ""), contacts)
+
+
+def _wrench(force: Array, torque: Array) -> Any:
+    return message_type("geometry_msgs/msg/Wrench")(vector(force.tolist()), vector(torque.tolist()))
+
+
+def _state(touch: Touch, number: int, of: int, t: float) -> Any:
+    """Return a ContactState (gazebo_ros_bumper.cpp)."""
+    forces = [point.force for point in touch.points]
+    torques = [np.cross(point.arm, point.force) for point in touch.points]
+    info = f"Debug:  i:({number}/{of})     my geom:{touch.mine}   other geom:{touch.other}         time:{t:.9f}\n"
+    return message_type(CONTACT_STATE)(
+        info, touch.mine, touch.other,
+        [_wrench(force, torque) for force, torque in zip(forces, torques, strict=True)],
+        _wrench(np.sum(forces, axis=0), np.sum(torques, axis=0)),
+        [vector(point.position.tolist()) for point in touch.points],
+        [vector(point.normal.tolist()) for point in touch.points],
+        np.array([point.depth for point in touch.points]),
+    )  # fmt: skip
+
+
+def _entity(name: str) -> Any:
+    """Return an Entity that is a collision; it has no number here."""
+    return message_type(ENTITY)(0, name, 5)
+
+
+def _joint_wrench(touch: Touch, point: Point, t: float) -> Any:
+    text, number = message_type("std_msgs/msg/String"), message_type("std_msgs/msg/UInt32")
+    return message_type(GZ_JOINT_WRENCH)(
+        header(t, ""), text(touch.mine), number(0), text(touch.other), number(0),
+        _wrench(point.force, np.cross(point.arm, point.force)), _wrench(-point.force, np.zeros(3)),
+    )  # fmt: skip
+
+
+class GzTouch(Sensor):
+    """The new Gazebo's TouchPlugin: true once what the model's contact sensors watch has touched a target for a time.
+
+    Afterwards it is silent until it is enabled again on ``NAMESPACE/enable``.
+    """
+
+    kind = "gz_touch"
+
+    def configure(self, setup: Setup) -> None:
+        """Read target, time and namespace, and advertise.
+
+        Raises:
+            SimulationError: one of them is missing, or the model has no contact sensor, with the place.
+        """
+        read = Parameters(self.plugin, self.spec, setup.names)
+        for meaning in ("target", "namespace", "time"):
+            if not read.text(meaning):
+                raise SimulationError(
+                    f"the touch plugin lacks its <{read.tag(meaning)}>", position=self.plugin.element.origin.position
+                )
+        assert setup.surroundings is not None
+        sensors = [
+            (sensor.element, block.reference or "")
+            for block in setup.kinematics.robot.gazebo
+            for sensor in block.sensors
+            if sensor.type == "contact"
+        ]
+        if not sensors:
+            raise SimulationError(
+                "the touch plugin needs a <sensor> of type contact in its model",
+                position=self.plugin.element.origin.position,
+            )
+        self.name = self.plugin.name or "touch"
+        self._target, self._time = read.text("target"), read.number("time", unsigned=True)
+        self._starts_enabled = self._enabled = read.flag("enabled")
+        self._since: float | None = None
+        self._surroundings, self._watch = setup.surroundings, Watch(setup, sensors)
+        namespace = read.text("namespace")
+        self.topics = (setup.bus.advertise(f"{namespace}/touched", BOOL),)
+        setup.bus.subscribe(f"{namespace}/enable", BOOL, self._enable)
+
+    def _enable(self, message: Any) -> None:
+        self._enabled, self._since = bool(message.data), None
+
+    def reset(self) -> None:
+        """Start again at step 0."""
+        super().reset()
+        self._enabled, self._since = self._starts_enabled, None
+
+    def next_stop(self, step: int) -> int:
+        """Return the next step while somebody waits for it."""
+        return super().next_stop(step) if self._enabled else NEVER
+
+    def measure(self, state: State, count: int) -> None:
+        """Publish, once, when it has touched for long enough."""
+        if not self._enabled:
+            return
+        touches = self._watch.touches(self._watch.look(state), self._surroundings.layout())
+        if not any(self._target in name for touch in touches for name in (touch.mine, touch.other)):
+            self._since = None
+        elif self._since is None:
+            self._since = state.t
+        elif state.t - self._since > self._time:
+            self._enabled = False
+            self.topics[0].publish(message_type(BOOL)(True))

@@ -1,0 +1,256 @@
+"""Force and torque at a joint: gazebo_ros_ft_sensor of ROS 1 and ROS 2, and the new Gazebo's force_torque sensors.
+
+The wrench is the mean over the step that ended with the measurement, so the simulation stops one step before as well; a
+message that nobody waited for has the mean since the simulation last stopped. It is about the joint's origin (the
+sensor's, in the new Gazebo), along the axes of the child link unless said otherwise.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.messages import header, message_type, vector
+from urdfkit.sim.plugins.base import Sensor, Setup
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.sensors.contact.joint_load import Wrench, below, lumps_of, momentum, weight
+from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
+from urdfkit.sim.plugins.sensors.point_motion import Moment
+from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.state.ticks import NEVER
+
+if TYPE_CHECKING:
+    from urdfkit.description.xml.element import Element
+    from urdfkit.sim.engine import Contact
+    from urdfkit.sim.state.robot_state import State
+
+WRENCH = "geometry_msgs/msg/WrenchStamped"
+
+Array = NDArray[np.float64]
+
+FRAMES = ("parent", "child", "sensor")
+DIRECTIONS = ("child_to_parent", "parent_to_child")
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """What is known of the last step.
+
+    Attributes:
+        now: its end.
+        before: when the simulation stopped last before that.
+        contacts: what touched in it.
+        pushes: force, torque and point of attack, in the world, of what pushes the links.
+    """
+
+    now: Moment
+    before: Moment | None
+    contacts: tuple[Contact, ...]
+    pushes: tuple[tuple[Array, Array, Array], ...]
+
+
+class ForceTorque(Sensor):
+    """A sensor of what a joint carries.
+
+    Attributes:
+        frame: whose coordinates it tells.
+    """
+
+    frame: str = ""
+    _noises: tuple[Noise, ...]
+    _sign = -1.0
+    """-1 for what the child does to the parent, 1 for the other way round."""
+    _mount: Array
+    """The sensor in the child link: about whose origin it tells; shape (4, 4)."""
+
+    def configure(self, setup: Setup) -> None:
+        """Find the joint, and advertise.
+
+        Raises:
+            SimulationError: there is none, or something else makes no sense, with its place.
+        """
+        if setup.surroundings is None:
+            raise SimulationError("nothing is around", position=self.plugin.element.origin.position)
+        self.name = (setup.sensor.name if setup.sensor is not None else self.plugin.name) or "sensor"
+        self._kinematics = setup.kinematics
+        self._gravity = np.array(setup.surroundings.world.gravity)
+        self._prefix = f"{setup.model}::" if setup.namespace else ""
+        self._model, self._surroundings = setup.model, setup.surroundings
+        self._key = int(setup.random.integers(1 << 62))
+        self._before: Moment | None = None
+        self._mount = np.eye(4)
+        self._prepare(setup)
+        self._links = below(setup.kinematics.robot, self._child)
+        self._lumps = lumps_of(setup.kinematics.robot, self._links)
+
+    @abstractmethod
+    def _prepare(self, setup: Setup) -> None:
+        """Read joint, rate, frame, direction and noise, and fill `topics`."""
+
+    def _read_joint(self, setup: Setup, name: str, place: Any) -> None:
+        """Take note of the joint.
+
+        Raises:
+            SimulationError: there is none of that name.
+        """
+        robot = setup.kinematics.robot
+        joint = robot.joint_by_name.get(name)
+        if joint is None or joint.parent is None or joint.child is None:
+            raise SimulationError(
+                f"no joint `{name}` in robot `{robot.name}`{did_you_mean(name, robot.joint_by_name)}", position=place
+            )
+        self._parent, self._child = joint.parent, joint.child
+
+    def next_stop(self, step: int) -> int:
+        """Return the step at which the simulation has to stop for it: where it is due, and one before."""
+        due = super().next_stop(step)
+        return due if due == NEVER or due - 1 <= step else due - 1
+
+    def look_due(self, step: int) -> int:
+        """Return the first step from `step` on after which it wants to look: where it is due, and one before."""
+        return max(step, self.due - 1)
+
+    def catch_up(self, state: State) -> None:
+        """Measure what has fallen due, and remember this moment for the next."""
+        super().catch_up(state)
+        self._before = Moment(self._kinematics, state)
+
+    def reset(self) -> None:
+        """Start again at step 0."""
+        super().reset()
+        self._before = None
+
+    def measure(self, state: State, count: int) -> None:
+        """Publish."""
+        now = Moment(self._kinematics, state)
+        pushes = self._surroundings.pushes_on(self._model, self._links)
+        step = Step(now, self._before, state.contacts, pushes)
+        self.topics[0].offer(partial(self._message, step, self.done), count=count)
+
+    def _message(self, step: Step, turn: int) -> Any:
+        random = np.random.Generator(np.random.Philox(key=[self._key, turn]))
+        force, torque = self._measured(step)
+        found = [
+            float(noise.on(np.array(value), random))
+            for noise, value in zip(self._noises, (*force, *torque), strict=True)
+        ]
+        wrench = message_type("geometry_msgs/msg/Wrench")(vector(found[:3]), vector(found[3:]))
+        return message_type(WRENCH)(header(step.now.t, self.frame), wrench)
+
+    @abstractmethod
+    def _axes(self, now: Moment) -> Array:
+        """Return the axes it tells along, in the world; shape (3, 3)."""
+
+    def _measured(self, step: Step) -> Wrench:
+        """Return what it tells, without noise."""
+        import pinocchio as pin
+
+        here = step.now.motion(self._child, self._mount)
+        # Half a step ago, where the engine's velocities change.
+        half = 0.5 * (step.now.t - step.before.t) if step.before and step.now.step - step.before.step == 1 else 0.0
+        force, torque = self._carried(step, here.position - half * here.linear)
+        R = pin.exp3(-half * here.angular) @ self._axes(step.now)
+        return self._sign * (R.T @ force), self._sign * (R.T @ torque)
+
+    def _carried(self, step: Step, about: Array) -> Wrench:
+        """Return what the joint does to the child, about a point."""
+        now = [step.now.motion(each.link, each.frame) for each in self._lumps]
+        old, dt = now, 1.0
+        if step.before is not None and step.before.step < step.now.step:
+            old = [step.before.motion(each.link, each.frame) for each in self._lumps]
+            dt = step.now.t - step.before.t
+        gained = [(b - a) / dt for a, b in zip(*(momentum(self._lumps, m, about) for m in (old, now)), strict=True)]
+        weights = [weight(self._lumps, motions, self._gravity, about) for motions in (old, now)]
+        force, torque = (0.5 * (a + b) for a, b in zip(*weights, strict=True))
+        for contact in step.contacts:
+            for side, sign in ((contact.a, 1.0), (contact.b, -1.0)):
+                if side.startswith(self._prefix) and side.removeprefix(self._prefix) in self._links:
+                    f = sign * np.array(contact.force)
+                    force += f
+                    torque += np.cross(np.array(contact.position) - about, f)
+        for f, t, at in step.pushes:
+            force += f
+            torque += t + np.cross(at - about, f)
+        return gained[0] - force, gained[1] - torque
+
+
+class JointForceTorque(ForceTorque):
+    """gazebo_ros_ft_sensor of ROS 1 and ROS 2: what the child does to the parent, along the child's axes."""
+
+    kind = "force_torque"
+
+    def _prepare(self, setup: Setup) -> None:
+        read = Parameters(self.plugin, self.spec, setup.names)
+        place = self.plugin.element.origin.position
+        if self.plugin.element.find("body_name") is not None and self.spec.generation == "ros2":
+            raise SimulationError(
+                "gazebo_ros_ft_sensor on a link (<body_name>) is not simulated: name a joint in <joint_name>",
+                position=read.place("body"),
+            )
+        if not read.text("joint"):
+            raise SimulationError(f"gazebo_ros_ft_sensor lacks its <{read.tag('joint')}>", position=place)
+        if self.spec.generation == "ros1" and not read.text("topic"):
+            raise SimulationError("gazebo_ros_ft_sensor lacks its <topicName>", position=place)
+        self._read_joint(setup, read.text("joint"), read.place("joint"))
+        self.rate = rate_of(None, read)
+        self.frame = self._child
+        self._noises = (Noise(deviation=read.number("gaussian_noise", unsigned=True)),) * 6
+        name = Topics(self.plugin, self.spec).resolve(read.text("topic") or "wrench")
+        self.topics = (setup.bus.advertise(name, WRENCH),)
+
+    def _axes(self, now: Moment) -> Array:
+        return now.motion(self._child, self._mount).rotation
+
+
+class GzForceTorque(ForceTorque):
+    """A force_torque sensor of the new Gazebo, in the ``<gazebo reference=…>`` of a joint."""
+
+    kind = "gz_force_torque"
+
+    def _prepare(self, setup: Setup) -> None:
+        sensor = setup.sensor
+        assert sensor is not None
+        place = sensor.element.origin.position
+        if setup.link in setup.kinematics.link_names or not setup.link:
+            here = f"`{setup.link}` is a link" if setup.link else "here is no reference"
+            raise SimulationError(
+                f"a force_torque sensor stands in <gazebo reference=…> of a joint; {here}", position=place
+            )
+        self._read_joint(setup, setup.link, place)
+        self._mount = pose_of(sensor.element)
+        read = Parameters(self.plugin, self.spec, {**setup.names, "joint": setup.link, "sensor": self.name})
+        self.rate = rate_of(sensor.element, read)
+        inside = sensor.element.find("force_torque")
+        self._axes_of = self._choice(inside, "frame", FRAMES, "child")
+        self._sign = (
+            -1.0 if self._choice(inside, "measure_direction", DIRECTIONS, DIRECTIONS[0]) == DIRECTIONS[0] else 1.0
+        )
+        kinds = [None if inside is None else inside.find(tag) for tag in ("force", "torque")]
+        self._noises = tuple(
+            noise_of(None if kind is None else kind.find(axis), setup.random) for kind in kinds for axis in "xyz"
+        )
+        self.frame = (read.text("frame") or read.text("old_frame") or read.text("default_frame")).lstrip("/")
+        self.topics = (setup.bus.advertise(Topics(self.plugin, self.spec).resolve(read.text("topic")), WRENCH),)
+
+    @staticmethod
+    def _choice(inside: Element | None, tag: str, known: tuple[str, ...], default: str) -> str:
+        child: Element | None = None if inside is None else inside.find(tag)
+        text = "" if child is None else child.text
+        if child is not None and text and text not in known:
+            raise SimulationError(
+                f"<{tag}> is `{text}`{did_you_mean(text, known)}; it must be {', '.join(known)}",
+                position=child.origin.position,
+            )
+        return text or default
+
+    def _axes(self, now: Moment) -> Array:
+        if self._axes_of == "parent":
+            return now.motion(self._parent, np.eye(4)).rotation
+        return now.motion(self._child, self._mount if self._axes_of == "sensor" else np.eye(4)).rotation

@@ -1,0 +1,106 @@
+"""How the sensors of hector_gazebo_plugins err: an offset, a drift and noise.
+
+The drift is a first-order Gauss-Markov process whose standard deviation is ``drift`` and whose time constant is the
+inverse of ``driftFrequency`` (hector_gazebo_plugins, sensor_model.h, which says so but multiplies its noise by the time
+step, so that its drift is smaller the oftener it measures).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError
+from urdfkit.sim.plugins.parameters import Parameters
+
+Array = NDArray[np.float64]
+
+DRIFT_FREQUENCY = 1.0 / 3600.0
+"""Where nothing is written [Hz]."""
+
+
+class Drifting:
+    """The error of one quantity.
+
+    Args:
+        offset: [unit of the quantity]; shape (n,).
+        drift: standard deviation of the drift; shape (n,).
+        frequency: inverse of its time constant [Hz]; shape (n,).
+        noise: standard deviation of the noise; shape (n,).
+        period: from one reading to the next [s].
+        key: of its random numbers.
+    """
+
+    def __init__(self, offset: Array, drift: Array, frequency: Array, noise: Array, *, period: float, key: int) -> None:
+        self.offset, self.drift, self.noise = offset, drift, noise
+        self._keep = np.exp(-frequency * period)
+        self._gain = drift * np.sqrt(1.0 - self._keep**2)
+        self._key = key
+        self._restart()
+
+    def _restart(self) -> None:
+        self._turn, self._drifted = 0, np.zeros(len(self.offset))
+        self._random = np.random.Generator(np.random.Philox(key=[self._key, 0]))
+
+    @property
+    def variance(self) -> Array:
+        """Of noise and drift together; shape (n,)."""
+        found: Array = self.noise**2 + self.drift**2
+        return found
+
+    def at(self, turn: int) -> Array:
+        """Return the error of a reading by its number, the same whichever were asked for before; shape (n,)."""
+        if turn < self._turn:
+            self._restart()
+        if self.drift.any():
+            steps = self._random.standard_normal((turn - self._turn, len(self.offset)))
+            for step in steps:
+                self._drifted = self._keep * self._drifted + self._gain * step
+        self._turn = turn
+        noise = np.random.Generator(np.random.Philox(key=[self._key, turn + 1])).standard_normal(len(self.offset))
+        found: Array = self.offset + self._drifted + self.noise * noise
+        return found
+
+
+def drifting(
+    read: Parameters, prefix: str, size: int, *, rate: float, dt: float, random: np.random.Generator
+) -> Drifting:
+    """Return the error model that a plugin's parameters describe.
+
+    Args:
+        read: the parameters, ``offset``, ``drift``, ``drift_frequency`` and ``gaussian_noise`` among them.
+        prefix: goes before these, e.g. ``accel_``.
+        size: how many numbers the quantity has.
+        rate: of the sensor [Hz]; zero for every step.
+        dt: the simulation's step [s].
+        random: draws the key.
+
+    Raises:
+        SimulationError: one of them makes no sense, with its place.
+    """
+
+    def vector(meaning: str, default: float, *, least: float | None = None) -> Array:
+        text = read.text(prefix + meaning)
+        if not text:
+            return np.full(size, default)
+        # gazebo::math::Vector3 reads one number as x, y and z alike.
+        found = (
+            np.full(size, read.number(prefix + meaning))
+            if len(text.split()) == 1
+            else np.array(read.vector(prefix + meaning, size))
+        )
+        if least is not None and (found < least).any():
+            raise SimulationError(
+                f"<{read.tag(prefix + meaning)}> is `{text}`; it must be {least:g} or greater",
+                position=read.place(prefix + meaning),
+            )
+        return found
+
+    return Drifting(
+        vector("offset", 0.0),
+        vector("drift", 0.0, least=0.0),
+        vector("drift_frequency", DRIFT_FREQUENCY, least=0.0),
+        vector("gaussian_noise", 0.0, least=0.0),
+        period=max(dt, 1.0 / rate) if rate > 0 else dt,
+        key=int(random.integers(1 << 62)),
+    )

@@ -1,0 +1,169 @@
+"""What sensors of motion and place share: they ride on a link, and tell what it feels, one reading at a time."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.sim.plugins.base import Sensor, Setup
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.sensors.point_motion import Moment, Motion
+from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.state.ticks import NEVER
+
+if TYPE_CHECKING:
+    from urdfkit.description.xml.element import Element
+    from urdfkit.sim.state.robot_state import State
+    from urdfkit.sim.world.scene_view import Surroundings
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Ride:
+    """What a sensor goes by at one moment.
+
+    Attributes:
+        t: when [s].
+        turn: number of the publication.
+        motion: of the sensor.
+        acceleration: of its origin in the last step, along the world's axes [m/s²]; shape (3,).
+        random: for its noise; depends on the seed and the number of the publication alone.
+    """
+
+    t: float
+    turn: int
+    motion: Motion
+    acceleration: Array
+    random: np.random.Generator
+
+
+class Carried(Sensor):
+    """A sensor that rides on a link; one reading makes the messages of all its topics.
+
+    Attributes:
+        frame: whose coordinates it tells.
+    """
+
+    compares: bool = False
+    """Whether it needs the moment one step before: the simulation then stops there as well."""
+    frame: str = ""
+
+    def configure(self, setup: Setup) -> None:
+        """Read where it rides, its rate and the parameters, and advertise.
+
+        It is the link of its ``<sensor>``; of a plugin of the whole model, the one its ``bodyName`` names, else the
+        root.
+
+        Raises:
+            SimulationError: something makes no sense, with its place.
+        """
+        sensor, surroundings = setup.sensor, setup.surroundings
+        if surroundings is None:
+            raise SimulationError("nothing is around", position=self.plugin.element.origin.position)
+        self.name = (sensor.name if sensor is not None else self.plugin.name) or "sensor"
+        read = Parameters(self.plugin, self.spec, {**setup.names, "link": setup.link, "sensor": self.name})
+        if sensor is not None:
+            self.link = carrier(setup)
+            self._mount = pose_of(sensor.element)
+        else:
+            self.link = read.text("body") or setup.kinematics.root
+            if self.link not in (links := setup.kinematics.link_names):
+                raise SimulationError(
+                    f"<{read.tag('body')}> is `{self.link}`, which is no link{did_you_mean(self.link, links)}",
+                    position=read.place("body"),
+                )
+            self._mount = np.eye(4)
+        self.rate = rate_of(None if sensor is None else sensor.element, read)
+        frame = read.text("frame") or read.text("old_frame") or read.text("default_frame")
+        self.frame = (frame or read.text("body") or self.link).lstrip("/")
+        self._kinematics = setup.kinematics
+        self._key = int(setup.random.integers(1 << 62))
+        self._before: Moment | None = None
+        element = None if sensor is None else sensor.element
+        topics = Topics(self.plugin, self.spec, namespace=self._namespace(setup))
+        self._prepare(setup, element, read, topics, surroundings)
+
+    def _namespace(self, setup: Setup) -> str:
+        """Return where ROS 1 puts it when it does not say."""
+        return ""
+
+    @abstractmethod
+    def _prepare(
+        self, setup: Setup, element: Element | None, read: Parameters, topics: Topics, surroundings: Surroundings
+    ) -> None:
+        """Read what is this kind's own from the ``<sensor>`` and the parameters, and fill `topics`."""
+
+    @abstractmethod
+    def _feel(self, ride: Ride) -> Any:
+        """Return what is felt, noise included."""
+
+    @abstractmethod
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the messages of `topics` from what was felt."""
+
+    def next_stop(self, step: int) -> int:
+        """Return the step at which the simulation has to stop for it: where it is due, and perhaps one before."""
+        due = super().next_stop(step)
+        return due if not self.compares or due == NEVER or due - 1 <= step else due - 1
+
+    def look_due(self, step: int) -> int:
+        """Return the first step from `step` on after which it wants to look: where due, and perhaps one before."""
+        return max(step, self.due - 1) if self.compares else self.due
+
+    def catch_up(self, state: State) -> None:
+        """Measure what has fallen due, and remember this moment for the next."""
+        super().catch_up(state)
+        if self.compares:
+            self._before = Moment(self._kinematics, state)
+
+    def reset(self) -> None:
+        """Start again at step 0."""
+        super().reset()
+        self._before = None
+
+    def measure(self, state: State, count: int) -> None:
+        """Publish; nothing is computed before somebody wants it."""
+        now, before, turn = Moment(self._kinematics, state), self._before, self.done
+
+        @cache
+        def felt() -> Any:
+            motion, acceleration = now.motion(self.link, self._mount), np.zeros(3)
+            if before is not None and before.step < now.step:
+                gained = motion.linear - before.motion(self.link, self._mount).linear
+                acceleration = gained / (now.t - before.t)
+            random = np.random.Generator(np.random.Philox(key=[self._key, turn]))
+            return self._feel(Ride(now.t, turn, motion, acceleration, random))
+
+        def offer(topic: Any, message: Callable[[Any], Any]) -> None:
+            topic.offer(lambda: message(felt()), count=count)
+
+        for topic, message in zip(self.topics, self.messages(), strict=True):
+            offer(topic, message)
+
+
+def carrier(setup: Setup) -> str:
+    """Return the link that a ``<sensor>`` is on.
+
+    Raises:
+        SimulationError: it is on none, with its place and the nearest one.
+    """
+    assert setup.sensor is not None
+    links = setup.kinematics.link_names
+    if setup.link in links:
+        return setup.link
+    place = setup.sensor.element.origin.position
+    if not setup.link:
+        raise SimulationError("a sensor stands in <gazebo reference=…> of a link; here is no reference", position=place)
+    raise SimulationError(
+        f"a sensor stands in <gazebo reference=…> of a link; `{setup.link}` is none{did_you_mean(setup.link, links)}",
+        position=place,
+    )

@@ -1,0 +1,157 @@
+"""How high a sensor is: altimeters, air pressure, and the barometer of the hector quadrotor."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from math import exp, log
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from urdfkit.messages import header, message_type
+from urdfkit.messages.sensors import GZ_ALTIMETER, HECTOR_ALTIMETER
+from urdfkit.sim.plugins.base import Setup
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.sensors.hector_drift import drifting
+from urdfkit.sim.plugins.sensors.link_sensor import Carried, Ride
+from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
+from urdfkit.sim.plugins.sensors.point_motion import Moment
+from urdfkit.sim.plugins.sensors.sensor_values import number
+
+if TYPE_CHECKING:
+    from urdfkit.description.xml.element import Element
+    from urdfkit.sim.plugins.topic_names import Topics
+    from urdfkit.sim.state.robot_state import State
+    from urdfkit.sim.world.scene_view import Surroundings
+
+FLUID_PRESSURE = "sensor_msgs/msg/FluidPressure"
+POINT = "geometry_msgs/msg/PointStamped"
+
+SEA_LEVEL = 101325.0
+"""Pressure of the standard atmosphere [Pa] (ISO 2533), as gz-sensors has it."""
+SEA_LEVEL_TEMPERATURE = 288.15
+"""[K]."""
+LAPSE = 0.0065
+"""How much colder it gets upwards [K/m]."""
+EARTH_RADIUS = 6356766.0
+"""Of geopotential heights [m]."""
+EXPONENT = 9.80665 * 28.9644 / (8314.32 * LAPSE)
+
+
+def pressure(height: float) -> float:
+    """Return the pressure of the standard atmosphere at a height above the sea [Pa] (AirPressureSensor.cc)."""
+    geopotential = EARTH_RADIUS * height / (EARTH_RADIUS + height)
+    return SEA_LEVEL * exp(-EXPONENT * log(SEA_LEVEL_TEMPERATURE / (SEA_LEVEL_TEMPERATURE - LAPSE * geopotential)))
+
+
+class OneTopic(Carried):
+    """A sensor of the new Gazebo that publishes one message by itself."""
+
+    type: str
+
+    def _prepare(
+        self, setup: Setup, element: Element | None, read: Parameters, topics: Topics, surroundings: Surroundings
+    ) -> None:
+        self._read(setup, element, surroundings)
+        self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), self.type),)
+
+    @abstractmethod
+    def _read(self, setup: Setup, element: Element | None, surroundings: Surroundings) -> None:
+        """Read what is this kind's own."""
+
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the message of each of `topics`: it is what was felt."""
+        return (itself,)
+
+
+def itself(message: Any) -> Any:
+    """Return what is a message already."""
+    return message
+
+
+class GzAirPressure(OneTopic):
+    """An air pressure sensor of the new Gazebo."""
+
+    kind = "gz_air_pressure"
+    type = FLUID_PRESSURE
+
+    def _read(self, setup: Setup, element: Element | None, surroundings: Surroundings) -> None:
+        inside = None if element is None else element.find("air_pressure")
+        self._above = number(inside, "reference_altitude", 0.0)
+        self._noise = noise_of(None if inside is None else inside.find("pressure"), setup.random)
+
+    def _feel(self, ride: Ride) -> Any:
+        found = pressure(self._above + float(ride.motion.position[2]))
+        found = float(self._noise.on(np.array(found), ride.random))
+        return message_type(FLUID_PRESSURE)(header(ride.t, self.frame), found, self._noise.deviation**2)
+
+
+class GzAltimeter(OneTopic):
+    """An altimeter of the new Gazebo: the height over where it starts, and the vertical velocity."""
+
+    kind = "gz_altimeter"
+    type = GZ_ALTIMETER
+    _start: float | None = None
+
+    def _read(self, setup: Setup, element: Element | None, surroundings: Surroundings) -> None:
+        inside = None if element is None else element.find("altimeter")
+
+        def noise(tag: str) -> Noise:
+            return noise_of(None if inside is None else inside.find(tag), setup.random)
+
+        self._height_noise, self._climb_noise = noise("vertical_position"), noise("vertical_velocity")
+
+    def look_due(self, step: int) -> int:
+        """Return the first step from `step` on after which it wants to look: at once for the first time."""
+        return step if self._start is None else super().look_due(step)
+
+    def catch_up(self, state: State) -> None:
+        """Measure what has fallen due; the first moment is the reference."""
+        if self._start is None:
+            self._start = float(Moment(self._kinematics, state).motion(self.link, self._mount).position[2])
+        super().catch_up(state)
+
+    def next_stop(self, step: int) -> int:
+        """Return the step at which the simulation has to stop for it: the first one, and where it is due."""
+        return step + 1 if self._start is None else super().next_stop(step)
+
+    def _feel(self, ride: Ride) -> Any:
+        start = self._start or 0.0
+        height = float(self._height_noise.on(ride.motion.position[2] - start, ride.random))
+        climb = float(self._climb_noise.on(ride.motion.linear[2], ride.random))
+        return message_type(GZ_ALTIMETER)(header(ride.t, self.frame), height, climb, start)
+
+
+class HectorBaro(Carried):
+    """hector_gazebo_ros_baro of ROS 1: the height in the world, and the pressure that goes with it."""
+
+    kind = "hector_baro"
+
+    def _prepare(
+        self, setup: Setup, element: Element | None, read: Parameters, topics: Topics, surroundings: Surroundings
+    ) -> None:
+        self._error = drifting(read, "", 1, rate=self.rate, dt=setup.dt, random=setup.random)
+        self._elevation, self._qnh = read.number("elevation"), read.number("qnh")
+        self.topics = (
+            setup.bus.advertise(topics.resolve(read.text("topic")), POINT),
+            setup.bus.advertise(topics.resolve(read.text("altimeter_topic")), HECTOR_ALTIMETER),
+        )
+
+    def _feel(self, ride: Ride) -> tuple[float, float]:
+        return ride.t, float(ride.motion.position[2]) + float(self._error.at(ride.turn)[0])
+
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the message of each of `topics`."""
+        return self._height, self._altimeter
+
+    def _height(self, felt: tuple[float, float]) -> Any:
+        t, height = felt
+        return message_type(POINT)(header(t, self.frame), message_type("geometry_msgs/msg/Point")(0.0, 0.0, height))
+
+    def _altimeter(self, felt: tuple[float, float]) -> Any:
+        t, height = felt
+        altitude = height + self._elevation
+        # gazebo_ros_baro.cpp; pressures are in hPa.
+        there = (1.0 - altitude / 44330.0) ** 5.263157 * self._qnh
+        return message_type(HECTOR_ALTIMETER)(header(t, self.frame), altitude, there, self._qnh)

@@ -1,0 +1,244 @@
+"""Inertial measurement units: orientation, turning rate, and what an accelerometer feels, gravity included.
+
+The acceleration is that of the step that ended with the measurement, so the simulation stops one step before as well; a
+message that nobody waited for has the mean since the simulation last stopped.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError
+from urdfkit.messages import header, message_type, vector
+from urdfkit.sim.plugins.base import Setup
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.sensors.hector_drift import drifting
+from urdfkit.sim.plugins.sensors.link_sensor import Carried, Ride
+from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
+from urdfkit.sim.plugins.sensors.point_motion import Moment
+from urdfkit.sim.plugins.sensors.sensor_values import rotation_matrix
+from urdfkit.sim.state.quaternion import from_matrix
+
+if TYPE_CHECKING:
+    from urdfkit.description.xml.element import Element
+    from urdfkit.sim.plugins.topic_names import Topics
+    from urdfkit.sim.state.robot_state import State
+    from urdfkit.sim.world.scene_view import Surroundings
+
+IMU = "sensor_msgs/msg/Imu"
+
+G = 9.8065
+"""By which hector's ``rpyOffset`` becomes an offset of the acceleration [m/s²]."""
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Felt:
+    """One reading.
+
+    Attributes:
+        t: when [s].
+        rotation: of the sensor; shape (3, 3).
+        shaken: added to the quaternion x y z w before it is normalised; shape (4,).
+        turning: rate in the sensor's axes [rad/s]; shape (3,).
+        pulled: acceleration in the sensor's axes [m/s²]; shape (3,).
+    """
+
+    t: float
+    rotation: Array
+    shaken: Array
+    turning: Array
+    pulled: Array
+
+
+class Imu(Carried):
+    """An inertial measurement unit; where it publishes and how it errs is its subclass's to say."""
+
+    compares = True
+    _relative = False
+    _variances: tuple[Array, Array, Array]
+    """Diagonals of the covariances of orientation, turning rate and acceleration."""
+
+    def _prepare(
+        self, setup: Setup, element: Element | None, read: Parameters, topics: Topics, surroundings: Surroundings
+    ) -> None:
+        self._gravity = np.array(surroundings.world.gravity)
+        self._reference: Array | None = None
+        self._offset = rotation_matrix(*read.vector("rpy_offset", 3))
+        self._errors(setup, element, read)
+        self.topics = (setup.bus.advertise(topics.resolve(self._topic(read)), IMU),)
+
+    def _topic(self, read: Parameters) -> str:
+        return read.text("topic") or "~/out"
+
+    @abstractmethod
+    def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
+        """Read how it errs, and fill `_variances`."""
+
+    @abstractmethod
+    def _err(self, felt: Felt, ride: Ride) -> Felt:
+        """Return a reading with the errors on it."""
+
+    def look_due(self, step: int) -> int:
+        """Return the first step from `step` on after which it wants to look; the first moment may be the reference."""
+        return step if self._reference is None and self._relative else super().look_due(step)
+
+    def catch_up(self, state: State) -> None:
+        """Measure what has fallen due, and remember this moment for the next."""
+        if self._reference is None and self._relative:
+            self._reference = Moment(self._kinematics, state).motion(self.link, self._mount).rotation
+        super().catch_up(state)
+
+    def messages(self) -> tuple[Callable[[Felt], Any], ...]:
+        """Return what makes the message of each of `topics`."""
+        return (self._message,)
+
+    def _feel(self, ride: Ride) -> Felt:
+        R = ride.motion.rotation
+        rotation = self._offset @ (R if self._reference is None else self._reference.T @ R)
+        true = Felt(ride.t, rotation, np.zeros(4), R.T @ ride.motion.angular, R.T @ (ride.acceleration - self._gravity))
+        return self._err(true, ride)
+
+    def _message(self, felt: Felt) -> Any:
+        quaternion = from_matrix(felt.rotation) + felt.shaken
+        quaternion = quaternion / np.linalg.norm(quaternion)
+        kind = message_type("geometry_msgs/msg/Quaternion")
+        orientation, turning, pulled = (np.diag(each).ravel() for each in self._variances)
+        return message_type(IMU)(
+            header(felt.t, self.frame), kind(*quaternion.tolist()), orientation,
+            vector(felt.turning.tolist()), turning, vector(felt.pulled.tolist()), pulled,
+        )  # fmt: skip
+
+
+class PlainImu(Imu):
+    """An IMU whose noise is SDF's, or one standard deviation for everything, or both."""
+
+    _gyro: tuple[Noise, ...]
+    _accelerometer: tuple[Noise, ...]
+    _compass: float = 0.0
+    _plugin = Noise()
+
+    def _tell(self) -> None:
+        gyro, accelerometer = (
+            np.array([noise.deviation**2 for noise in noises]) for noises in (self._gyro, self._accelerometer)
+        )
+        self._variances = np.full(3, self._compass**2), gyro, accelerometer
+
+    def _err(self, felt: Felt, ride: Ride) -> Felt:
+        pulled = self._plugin.on(_noisy(felt.pulled, self._accelerometer, ride.random), ride.random)
+        turning = self._plugin.on(_noisy(felt.turning, self._gyro, ride.random), ride.random)
+        shaken = self._compass * ride.random.standard_normal(4) if self._compass else felt.shaken
+        return Felt(felt.t, felt.rotation, shaken, turning, pulled)
+
+
+class ImuSensor(PlainImu):
+    """gazebo_ros_imu_sensor of ROS 1 and ROS 2.
+
+    The one of ROS 1 adds noise of its own to what Gazebo's sensor reads, SDF's noise included, and tells only its own
+    in the covariances (gazebo_ros_imu_sensor.cpp, UpdateChild).
+    """
+
+    kind = "imu_sensor"
+
+    def _namespace(self, setup: Setup) -> str:
+        return setup.model
+
+    def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
+        if element is None:
+            raise SimulationError(
+                "an IMU stands in a <sensor> of a link, and in none here", position=self.plugin.element.origin.position
+            )
+        self._relative = read.flag("initial_orientation")
+        self._gyro, self._accelerometer = _written(element, setup.random)
+        self._tell()
+        if self.spec.generation == "ros1":
+            self._compass = read.number("gaussian_noise", unsigned=True)
+            self._plugin = Noise(deviation=self._compass)
+            self._variances = (np.full(3, self._compass**2),) * 3
+
+
+class GzImu(PlainImu):
+    """An IMU of the new Gazebo, which publishes by itself."""
+
+    kind = "gz_imu"
+    _relative = True
+
+    def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
+        assert element is not None
+        self._gyro, self._accelerometer = _written(element, setup.random)
+        self._tell()
+
+
+class BodyImu(PlainImu):
+    """gazebo_ros_imu of ROS 1: acceleration without gravity, in the link's axes.
+
+    The plugin turns its vectors the wrong way round; here they are in the axes of the link that it names.
+    """
+
+    kind = "imu"
+
+    def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
+        if not read.text("body"):
+            raise SimulationError(
+                f"gazebo_ros_imu lacks its <{read.tag('body')}>", position=self.plugin.element.origin.position
+            )
+        self._gravity = np.zeros(3)
+        deviation = read.number("gaussian_noise", unsigned=True)
+        self._gyro = self._accelerometer = (Noise(deviation=deviation),) * 3
+        self._tell()
+        self._variances = np.full(3, deviation**2), *self._variances[1:]
+
+
+class HectorImu(Imu):
+    """hector_gazebo_ros_imu of ROS 1: errors that drift, and a heading of its own."""
+
+    kind = "hector_imu"
+
+    def _errors(self, setup: Setup, element: Element | None, read: Parameters) -> None:
+        errors = partial(drifting, read, rate=self.rate, dt=setup.dt, random=setup.random)
+        self._accelerometer = errors("accel_", 3)
+        self._gyro = errors("rate_", 3)
+        yaw = "yaw_" if any(read.has(f"yaw_{each}") for each in ("offset", "drift", "gaussian_noise")) else "heading_"
+        self._heading = errors(yaw, 1)
+        roll, pitch, yaw_offset = read.vector("rpy_offset", 3)
+        self._offset = np.eye(3)  # not a rotation here, but what an IMU that is tilted so much would feel
+        for error, offset in (
+            (self._accelerometer, np.array([pitch * G, -roll * G, 0.0])),
+            (self._heading, np.array([yaw_offset])),
+        ):
+            error.offset = np.where(error.offset == 0.0, offset, error.offset)
+        if old := read.number("gaussian_noise", unsigned=True):
+            self._accelerometer.noise = self._gyro.noise = np.full(3, old)
+        level = self._accelerometer.noise**2 / max(float(self._gravity @ self._gravity), 1e-12)
+        self._variances = (
+            np.array([level[0], level[1], float(self._heading.noise[0]) ** 2]),
+            self._gyro.noise**2,
+            self._accelerometer.noise**2,
+        )
+
+    def _err(self, felt: Felt, ride: Ride) -> Felt:
+        heading = float(self._heading.at(ride.turn)[0])
+        turning, pulled = felt.turning + self._gyro.at(ride.turn), felt.pulled + self._accelerometer.at(ride.turn)
+        return Felt(felt.t, felt.rotation @ rotation_matrix(0.0, 0.0, heading), felt.shaken, turning, pulled)
+
+
+def _written(element: Element, random: np.random.Generator) -> tuple[tuple[Noise, ...], tuple[Noise, ...]]:
+    """Return the noises in a sensor's ``<imu>``: of turning rates and of accelerations, along x, y and z."""
+    imu = element.find("imu")
+    kinds = [None if imu is None else imu.find(tag) for tag in ("angular_velocity", "linear_acceleration")]
+    gyro, accelerometer = (
+        tuple(noise_of(None if kind is None else kind.find(axis), random) for axis in "xyz") for kind in kinds
+    )
+    return gyro, accelerometer
+
+
+def _noisy(values: Array, noises: tuple[Noise, ...], random: np.random.Generator) -> Array:
+    return np.array([noise.on(value, random) for noise, value in zip(noises, values, strict=True)])

@@ -1,0 +1,96 @@
+"""True poses: gazebo_ros_p3d of ROS 1 and ROS 2, an Odometry with the twist along the axes of the frame it names.
+
+That frame is the world, or another link: then pose and twist are relative to it, as they are seen from there.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.messages import ODOMETRY, header, message_type, twist
+from urdfkit.sim.plugins.base import Sensor, Setup
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.sensors.point_motion import Moment, Motion
+from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.state.quaternion import from_matrix, from_rpy, product
+
+if TYPE_CHECKING:
+    from urdfkit.sim.state.robot_state import State
+
+WORLD = ("world", "map")
+"""Names of the world's frame (gazebo_ros_p3d.cpp)."""
+
+
+class P3d(Sensor):
+    """Where a link is, and how it moves, in the world."""
+
+    kind = "p3d"
+
+    def configure(self, setup: Setup) -> None:
+        """Read the parameters and advertise.
+
+        Raises:
+            SimulationError: a parameter makes no sense, with its place.
+        """
+        read = Parameters(self.plugin, self.spec, setup.names)
+        links = setup.kinematics.link_names
+        self._link = read.text("body")
+        if self._link not in links:
+            raise SimulationError(
+                f"<{read.tag('body')}> is `{self._link}`, which is no link{did_you_mean(self._link, links)}",
+                position=read.place("body"),
+            )
+        self._frame = read.text("frame").lstrip("/")
+        if self._frame not in (*WORLD, *links):
+            raise SimulationError(
+                f"<{read.tag('frame')}> is `{self._frame}`{did_you_mean(self._frame, (*WORLD, *links))}; "
+                "it must be world or a link",
+                position=read.place("frame"),
+            )
+        name = read.text("topic") if self.spec.generation == "ros1" else "odom"
+        if not name:
+            raise SimulationError("gazebo_ros_p3d lacks its <topicName>", position=self.plugin.element.origin.position)
+        self.name = self.plugin.name or "p3d"
+        self.rate = read.number("update_rate")
+        self._offset = np.array(read.vector("xyz_offset", 3))
+        roll, pitch, yaw = read.vector("rpy_offset", 3)
+        self._turn = from_rpy(roll, pitch, yaw)
+        self._noise = read.number("gaussian_noise", unsigned=True)
+        self._key = int(setup.random.integers(1 << 62))
+        self._kinematics = setup.kinematics
+        self.topics = (setup.bus.advertise(Topics(self.plugin, self.spec).resolve(name), ODOMETRY),)
+
+    def measure(self, state: State, count: int) -> None:
+        """Publish."""
+        self.topics[0].offer(partial(self._message, Moment(self._kinematics, state), self.done), count=count)
+
+    def _seen_from_there(self, now: Moment, motion: Motion) -> Motion:
+        """Return a motion relative to the frame that poses are told in."""
+        if self._frame in WORLD:
+            return motion
+        there = now.motion(self._frame, np.eye(4))
+        back, arm = there.rotation.T, motion.position - there.position
+        # Of a point that moves, for somebody who turns along.
+        linear = motion.linear - there.linear - np.cross(there.angular, arm)
+        return Motion(back @ motion.rotation, back @ arm, back @ linear, back @ (motion.angular - there.angular))
+
+    def _message(self, now: Moment, turn: int) -> Any:
+        motion = self._seen_from_there(now, now.motion(self._link, np.eye(4)))
+        random = np.random.Generator(np.random.Philox(key=[self._key, turn]))
+        shaken = self._noise * random.standard_normal((2, 3))
+        x, y, z = (motion.position + self._offset).tolist()
+        quaternion = product(self._turn, from_matrix(motion.rotation))
+        covariance = np.diag([self._noise**2] * 6).ravel()
+        pose = message_type("geometry_msgs/msg/Pose")(
+            message_type("geometry_msgs/msg/Point")(x, y, z), message_type("geometry_msgs/msg/Quaternion")(*quaternion)
+        )
+        moving = twist((motion.linear + shaken[0]).tolist(), (motion.angular + shaken[1]).tolist())
+        return message_type(ODOMETRY)(
+            header(now.t, self._frame), self._link,
+            message_type("geometry_msgs/msg/PoseWithCovariance")(pose, covariance),
+            message_type("geometry_msgs/msg/TwistWithCovariance")(moving, covariance.copy()),
+        )  # fmt: skip

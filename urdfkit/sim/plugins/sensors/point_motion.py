@@ -1,0 +1,67 @@
+"""How a point on a link moves, worked out when somebody asks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from urdfkit.kinematics import Kinematics
+    from urdfkit.sim.state.robot_state import Snapshot, State
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A frame in the world.
+
+    Attributes:
+        rotation: of the frame in the world; shape (3, 3).
+        position: [m]; shape (3,).
+        linear: velocity of its origin along the world's axes [m/s]; shape (3,).
+        angular: velocity along the world's axes [rad/s]; shape (3,).
+    """
+
+    rotation: Array
+    position: Array
+    linear: Array
+    angular: Array
+
+
+class Moment:
+    """The robot at one moment, kept; motions are worked out when asked for.
+
+    Args:
+        kinematics: the robot's model.
+        state: the present.
+    """
+
+    def __init__(self, kinematics: Kinematics, state: State) -> None:
+        self._kinematics = kinematics
+        self.step, self.t = state.step, state.t
+        self._snapshot: Snapshot = state.snapshot()
+        self._v = state.v.copy()
+
+    def motion(self, link: str, mount: Array) -> Motion:
+        """Return how a frame that is fixed to a link moves.
+
+        Args:
+            link: its name.
+            mount: placement of the frame in the link; shape (4, 4).
+        """
+        import pinocchio as pin
+
+        kinematics = self._kinematics
+        pin.forwardKinematics(kinematics.model, kinematics.data, self._snapshot.q, self._v)
+        frame = kinematics.frame(link)
+        pin.updateFramePlacement(kinematics.model, kinematics.data, frame)
+        local = pin.getFrameVelocity(kinematics.model, kinematics.data, frame, pin.LOCAL)
+        pose = self._snapshot.link_poses()[kinematics.link_names.index(link)]
+        R = np.array(pin.Quaternion(pose[3:].copy()).matrix())
+        angular = R @ local.angular
+        arm = R @ mount[:3, 3]
+        return Motion(R @ mount[:3, :3], pose[:3] + arm, R @ local.linear + np.cross(angular, arm), angular)

@@ -1,0 +1,117 @@
+"""What lidars and cameras share: they sit on a link, look at what is around, and do it only for somebody."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.description.plugins.sensor_values import senseless_parameters
+from urdfkit.errors import SimulationError
+from urdfkit.sim.plugins.base import Sensor, Setup
+from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.sensors.link_sensor import carrier
+from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of, refuse
+from urdfkit.sim.plugins.topic_names import Topics
+
+if TYPE_CHECKING:
+    from urdfkit.description.urdf.robot import SensorTag
+    from urdfkit.sim.state.robot_state import State
+    from urdfkit.sim.world.scene_view import Layout
+
+Array = NDArray[np.float64]
+
+
+class Mounted(Sensor):
+    """A sensor on a link that looks at its surroundings; one look makes the messages of all its topics.
+
+    Attributes:
+        frame: whose coordinates it tells.
+    """
+
+    namespace = ""
+    """Where ROS 1 puts the plugin whose ``<robotNamespace>`` is empty; ``{model}`` is the robot's name."""
+
+    frame: str = ""
+    viewpoint: Array
+    """Where it was when it looked last; shape (4, 4)."""
+
+    def configure(self, setup: Setup) -> None:
+        """Read the sensor, its rate and the plugin's parameters, and advertise.
+
+        Raises:
+            SimulationError: something makes no sense, with its place.
+        """
+        sensor = setup.sensor
+        if sensor is None or setup.surroundings is None:
+            raise SimulationError(
+                "this plugin stands in a <sensor>, and in none here", position=self.plugin.element.origin.position
+            )
+        link = carrier(setup)
+        self.name = sensor.name or "sensor"
+        names = {**setup.names, "link": setup.link, "sensor": self.name}
+        read = Parameters(self.plugin, self.spec, names)
+        refuse(senseless_parameters(self.plugin, self.spec))
+        empty = self.plugin.element.find("robotNamespace") is not None
+        topics = Topics(self.plugin, self.spec, namespace=self.namespace.format(**names) if empty else "")
+        self.rate = rate_of(sensor.element, read)
+        frame = read.text("frame") or read.text("old_frame") or read.text("default_frame")
+        self.frame = frame.lstrip("/")
+        self._surroundings = setup.surroundings
+        self._pose = pose_of(sensor.element)
+        self._robot = setup.model
+        self._link = setup.kinematics.link_names.index(link)
+        self._key = int(setup.random.integers(1 << 62))
+        self._prepare(setup, sensor, read, topics)
+
+    @abstractmethod
+    def _prepare(self, setup: Setup, sensor: SensorTag, read: Parameters, topics: Topics) -> None:
+        """Read what is this kind's own, and fill `topics`."""
+
+    @abstractmethod
+    def _look(self, t: float, layout: Layout, frame: Array, random: np.random.Generator) -> Any:
+        """Look from a frame, shape (4, 4), at what there was, and return what was seen."""
+
+    @abstractmethod
+    def messages(self) -> tuple[Callable[[Any], Any], ...]:
+        """Return what makes the messages of the first of `topics` from what was seen."""
+
+    def remarks(self) -> tuple[Callable[[float], Any], ...]:
+        """Return what makes the messages of the others from the time alone [s]; nobody has to look for them."""
+        return ()
+
+    def glimpse(self, t: float) -> tuple[Callable[[], Any], ...]:
+        """Look now, whatever its rate and whoever listens, and return what makes the messages of the first of `topics`.
+
+        Args:
+            t: now [s].
+        """
+        layout = self._surroundings.layout()
+        frame = self.viewpoint = layout.placement(self._robot, self._link) @ self._pose
+        seen = self._look(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, 0])))
+        return tuple(partial(message, seen) for message in self.messages())
+
+    def measure(self, state: State, count: int) -> None:
+        """Publish what is seen from here; nothing is computed before somebody wants it.
+
+        Noise depends on the seed and the number of the publication alone.
+        """
+        t, turn, layout = state.t, self.done, self._surroundings.layout()
+
+        @cache
+        def seen() -> Any:
+            frame = self.viewpoint = layout.placement(self._robot, self._link) @ self._pose
+            return self._look(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, turn])))
+
+        def offer(topic: Any, message: Callable[[Any], Any]) -> None:
+            topic.offer(lambda: message(seen()), count=count)
+
+        messages, remarks = self.messages(), self.remarks()
+        for topic, message in zip(self.topics, messages, strict=not remarks):
+            offer(topic, message)
+        for topic, remark in zip(self.topics[len(messages) :], remarks, strict=True):
+            topic.offer(partial(remark, t), count=count)

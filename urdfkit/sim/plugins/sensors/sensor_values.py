@@ -1,0 +1,94 @@
+"""Numbers of a ``<sensor>``, with the place of the wrong one in the error."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import isfinite, isnan
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.description.urdf.robot import Pose
+from urdfkit.description.xml.element import Element
+from urdfkit.errors import SimulationError
+from urdfkit.scene.placement import pose_matrix
+
+if TYPE_CHECKING:
+    from urdfkit.sim.plugins.parameters import Parameters
+
+
+def number(
+    parent: Element | None, tag: str, default: float, *, infinite: bool = False, least: float | None = None
+) -> float:
+    """Return the number in a child; a default where there is none.
+
+    Args:
+        parent: where to look; None for nowhere.
+        tag: of the child.
+        default: what counts where nothing is written.
+        infinite: whether it may be.
+        least: the smallest it may be.
+
+    Raises:
+        SimulationError: it is no such number, with its place.
+    """
+    child = None if parent is None else parent.find(tag)
+    if child is None or not child.text.strip():
+        return default
+    try:
+        value = float(child.text)
+    except ValueError:
+        value = float("nan")
+    if isnan(value) or not (infinite or isfinite(value)) or (least is not None and value < least):
+        wanted = "a number" if infinite else "a finite number"
+        wanted += "" if least is None else f", {least:g} or greater"
+        raise SimulationError(f"<{tag}> is `{child.text}`; it must be {wanted}", position=child.origin.position)
+    return value
+
+
+def refuse(found: Iterable[tuple[Element, str]]) -> None:
+    """Refuse the first of what makes no sense, if there is any.
+
+    Raises:
+        SimulationError: with its place.
+    """
+    for element, message in found:
+        raise SimulationError(message, position=element.origin.position)
+
+
+def pose_of(sensor: Element) -> NDArray[np.float64]:
+    """Return the ``<pose>`` of a sensor in its link; shape (4, 4).
+
+    Raises:
+        SimulationError: it is not six finite numbers, with its place.
+    """
+    child = sensor.find("pose") or sensor.find("origin")
+    if child is None:
+        return np.eye(4)
+    text = child.text or f"{child.get('xyz') or '0 0 0'} {child.get('rpy') or '0 0 0'}"
+    try:
+        x, y, z, roll, pitch, yaw = (float(word) for word in text.split())
+    except ValueError:
+        x = y = z = roll = pitch = yaw = float("nan")
+    if not all(isfinite(each) for each in (x, y, z, roll, pitch, yaw)):
+        raise SimulationError(f"<pose> is `{text}`; it must be 6 finite numbers", position=child.origin.position)
+    return pose_matrix(Pose((x, y, z), (roll, pitch, yaw)))
+
+
+def rate_of(sensor: Element | None, read: Parameters) -> float:
+    """Return how often a sensor measures [Hz]: the slower of its ``<update_rate>`` and its plugin's, where set.
+
+    Zero means every step, as in Gazebo.
+
+    Raises:
+        SimulationError: a rate is negative or no number, with its place.
+    """
+    rates = number(sensor, "update_rate", 0.0, least=0.0), read.number("update_rate", unsigned=True)
+    return min((rate for rate in rates if rate > 0), default=0.0)
+
+
+def rotation_matrix(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
+    """Return the rotation by fixed-axis roll, pitch and yaw [rad]; shape (3, 3)."""
+    found: NDArray[np.float64] = pose_matrix(Pose((0.0, 0.0, 0.0), (roll, pitch, yaw)))[:3, :3]
+    return found

@@ -1,0 +1,94 @@
+"""What follows from a configuration and a velocity: poses of links and joints, motion in the world, energy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import atan2, cos, sin
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.kinematics import Kinematics
+from urdfkit.sim.state.quaternion import product, rotate
+
+Array = NDArray[np.float64]
+NONE = np.zeros(0), np.zeros((0, 3))
+"""No weightless bodies."""
+
+
+def link_poses(kinematics: Kinematics, q: Array, base: Array | None) -> Array:
+    """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7).
+
+    Args:
+        kinematics: the robot's model.
+        q: configuration; shape (nq,).
+        base: pose of the root link of a robot that is bolted down; None for one that floats.
+    """
+    poses = kinematics.link_poses(q)
+    if base is not None:
+        for row in poses:
+            row[:3] = base[:3] + rotate(base[3:], row[:3])
+            row[3:] = product(base[3:], row[3:])
+    return poses
+
+
+def in_the_world(pose: tuple[float, ...], twist: tuple[float, ...]) -> tuple[float, ...]:
+    """Return a velocity [m/s, rad/s] along the world's axes that a twist along a link's own axes is.
+
+    Args:
+        pose: of the link, x y z [m] and quaternion x y z w.
+        twist: linear first.
+    """
+    return (*rotate(pose[3:], twist[:3]), *rotate(pose[3:], twist[3:]))
+
+
+def pose_and_twist(
+    joint_type: str, q: Sequence[float], v: Sequence[float]
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Return pose, and velocity along the same axes, of what a planar or floating joint moves.
+
+    Args:
+        joint_type: ``planar`` or ``floating``.
+        q: its part of a configuration, and what follows.
+        v: its part of a velocity, and what follows.
+    """
+    if joint_type == "planar":
+        half = 0.5 * atan2(q[3], q[2])
+        pose = (q[0], q[1], 0.0, 0.0, 0.0, sin(half), cos(half))
+        return pose, in_the_world(pose, (v[0], v[1], 0.0, 0.0, 0.0, v[2]))
+    return tuple(q[:7]), in_the_world(tuple(q[:7]), tuple(v[:6]))
+
+
+def energy_of(
+    kinematics: Kinematics,
+    q: Array,
+    v: Array,
+    base: Array | None,
+    gravity: Array,
+    weightless: tuple[Array, Array] = NONE,
+) -> tuple[float, float]:
+    """Return kinetic and potential energy of a robot [J], the latter zero at the world's origin.
+
+    Args:
+        kinematics: the robot's model.
+        q: configuration; shape (nq,).
+        v: velocity; shape (nv,).
+        base: pose of the root link of a robot that is bolted down; None for one that floats.
+        gravity: [m/s²]; shape (3,).
+        weightless: see `Part.weightless`.
+    """
+    import pinocchio
+
+    pin: Any = pinocchio
+    model, data = kinematics.model, kinematics.data
+    kinetic = pin.computeKineticEnergy(model, data, q, v)
+    centre = pin.centerOfMass(model, data, q)
+    mass = data.mass[0]
+    moment = mass * centre
+    for k, (light, at) in enumerate(zip(*weightless, strict=True), 1):
+        moment = moment - light * data.oMi[k].act(at)
+        mass -= light
+    if base is not None:
+        moment = mass * base[:3] + rotate(base[3:], moment)
+    return float(kinetic), float(-gravity @ moment)

@@ -1,0 +1,53 @@
+"""Poses as people write them, as records, and as seven numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+
+import numpy as np
+
+from urdfkit.description.sdf.poses import rpy_of_quaternion
+from urdfkit.description.urdf.robot import Pose
+from urdfkit.errors import SimulationError
+from urdfkit.scene.placement import pose_matrix
+
+
+def seven(pose: Pose) -> tuple[float, ...]:
+    """Return a pose as x y z [m] and quaternion x y z w."""
+    import pinocchio as pin
+
+    return tuple(pin.SE3ToXYZQUAT(pin.SE3(np.array(pose_matrix(pose)))).tolist())
+
+
+def pose_from(seven: Sequence[float]) -> Pose:
+    """Return x y z [m] and a quaternion x y z w as a pose."""
+    x, y, z, *q = (float(value) for value in seven)
+    return Pose((x, y, z), rpy_of_quaternion(q[0], q[1], q[2], q[3]))
+
+
+def pose_of(pose: Pose | Sequence[float]) -> Pose:
+    """Return a pose from x y z, x y z yaw, x y z roll pitch yaw, or x y z and a quaternion x y z w.
+
+    Raises:
+        SimulationError: they are not as many, not finite, or the quaternion is zero.
+    """
+    numbers: tuple[float, ...]
+    if isinstance(pose, Pose):
+        numbers = (*pose.xyz, *pose.rpy)
+    else:
+        try:
+            numbers = tuple(float(number) for number in pose)
+        except (TypeError, ValueError):
+            numbers = ()
+    if len(numbers) not in (3, 4, 6, 7) or not all(map(isfinite, numbers)):
+        raise SimulationError(
+            f"a pose is x y z, x y z yaw, x y z roll pitch yaw or x y z and a quaternion x y z w, not {pose!r}"
+        )
+    x, y, z, *rest = numbers
+    if len(rest) == 4:
+        if not any(rest):
+            raise SimulationError("the quaternion of a pose is zero")
+        return pose_from(numbers)
+    roll, pitch, yaw = rest if len(rest) == 3 else (0.0, 0.0, rest[0] if rest else 0.0)
+    return Pose((x, y, z), (roll, pitch, yaw))

@@ -1,0 +1,249 @@
+"""State: where the robot is and how it moves. Read only; what plugins, subscribers and users look at."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import UnknownNameError, did_you_mean
+from urdfkit.kinematics import Kinematics
+from urdfkit.sim.engine.scalar_views import numbers
+from urdfkit.sim.engine.state_conversion import configuration
+from urdfkit.sim.state.mechanics import energy_of, in_the_world, link_poses, pose_and_twist
+from urdfkit.sim.state.quaternion import product, rotate
+
+if TYPE_CHECKING:
+    from urdfkit.sim.engine import Contact, Engine
+    from urdfkit.sim.engine.articulation import Part
+
+Array = NDArray[np.float64]
+Placement = tuple[tuple[float, float, float], tuple[float, float, float, float]]
+
+
+class Snapshot:
+    """The robot's configuration at one moment, kept; what follows from it is worked out when somebody asks.
+
+    Args:
+        kinematics: the robot's model.
+        t: simulated time [s].
+        part: which of the engine's robots it is; its coordinates are copied.
+        base: pose of the root link of a robot that is bolted down; None for one that floats.
+
+    Attributes:
+        t: simulated time [s].
+        coordinates: everybody's, as the engine has them.
+    """
+
+    def __init__(self, kinematics: Kinematics, t: float, part: Part, base: Array | None) -> None:
+        self._kinematics = kinematics
+        self.t = t
+        self._arrays, self._tree = part._arrays, part._tree
+        self.coordinates: Array = part._arrays["s"].copy()
+        self._base = base
+        self._poses: Array | None = None
+
+    @cached_property
+    def q(self) -> Array:
+        """Configuration; shape (nq,)."""
+        kept: Any = {name: self._arrays[name] for name in ("tree_body", "first_s")} | {"s": self.coordinates}
+        return configuration(self._kinematics.model, kept, self._tree)
+
+    def link_poses(self) -> Array:
+        """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7)."""
+        if self._poses is None:
+            self._poses = link_poses(self._kinematics, self.q, self._base)
+        return self._poses
+
+    def placement(self, link: str | None, relative_to: str | None) -> Placement:
+        """Return position [m] and quaternion x y z w of a link in another link's frame."""
+        poses, names = self.link_poses(), self._kinematics.link_names
+        child, parent = poses[names.index(link or "")], poses[names.index(relative_to or "")]
+        inverse = np.array([-parent[3], -parent[4], -parent[5], parent[6]])
+        return rotate(inverse, child[:3] - parent[:3]), product(inverse, child[3:])
+
+
+class State:
+    """The simulation's present. Nobody can write to it.
+
+    Args:
+        kinematics: the robot's model.
+        engine: what moves it.
+        base: pose of the root link of a robot that is bolted down; None for one that floats.
+        part: which of the engine's robots it is; the first when None.
+
+    Attributes:
+        step: steps since the start.
+    """
+
+    def __init__(self, kinematics: Kinematics, engine: Engine, base: Array | None, part: Part | None = None) -> None:
+        self._kinematics = kinematics
+        self._base = base
+        self.step = 0
+        names = (*kinematics.joint_names, *kinematics.mimic_names)
+        self._index = {name: kinematics.velocity_index(name) for name in names}
+        self.attach(engine, part)
+
+    def attach(self, engine: Engine, part: Part | None = None) -> None:
+        """Look at another engine from now on: one for the same robot in a world that has changed."""
+        self._engine = engine
+        self._part: Part = engine if part is None else part
+        self._snapshot: Snapshot | None = None
+        self._pose: tuple[float, ...] | None = None
+        arrays, tree = engine._arrays, self._part._tree
+        dof = int(arrays["tree_dof"][tree])
+        self._at = {name: int(arrays["dof_s"][dof + k]) for name, k in self._index.items()}
+        self._coordinates, self._velocities = numbers(arrays["s"]), numbers(self._part.v)
+        self._efforts, self._applied = numbers(self._part.effort), numbers(self._part.applied)
+        self._root = int(arrays["tree_s"][tree])
+
+    def advance(self, steps: int) -> None:
+        """Take note that the engine moved on by `steps`."""
+        self.step += steps
+        self._snapshot = self._pose = None
+
+    @property
+    def t(self) -> float:
+        """Simulated time [s]."""
+        return self.step * self._engine.dt
+
+    @property
+    def q(self) -> Array:
+        """Configuration, in the order of `Kinematics`, read-only; shape (nq,)."""
+        return self._part.q
+
+    @property
+    def v(self) -> Array:
+        """Velocity, a floating base's twist in its own axes and linear first, read-only; shape (nv,)."""
+        return self._part.v
+
+    @property
+    def tau(self) -> Array:
+        """All effort of the last step but contacts and limits [N·m] or [N], read-only; shape (nv,)."""
+        return self._part.tau
+
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """What touched what in the last step, in the whole world."""
+        return self._engine.contacts()
+
+    @property
+    def energy(self) -> tuple[float, float]:
+        """Kinetic and potential energy of the robot [J], the latter zero at the world's origin."""
+        if self._part is self._engine:
+            return self._engine.energy()
+        part, gravity = self._part, self._engine._arrays["gravity"]
+        return energy_of(self._kinematics, part.q, part.v, self._base, gravity, part.weightless)
+
+    def position(self, joint: str) -> float:
+        """Return a joint's position [rad] or [m]; that of a continuous joint counts its turns.
+
+        Raises:
+            UnknownNameError: no joint of that name moves in one degree of freedom.
+        """
+        try:
+            found: float = self._coordinates[self._at[joint]]
+        except KeyError:
+            raise self._no_joint(joint) from None
+        return found
+
+    def velocity(self, joint: str) -> float:
+        """Return a joint's velocity [rad/s] or [m/s].
+
+        Raises:
+            UnknownNameError: no joint of that name moves in one degree of freedom.
+        """
+        try:
+            found: float = self._velocities[self._index[joint]]
+        except KeyError:
+            raise self._no_joint(joint) from None
+        return found
+
+    def effort(self, joint: str) -> float:
+        """Return what the joint's motor, its servo and efforts beside them exerted in the last step [N·m] or [N].
+
+        Raises:
+            UnknownNameError: no joint of that name moves in one degree of freedom.
+        """
+        try:
+            index = self._index[joint]
+        except KeyError:
+            raise self._no_joint(joint) from None
+        found: float = self._efforts[index] + self._applied[index]
+        return found
+
+    def several(self, joint: str) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Return where a planar or floating joint is and how it moves, both in the frame the joint has in its parent.
+
+        Returns:
+            x y z [m] and quaternion x y z w of the child link; its velocity [m/s] and angular velocity [rad/s].
+
+        Raises:
+            UnknownNameError: no planar or floating joint of that name.
+        """
+        kinematics = self._kinematics
+        if joint not in kinematics.several_names:
+            raise UnknownNameError(
+                f"no planar or floating joint `{joint}` in robot `{kinematics.robot.name}`"
+                f"{did_you_mean(str(joint), kinematics.several_names)}"
+            )
+        return pose_and_twist(
+            kinematics.robot.joint_by_name[joint].type or "",
+            self.q[kinematics.configuration_index(joint) :].tolist(),
+            self.v[kinematics.velocity_index(joint) :].tolist(),
+        )
+
+    def _no_joint(self, joint: str) -> UnknownNameError:
+        robot = self._kinematics.robot
+        if joint in robot.joint_by_name:
+            return UnknownNameError(f"joint `{joint}` is {robot.joint_by_name[joint].type}: it has no one position")
+        return UnknownNameError(f"no joint `{joint}` in robot `{robot.name}`{did_you_mean(str(joint), self._index)}")
+
+    @property
+    def base_pose(self) -> tuple[float, ...]:
+        """The root link in the world: x y z [m] and quaternion x y z w."""
+        if self._pose is None:
+            if self._base is None:
+                self._pose = tuple(self._coordinates[self._root : self._root + 7].tolist())
+            else:
+                self._pose = tuple(self._base.tolist())
+        return self._pose
+
+    @property
+    def base_twist(self) -> tuple[float, ...]:
+        """Velocity of the root link [m/s] and its angular velocity [rad/s], along its own axes."""
+        return (0.0,) * 6 if self._base is not None else tuple(self._velocities[:6].tolist())
+
+    @property
+    def base_velocity(self) -> tuple[float, ...]:
+        """Velocity of the root link's origin [m/s] and its angular velocity [rad/s], along the world's axes."""
+        return (0.0,) * 6 if self._base is not None else in_the_world(self.base_pose, self.base_twist)
+
+    def keep_joints(self, joints: Sequence[str]) -> Callable[[], tuple[Array, Array, Array]]:
+        """Return what tells positions, velocities and efforts of joints at this moment, also later; shapes (n,).
+
+        Args:
+            joints: names of joints that move in one degree of freedom.
+        """
+        coordinates, velocities = self.snapshot().coordinates, self._part.v.copy()
+        efforts = self._part.effort + self._part.applied
+        at, index = self._at, self._index
+
+        def build() -> tuple[Array, Array, Array]:
+            dofs = [index[name] for name in joints]
+            return coordinates[[at[name] for name in joints]], velocities[dofs], efforts[dofs]
+
+        return build
+
+    def snapshot(self) -> Snapshot:
+        """Return this moment, kept; the same object for everybody who asks before the next step."""
+        if self._snapshot is None:
+            self._snapshot = Snapshot(self._kinematics, self.t, self._part, self._base)
+        return self._snapshot
+
+    def link_poses(self) -> Array:
+        """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7)."""
+        return self.snapshot().link_poses()

@@ -1,0 +1,178 @@
+"""Forces and torques from outside, on bodies and on links of robots, along the world's axes.
+
+They are what Gazebo's ``apply_body_wrench`` and gz's ``ApplyLinkWrench`` do: given in the world's axes, at a point that
+moves with the link, its origin unless said otherwise; several add up. A push acts on where the step is half way, as all
+else in the engine does, so that a constant force on a spinning body is constant in the world.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import inf, isfinite
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.errors import SimulationError
+from urdfkit.sim.state.quaternion import product, rotate
+
+if TYPE_CHECKING:
+    from urdfkit.sim.engine import Engine, Loose
+    from urdfkit.sim.world.simulated_robot import SimulatedRobot
+
+Array = NDArray[np.float64]
+Target = tuple["SimulatedRobot | None", str]
+"""A robot and the name of its link, or None and the name of a free body."""
+
+NO_WRENCH = (0.0,) * 6
+
+
+@dataclass(frozen=True, eq=False)
+class Push:
+    """A force and a torque that act on something.
+
+    Attributes:
+        target: what they act on.
+        force: [N], along the world's axes.
+        torque: [N·m], along the world's axes.
+        at: where the force acts, in the link's frame [m].
+        until: the step before which it ends; infinite where it is to last.
+    """
+
+    target: Target
+    force: tuple[float, ...]
+    torque: tuple[float, ...]
+    at: tuple[float, ...]
+    until: float
+
+
+class Pushes:
+    """What pushes at present.
+
+    Attributes:
+        acting: each push.
+    """
+
+    def __init__(self) -> None:
+        self.acting: list[Push] = []
+
+    def add(
+        self,
+        target: Target,
+        force: Sequence[float],
+        torque: Sequence[float],
+        at: Sequence[float],
+        *,
+        step: int,
+        steps: float,
+    ) -> None:
+        """Push something from a step on, for so many steps.
+
+        Raises:
+            SimulationError: a number is not finite, or there are not three.
+        """
+        three = _three("force", force), _three("torque", torque), _three("point of attack", at)
+        self.acting.append(Push(target, *three, step + steps))
+
+    def forget(self, wanted: Callable[[Target], bool]) -> None:
+        """End the pushes on some targets."""
+        self.acting = [push for push in self.acting if not wanted(push.target)]
+
+    def on(self, robot: SimulatedRobot, links: Sequence[str]) -> tuple[tuple[Array, Array, Array], ...]:
+        """Return force [N], torque [N·m] and point of attack [m], in the world, of what pushes links of a robot."""
+        found = []
+        for push in self.acting:
+            if push.target[0] is robot and push.target[1] in links:
+                pose = robot.state.link_poses()[robot.kinematics.link_names.index(push.target[1])]
+                at = pose[:3] + np.array(rotate(pose[3:], push.at))
+                found.append((np.array(push.force), np.array(push.torque), at))
+        return tuple(found)
+
+    def step(self, engine: Engine) -> None:
+        """Advance an engine by one step while what pushes pushes.
+
+        Raises:
+            SimulationError: the simulation diverged.
+        """
+        self.acting = [push for push in self.acting if push.until > engine.steps]
+        touched: list[tuple[Any, Array]] = []
+        loose: dict[str, Array] = {}
+        for push in self.acting:
+            robot, name = push.target
+            if robot is None:
+                loose[name] = loose.get(name, np.zeros(6)) + _on_body(engine.bodies[name], push, engine.dt)
+            else:
+                touched.append((robot, _on_link(robot, name, push, engine.dt)))
+        before = [(robot.part.applied, robot.part.applied.copy()) for robot, _ in touched]
+        for robot, effort in touched:
+            robot.part.applied += effort
+        for name, wrench in loose.items():
+            engine.bodies[name].push(wrench.tolist())
+        try:
+            engine.step(1)
+        finally:
+            for applied, values in reversed(before):
+                applied[:] = values
+            for name in loose:
+                engine.bodies[name].push(NO_WRENCH)
+
+
+def steps_of(seconds: float | None, dt: float) -> float:
+    """Return for how many steps a push lasts; None is for ever, and what is shorter than a step is a step.
+
+    Raises:
+        SimulationError: it is negative or no number.
+    """
+    if seconds is None:
+        return inf
+    if not (isfinite(seconds) and seconds >= 0):
+        raise SimulationError(f"a push cannot last {seconds:g} s; leave it out to push until told otherwise")
+    return max(1, round(seconds / dt)) if seconds > 0 else 0
+
+
+def _on_body(body: Loose, push: Push, dt: float) -> Array:
+    """Return the wrench at the origin of a free body, along its own axes half a step ahead."""
+    pose, twist = body.pose, body.twist
+    turned = _half_a_step_later(pose[3:], twist[3:], dt)
+    inverse = (-turned[0], -turned[1], -turned[2], turned[3])
+    force = np.array(rotate(inverse, push.force))
+    return np.concatenate([force, np.array(rotate(inverse, push.torque)) + np.cross(push.at, force)])
+
+
+def _half_a_step_later(quaternion: Sequence[float], rate: Sequence[float], dt: float) -> tuple[float, ...]:
+    """Return where an orientation is after half a step of turning at a rate along the world's axes [rad/s]."""
+    angle = float(np.linalg.norm(rate)) * dt / 2
+    scale = 0.5 * dt / 2 * float(np.sinc(angle / 2 / np.pi))
+    x, y, z = (scale * part for part in rate)
+    return product((x, y, z, float(np.cos(angle / 2))), quaternion)
+
+
+def _on_link(robot: SimulatedRobot, link: str, push: Push, dt: float) -> Array:
+    """Return the efforts of a robot's dofs that are as good as a push, half a step ahead: Jᵀ·wrench; shape (nv,)."""
+    import pinocchio
+
+    pin: Any = pinocchio
+    kinematics = robot.kinematics
+    model, data = kinematics.model, kinematics.data
+    force, torque = push.force, push.torque
+    if not kinematics.floating_base:
+        x, y, z, w = robot.base[3:]
+        force, torque = rotate((-x, -y, -z, w), force), rotate((-x, -y, -z, w), torque)
+    q = pin.integrate(model, robot.part.q, 0.5 * dt * robot.part.v)
+    frame = kinematics.frame(link)
+    jacobian = pin.computeFrameJacobian(model, data, q, frame, pin.LOCAL_WORLD_ALIGNED)
+    arm = data.oMf[frame].rotation @ np.array(push.at)
+    found: Array = jacobian.T @ np.concatenate([force, np.array(torque) + np.cross(arm, force)])
+    return found
+
+
+def _three(what: str, values: Sequence[float]) -> tuple[float, ...]:
+    try:
+        found = tuple(float(value) for value in values)
+    except (TypeError, ValueError):
+        found = ()
+    if len(found) != 3 or not all(map(isfinite, found)):
+        raise SimulationError(f"the {what} of a push is {values!r}; it must be three finite numbers")
+    return found

@@ -1,0 +1,243 @@
+"""The world on the bus: Gazebo's services and topics for spawning, removing, placing and pushing, as topics.
+
+The bus has no services, so the request of each is what its topic carries, under the service's own name. What fails is
+noted, and nothing else happens, as when a service answers with an error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.errors import SimulationError, UrdfkitError
+from urdfkit.messages import message_type, vector
+from urdfkit.messages.simulation import (
+    CLEAR,
+    CREATE,
+    DELETE,
+    ENTITY,
+    MODEL_STATE,
+    MODEL_STATES,
+    SET_POSE,
+    SPAWN,
+    WRENCH,
+    WRENCH_ENTITY,
+)
+from urdfkit.sim.plugins.publishers import Publication
+from urdfkit.sim.state.poses import pose_from
+from urdfkit.sim.state.quaternion import product, rotate
+from urdfkit.sim.world.spawn_requests import Arrival, arrival, arrival_of_text
+
+if TYPE_CHECKING:
+    from urdfkit.bus import Bus
+    from urdfkit.sim.simulator import Simulator
+    from urdfkit.sim.state.robot_state import State
+
+MODEL_STATES_RATE = 100.0
+"""[Hz]; Gazebo publishes them every step."""
+
+
+def listen(simulator: Simulator) -> None:
+    """Do what the topics of this module ask for."""
+    heard = _Heard(simulator)
+    world = f"/world/{simulator.world.name}"
+    for topic, type, act in (
+        ("/gazebo/set_model_state", MODEL_STATE, heard.set_model_state),
+        ("/gazebo/spawn_sdf_model", SPAWN, heard.spawn_model),
+        ("/gazebo/spawn_urdf_model", SPAWN, heard.spawn_model),
+        ("/gazebo/delete_model", DELETE, heard.delete_model),
+        ("/gazebo/apply_body_wrench", WRENCH, heard.apply_body_wrench),
+        ("/gazebo/clear_body_wrenches", CLEAR, heard.clear_body_wrenches),
+        (f"{world}/create", CREATE, heard.create),
+        (f"{world}/remove", ENTITY, heard.remove),
+        (f"{world}/set_pose", SET_POSE, heard.set_pose),
+        (f"{world}/wrench", WRENCH_ENTITY, heard.wrench),
+        (f"{world}/wrench/persistent", WRENCH_ENTITY, heard.persistent_wrench),
+        (f"{world}/wrench/clear", ENTITY, heard.clear_wrench),
+    ):
+        simulator.bus.subscribe(topic, type, _noting(simulator, topic, act))
+
+
+def _noting(simulator: Simulator, topic: str, act: Callable[[Any], None]) -> Callable[[Any], None]:
+    def receive(message: Any) -> None:
+        try:
+            act(message)
+        except UrdfkitError as error:
+            simulator.note(f"{topic}: {error}")
+
+    return receive
+
+
+class _Heard:
+    def __init__(self, simulator: Simulator) -> None:
+        self._simulator = simulator
+
+    def set_model_state(self, message: Any) -> None:
+        """Put a model somewhere, with a velocity; in the frame of a model or link where one is named."""
+        pose, twist = _seven(message.pose), _six(message.twist)
+        frame = message.reference_frame
+        if frame not in ("", "world", "map"):
+            around = self._pose(frame)
+            turn = around[3:]
+            pose = _composed(around, pose)
+            twist = (*rotate(turn, twist[:3]), *rotate(turn, twist[3:]))
+        self._simulator.place(message.model_name, pose_from(pose), twist)
+
+    def spawn_model(self, message: Any) -> None:
+        """Spawn what a document describes."""
+        found = arrival_of_text(message.model_xml, self._simulator._package_path)
+        pose = _seven(message.initial_pose)
+        if message.reference_frame not in ("", "world", "map"):
+            pose = _composed(self._pose(message.reference_frame), pose)
+        self._spawn(found, message.model_name, pose)
+
+    def delete_model(self, message: Any) -> None:
+        """Remove a model."""
+        self._simulator.remove(message.model_name)
+
+    def apply_body_wrench(self, message: Any) -> None:
+        """Push a body at a time, for a time; in the axes and at a point of another where one is named."""
+        simulator, frame = self._simulator, message.reference_frame
+        force, torque, point = (
+            _three(message.wrench.force),
+            _three(message.wrench.torque),
+            _three(message.reference_point),
+        )
+        body = self._pose(message.body_name)
+        if frame not in ("", "world", "map"):
+            around = self._pose(frame)
+            force, torque = rotate(around[3:], force), rotate(around[3:], torque)
+            there = _composed(around, (*point, 0.0, 0.0, 0.0, 1.0))
+            point = _inverted(body, there[:3])
+        elif any(point):
+            # gazebo_ros takes the point from the body's origin, along the world's axes, where no frame is named.
+            point = rotate((-body[3], -body[4], -body[5], body[6]), point)
+        seconds = message.duration.sec + 1e-9 * message.duration.nanosec
+        if seconds == 0:
+            return
+        start = message.start_time.sec + 1e-9 * message.start_time.nanosec
+        lasts = None if seconds < 0 else seconds
+
+        def push() -> None:
+            simulator.push(message.body_name, force, torque, at=point, for_seconds=lasts)
+
+        if start > simulator.t:
+            simulator.at(start, push)
+        else:
+            push()
+
+    def clear_body_wrenches(self, message: Any) -> None:
+        """End the pushes on a body."""
+        self._simulator.release(message.body_name)
+
+    def create(self, message: Any) -> None:
+        """Spawn an SDF or URDF, by text or file."""
+        if message.relative_to not in ("", "world"):
+            raise SimulationError("`relative_to` is not read; give the pose in the world")
+        if not (message.sdf or message.sdf_filename):
+            raise SimulationError("neither `sdf` nor `sdf_filename` says what to create (clones are not made)")
+        where = self._simulator._package_path
+        found = arrival_of_text(message.sdf, where) if message.sdf else arrival(message.sdf_filename, where)
+        name = message.name or found.thing.name
+        if message.allow_renaming:
+            name = self._simulator._free(name)
+        self._spawn(found, name, _seven(message.pose))
+
+    def remove(self, message: Any) -> None:
+        """Remove a model."""
+        self._simulator.remove(message.name)
+
+    def set_pose(self, message: Any) -> None:
+        """Put a model somewhere; its velocity stays, as in gz."""
+        self._simulator.place(message.entity.name, pose_from(_seven(message.pose)))
+
+    def wrench(self, message: Any) -> None:
+        """Push a link for one step."""
+        self._push(message, self._simulator.dt)
+
+    def persistent_wrench(self, message: Any) -> None:
+        """Push a link until told otherwise."""
+        self._push(message, None)
+
+    def clear_wrench(self, message: Any) -> None:
+        """End the pushes on a link."""
+        self._simulator.release(message.name)
+
+    def _push(self, message: Any, seconds: float | None) -> None:
+        force, torque = _three(message.wrench.force), _three(message.wrench.torque)
+        self._simulator.push(message.entity.name, force, torque, for_seconds=seconds)
+
+    def _spawn(self, found: Arrival, name: str, pose: Sequence[float]) -> None:
+        self._simulator.spawn(found, pose_from(pose), name=name or None)
+
+    def _pose(self, name: str) -> Sequence[float]:
+        """Return where a model, robot, body or link is."""
+        simulator = self._simulator
+        if name in simulator._stage.names:
+            return simulator.pose(name)
+        robot, link = simulator._target(name)
+        if robot is None:
+            return simulator.bodies[link].pose
+        row = robot.kinematics.link_names.index(link)
+        return tuple(robot.state.link_poses()[row].tolist())
+
+
+class ModelStates(Publication):
+    """``/gazebo/model_states``: where every model and robot is, and how it moves; only while somebody listens."""
+
+    def __init__(self, bus: Bus, dt: float, simulator: Simulator) -> None:
+        super().__init__(bus.advertise("/gazebo/model_states", MODEL_STATES), MODEL_STATES_RATE, dt)
+        self._simulator = simulator
+
+    def catch_up(self, state: State) -> None:
+        """Publish what has fallen due, if anybody listens."""
+        if self.topic.subscribers:
+            super().catch_up(state)
+        else:
+            self.start_at(state.step)
+
+    def message(self, state: State) -> Callable[[], Any]:
+        """Return what builds the message of this moment, also later."""
+        simulator = self._simulator
+        names = simulator._stage.names
+        found = [(simulator.pose(name), simulator._stage.twist_of(name)) for name in names]
+
+        def build() -> Any:
+            poses = [_pose_message(pose) for pose, _ in found]
+            twist = message_type("geometry_msgs/msg/Twist")
+            twists = [twist(vector(each[:3]), vector(each[3:])) for _, each in found]
+            return message_type(MODEL_STATES)(list(names), poses, twists)
+
+        return build
+
+
+def _pose_message(pose: Sequence[float]) -> Any:
+    point = message_type("geometry_msgs/msg/Point")(*map(float, pose[:3]))
+    quaternion = message_type("geometry_msgs/msg/Quaternion")(*map(float, pose[3:]))
+    return message_type("geometry_msgs/msg/Pose")(point, quaternion)
+
+
+def _three(message: Any) -> tuple[float, float, float]:
+    return float(message.x), float(message.y), float(message.z)
+
+
+def _six(twist: Any) -> tuple[float, ...]:
+    return (*_three(twist.linear), *_three(twist.angular))
+
+
+def _seven(pose: Any) -> tuple[float, ...]:
+    """Return a pose; a quaternion of zeros, as messages are born with, is no turn."""
+    q = pose.orientation
+    turn = (float(q.x), float(q.y), float(q.z), float(q.w))
+    return (*_three(pose.position), *(turn if any(turn) else (0.0, 0.0, 0.0, 1.0)))
+
+
+def _composed(outer: Sequence[float], inner: Sequence[float]) -> tuple[float, ...]:
+    x, y, z = rotate(outer[3:], inner[:3])
+    return outer[0] + x, outer[1] + y, outer[2] + z, *product(outer[3:], inner[3:])
+
+
+def _inverted(frame: Sequence[float], point: Sequence[float]) -> tuple[float, float, float]:
+    """Return a point of the world in a frame."""
+    x, y, z, w = frame[3:]
+    return rotate((-x, -y, -z, w), [a - b for a, b in zip(point, frame[:3], strict=True)])

@@ -1,0 +1,259 @@
+"""Turning the screws while a simulation runs: friction, masses, gravity, gains of controllers.
+
+What is written stays as it is; only the simulation changes. Masses and friction make the engine anew, of the same
+things where they are, as spawning does: what moves goes on. They stay through a reset.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import isfinite
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.description.sdf import World, WorldModel
+from urdfkit.errors import SimulationError, UnknownNameError
+from urdfkit.kinematics.pinocchio_model import spatial_inertia
+from urdfkit.sim.construction.loading import sound_gravity
+from urdfkit.sim.engine import Surface
+from urdfkit.sim.plugins.controllers.pid import Gains
+from urdfkit.sim.state.arguments import nearest, number
+
+if TYPE_CHECKING:
+    from urdfkit.sim.plugins.controllers.joint_handle import Follower
+    from urdfkit.sim.world.entities import Population
+    from urdfkit.sim.world.simulated_robot import SimulatedRobot
+
+LEAST_MASS = 1e-6
+"""[kg]"""
+
+
+@dataclass(frozen=True, slots=True)
+class Tuned:
+    """What of a link, or of a model of the world, can be changed.
+
+    Attributes:
+        name: of the link, or of the model.
+        mass: [kg]; None where it makes no difference or cannot be changed.
+        mu: the smaller friction coefficient; None where nothing touches.
+    """
+
+    name: str
+    mass: float | None
+    mu: float | None
+
+
+class Tuning:
+    """The screws of a simulation.
+
+    Args:
+        population: the simulation.
+    """
+
+    def __init__(self, population: Population) -> None:
+        self._population = population
+        self._masses: dict[tuple[int, str], float] = {}
+
+    # Gravity
+
+    @property
+    def gravity(self) -> tuple[float, float, float]:
+        """What pulls at everything [m/s²]."""
+        x, y, z = self._population._stage.world.gravity
+        return x, y, z
+
+    def set_gravity(self, gravity: Sequence[float]) -> None:
+        """Change gravity [m/s²]; what sleeps wakes.
+
+        Raises:
+            SimulationError: these are not three finite numbers, or too large: see `sound_gravity`.
+        """
+        x, y, z = sound_gravity(gravity)
+        stage = self._population._stage
+        stage.world = replace(stage.world, gravity=(x, y, z))
+        stage.engine._arrays["gravity"][:] = x, y, z
+
+    # Links and models
+
+    def links(self, robot: str) -> tuple[Tuned, ...]:
+        """Return what can be changed of a robot's links.
+
+        Raises:
+            SimulationError: there is no such robot.
+        """
+        found = self._population.robots[robot]
+        touches = {shape.body for shape in found.shapes}
+        return tuple(
+            Tuned(
+                link.name,
+                self._mass(found, link.name)
+                if _moves(found, link.name) and link.name not in found.weightless
+                else None,
+                found.surfaces.get(link.name, Surface()).mu if link.name in touches else None,
+            )
+            for link in found.robot.links
+        )
+
+    @property
+    def models(self) -> tuple[Tuned, ...]:
+        """What can be changed of the world's models."""
+        stage = self._population._stage
+        found = []
+        for model in stage.world.models:
+            links = [link for _, _, link in model.all_links()]
+            touching = [shape.surface.mu for link in links for shape in link.collisions]
+            heavy = not model.static and not stage.entry(model.name).robots
+            mass = sum(link.inertial.mass for link in links) if heavy else None
+            found.append(Tuned(model.name, mass, min(touching, default=None)))
+        return tuple(found)
+
+    def set_mass(self, name: str, mass: float, link: str = "") -> None:
+        """Change the mass of a robot's link, or of a model of the world; inertia grows with it.
+
+        Args:
+            name: of the robot or model.
+            mass: [kg].
+            link: of the robot; "" for a model.
+
+        Raises:
+            SimulationError: there is none, it makes no difference, or the mass makes no sense.
+        """
+        mass = number(mass, "the mass", "kg")
+        if not (isfinite(mass) and mass >= LEAST_MASS):
+            raise SimulationError(f"a mass of {mass:g} kg cannot be simulated; it must be at least {LEAST_MASS:g} kg")
+        if not link:
+            factor = mass / self._known(self._model(name).mass, f"the mass of `{name}`")
+            self._change(name, lambda model: _heavier(model, factor))
+            return
+        robot = self._population.robots[name]
+        before = self._known(self._link(name, link).mass, f"the mass of link `{link}`")
+        model, own = robot.kinematics.model, spatial_inertia(robot.robot.link_by_name[link])
+        frame = model.frames[robot.kinematics.frame(link)]
+        # Dynamic parameters (mass, first moments, second moments) add up; Pinocchio, FromDynamicParameters.
+        part = frame.placement.act(own).toDynamicParameters() * ((mass - before) / own.mass)
+        joint = frame.parentJoint
+        model.inertias[joint] = type(own).FromDynamicParameters(model.inertias[joint].toDynamicParameters() + part)
+        self._masses[id(robot), link] = mass
+        self._population._stage.rebuild()
+
+    def set_mu(self, name: str, mu: float, link: str = "") -> None:
+        """Change how a robot's link, or a model of the world, rubs: alike in all directions of the surface.
+
+        Args:
+            name: of the robot or model.
+            mu: the friction coefficient.
+            link: of the robot; "" for a model.
+
+        Raises:
+            SimulationError: there is none, nothing touches it, or the coefficient is negative or not finite.
+        """
+        mu = number(mu, "the friction coefficient", "")
+        if not (isfinite(mu) and mu >= 0):
+            raise SimulationError(
+                f"a friction coefficient of {mu:g} makes no sense; it must be finite and not negative"
+            )
+        if not link:
+            self._known(self._model(name).mu, f"the friction of `{name}`")
+            self._change(name, lambda model: _rougher(model, mu))
+            return
+        self._known(self._link(name, link).mu, f"the friction of link `{link}`")
+        robot = self._population.robots[name]
+        surface = robot.surfaces.get(link, Surface())
+        # Wheels with rollers keep that they slip one way.
+        scale = surface.mu2 / surface.mu1 if surface.mu1 > 0 and surface.fdir1 is not None else 1.0
+        robot.surfaces = {**robot.surfaces, link: replace(surface, mu1=mu, mu2=mu * scale)}
+        self._population._stage.rebuild()
+
+    # Gains
+
+    @property
+    def gains(self) -> dict[str, Gains]:
+        """``ROBOT/CONTROLLER/JOINT`` → gains, of every loaded controller that has any."""
+        return {path: followers[0].gains for path, followers in self._followers().items()}
+
+    def set_gains(self, path: str, gains: Gains) -> None:
+        """Change the gains of a controller at one of its joints; its integral begins anew.
+
+        Raises:
+            SimulationError: there is none, or a gain makes no sense.
+        """
+        known = self._followers()
+        if path not in known:
+            raise UnknownNameError(f"no gains `{path}`{nearest(path, known)}")
+        for letter, gain in (("p", gains.p), ("i", gains.i), ("d", gains.d)):
+            if not (isfinite(gain) and gain >= 0):
+                raise SimulationError(f"gain `{letter}` is {gain:g}; it must be finite and not negative")
+        for follower in known[path]:
+            follower.gains = follower.integral.gains = gains
+            follower.integral.reset()
+        for robot in self._population.robots.values():
+            for controller in robot.plugins.controllers:
+                controller.wake()
+        self._population._agenda.stir()
+
+    def _followers(self) -> dict[str, list[Follower]]:
+        found: dict[str, list[Follower]] = {}
+        for robot in self._population.robots.values():
+            for controller in robot.plugins.controllers:
+                for path, follower in controller.followers():
+                    found.setdefault(f"{robot.name}/{path}", []).append(follower)
+        return found
+
+    # Inside
+
+    def _mass(self, robot: SimulatedRobot, link: str) -> float | None:
+        written = robot.robot.link_by_name[link].inertial
+        if written is None or not written.mass:
+            return None
+        return self._masses.get((id(robot), link), written.mass)
+
+    def _link(self, robot: str, link: str) -> Tuned:
+        found = {each.name: each for each in self.links(robot)}
+        if link not in found:
+            raise UnknownNameError(f"no link `{link}` in robot `{robot}`{nearest(link, found)}")
+        return found[link]
+
+    def _model(self, name: str) -> Tuned:
+        found = {each.name: each for each in self.models}
+        if name not in found:
+            raise UnknownNameError(f"no model `{name}` in the world{nearest(name, found)}")
+        return found[name]
+
+    def _known(self, value: float | None, what: str) -> float:
+        if value is None:
+            raise SimulationError(f"{what} makes no difference in this simulation, or cannot be changed while it runs")
+        return value
+
+    def _change(self, name: str, change: Any) -> None:
+        """Replace a model by what `change` makes of it."""
+        stage = self._population._stage
+        entry = stage.entry(name)
+        if entry.robots:
+            raise SimulationError(f"`{name}` has joints that move: it cannot be changed while it runs")
+        world: World = stage.world
+        changed = {model.name: change(model) for model in world.models if model.name == name}
+        stage.world = replace(world, models=tuple(changed.get(model.name, model) for model in world.models))
+        entry.thing = changed[name]
+        stage.rebuild()
+
+
+def _moves(robot: SimulatedRobot, link: str) -> bool:
+    frame = robot.kinematics.model.frames[robot.kinematics.frame(link)]
+    return bool(frame.parentJoint != 0)
+
+
+def _heavier(model: WorldModel, factor: float) -> WorldModel:
+    links = []
+    for link in model.links:
+        own = link.inertial
+        grown = {name: getattr(own, name) * factor for name in ("mass", "ixx", "ixy", "ixz", "iyy", "iyz", "izz")}
+        links.append(replace(link, inertial=replace(own, **grown)))
+    return replace(model, links=tuple(links), models=tuple(_heavier(inner, factor) for inner in model.models))
+
+
+def _rougher(model: WorldModel, mu: float) -> WorldModel:
+    links = []
+    for link in model.links:
+        collisions = (replace(each, surface=replace(each.surface, mu=mu, mu2=mu)) for each in link.collisions)
+        links.append(replace(link, collisions=tuple(collisions)))
+    return replace(model, links=tuple(links), models=tuple(_rougher(inner, mu) for inner in model.models))

@@ -1,0 +1,93 @@
+"""How fast what touches slides: the velocity of a robot's contact points across what they touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from urdfkit.sim.engine import Contact
+    from urdfkit.sim.plugins.sensors.point_motion import Motion
+    from urdfkit.sim.world.entities import Population
+    from urdfkit.sim.world.simulated_robot import SimulatedRobot
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Slip:
+    """A contact of a robot's link.
+
+    Attributes:
+        link: ``ROBOT::LINK``; the link alone for the simulation's own robot.
+        position: in the world [m].
+        velocity: of the link there, across the contact's normal and against what it touches [m/s].
+    """
+
+    link: str
+    position: tuple[float, ...]
+    velocity: tuple[float, ...]
+
+    @property
+    def speed(self) -> float:
+        """How fast it slides [m/s]."""
+        return float(np.linalg.norm(self.velocity))
+
+
+def slips(population: Population, contacts: tuple[Contact, ...]) -> list[Slip]:
+    """Return how each contact of a robot's links slides.
+
+    Args:
+        population: the simulation.
+        contacts: of its last step.
+    """
+    motions = _Motions(population)
+    found = []
+    for contact in contacts:
+        if (one := motions.of(contact.a)) is None:
+            continue
+        position, normal = np.array(contact.position), np.array(contact.normal)
+        velocity = _at(one, position)
+        if (other := motions.of(contact.b)) is not None:
+            velocity -= _at(other, position)
+        velocity -= (velocity @ normal) * normal
+        found.append(Slip(contact.a, contact.position, tuple(velocity.tolist())))
+    return found
+
+
+class _Motions:
+    """How the links of robots move, each worked out once."""
+
+    def __init__(self, population: Population) -> None:
+        self._links: dict[str, tuple[SimulatedRobot, str]] = {}
+        for k, robot in enumerate(population.robots.values()):
+            for link in robot.kinematics.link_names:
+                self._links[f"{robot.name}::{link}" if k else link] = robot, link
+        self._loose = population._stage.loose
+        self._known: dict[str, Motion | tuple[Array, Array]] = {}
+
+    def of(self, name: str) -> Motion | tuple[Array, Array] | None:
+        if name not in self._known:
+            if name in self._links:
+                from urdfkit.sim.plugins.sensors.point_motion import Moment
+
+                robot, link = self._links[name]
+                self._known[name] = Moment(robot.kinematics, robot.state).motion(link, np.eye(4))
+            elif name in self._loose:
+                body = self._loose[name]
+                self._known[name] = np.array(body.pose[:3]), np.array(body.twist)
+            else:
+                return None
+        return self._known[name]
+
+
+def _at(motion: Motion | tuple[Array, Array], point: Array) -> Array:
+    """Return the velocity of a point that moves with a link or body [m/s]."""
+    if isinstance(motion, tuple):
+        origin, twist = motion
+        found: Array = twist[:3] + np.cross(twist[3:], point - origin)
+        return found
+    return np.array(motion.linear + np.cross(motion.angular, point - motion.position))

@@ -1,0 +1,97 @@
+"""What is to be put into a running world: a model or robot by name, by file, as text, or loaded already."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from urdfkit.description.sdf import WorldModel, WorldRobot, load_model, model_names
+from urdfkit.description.urdf.robot import Robot
+from urdfkit.errors import DescriptionError, ResourceError, UrdfkitError, did_you_mean
+from urdfkit.resources import robot_names
+from urdfkit.sim.construction.loading import load_robot
+
+_ROBOTS = (".urdf", ".xacro")
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """What is to come.
+
+    Attributes:
+        thing: a model, or where a robot is to be found again.
+        robot: the robot, where it is one.
+    """
+
+    thing: WorldModel | WorldRobot
+    robot: Robot | None = None
+
+
+def arrival(model: str | Path | WorldModel | Robot | Arrival, package_path: Sequence[str | Path] = ()) -> Arrival:
+    """Return what is meant.
+
+    Args:
+        model: see `Population.spawn`.
+        package_path: folders to look for models and packages in first.
+
+    Raises:
+        UrdfkitError: there is none, or it is broken; says why, where, and what is near.
+    """
+    if isinstance(model, Arrival):
+        return model
+    if isinstance(model, WorldModel):
+        return Arrival(model)
+    if isinstance(model, Robot):
+        return _robot(model)
+    text = str(model)
+    path = Path(text)
+    if path.suffix in _ROBOTS or (path.is_dir() and not (path / "model.config").is_file()):
+        return _robot(load_robot(path, package_path))
+    if path.is_dir():
+        return Arrival(load_model(f"model://{path.name}", package_path=[path.parent, *package_path]))
+    if path.suffix in (".sdf", ".world") or text.startswith("model://"):
+        return Arrival(load_model(text, package_path=package_path))
+    if path.suffix or "/" in text:
+        raise ResourceError(f"`{text}` is no model: an .sdf, .urdf or .xacro file, or the name of one we ship")
+    try:
+        return Arrival(load_model(text, package_path=package_path))
+    except ResourceError as error:
+        if error.position is not None:
+            raise
+        robots = robot_names()
+        if text not in robots:
+            names = model_names()
+            raise ResourceError(
+                f"no model or robot `{text}`{did_you_mean(text, [*names, *robots])} "
+                f"(models: {', '.join(names)}; robots: {', '.join(robots)})"
+            ) from None
+    return _robot(load_robot(text, package_path))
+
+
+def arrival_of_text(text: str, package_path: Sequence[str | Path] = ()) -> Arrival:
+    """Return what an SDF or URDF document describes.
+
+    Raises:
+        UrdfkitError: it is broken, or neither.
+    """
+    from tempfile import TemporaryDirectory
+
+    suffix = ".urdf" if "<robot" in text else ".sdf"
+    if text.lstrip().startswith("<model"):  # as gz's EntityFactory allows
+        text = f'<sdf version="1.9">{text}</sdf>'
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / f"spawned{suffix}"
+        path.write_text(text, encoding="utf-8")
+        try:
+            found = arrival(path, package_path)
+        except UrdfkitError as error:
+            raise DescriptionError(str(error).replace(f"{folder}/", "")) from None
+    if isinstance(found.thing, WorldRobot):
+        return replace(found, thing=replace(found.thing, uri="", file=""))
+    return found
+
+
+def _robot(robot: Robot) -> Arrival:
+    file = str(robot.files[0]) if robot.files else ""
+    return Arrival(WorldRobot(robot.name or "robot", f"file://{file}" if file else "", file), robot)

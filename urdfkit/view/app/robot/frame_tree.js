@@ -1,0 +1,73 @@
+// The frame tree with the transform of every frame, live, in a frame of choice.
+
+import { h, icon, short } from "../page/dom.js";
+import { copyText } from "./inspector.js";
+import { compose, inverse, toRpy, turnOf } from "./pose.js";
+
+const FRAMES = "M4 20V8M4 20h12M4 20l6-6M16 10l4-4M20 10V6h-4";
+const COPY = "M9 9h10v11H9zM15 9V5H5v11h4";
+const PERIOD = 150; // ms between updates
+const PARENT = "";
+
+export function tf(page) {
+  const panel = page.panels.add({ id: "tf", title: "Frames", icon: FRAMES, modes: ["view"], order: 45 });
+  const choice = h("select#tf-in", { "aria-label": "Express in" });
+  const unit = h("select#tf-unit", { "aria-label": "Angles in" }, h("option", { value: "rad" }, "rad"), h("option", { value: "deg" }, "deg"));
+  const list = h("ol.tf");
+  panel.body.append(h("div.row.tf-head", {}, h("label.grow", {}, h("span.quiet", {}, "Express in"), choice), h("label", {}, h("span.quiet", {}, "Angles"), unit)), list);
+  let rows = [];
+  let due = 0;
+
+  page.on("robot", ({ kinematics }) => {
+    const before = choice.value;
+    choice.replaceChildren(h("option", { value: PARENT }, "the frame above"), ...kinematics.links.map((link) => h("option", { value: link }, link)));
+    choice.value = kinematics.links.includes(before) ? before : PARENT;
+    rows = [...walk(kinematics, kinematics.root, 0)].map(row);
+    list.replaceChildren(...rows.map(({ item }) => item));
+    update();
+    mark(page.selected);
+  });
+  page.on("joints", () => {
+    if (!panel.open) return;
+    clearTimeout(due);
+    due = setTimeout(update, PERIOD);
+  });
+  for (const select of [choice, unit]) select.addEventListener("change", update);
+  panel.button.addEventListener("click", update);
+  page.on("select", mark);
+
+  function* walk(kinematics, link, depth) {
+    yield { link, joint: kinematics.above.get(link), depth };
+    for (const joint of kinematics.below.get(link) ?? []) yield* walk(kinematics, joint.child, depth + 1);
+  }
+
+  function row({ link, joint, depth }) {
+    const name = h("button.entry", { type: "button", title: link, onclick: () => page.select({ link }) }, link);
+    name.style.paddingLeft = `${0.4 + 0.4 * Math.min(depth, 12)}rem`;
+    const kind = h("small", {}, joint ? joint.type : "root");
+    const numbers = h("span.tf-numbers");
+    const copy = h("button.bare.copy", { type: "button", title: "Copy x y z qx qy qz qw", "aria-label": `Copy the transform of ${link}` }, icon(COPY));
+    const made = { link, joint, name, numbers, pose: null, item: h("li", {}, h("div.tf-name", {}, name, kind, copy), numbers) };
+    made.item.dataset.frame = link;
+    copy.addEventListener("click", () => copyText(made.pose.map((x) => x.toPrecision(12)).join(" "), copy));
+    return made;
+  }
+
+  function update() {
+    if (!page.robot) return;
+    const poses = page.robot.kinematics.forward(page.values);
+    const base = choice.value === PARENT ? null : inverse(poses.get(choice.value));
+    const factor = unit.value === "deg" ? 180 / Math.PI : 1;
+    for (const made of rows) {
+      const from = base ?? (made.joint ? inverse(poses.get(made.joint.parent)) : null);
+      made.pose = from ? compose(from, poses.get(made.link)) : poses.get(made.link);
+      const place = made.pose.slice(0, 3).map((x) => short(x, 4)).join("  ");
+      const turn = toRpy(turnOf(made.pose)).map((x) => short(x * factor, unit.value === "deg" ? 2 : 4)).join("  ");
+      made.numbers.textContent = `xyz ${place} m\nrpy ${turn} ${unit.value}`;
+    }
+  }
+
+  function mark(selected) {
+    for (const { link, name } of rows) name.toggleAttribute("data-selected", selected?.link === link);
+  }
+}

@@ -1,0 +1,178 @@
+// Dragging a link: the handle says where it shall be, inverse kinematics finds the joints.
+/* global MeshCat */
+
+import { check, h, short } from "../page/dom.js";
+import { Gizmo, nearest } from "../viewport/gizmo.js";
+import { compose } from "./pose.js";
+
+const THREE = MeshCat.THREE;
+const HAND = "M12 2v20M2 12h20M12 2l-3 3M12 2l3 3M12 22l-3-3M12 22l3-3M2 12l3-3M2 12l3 3M22 12l-3-3M22 12l-3 3";
+const RESTARTS = 3; // beginnings elsewhere for each move of the hand
+const ALL = 40; // … and when it lets go
+const SIZE = 0.14; // of the picture's height, or width where that is less
+
+export class Dragging {
+  constructor(page) {
+    this.page = page;
+    this.viewer = page.stage.viewer;
+    this.gizmo = new Gizmo();
+    this.viewer.scene.add(this.gizmo);
+    this.drag = null;
+    this.turn = false;
+    this.label = null;
+    const { pane } = page.stage;
+    pane.addEventListener("pointerdown", (event) => this.#down(event), { capture: true });
+    pane.addEventListener("pointermove", (event) => this.#move(event), { capture: true });
+    for (const end of ["pointerup", "pointercancel"]) pane.addEventListener(end, (event) => this.#up(event), { capture: true });
+    page.on("draw", () => this.#place());
+    page.on("tool", () => this.show());
+    page.on("select", () => this.show());
+    page.on("robot", () => this.show());
+    page.on("poses", () => this.gizmo.visible && page.stage.dirty());
+  }
+
+  /** The link with the handle: the one selected, where anything moves it. */
+  get link() {
+    if (this.page.tools.held !== "ik" || !this.page.robot) return null;
+    const { link, joint } = this.page.selected ?? {};
+    const name = link ?? this.page.childOf(joint);
+    return name && this.page.robot.kinematics.movers(name).length ? name : null;
+  }
+
+  show() {
+    this.gizmo.visible = this.link !== null;
+    this.gizmo.rings = this.turn;
+    this.page.stage.dirty();
+  }
+
+  // The handle stands at the link's frame, always of the same size in the picture; while dragged, where it is dragged to.
+  #place() {
+    if (!this.gizmo.visible) return;
+    const at = this.drag?.at ?? this.page.labels.at(this.link);
+    if (!at) return;
+    this.gizmo.position.copy(this.viewer.scene.worldToLocal(at.clone()));
+    const { camera } = this.viewer;
+    const height = camera.isOrthographicCamera ? (2 * camera.userData.halfHeight) / camera.zoom : 2 * camera.position.distanceTo(at) * Math.tan((camera.fov * Math.PI) / 360);
+    this.gizmo.scale.setScalar(SIZE * height * Math.min(1, this.page.stage.aspect));
+  }
+
+  #down(event) {
+    if (!this.gizmo.visible || event.button !== 0 || this.drag) return;
+    this.page.pick.aim(event);
+    const handle = this.gizmo.hit(this.page.pick.ray);
+    if (!handle) return;
+    event.stopImmediatePropagation();
+    event.preventDefault();
+    this.page.labels.tip(null);
+    const { link, page } = this;
+    const at = page.labels.at(link);
+    const axis = handle.axis?.clone().transformDirection(this.viewer.scene.matrixWorld) ?? null;
+    const normal = handle.kind === "about" ? axis : this.viewer.camera.getWorldDirection(new THREE.Vector3());
+    this.drag = { pointer: event.pointerId, kind: handle.kind, link, at, axis, plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, at), values: { ...page.values }, goal: null, tried: 0 };
+    this.drag.pose = page.robot.kinematics.forward(page.values).get(link);
+    this.drag.from = this.#grip(event);
+    this.drag.start = at.clone();
+    page.stage.pane.setPointerCapture(event.pointerId);
+    this.viewer.controls.enabled = false;
+  }
+
+  // Where the pointer grips, on the handle's plane or axis, in the world.
+  #grip(event) {
+    const ray = this.page.pick.aim(event);
+    const { kind, axis, plane, at } = this.drag;
+    return kind === "along" ? nearest(ray, at, axis) : ray.intersectPlane(plane, new THREE.Vector3());
+  }
+
+  #move(event) {
+    if (!this.drag || event.pointerId !== this.drag.pointer) return;
+    event.stopImmediatePropagation();
+    const grip = this.#grip(event);
+    if (!grip || !this.drag.from) return;
+    const { kind, pose, start } = this.drag;
+    let goal = pose;
+    if (kind === "about") goal = this.#turned(grip);
+    else {
+      this.drag.at = start.clone().add(grip.sub(this.drag.from));
+      const [x, y, z] = this.#inRoot(this.drag.at);
+      goal = [x, y, z, ...pose.slice(3)];
+    }
+    this.drag.goal = goal;
+    this.#reach(RESTARTS);
+  }
+
+  // While the hand moves there is time for few beginnings, other ones each time; when it lets go for all.
+  #reach(restarts) {
+    const { drag, page } = this;
+    const found = page.robot.kinematics.inverse(drag.link, drag.goal, drag.values, { turn: this.turn, limits: !page.ignoreLimits, restarts, first: drag.tried });
+    drag.reached = found.reached;
+    drag.tried = found.reached ? 0 : drag.tried + restarts;
+    Object.assign(drag.values, found.values);
+    page.setJoints(found.values);
+    this.#tell(found);
+    page.stage.dirty();
+  }
+
+  #turned(grip) {
+    const { start, from, axis, pose } = this.drag;
+    const [a, b] = [from.clone().sub(start), grip.clone().sub(start)];
+    const angle = Math.atan2(axis.dot(a.clone().cross(b)), a.dot(b));
+    const local = this.#directionInRoot(axis);
+    const turn = new THREE.Quaternion().setFromAxisAngle(local, angle).toArray();
+    const [x, y, z] = pose;
+    return [x, y, z, ...compose([0, 0, 0, ...turn], [0, 0, 0, ...pose.slice(3)]).slice(3)];
+  }
+
+  get #root() {
+    return this.page.scene.byLink.get(this.page.robot.kinematics.root);
+  }
+
+  #inRoot(world) {
+    return this.#root.worldToLocal(world.clone()).toArray();
+  }
+
+  #directionInRoot(axis) {
+    return axis.clone().transformDirection(this.#root.matrixWorld.clone().invert());
+  }
+
+  #tell({ error, turned }) {
+    const away = error > 5e-4 ? `${short(1000 * error, 0)} mm out of reach` : turned > 5e-3 && this.turn ? `${short((turned * 180) / Math.PI, 0)}° out of reach` : "";
+    if (!away && this.label) this.#quiet();
+    else if (away && !this.label) this.label = this.page.labels.add(h("span.measure-label"), () => this.drag?.at ?? null);
+    if (this.label) this.label.textContent = away;
+  }
+
+  #quiet() {
+    if (this.label) this.page.labels.remove(this.label);
+    this.label = null;
+  }
+
+  #up(event) {
+    if (!this.drag || event.pointerId !== this.drag.pointer) return;
+    event.stopImmediatePropagation();
+    if (this.drag.goal && !this.drag.reached) {
+      this.drag.tried = 0;
+      this.#reach(ALL);
+    }
+    this.drag = null;
+    this.#quiet();
+    this.viewer.controls.enabled = this.page.cameras.way !== "first";
+    this.page.stage.dirty();
+  }
+}
+
+export function ik(page) {
+  const dragging = new Dragging(page);
+  const hold = check("Hold orientation, show rings", { id: "ik-turn", changed: (on) => ((dragging.turn = on), dragging.show()) });
+  const strip = h("div#ik-strip", { hidden: true }, h("span.quiet"), hold.label);
+  document.getElementById("stage").append(strip);
+  page.tools.tool({ id: "ik", title: "Drag the selected link", icon: HAND, modes: ["view"], order: 40, clicks: false });
+  page.shortcut({ key: "k", does: "drag the selected link", group: "Tools", run: () => page.tools.hold(page.tools.held === "ik" ? null : "ik") });
+  const tell = () => {
+    strip.hidden = page.tools.held !== "ik";
+    const name = page.selected?.link ?? page.selected?.joint;
+    strip.firstChild.textContent = dragging.link ? `Drag the handle of ${dragging.link}.` : name ? "No joint moves this link." : "Click the link to drag.";
+    hold.label.hidden = !dragging.link;
+  };
+  for (const event of ["tool", "select", "robot"]) page.on(event, tell);
+  page.expose("ik", dragging);
+}

@@ -1,0 +1,215 @@
+// The joint panel: a slider and a number for every joint, in radians or degrees, inside the limits or beyond them.
+
+import { check, h, short } from "../page/dom.js";
+import { numberField } from "../page/number_field.js";
+
+const SLIDERS = "M4 7h9M17 7h3M15 5v4M4 17h3M11 17h9M9 15v4";
+const DEGREES = 180 / Math.PI;
+const BEYOND = { rad: 2 * Math.PI, m: 2, "": 1 }; // how far sliders go where limits are ignored, at least
+
+export function joints(page) {
+  const panel = page.panels.add({ id: "joints", title: "Joints", icon: SLIDERS, modes: ["view"], order: 10 });
+  const made = new Joints(page, panel);
+  page.on("model", (message) => {
+    made.show(message.joints);
+    page.panels.available("joints", message.joints.length > 0);
+  });
+  page.on("joints", (message) => made.update(message.positions));
+  page.on("select", (selected) => made.mark(selected));
+  page.setJoints = (values) => made.set(values);
+  page.shortcut({ key: "0", does: "all joints to zero", group: "Joints", run: () => made.zero() });
+  page.shortcut({ key: "5", does: "all joints to the middle of their range", group: "Joints", run: () => made.centre() });
+  page.shortcut({ key: "r", does: "all joints anywhere in their range", group: "Joints", run: () => made.random() });
+  page.expose("joints", made);
+}
+
+export class Joints {
+  constructor(page, panel) {
+    this.page = page;
+    this.page.ignoreLimits = false;
+    this.degrees = false;
+    this.rows = new Map();
+    this.moved = {};
+    this.list = h("ul#joints");
+    this.filter = h("input#filter", { type: "search", placeholder: "Filter joints", "aria-label": "Filter joints", autocomplete: "off", spellcheck: "false" });
+    this.filter.addEventListener("input", () => this.#filter());
+    this.none = h("p.quiet", { hidden: true }, "No joint of this name.");
+    const free = check("Ignore limits", { id: "ignore-limits", changed: (on) => this.#free(on) });
+    const unit = h("select#angle-unit", { "aria-label": "Angles in" }, h("option", { value: "rad" }, "rad"), h("option", { value: "deg" }, "deg"));
+    unit.addEventListener("change", () => this.#unit(unit.value === "deg"));
+    const button = (words, title, run) => h("button", { type: "button", title, onclick: run }, words);
+    const all = [
+      button("Zero all", "Every joint to zero, or as near as its limits allow (0)", () => this.zero()),
+      button("Centre", "Every joint to the middle of its range (5)", () => this.centre()),
+      button("Random", "Every joint anywhere in its range (R)", () => this.random()),
+    ];
+    panel.body.append(h("div.row.wrap.joint-all", {}, all), h("div.row.wrap", {}, free.label, h("span.space"), h("label.inline", {}, "Angles in ", unit)), this.filter, this.list, this.none);
+  }
+
+  /** Build the rows for a robot; the filter stays. */
+  show(joints) {
+    this.rows.clear();
+    this.list.replaceChildren(...joints.map((joint) => this.#row(joint)));
+    this.filter.hidden = joints.length < 6;
+    this.#filter();
+    this.mark(this.page.selected);
+  }
+
+  /** Values from Python; what a person is moving at this moment stays under their hand. */
+  update(positions) {
+    for (const [name, value] of Object.entries(positions)) {
+      const row = this.rows.get(name);
+      if (row && !row.held && !(name in this.moved)) this.#put(row, value);
+    }
+  }
+
+  zero() {
+    this.#all(({ joint }) => (joint.name.endsWith("/rot_w") ? 1 : 0));
+  }
+
+  centre() {
+    this.#all(({ joint }) => (joint.limited ? (joint.lower + joint.upper) / 2 : joint.name.endsWith("/rot_w") ? 1 : 0));
+  }
+
+  random() {
+    this.#all(({ joint }) => joint.lower + Math.random() * (joint.upper - joint.lower));
+  }
+
+  /** Set several joints [rad or m], as a hand would. */
+  set(values) {
+    for (const [name, value] of Object.entries(values)) if (this.rows.has(name)) this.#move(name, value);
+  }
+
+  mark(selected) {
+    for (const { item, joint } of this.rows.values()) item.toggleAttribute("data-selected", selected?.joint === joint.name || this.#above(selected?.link) === joint.name);
+  }
+
+  #above(link) {
+    return this.page.robot?.kinematics.above.get(link)?.name ?? null;
+  }
+
+  #all(value) {
+    for (const row of this.rows.values()) if (row.joint.mimic === null) this.#move(row.joint.name, value(row));
+  }
+
+  #row(joint) {
+    const { name } = joint;
+    const label = h("label", { title: name, for: `joint-${name}` }, name);
+    const number = numberField();
+    const unit = h("span.unit");
+    const slider = h("input", { type: "range", step: "any", id: `joint-${name}` });
+    const ends = h("div.joint-ends", {}, h("span"), h("span"));
+    const item = h("li", {}, h("div.joint-head", {}, label, number, unit), slider, ends);
+    item.dataset.joint = name;
+    const row = { joint, item, number, slider, unit, ends, held: false, value: joint.position };
+    this.rows.set(name, row);
+    this.#range(row);
+    this.#put(row, joint.position);
+    number.disabled = slider.disabled = joint.mimic !== null;
+    slider.addEventListener("pointerdown", () => (row.held = true));
+    for (const end of ["pointerup", "pointercancel"]) slider.addEventListener(end, () => (row.held = false));
+    slider.addEventListener("input", () => this.#move(name, slider.valueAsNumber));
+    slider.addEventListener("dblclick", () => this.#move(name, 0));
+    slider.addEventListener("keydown", (event) => this.#keys(event, row));
+    number.addEventListener("change", () => this.#typed(row));
+    label.addEventListener("click", () => this.page.select({ joint: name.split("/")[0] }));
+    return item;
+  }
+
+  #typed(row) {
+    this.#move(row.joint.name, row.number.valueAsNumber / this.#factor(row.joint));
+  }
+
+  #factor(joint) {
+    return this.degrees && joint.unit === "rad" ? DEGREES : 1;
+  }
+
+  // What a slider spans and what is written below it.
+  #range(row) {
+    const { joint } = row;
+    const free = this.page.ignoreLimits;
+    const reach = BEYOND[joint.unit];
+    row.lower = free ? Math.min(joint.lower, -reach) : joint.lower;
+    row.upper = free ? Math.max(joint.upper, reach) : joint.upper;
+    const factor = this.#factor(joint);
+    const unit = this.degrees && joint.unit === "rad" ? "deg" : joint.unit;
+    Object.assign(row.slider, { min: row.lower, max: row.upper });
+    row.unit.textContent = unit === "deg" ? "°" : unit;
+    row.number.setAttribute("aria-label", unit ? `${joint.name} [${unit}]` : joint.name);
+    const texts = joint.mimic ? [law(joint), ""] : joint.limited ? [short(joint.lower * factor), short(joint.upper * factor)] : ["no limit", ""];
+    if (joint.limited && !joint.mimic && free) texts.splice(0, 2, `limits ${texts[0]} … ${texts[1]}`, "ignored");
+    // What is written below the slider may be typed, though it is rounded.
+    const typed = (end, outer) => (joint.limited && !free ? outer(end * factor, Number(short(end * factor))) : null);
+    Object.assign(row.number.bounds, { min: typed(joint.lower, Math.min), max: typed(joint.upper, Math.max), unit: unit === "deg" ? "°" : unit });
+    [...row.ends.children].forEach((end, i) => (end.textContent = texts[i]));
+  }
+
+  #unit(degrees) {
+    this.degrees = degrees;
+    for (const row of this.rows.values()) this.#range(row), this.#put(row, row.value);
+  }
+
+  #free(on) {
+    this.page.ignoreLimits = on;
+    for (const row of this.rows.values()) {
+      this.#range(row);
+      this.#put(row, row.value);
+      // Who goes back inside the limits takes the robot along.
+      if (!on && row.joint.mimic === null && (row.value < row.lower || row.value > row.upper) && row.joint.limited) this.#move(row.joint.name, row.value);
+    }
+  }
+
+  // A slider with step "any" moves by a hundredth of its range per arrow key, and by a tenth with shift.
+  #keys(event, row) {
+    const directions = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
+    const direction = directions[event.key];
+    if (!direction) return;
+    event.preventDefault();
+    this.#move(row.joint.name, row.slider.valueAsNumber + direction * (row.upper - row.lower) * (event.shiftKey ? 0.1 : 0.01));
+  }
+
+  // A typed value of a joint without limits may be beyond its slider.
+  #move(name, value) {
+    const row = this.rows.get(name);
+    const bound = row.joint.limited && !this.page.ignoreLimits;
+    const kept = bound ? Math.min(row.upper, Math.max(row.lower, value)) : value;
+    this.#put(row, kept);
+    if (Object.keys(this.moved).length === 0) requestAnimationFrame(() => this.#flush());
+    this.moved[name] = kept;
+  }
+
+  #flush() {
+    const moved = this.moved;
+    this.moved = {};
+    this.page.send("joints", { positions: moved });
+  }
+
+  #put(row, value) {
+    row.value = value;
+    row.slider.value = value;
+    const shown = value * this.#factor(row.joint);
+    const text = shown.toFixed(this.#factor(row.joint) === 1 ? 3 : 1);
+    row.number.value = Number(text) === 0 ? text.replace("-", "") : text;
+    const beyond = row.joint.limited && (value < row.joint.lower - 1e-9 || value > row.joint.upper + 1e-9);
+    row.item.toggleAttribute("data-beyond", beyond);
+    row.slider.setAttribute("aria-valuetext", `${short(shown)} ${row.unit.textContent}`);
+  }
+
+  #filter() {
+    const wanted = this.filter.value.trim().toLowerCase();
+    let found = 0;
+    for (const [name, row] of this.rows) {
+      const fits = name.toLowerCase().includes(wanted);
+      row.item.hidden = !fits;
+      found += fits;
+    }
+    this.none.hidden = found > 0 || this.rows.size === 0;
+  }
+}
+
+/** How a joint follows another, in words. */
+function law({ mimic, multiplier, offset }) {
+  const factor = multiplier === 1 ? "" : `${short(multiplier)} × `;
+  const more = offset === 0 ? "" : ` ${offset < 0 ? "−" : "+"} ${short(Math.abs(offset))}`;
+  return `follows ${factor}${mimic}${more}`;
+}

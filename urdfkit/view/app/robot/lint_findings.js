@@ -1,0 +1,139 @@
+// What the linter finds: badges on the links, and a list with the lines, the rule and the fix.
+
+import { h, icon } from "../page/dom.js";
+import { excerpt, source } from "./inspector.js";
+import { inline, markdown } from "../page/markdown.js";
+
+const SHIELD = "M12 3l8 3v6c0 4.5-3.3 7.8-8 9-4.7-1.2-8-4.5-8-9V6zM12 8v5M12 16v.1";
+const TONES = ["error", "warning", "info"];
+
+const worst = (findings) => TONES.find((tone) => findings.some((finding) => finding.severity === tone)) ?? "";
+
+export function findings(page) {
+  const panel = page.panels.add({ id: "findings", title: "Findings", icon: SHIELD, modes: ["view"], order: 50 });
+  const summary = h("p.quiet", { role: "status" }, "Looking …");
+  const all = h("button.chip", { type: "button", hidden: true }, "Show all");
+  const list = h("ol.findings");
+  panel.body.append(h("div.row", {}, summary, all), list);
+  let known = [];
+  let rules = {};
+  let only = null; // a link
+  let badges = [];
+  const open = new Set(); // codes and places of rule pages left open
+
+  page.on("findings", (message) => {
+    known = message.findings.map((finding) => ({ ...finding, at: finding.link ?? page.childOf(finding.joint) }));
+    for (const finding of known) finding.links = finding.about.length ? [...new Set(finding.about.map(({ link, joint }) => link ?? page.childOf(joint)))] : everywhere(page, finding);
+    rules = message.rules;
+    page.findings = known;
+    panel.badge(known.length ? String(known.length) : null, worst(known));
+    if (only && !known.some((finding) => finding.links.includes(only))) only = null;
+    draw(message.fault);
+    mark();
+  });
+  page.on("robot", mark);
+  all.addEventListener("click", () => ((only = null), draw(null)));
+
+  function draw(fault) {
+    const shown = only ? known.filter((finding) => finding.links.includes(only)) : known;
+    summary.textContent = fault ?? (known.length === 0 ? "Nothing found: the linter has no complaint." : only ? `${shown.length} about ${only}` : words(known));
+    all.hidden = only === null;
+    list.replaceChildren(...shown.map(card));
+  }
+
+  function mark() {
+    for (const badge of badges) page.labels.remove(badge);
+    const links = new Map();
+    for (const finding of known) for (const link of finding.links) links.set(link, [...(links.get(link) ?? []), finding]);
+    badges = [...links].filter(([link]) => page.scene.byLink.has(link)).map(([link, found]) => {
+      const words = `${found.length} finding${found.length > 1 ? "s" : ""} on ${link}`;
+      const badge = h("button.badge", { type: "button", title: words, "aria-label": words }, h("span", {}, String(found.length)));
+      badge.dataset.tone = worst(found);
+      badge.dataset.link = link;
+      badge.addEventListener("click", () => about(link));
+      return page.labels.add(badge, () => middle(page, link));
+    });
+    for (const entry of document.querySelectorAll(".tree .link-entry")) entry.dataset.tone = links.has(entry.dataset.link) ? worst(links.get(entry.dataset.link)) : "";
+  }
+
+  function about(link) {
+    only = link;
+    page.select({ link });
+    draw(null);
+    page.panels.open("findings");
+  }
+
+  function card(finding) {
+    const key = `${finding.code} ${finding.file}:${finding.line}`;
+    const rule = h("details.rule", { open: open.has(key) }, h("summary", {}, "The rule"), h("div.prose", {}, markdown(rules[finding.code] ?? "")));
+    rule.addEventListener("toggle", () => (rule.open ? open.add(key) : open.delete(key)));
+    const tone = h("span.tone", {}, finding.severity);
+    tone.dataset.tone = finding.severity;
+    const place = { ...finding, chain: finding.chains[0] ?? [] };
+    const copies = finding.chains.length > 1 ? h("p.quiet", {}, `… and in ${finding.chains.length - 1} more of its expansions`) : null;
+    return h(
+      "li.finding",
+      {},
+      h("div.finding-head", {}, tone, h("code", {}, finding.code), h("span.quiet", {}, finding.name)),
+      h("p.finding-message", {}, inline(finding.message)),
+      finding.links.length ? h("div.chips", {}, finding.links.map((link) => h("button.chip", { type: "button", onclick: () => page.select({ link }) }, link))) : null,
+      source(place),
+      copies,
+      finding.lines.length ? excerpt(finding.lines, finding.line) : null,
+      finding.help ? h("p.help", {}, inline(finding.help)) : null,
+      finding.fix ? mend(finding) : null,
+      rule,
+    );
+  }
+
+  function mend(finding) {
+    const { title, safety, diff, may } = finding.fix;
+    const lines = diff.filter((line) => !line.startsWith("@@")).map((line) => {
+      const row = h("span.code-line", {}, `${line}\n`);
+      row.dataset.change = line[0] === "+" ? "in" : "out";
+      return row;
+    });
+    const button = h("button.apply", { type: "button" }, "Apply fix");
+    button.addEventListener("click", async () => {
+      button.disabled = true;
+      try {
+        const { done } = await page.connection.order("fix", { finding: finding.number });
+        page.toast(`Fixed ${done}`, "good");
+      } catch (error) {
+        button.disabled = false;
+        page.toast(error.message, "error");
+      }
+    });
+    const how = h("p.quiet", {}, safety === "safe" ? "Apply it with " : "It guesses what was meant; apply it with ", h("code", {}, `urdfkit lint --fix${safety === "safe" ? "" : " --unsafe-fixes"}`));
+    return h("div.fix", {}, h("p", {}, h("strong", {}, "Fix: "), inline(title)), lines.length ? h("pre.code.diff", { tabindex: "0" }, lines) : null, may ? button : how);
+  }
+}
+
+function words(findings) {
+  const names = { error: ["error", "errors"], warning: ["warning", "warnings"], info: ["note", "notes"] };
+  return TONES.map((tone) => [findings.filter((finding) => finding.severity === tone).length, names[tone]])
+    .filter(([count]) => count)
+    .map(([count, [one, many]]) => `${count} ${count === 1 ? one : many}`)
+    .join(", ");
+}
+
+/** The links a finding is about: of a macro that was called several times, one for each call it was found in. */
+function everywhere(page, { at, chains }) {
+  if (!at) return [];
+  const place = ({ source: { file, line, column } }) => `${file}:${line}:${column}`;
+  const first = page.robot?.links.get(at);
+  if (!first || chains.length < 2) return [at];
+  const wanted = chains.map((chain) => JSON.stringify(chain.map(({ macro, file, line }) => [macro, file, line])));
+  const called = (link) => JSON.stringify(link.source.chain.map(({ macro, file, line }) => [macro, file, line]));
+  const others = [...page.robot.links.values()].filter((link) => link !== first && place(link) === place(first) && wanted.includes(called(link)));
+  return [at, ...others.map((link) => link.name)];
+}
+
+/** The middle of what there is to see of a link, or its frame's place, in the world. */
+function middle(page, link) {
+  const node = page.scene.byLink.get(link);
+  if (!node) return null;
+  node.userData.middle ??= page.scene.middle(link);
+  node.updateWorldMatrix(true, false);
+  return node.localToWorld(node.userData.middle.clone());
+}

@@ -1,0 +1,25 @@
+// Everything there is to see and do with a robot's figure, in the order it is set up.
+
+import { cameras } from "../viewport/cameras.js";
+import { capture } from "../viewport/screen_capture.js";
+import { findings } from "./lint_findings.js";
+import { help } from "../page/keyboard_help.js";
+import { ik } from "./inverse_kinematics.js";
+import { inspector } from "./inspector.js";
+import { joints } from "./joint_sliders.js";
+import { labels } from "../viewport/labels.js";
+import { layers } from "../viewport/display_layers.js";
+import { measure } from "./measure.js";
+import { pick } from "../viewport/picking.js";
+import { robot } from "./robot_model.js";
+import { selection } from "../page/selection_bar.js";
+import { sight } from "../viewport/initial_view.js";
+import { tf } from "./frame_tree.js";
+import { steering } from "../viewport/keyboard_camera.js";
+import { theme } from "../page/theme.js";
+import { tools } from "../page/toolbar.js";
+import { tree } from "./link_tree.js";
+
+export const viewFeatures = [
+  tools, robot, sight, labels, joints, tree, inspector, layers, tf, measure, findings, cameras, capture, ik, pick, steering, selection, theme, help,
+];

@@ -1,0 +1,130 @@
+// Moving an object by hand: a handle with arrows and rings, and a box that shows where it will be.
+/* global MeshCat */
+
+import { Gizmo, nearest } from "../viewport/gizmo.js";
+
+const THREE = MeshCat.THREE;
+const SIZE = 0.13; // of the picture's height
+const UP = new THREE.Vector3(0, 0, 1);
+
+export class Mover {
+  /** @param moved called with x y z and a quaternion x y z w when the hand lets go */
+  constructor(page, moved) {
+    this.page = page;
+    this.moved = moved;
+    this.viewer = page.stage.viewer;
+    this.gizmo = new Gizmo();
+    this.ghost = new THREE.Group();
+    this.ghost.visible = false;
+    this.viewer.scene.add(this.gizmo, this.ghost);
+    this.drag = null;
+    const { pane } = page.stage;
+    pane.addEventListener("pointerdown", (event) => this.#down(event), { capture: true });
+    pane.addEventListener("pointermove", (event) => this.#move(event), { capture: true });
+    for (const end of ["pointerup", "pointercancel"]) pane.addEventListener(end, (event) => this.#up(event), { capture: true });
+    page.on("draw", () => this.#size());
+  }
+
+  get held() {
+    return this.gizmo.visible;
+  }
+
+  /** Put the handle on an object. @param links its; @param pose x y z roll pitch yaw */
+  take(links, pose) {
+    const turn = new THREE.Quaternion().setFromEuler(new THREE.Euler(pose[3], pose[4], pose[5], "ZYX"));
+    this.ghost.position.set(...pose.slice(0, 3));
+    this.ghost.quaternion.copy(turn);
+    this.ghost.clear();
+    const box = new THREE.Box3();
+    for (const link of links) for (const group of this.page.scene.shapes(link)) if (group.visible) box.expandByObject(group);
+    if (!box.isEmpty()) this.ghost.add(this.#frame(box));
+    this.gizmo.visible = true;
+    this.gizmo.rings = true;
+    this.#follow();
+  }
+
+  // The edges of a box in the window's world, as a child of the ghost.
+  #frame(box) {
+    const [size, middle] = [box.getSize(new THREE.Vector3()), box.getCenter(new THREE.Vector3())];
+    const edges = new THREE.LineSegments(new THREE.EdgesGeometry(new THREE.BoxGeometry(size.x, size.y, size.z)), new THREE.LineBasicMaterial({ color: 0xf5a524 }));
+    const placed = new THREE.Matrix4().setPosition(middle);
+    this.ghost.updateMatrix();
+    const inside = new THREE.Matrix4().multiplyMatrices(this.viewer.scene.matrixWorld, this.ghost.matrix).invert().multiply(placed);
+    inside.decompose(edges.position, edges.quaternion, edges.scale);
+    return edges;
+  }
+
+  drop() {
+    this.gizmo.visible = this.ghost.visible = false;
+    this.drag = null;
+    this.page.stage.dirty();
+  }
+
+  #follow() {
+    this.gizmo.position.copy(this.ghost.position);
+    this.#size();
+    this.page.stage.dirty();
+  }
+
+  #size() {
+    if (!this.gizmo.visible) return;
+    const { camera, scene } = this.viewer;
+    const at = scene.localToWorld(this.gizmo.position.clone());
+    const height = camera.isOrthographicCamera ? (2 * (camera.userData.halfHeight ?? 1)) / camera.zoom : 2 * camera.position.distanceTo(at) * Math.tan((camera.fov * Math.PI) / 360);
+    this.gizmo.scale.setScalar(SIZE * height);
+  }
+
+  #down(event) {
+    if (!this.gizmo.visible || event.button !== 0 || this.drag) return;
+    this.page.pick.aim(event);
+    const handle = this.gizmo.hit(this.page.pick.ray);
+    if (!handle) return;
+    event.stopImmediatePropagation();
+    event.preventDefault();
+    const at = this.viewer.scene.localToWorld(this.ghost.position.clone());
+    const axis = handle.axis?.clone().transformDirection(this.viewer.scene.matrixWorld) ?? null;
+    // The ball slides over the ground; rings turn in their plane.
+    const normal = handle.kind === "about" ? axis : UP.clone().transformDirection(this.viewer.scene.matrixWorld);
+    this.drag = { pointer: event.pointerId, ...handle, at, world: axis, plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, at) };
+    Object.assign(this.drag, { from: this.#grip(event), position: this.ghost.position.clone(), turn: this.ghost.quaternion.clone() });
+    this.ghost.visible = true;
+    this.page.stage.pane.setPointerCapture(event.pointerId);
+    this.viewer.controls.enabled = false;
+  }
+
+  #grip(event) {
+    const ray = this.page.pick.aim(event);
+    const { kind, world, plane, at } = this.drag;
+    return kind === "along" ? nearest(ray, at, world) : ray.intersectPlane(plane, new THREE.Vector3());
+  }
+
+  #move(event) {
+    const { drag } = this;
+    if (!drag || event.pointerId !== drag.pointer) return;
+    event.stopImmediatePropagation();
+    const now = this.#grip(event);
+    if (!now || !drag.from) return;
+    if (drag.kind === "about") {
+      const [a, b] = [drag.from, now].map((point) => this.viewer.scene.worldToLocal(point.clone()).sub(drag.position));
+      const angle = Math.atan2(drag.axis.dot(a.clone().cross(b)), a.dot(b));
+      const step = event.shiftKey ? angle : (Math.round((angle * 180) / Math.PI / 5) * 5 * Math.PI) / 180;
+      this.ghost.quaternion.setFromAxisAngle(drag.axis, step).multiply(drag.turn);
+    } else {
+      const shift = this.viewer.scene.worldToLocal(now.clone()).sub(this.viewer.scene.worldToLocal(drag.from.clone()));
+      this.ghost.position.copy(drag.position).add(shift);
+    }
+    this.#follow();
+  }
+
+  #up(event) {
+    const { drag } = this;
+    if (!drag || event.pointerId !== drag.pointer) return;
+    event.stopImmediatePropagation();
+    this.drag = null;
+    this.ghost.visible = false;
+    this.viewer.controls.enabled = true;
+    const moved = this.ghost.position.distanceTo(drag.position) > 1e-6 || this.ghost.quaternion.angleTo(drag.turn) > 1e-6;
+    if (moved) this.moved([...this.ghost.position.toArray(), ...this.ghost.quaternion.toArray()]);
+    this.page.stage.dirty();
+  }
+}

@@ -1,0 +1,151 @@
+// Pushing a link with the mouse: grab it and pull; a force at that point, or a torque.
+/* global MeshCat */
+
+import { h, short } from "../page/dom.js";
+
+const THREE = MeshCat.THREE;
+const PUSH = "M4 12h11M11 7l5 5-5 5M20 5v14";
+const PERIOD = 50; // ms between two orders while it is held
+
+export class Push {
+  constructor(page) {
+    this.page = page;
+    this.viewer = page.stage.viewer;
+    this.grip = null;
+    this.torque = false;
+    this.arrow = new THREE.ArrowHelper(new THREE.Vector3(0, 0, 1), new THREE.Vector3(), 1, 0xe0399b);
+    for (const part of [this.arrow.line, this.arrow.cone]) Object.assign(part.material, { depthTest: false });
+    this.arrow.traverse((object) => (object.renderOrder = 35));
+    this.arrow.visible = false;
+    this.viewer.scene.add(this.arrow);
+    this.#panel();
+    page.tools.tool({ id: "push", title: "Push a link", icon: PUSH, modes: ["sim"], order: 50, clicks: false, take: (held) => this.#held(held) });
+    const { pane } = page.stage;
+    pane.addEventListener("pointerdown", (event) => this.#down(event), { capture: true });
+    pane.addEventListener("pointermove", (event) => this.#move(event), { capture: true });
+    for (const end of ["pointerup", "pointercancel"]) pane.addEventListener(end, (event) => this.#up(event), { capture: true });
+    addEventListener("blur", () => this.release());
+    page.on("lost", () => this.release());
+    page.on("screws", ({ rows }) => this.#suit(rows));
+    page.on("poses", () => this.grip && this.#pull());
+  }
+
+  #panel() {
+    this.panel = this.page.panels.add({ id: "push", title: "Push", icon: PUSH, modes: ["sim"], order: 37 });
+    this.strength = h("input", { id: "push-strength", type: "range", min: -1, max: 4, step: 0.01, value: 1 });
+    this.words = h("output", { for: "push-strength" });
+    const say = () => (this.words.textContent = `${short(this.gain, this.gain < 10 ? 1 : 0)} ${this.torque ? "N·m" : "N"}/m`);
+    this.strength.addEventListener("input", say);
+    const kind = (value, words) => {
+      const input = h("input", { type: "radio", name: "push-kind", value, checked: value === "force" });
+      input.addEventListener("change", () => ((this.torque = value === "torque"), say()));
+      return h("label.check", {}, input, ` ${words}`);
+    };
+    this.now = h("p.now", { role: "status", id: "push-now" }, "Grab a link and pull.");
+    const hold = h("button.wide", { type: "button", id: "push-hold", onclick: () => this.page.tools.hold(this.page.tools.held === "push" ? null : "push") }, "Take the tool in hand");
+    this.panel.body.append(hold, h("div.checks", {}, kind("force", "Force, at the point"), kind("torque", "Torque")), h("label.field", { for: "push-strength" }, "Strength ", this.words, this.strength), this.now);
+    say();
+  }
+
+  // At first, what pulls a robot of this mass with 4 m/s² for every metre.
+  #suit(rows) {
+    if (this.suited) return;
+    const robot = rows.filter(({ name, link }) => link && name === rows[0].name);
+    const mass = robot.reduce((sum, row) => sum + (row.mass ?? 0), 0);
+    this.suited = mass > 0;
+    if (!this.suited) return;
+    this.strength.value = Math.log10(4 * mass);
+    this.strength.dispatchEvent(new Event("input"));
+  }
+
+  /** Newtons (or newton metres) for each metre that is pulled. */
+  get gain() {
+    return 10 ** this.strength.valueAsNumber;
+  }
+
+  #held(held) {
+    if (!held) this.release();
+    this.page.stage.pane.classList.toggle("pushing", held);
+    document.getElementById("push-hold").textContent = held ? "Put the tool down" : "Take the tool in hand";
+  }
+
+  #down(event) {
+    if (this.page.tools.held !== "push" || event.button !== 0 || this.grip) return;
+    const hit = this.page.pick.at(event);
+    if (!hit) return;
+    event.stopImmediatePropagation();
+    event.preventDefault();
+    const node = this.page.scene.byLink.get(hit.link);
+    const at = node.localToWorld(new THREE.Vector3(...hit.local));
+    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(this.viewer.camera.getWorldDirection(new THREE.Vector3()), at);
+    this.grip = { pointer: event.pointerId, link: hit.link, node, local: hit.local, plane, event, sent: 0 };
+    this.page.stage.pane.setPointerCapture(event.pointerId);
+    this.viewer.controls.enabled = false;
+    this.timer = setInterval(() => this.#send(), PERIOD);
+    this.#pull();
+  }
+
+  #move(event) {
+    if (!this.grip || event.pointerId !== this.grip.pointer) return;
+    event.stopImmediatePropagation();
+    this.grip.event = event;
+    this.#pull();
+  }
+
+  #up(event) {
+    if (!this.grip || event.pointerId !== this.grip.pointer) return;
+    event.stopImmediatePropagation();
+    this.release();
+  }
+
+  release() {
+    if (!this.grip) return;
+    this.grip = null;
+    clearInterval(this.timer);
+    this.arrow.visible = false;
+    this.viewer.controls.enabled = true;
+    this.now.textContent = "Grab a link and pull.";
+    if (this.page.connection.open) this.page.connection.order("let_go").catch(() => {});
+    this.page.stage.dirty();
+  }
+
+  // From the gripped point to the pointer, in the plane of the screen; along the world's axes.
+  #pull() {
+    const { grip } = this;
+    const ray = this.page.pick.aim(grip.event);
+    const end = ray.intersectPlane(grip.plane, new THREE.Vector3());
+    if (!end) return;
+    const start = grip.node.localToWorld(new THREE.Vector3(...grip.local));
+    const [from, to] = [start, end].map((point) => this.viewer.scene.worldToLocal(point.clone()));
+    const pull = to.clone().sub(from);
+    const length = pull.length();
+    const view = this.viewer.camera.getWorldDirection(new THREE.Vector3()).transformDirection(this.viewer.scene.matrixWorld.clone().invert());
+    grip.wrench = this.torque ? pull.clone().cross(view).multiplyScalar(-this.gain) : pull.clone().multiplyScalar(this.gain);
+    this.arrow.visible = length > 1e-4;
+    this.arrow.position.copy(from);
+    if (length > 1e-4) {
+      this.arrow.setDirection(pull.normalize());
+      this.arrow.setLength(length, Math.min(0.3 * length, 0.12), Math.min(0.18 * length, 0.07));
+    }
+    this.now.textContent = `${grip.link.replace("world/", "")}: ${short(grip.wrench.length(), 2)} ${this.torque ? "N·m" : "N"}`;
+    this.page.stage.dirty();
+  }
+
+  #send() {
+    const { grip } = this;
+    if (!grip?.wrench) return;
+    const values = grip.wrench.toArray();
+    const still = [0, 0, 0];
+    this.page.connection
+      .order("push", { link: grip.link.replace(/^world\//, ""), force: this.torque ? still : values, torque: this.torque ? values : still, at: grip.local })
+      .catch((error) => {
+        this.page.toast(error.message, "error");
+        this.release();
+      });
+  }
+}
+
+export function push(page) {
+  page.push = new Push(page);
+  page.expose("push", page.push);
+}

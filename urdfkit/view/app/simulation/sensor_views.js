@@ -1,0 +1,138 @@
+// What lidars and cameras see: points in the scene and from above, pictures in the panel. What is not ticked is not looked at.
+
+import { check, h } from "../page/dom.js";
+import { Cloud } from "./point_cloud.js";
+
+const HEADER = 16;
+const POINTS = 0;
+const PICTURE = 1;
+const COLORED = 3;
+const COLOURS = [0xe0399b, 0x0aa37f, 0xe08a00, 0x7a5cff];
+
+export class Sensors {
+  constructor(page, list) {
+    this.page = page;
+    this.list = list;
+    this.shown = [];
+  }
+
+  /** @param sensors [{topic, picture, camera}], in the order of the numbers of their frames */
+  use(sensors) {
+    const before = new Map(this.shown.map((each) => [each.topic, each]));
+    this.shown = sensors.map((sensor, i) => before.get(sensor.topic) ?? this.#make(sensor, i));
+    for (const [topic, each] of before) if (!this.shown.some((kept) => kept.topic === topic)) each.remove();
+  }
+
+  #make(sensor, i) {
+    const Kind = sensor.picture ? Picture : Points;
+    // A camera's cloud has as many points as the picture has pixels: it waits until it is asked for.
+    return new Kind(this.page, this.list, sensor.topic, { on: sensor.picture || !sensor.camera, colour: COLOURS[i % COLOURS.length] });
+  }
+
+  /** Take one binary frame. */
+  frame(buffer) {
+    const view = new DataView(buffer);
+    const kind = view.getUint8(1);
+    const shown = this.shown[view.getUint16(2, true)];
+    if (!shown?.kinds.includes(kind)) return;
+    const sequence = view.getUint32(4, true);
+    shown.take(buffer, kind, () => this.page.send("seen", { key: shown.key, sequence }));
+  }
+}
+
+/** One topic: a tick, and what comes on it. */
+class Sight {
+  constructor(page, list, topic, { on }) {
+    this.page = page;
+    this.topic = topic;
+    this.key = `sensor:${topic}`;
+    this.on = false;
+    const { box, label } = check(topic, { checked: on, changed: (ticked) => this.tick(ticked) });
+    this.box = box;
+    this.item = h("li.sight", {}, label);
+    list.append(this.item);
+  }
+
+  tick(on) {
+    if (on === this.on) return;
+    this.on = on;
+    this.page.connection.want(this.key, on);
+    this.show(on);
+  }
+
+  remove() {
+    this.tick(false);
+    this.item.remove();
+  }
+}
+
+class Points extends Sight {
+  kinds = [POINTS, COLORED];
+  constructor(page, list, topic, options) {
+    super(page, list, topic, options);
+    this.cloud = new Cloud(page.stage, options.colour);
+    this.box.style.accentColor = `#${options.colour.toString(16).padStart(6, "0")}`;
+    this.above = h("canvas.above", { width: 320, height: 200, role: "img", "aria-label": `${topic} from above` });
+    this.item.append(this.above);
+    this.tick(options.on);
+    this.show(options.on);
+  }
+
+  get points() {
+    return this.cloud.points;
+  }
+
+  get count() {
+    return this.cloud.count;
+  }
+
+  show(on) {
+    this.cloud.points.visible = on;
+    this.above.hidden = !on;
+    this.page.stage.dirty();
+  }
+
+  take(buffer, kind, shown) {
+    this.cloud.take(buffer, HEADER, kind === COLORED);
+    requestAnimationFrame(() => {
+      if (this.page.panels.all.get("sensors").open) this.cloud.draw(this.above, this.page.pose);
+      shown();
+    });
+  }
+
+  remove() {
+    super.remove();
+    this.cloud.remove();
+  }
+}
+
+class Picture extends Sight {
+  kinds = [PICTURE];
+  constructor(page, list, topic, options) {
+    super(page, list, topic, options);
+    this.image = h("img", { alt: `what comes on ${topic}` });
+    this.url = null;
+    this.item.append(this.image);
+    this.tick(options.on);
+    this.show(options.on);
+  }
+
+  show(on) {
+    this.image.hidden = !on;
+  }
+
+  take(buffer, kind, shown) {
+    const old = this.url;
+    this.url = URL.createObjectURL(new Blob([new Uint8Array(buffer, HEADER)]));
+    this.image.onload = this.image.onerror = () => {
+      if (old) URL.revokeObjectURL(old);
+      shown();
+    };
+    this.image.src = this.url;
+  }
+
+  remove() {
+    super.remove();
+    if (this.url) URL.revokeObjectURL(this.url);
+  }
+}

@@ -1,0 +1,155 @@
+// Drawing walls: click corner after corner, put doors in, build.
+/* global MeshCat */
+
+import { h, short } from "../page/dom.js";
+import { numberField } from "../page/number_field.js";
+
+const THREE = MeshCat.THREE;
+const WALL = "M3 6h18v12H3zM3 12h18M9 6v6M15 12v6";
+const GRID = 0.1; // corners snap to this [m]
+const CLOSE = 0.3; // a corner this near to the first closes the room [m]
+const MOST = 100;
+
+export class Walls {
+  constructor(page, host) {
+    this.page = page;
+    this.corners = [];
+    this.doors = [];
+    this.door = false;
+    this.line = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0xf5a524, depthTest: false }));
+    this.dots = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ color: 0xf5a524, size: 9, sizeAttenuation: false, depthTest: false }));
+    this.gaps = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0x0aa37f, depthTest: false }));
+    for (const object of [this.line, this.dots, this.gaps]) {
+      object.renderOrder = 30;
+      object.frustumCulled = false;
+      page.stage.viewer.scene.add(object);
+    }
+    const number = (id, words, value, min, max) => {
+      const input = numberField({ id: `wall-${id}`, value, min, max, step: 0.05, unit: "m" });
+      return [input, h("label", {}, `${words} `, input, h("span.unit", {}, "m"))];
+    };
+    const [height, tall] = number("height", "height", 2.5, 0.05, 20);
+    const [thickness, thick] = number("thickness", "thickness", 0.15, 0.02, 2);
+    const [width, wide] = number("door", "door width", 0.9, 0.2, 20);
+    Object.assign(this, { height, thickness, width });
+    this.doorButton = h("button", { type: "button", id: "wall-door-mode", "aria-pressed": "false", onclick: () => this.#mode(!this.door) }, "Doors");
+    this.build = h("button.main", { type: "button", id: "wall-build", disabled: true, onclick: () => this.finish() }, "Build");
+    this.words = h("p.quiet", { role: "status" });
+    this.box = h("div.walls", { hidden: true }, this.words, h("div.pose", {}, tall, thick, wide), h("div.row", {}, this.doorButton, h("button", { type: "button", onclick: () => this.undo() }, "Undo"), h("span.space"), this.build));
+    const draw = h("button.wide", { type: "button", id: "draw-walls", onclick: () => page.tools.hold(page.tools.held === "walls" ? null : "walls") }, "Draw walls …");
+    host.append(draw, this.box);
+    page.tools.tool({ id: "walls", title: "Draw walls", icon: WALL, modes: ["sim"], order: 62, take: (held) => this.#held(held) });
+    page.on("click3d", (hit) => page.tools.held === "walls" && this.click(hit.point, hit.event));
+    page.shortcut({ key: "Enter", does: "build the walls drawn", modes: ["sim"], group: "World", run: () => (page.tools.held === "walls" ? void this.finish() : false) });
+    page.shortcut({ key: "Escape", does: "put the tool down", modes: ["sim"], group: "World", run: () => (page.tools.held ? void page.tools.hold(null) : false) });
+  }
+
+  #held(held) {
+    this.box.hidden = !held;
+    if (held) this.page.panels.open("world");
+    else this.clear();
+    this.#say();
+  }
+
+  #mode(door) {
+    this.door = door;
+    this.doorButton.setAttribute("aria-pressed", door);
+    this.#say();
+  }
+
+  #say() {
+    const count = this.corners.length;
+    if (this.door) this.words.textContent = "Click on a wall where the door shall be.";
+    else if (count < 2) this.words.textContent = count ? "Click the next corner." : "Click the first corner on the ground. Corners snap to 10 cm (with Alt they do not).";
+    else this.words.textContent = `${count - 1} walls, ${short(this.length(count - 2), 2)} m the last. Click on, or build.`;
+    this.build.disabled = count < 2;
+  }
+
+  length(segment) {
+    const [a, b] = [this.corners[segment], this.corners[segment + 1]];
+    return Math.hypot(b[0] - a[0], b[1] - a[1]);
+  }
+
+  click([x, y], event) {
+    if (this.door) return this.#addDoor(x, y);
+    const snap = (value) => (event?.altKey ? value : Math.round(value / GRID) * GRID);
+    let corner = [snap(x), snap(y)];
+    const [first, last] = [this.corners[0], this.corners.at(-1)];
+    if (this.corners.length > 2 && Math.hypot(first[0] - x, first[1] - y) < CLOSE) corner = [...first];
+    if (last && Math.hypot(last[0] - corner[0], last[1] - corner[1]) < 0.02) return;
+    if (this.corners.length >= MOST) return this.page.toast(`${MOST} corners are enough; build these first`, "error");
+    this.corners.push(corner);
+    this.#draw();
+  }
+
+  #addDoor(x, y) {
+    let best = null;
+    for (let k = 0; k + 1 < this.corners.length; k += 1) {
+      const [[ax, ay], length] = [this.corners[k], this.length(k)];
+      const [ux, uy] = [(this.corners[k + 1][0] - ax) / length, (this.corners[k + 1][1] - ay) / length];
+      const along = (x - ax) * ux + (y - ay) * uy;
+      const off = Math.abs((x - ax) * uy - (y - ay) * ux) + Math.max(0, -along, along - length);
+      if (!best || off < best.off) best = { off, segment: k, along, length };
+    }
+    const width = this.width.valueAsNumber;
+    if (!best) return this.page.toast("draw a wall first", "error");
+    if (best.length < width) return this.page.toast(`this wall is ${short(best.length, 2)} m long: too short for a door of ${short(width, 2)} m`, "error");
+    const at = Math.min(best.length - width / 2, Math.max(width / 2, best.along));
+    const taken = this.doors.some((door) => door.segment === best.segment && Math.abs(door.at - at) < (door.width + width) / 2);
+    if (taken) return this.page.toast("there is a door already", "error");
+    this.doors.push({ segment: best.segment, at, width });
+    this.#draw();
+  }
+
+  undo() {
+    if (this.door && this.doors.length) this.doors.pop();
+    else this.corners.pop();
+    this.doors = this.doors.filter(({ segment }) => segment < this.corners.length - 1);
+    this.#draw();
+  }
+
+  clear() {
+    this.corners = [];
+    this.doors = [];
+    this.#mode(false);
+    this.#draw();
+  }
+
+  async finish() {
+    if (this.corners.length < 2) return;
+    const values = { corners: this.corners, doors: this.doors, height: this.height.valueAsNumber, thickness: this.thickness.valueAsNumber };
+    try {
+      const done = await this.page.connection.order("walls", values);
+      this.page.done(`built ${done.name}`, done);
+      this.clear();
+    } catch (error) {
+      this.page.toast(error.message, "error");
+    }
+  }
+
+  #draw() {
+    const points = this.corners.map(([x, y]) => new THREE.Vector3(x, y, 0.02));
+    const replace = (object, vertices) => {
+      object.geometry.dispose();
+      object.geometry = new THREE.BufferGeometry().setFromPoints(vertices);
+      object.visible = vertices.length > 0;
+    };
+    replace(this.line, points);
+    replace(this.dots, points);
+    const ends = this.doors.flatMap(({ segment, at, width }) => {
+      const [a, b, length] = [points[segment], points[segment + 1], this.length(segment)];
+      return [at - width / 2, at + width / 2].flatMap((where) => {
+        const foot = a.clone().lerp(b, where / length);
+        return [foot, foot.clone().setZ(2)];
+      });
+    });
+    replace(this.gaps, ends);
+    this.#say();
+    this.page.stage.dirty();
+  }
+}
+
+export function walls(page) {
+  page.walls = new Walls(page, page.objects.extra);
+  page.expose("walls", page.walls);
+}

@@ -1,0 +1,172 @@
+// The world: a library to insert from, what stands there, moving, turning, deleting, walls, saving.
+
+import { h, short } from "../page/dom.js";
+import { Mover } from "./object_gizmo.js";
+import { numberField } from "../page/number_field.js";
+
+const WORLD = "M12 3l8 4.5v9L12 21l-8-4.5v-9zM12 12l8-4.5M12 12v9M12 12L4 7.5";
+const PLACE = "M12 21s-6-6-6-11a6 6 0 0 1 12 0c0 5-6 11-6 11zM12 8a2 2 0 1 0 0 4a2 2 0 0 0 0-4z";
+const FIELDS = ["x", "y", "z", "roll", "pitch", "yaw"];
+
+export class Objects {
+  constructor(page) {
+    this.page = page;
+    this.chosen = null; // the model to be placed by a click
+    this.picked = null; // the object that is selected
+    this.objects = [];
+    this.panel = page.panels.add({ id: "world", title: "World", icon: WORLD, modes: ["sim"], order: 30 });
+    this.filter = h("input", { type: "search", id: "library-filter", placeholder: "Filter the library", "aria-label": "Filter the library", autocomplete: "off" });
+    this.filter.addEventListener("input", () => this.#library());
+    this.library = h("div.library", { role: "listbox", "aria-label": "Library" });
+    this.hint = h("p.quiet", {}, "Choose something, then click where it shall stand.");
+    this.form = this.#typed();
+    this.list = h("ul.bare-list.objects", { "aria-label": "In the world" });
+    this.detail = h("section.object", { hidden: true });
+    const save = h("button.wide", { type: "button", id: "save-world", onclick: () => this.#order("save", {}).then((done) => done && page.toast(`saved ${done.bytes} bytes`, "good")) }, "Save the world as SDF");
+    this.panel.body.append(h("h3", {}, "Insert"), this.filter, this.library, this.hint, this.form, (this.extra = h("div")), h("h3", {}, "In the world"), this.list, this.detail, save);
+    page.tools.tool({ id: "place", title: "Insert what is chosen in the library", icon: PLACE, modes: ["sim"], order: 60, take: (held) => held || this.#choose(null) });
+    this.mover = new Mover(page, (pose) => this.#place(pose));
+    page.on("objects", (message) => this.#take(message));
+    page.on("select", (selected) => this.#select(selected));
+    page.on("click3d", (hit) => page.tools.held === "place" && this.#insert(hit.point));
+    page.shortcut({ key: "Delete", does: "delete the selected object", modes: ["sim"], group: "World", run: () => this.remove() });
+  }
+
+  /** The object a link belongs to, or null. */
+  nameOf(link) {
+    if (!link) return null;
+    return link.startsWith("world/") ? link.slice(6).split("::")[0] : (this.objects.find(({ first }) => first)?.name ?? null);
+  }
+
+  #order(name, values) {
+    return this.page.connection.order(name, values).catch((error) => this.page.toast(error.message, "error"));
+  }
+
+  #take(message) {
+    Object.assign(this, { objects: message.objects, models: message.models, robots: message.robots });
+    this.#library();
+    const kind = ({ robot, static: still }) => (robot ? "robot" : still ? "stands" : "moves");
+    this.list.replaceChildren(
+      ...this.objects.map((object) => {
+        const button = h("button.topic", { type: "button" }, h("span.name", {}, object.name), h("span.rate.quiet", {}, kind(object)));
+        button.addEventListener("click", () => this.pick(this.picked === object.name ? null : object.name));
+        return h("li", { "data-object": object.name, "data-chosen": object.name === this.picked }, button);
+      }),
+    );
+    if (this.picked && !this.objects.some(({ name }) => name === this.picked)) this.page.select(null);
+  }
+
+  #library() {
+    const words = this.filter.value.toLowerCase();
+    const entry = (name, kind) => {
+      const button = h("button.library-entry", { type: "button", role: "option", "aria-selected": String(name === this.chosen), "data-kind": kind }, name.replaceAll("_", " "));
+      button.addEventListener("click", () => this.#choose(name === this.chosen ? null : name));
+      return button;
+    };
+    const fits = (name) => name.replaceAll("_", " ").toLowerCase().includes(words);
+    const rows = [...(this.models ?? []).filter(fits).map((name) => entry(name, "model")), ...(this.robots ?? []).filter(fits).map((name) => entry(name, "robot"))];
+    this.library.replaceChildren(...rows);
+  }
+
+  #choose(name) {
+    if (name === this.chosen) return;
+    this.chosen = name;
+    this.hint.textContent = name ? `Click in the picture where ${name.replaceAll("_", " ")} shall stand.` : "Choose something, then click where it shall stand.";
+    if (name) this.page.tools.hold("place");
+    else if (this.page.tools.held === "place") this.page.tools.hold(null);
+    this.form.hidden = !name;
+    this.#library();
+  }
+
+  /** Where it shall stand, for those who type rather than click. */
+  #typed() {
+    const field = (name, unit, step) => {
+      const input = numberField({ step, unit, value: "0", id: `insert-${name}`, "aria-label": `${name} of what is inserted [${unit}]` });
+      return [input, h("label", {}, `${name} `, input, h("span.unit", {}, unit))];
+    };
+    const [[x, atX], [y, atY], [yaw, turned]] = [field("x", "m", 0.1), field("y", "m", 0.1), field("yaw", "°", 5)];
+    const insert = () => this.#insert([x.valueAsNumber, y.valueAsNumber, 0], (yaw.valueAsNumber * Math.PI) / 180);
+    return h("div", { hidden: true }, h("div.pose", {}, atX, atY, turned), h("button.wide", { type: "button", id: "insert-typed", onclick: insert }, "Insert there"));
+  }
+
+  async #insert([x, y, z], yaw = 0) {
+    if (!this.chosen) return this.page.panels.open("world");
+    const robot = this.robots.includes(this.chosen);
+    const done = await this.#order("spawn", { model: this.chosen, pose: robot ? [x, y, 0, yaw] : [x, y, Math.max(0, z), yaw] });
+    if (done) this.page.done(`${done.name} is there`, done);
+  }
+
+  /** Select an object by name. */
+  pick(name) {
+    const object = this.objects.find((each) => each.name === name);
+    if (!object) return this.page.select(null);
+    const links = [...this.page.scene.byLink.keys()];
+    const link = object.first ? links.find((each) => !each.startsWith("world/")) : links.find((each) => this.nameOf(each) === name && each.startsWith("world/"));
+    if (link) this.page.select({ link });
+  }
+
+  async #select(selected) {
+    const name = this.page.mode === "sim" ? this.nameOf(selected?.link) : null;
+    this.picked = name;
+    for (const item of this.list.children) item.toggleAttribute("data-chosen", item.dataset.object === name);
+    this.detail.hidden = !name;
+    this.mover.drop();
+    if (!name) return;
+    const done = await this.#order("where", { name });
+    if (done && this.picked === name) this.#show(name, done.pose);
+  }
+
+  #show(name, pose) {
+    const object = this.objects.find((each) => each.name === name);
+    const inputs = FIELDS.map((field, i) => {
+      const angle = i > 2;
+      const input = numberField({ step: angle ? 5 : 0.1, value: short(angle ? (pose[i] * 180) / Math.PI : pose[i], 3), "aria-label": `${field} of ${name} [${angle ? "°" : "m"}]` });
+      input.addEventListener("change", () => {
+        const values = inputs.map(({ valueAsNumber }, k) => valueAsNumber * (k > 2 ? Math.PI / 180 : 1));
+        this.#place(values);
+      });
+      return input;
+    });
+    const grid = h("div.pose", {}, ...FIELDS.map((field, i) => h("label", {}, `${field} `, inputs[i], h("span.unit", {}, i > 2 ? "°" : "m"))));
+    const away = h("button.danger", { type: "button", onclick: () => this.remove() }, "Delete");
+    away.hidden = Boolean(object?.first);
+    const hold = h("button", { type: "button", id: "move-object", "aria-pressed": "false" }, "Move by hand");
+    hold.addEventListener("click", () => {
+      if (this.mover.held) this.mover.drop();
+      else this.mover.take(this.#links(name), pose);
+      hold.setAttribute("aria-pressed", this.mover.held);
+    });
+    this.detail.replaceChildren(h("h3", {}, name), grid, h("div.row", {}, hold, h("span.space"), away));
+  }
+
+  #links(name) {
+    return [...this.page.scene.byLink.keys()].filter((link) => this.nameOf(link) === name);
+  }
+
+  async #place(pose) {
+    const name = this.picked;
+    const done = await this.#order("place", { name, pose });
+    if (!done) return;
+    const now = await this.#order("where", { name });
+    if (!now || this.picked !== name) return;
+    const held = this.mover.held;
+    this.#show(name, now.pose);
+    if (held) document.getElementById("move-object").click();
+  }
+
+  /** Delete the selected object. */
+  async remove() {
+    if (!this.picked) return false;
+    const name = this.picked;
+    if (await this.#order("remove", { name })) {
+      this.page.toast(`${name} is gone`);
+      this.page.select(null);
+    }
+    return true;
+  }
+}
+
+export function objects(page) {
+  page.objects = new Objects(page);
+  page.expose("objects", page.objects);
+}

@@ -1,0 +1,197 @@
+// Ways of looking: around a point, from above in parallel, from inside, behind a link; and the frames that stand still.
+/* global MeshCat */
+
+import { h } from "../page/dom.js";
+import { FirstPerson } from "./first_person_camera.js";
+
+const THREE = MeshCat.THREE;
+const CAMERA = "M3 7h11v10H3zM14 11l7-4v10l-7-4";
+const WAYS = [
+  ["orbit", "Orbit", "o", "turn around a point"],
+  ["top", "Top down", "t", "from above, in parallel"],
+  ["first", "First person", "p", "look around; W A S D and Q E move"],
+  ["follow", "Follow", "u", "behind the target frame, turning with it"],
+];
+const SIDES = { Front: [1, 0, 0.02], Back: [-1, 0, 0.02], Left: [0, 1, 0.02], Right: [0, -1, 0.02], Above: [0.001, 0, 1], Oblique: [1, 0.75, 0.6] };
+
+export class Cameras {
+  constructor(page) {
+    this.page = page;
+    this.stage = page.stage;
+    this.viewer = page.stage.viewer;
+    this.way = "orbit";
+    this.target = ""; // a link, or nothing: the root
+    this.fixed = "";
+    this.was = null; // where the target stood at the last picture
+    this.eye = { camera: this.viewer.camera, controls: this.viewer.controls };
+    this.first = new FirstPerson(page, this.viewer.camera, this.viewer.controls);
+    page.on("poses", () => this.#moved());
+  }
+
+  /** Whether the camera goes after something by itself. */
+  get tracks() {
+    return this.way === "follow" || this.target !== "";
+  }
+
+  use(way) {
+    if (way === this.way) return;
+    const { camera, controls } = this.viewer;
+    if (this.way === "top") this.#leaveTop(controls);
+    this.first.use(false);
+    this.way = way;
+    if (way === "top") this.#fromAbove(camera, controls);
+    if (way === "first") this.first.use(true);
+    if (way === "follow") this.#behind();
+    this.was = this.#stand();
+    this.stage.haze();
+    this.stage.dirty();
+    this.page.emit("camera", way);
+  }
+
+  #fromAbove({ position }, { target }) {
+    const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -500, 1000);
+    camera.userData.halfHeight = position.distanceTo(target) * Math.tan((this.eye.camera.fov * Math.PI) / 360);
+    camera.up.set(0, 0, -1); // x to the right, y up
+    camera.position.copy(target).add(new THREE.Vector3(0, 10, 0));
+    const controls = new this.eye.controls.constructor(camera, this.stage.pane);
+    Object.assign(controls, { enableRotate: false, enableKeys: false, screenSpacePanning: true });
+    controls.mouseButtons = { LEFT: THREE.MOUSE.PAN, MIDDLE: THREE.MOUSE.DOLLY, RIGHT: THREE.MOUSE.PAN };
+    controls.touches = { ONE: THREE.TOUCH.PAN, TWO: THREE.TOUCH.DOLLY_PAN };
+    controls.target.copy(target);
+    controls.addEventListener("change", () => this.stage.dirty());
+    this.eye.controls.enabled = false;
+    Object.assign(this.viewer, { camera, controls });
+    this.stage.resize();
+  }
+
+  #leaveTop(controls) {
+    const { camera: eye, controls: own } = this.eye;
+    eye.position.add(controls.target.clone().sub(own.target));
+    own.target.copy(controls.target);
+    controls.dispose();
+    own.enabled = true;
+    Object.assign(this.viewer, this.eye);
+    this.stage.resize();
+  }
+
+  /** The link that is followed. */
+  get followed() {
+    const root = this.page.robot?.kinematics.root ?? [...this.page.scene.byLink.keys()][this.page.model?.root ?? 0];
+    return this.page.scene.byLink.has(this.target) ? this.target : root;
+  }
+
+  // Where the followed link stands in the world, and which way it faces about the vertical.
+  #stand() {
+    const node = this.page.scene.byLink.get(this.followed);
+    if (!node) return null;
+    node.updateWorldMatrix(true, false);
+    const at = new THREE.Vector3().setFromMatrixPosition(node.matrixWorld);
+    const ahead = new THREE.Vector3(1, 0, 0).transformDirection(node.matrixWorld);
+    return { at, yaw: Math.atan2(-ahead.z, ahead.x) };
+  }
+
+  #behind() {
+    const stand = this.#stand();
+    if (!stand) return;
+    const { camera, controls } = this.viewer;
+    const away = 3.2 * this.stage.radius;
+    controls.target.copy(stand.at);
+    camera.position.set(-Math.cos(stand.yaw) * away, 0.5 * away, Math.sin(stand.yaw) * away).add(stand.at);
+  }
+
+  // Hold the fixed frame still, then go after the target.
+  #moved() {
+    this.#hold();
+    if (!this.tracks) return (this.was = null);
+    const now = this.#stand();
+    const before = this.was;
+    this.was = now;
+    if (!now || !before || this.way === "first") return;
+    if (now.at.distanceTo(before.at) < 1e-6 && Math.abs(now.yaw - before.yaw) < 1e-6) return (this.was = before);
+    const { camera, controls } = this.viewer;
+    const arm = camera.position.clone().sub(controls.target);
+    if (this.way === "follow") arm.applyAxisAngle(new THREE.Vector3(0, 1, 0), now.yaw - before.yaw);
+    controls.target.add(now.at.clone().sub(before.at));
+    camera.position.copy(controls.target).add(arm);
+    this.stage.dirty();
+  }
+
+  #hold() {
+    const robot = this.viewer.scene_tree.find(["robot"]).object;
+    const node = this.page.scene.byLink.get(this.fixed);
+    robot.quaternion.identity();
+    robot.position.set(0, 0, 0);
+    if (!node) return;
+    robot.quaternion.copy(node.quaternion).invert();
+    robot.position.copy(node.position).applyQuaternion(robot.quaternion).negate();
+  }
+
+  /** Choose the frame that stands still; nothing: the root link's. */
+  fix(link) {
+    this.fixed = link;
+    this.#hold();
+    this.was = this.#stand();
+    this.stage.dirty();
+    this.page.emit("fixed", link);
+  }
+
+  /** Choose the frame that the camera goes after. */
+  aim(link) {
+    this.target = link;
+    this.was = this.#stand();
+    if (link) this.look(link);
+  }
+
+  /** Make a link the middle of the view, from a distance that fits it. */
+  look(link) {
+    const box = new THREE.Box3();
+    for (const group of this.page.scene.shapes(link)) box.expandByObject(group);
+    const size = box.isEmpty() ? 0.2 * this.stage.radius : box.getSize(new THREE.Vector3()).length();
+    const { camera, controls } = this.viewer;
+    const at = box.isEmpty() ? this.page.labels.at(link) : box.getCenter(new THREE.Vector3());
+    if (!at) return;
+    const arm = camera.position.clone().sub(controls.target).setLength(Math.max(2.2 * size, 0.6 * this.stage.radius));
+    controls.target.copy(at);
+    camera.position.copy(at).add(arm);
+    this.stage.haze();
+    this.stage.dirty();
+  }
+}
+
+export function cameras(page) {
+  page.cameras = new Cameras(page);
+  page.expose("cameras", page.cameras);
+  const panel = page.panels.add({ id: "camera", title: "View", icon: CAMERA, order: 60 });
+  const ways = h("div.segments", { role: "radiogroup", "aria-label": "Camera" });
+  for (const [way, words, key, does] of WAYS) {
+    const input = h("input", { type: "radio", name: "camera", value: way, id: `camera-${way}`, checked: way === "orbit" });
+    input.addEventListener("change", () => page.cameras.use(way));
+    ways.append(h("label", { title: does }, input, h("span", {}, words)));
+    page.shortcut({ key, does: `camera: ${words.toLowerCase()}, ${does}`, group: "View", run: () => input.click() });
+  }
+  const sides = h("div.chips", { role: "group", "aria-label": "Look from " });
+  for (const [words, direction] of Object.entries(SIDES)) {
+    sides.append(h("button.chip", { type: "button", onclick: () => page.stage.fit(page.scene.bounds(), direction) }, words));
+  }
+  const target = frames("Target frame", "target-frame", "none: the camera stays", (link) => page.cameras.aim(link));
+  const fixed = frames("Fixed frame", "fixed-frame", "the root link", (link) => page.cameras.fix(link));
+  panel.body.append(h("h3", {}, "Camera"), ways, h("h3", {}, "Look from "), sides, h("div.frames", {}, target.label, fixed.label));
+  page.on("robot", ({ kinematics }) => {
+    for (const { fill } of [target, fixed]) fill(kinematics.links);
+  });
+  page.viewPanel = panel;
+}
+
+function frames(words, id, none, chosen) {
+  const select = h("select", { id });
+  select.addEventListener("change", () => chosen(select.value));
+  const label = h("label.stacked", {}, h("span", {}, words), select);
+  label.dataset.mode = "view";
+  function fill(links) {
+    const before = select.value;
+    select.replaceChildren(h("option", { value: "" }, none), ...links.map((link) => h("option", { value: link }, link)));
+    select.value = links.includes(before) ? before : "";
+    if (select.value !== before) chosen(select.value);
+  }
+  return { label, fill };
+}

@@ -1,0 +1,99 @@
+// Words on the stage: elements that stay at places of the scene, and the tip at the mouse.
+/* global MeshCat */
+
+import { h } from "../page/dom.js";
+
+const THREE = MeshCat.THREE;
+
+export class Labels {
+  constructor(page) {
+    this.page = page;
+    this.stage = page.stage;
+    this.layer = h("div#labels");
+    this.stage.pane.after(this.layer);
+    this.tipBox = h("div#tip", { role: "tooltip", hidden: true });
+    this.layer.after(this.tipBox);
+    this.kept = new Map(); // element → function that returns where it is, a Vector3 in the world, or null
+    const { viewer } = this.stage;
+    const render = viewer.render.bind(viewer);
+    viewer.render = () => {
+      page.emit("draw", null);
+      render();
+      this.place();
+      page.emit("drawn", null);
+    };
+  }
+
+  /** Keep an element at a place. `where` returns a Vector3 in the world, or null while it has none. */
+  add(element, where) {
+    element.classList.add("label");
+    this.kept.set(element, where);
+    this.layer.append(element);
+    this.stage.dirty();
+    return element;
+  }
+
+  remove(element) {
+    this.kept.delete(element);
+    element.remove();
+  }
+
+  /** Where a point of the world is on the pane [pixels], and whether it is in front of the camera. */
+  screen(point) {
+    const { clientWidth: width, clientHeight: height } = this.stage.pane;
+    const at = point.clone().project(this.stage.viewer.camera);
+    return [((at.x + 1) / 2) * width, ((1 - at.y) / 2) * height, at.z < 1 && at.z > -1];
+  }
+
+  place() {
+    const names = [];
+    const { camera } = this.stage.viewer;
+    for (const [element, where] of this.kept) {
+      const point = where();
+      const [x, y, seen] = point ? this.screen(point) : [0, 0, false];
+      element.hidden = !seen;
+      if (!seen) continue;
+      element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+      if (element.dataset.name) names.push({ element, x, y, away: this.wanted.has(element.dataset.name) ? -1 : camera.position.distanceTo(point) });
+    }
+    this.#declutter(names);
+  }
+
+  /** Names that are shown whatever is in front of them. */
+  get wanted() {
+    return new Set([this.page.pick?.hovered, this.page.selected?.link]);
+  }
+
+  // Of names that would lie on each other only the nearest is shown.
+  #declutter(names) {
+    for (const { element } of names) element.size ??= [element.offsetWidth, element.offsetHeight];
+    const shown = [];
+    for (const { element, x, y } of names.sort((a, b) => a.away - b.away)) {
+      const [width, height] = element.size;
+      const covered = shown.some((other) => x < other.x + other.width && other.x < x + width && y < other.y + other.height && other.y < y + height);
+      element.toggleAttribute("data-covered", covered);
+      if (!covered) shown.push({ x, y, width, height });
+    }
+  }
+
+  /** Show words beside the mouse, or nothing. */
+  tip(words, event) {
+    this.tipBox.hidden = !words;
+    if (!words || !event) return;
+    const { left, top, width } = this.stage.pane.getBoundingClientRect();
+    this.tipBox.textContent = words;
+    const x = Math.min(event.clientX - left + 14, width - this.tipBox.offsetWidth - 6);
+    this.tipBox.style.transform = `translate(${x}px, ${event.clientY - top + 16}px)`;
+  }
+
+  /** The place of a link's frame, or of a point in it, in the world. */
+  at(link, local = [0, 0, 0]) {
+    const node = this.page.scene.byLink.get(link);
+    node?.updateWorldMatrix(true, false); // it may have moved since the last picture
+    return node ? node.localToWorld(new THREE.Vector3(...local)) : null;
+  }
+}
+
+export function labels(page) {
+  page.labels = new Labels(page);
+}

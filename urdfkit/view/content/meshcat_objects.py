@@ -1,0 +1,130 @@
+"""Scene → meshcat objects at ``/robot/links/<link>/{visual,collision}/<n>``."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
+from urdfkit.errors import MissingDependencyError
+from urdfkit.scene import TriMesh
+from urdfkit.view.content.mesh_store import GeometryStore
+
+if TYPE_CHECKING:
+    from urdfkit.scene import Scene, Shape
+
+try:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # meshcat 0.3.2 imports zmq.eventloop.ioloop
+        import meshcat
+        import meshcat.geometry
+except ImportError as error:  # pragma: no cover
+    raise MissingDependencyError("view needs meshcat: pip install 'urdfkit[view]'") from error
+
+LINKS = "/robot/links"
+COLLISION_RGBA = (0.95, 0.55, 0.10, 0.45)
+"""Colour of collision geometry."""
+CAPSULE_SEGMENTS = 24
+
+# meshcat's cylinders stand along y, URDF's along z.
+Y_TO_Z = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])
+
+
+class SharedGeometry(meshcat.geometry.Geometry):  # type: ignore[misc]
+    """A mesh the browser fetches by its content hash, once, however many shapes use it."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__()
+        self.name = name
+
+    def lower(self, object_data: dict[str, Any]) -> dict[str, Any]:
+        """Return what travels."""
+        return {"uuid": self.uuid, "type": "_shared", "name": self.name}
+
+
+def link_path(link: str) -> str:
+    """Return the scene path of a link. meshcat parts paths at slashes, so those in names are written ``%2F``."""
+    return f"{LINKS}/{link.replace('%', '%25').replace('/', '%2F')}"
+
+
+def draw(scene: Scene, window: Any, geometries: GeometryStore) -> None:
+    """Send a scene's shapes, replacing what was there.
+
+    Args:
+        scene: bodies and shapes.
+        window: takes meshcat commands by ``send``.
+        geometries: takes the meshes; those the scene does not have are forgotten.
+    """
+    used = set()
+    root = meshcat.Visualizer.view_into(window, meshcat.path.Path())
+    root["robot"].delete()
+    counts: dict[str, int] = {}
+    for shape in scene.shapes:
+        where = f"{link_path(shape.body)}/{shape.role}"
+        number = counts[where] = counts.get(where, -1) + 1
+        geometry, inner = geometry_of(shape, geometries)
+        if geometry is None:
+            continue
+        if isinstance(geometry, SharedGeometry):
+            used.add(geometry.name)
+        node = root[f"{where.lstrip('/')}/{number}"]
+        node.set_object(geometry, material(shape))
+        node.set_transform(np.asarray(shape.placement, dtype=float) @ inner)
+    geometries.keep_only(used)
+
+
+def geometry_of(shape: Shape, geometries: GeometryStore) -> tuple[Any, NDArray[np.float64]]:
+    """Return a shape's meshcat geometry and its placement in the shape's frame; None when there is nothing to draw."""
+    geometry = shape.geometry
+    if shape.mesh is not None:
+        return SharedGeometry(geometries.add(shape.mesh)), np.eye(4)
+    if isinstance(geometry, Box):
+        return meshcat.geometry.Box([float(edge) for edge in geometry.size]), np.eye(4)
+    if isinstance(geometry, Sphere):
+        return meshcat.geometry.Sphere(float(geometry.radius)), np.eye(4)
+    if isinstance(geometry, Cylinder):
+        return meshcat.geometry.Cylinder(float(geometry.length), float(geometry.radius)), Y_TO_Z
+    if isinstance(geometry, Capsule):
+        return SharedGeometry(geometries.add(capsule(geometry.radius, geometry.length))), np.eye(4)
+    return None, np.eye(4)
+
+
+def material(shape: Shape) -> Any:
+    """Return the material of a shape."""
+    own = shape.role == "visual" and shape.mesh is not None and shape.mesh.colors is not None and not shape.has_color
+    rgba = COLLISION_RGBA if shape.role == "collision" else (1.0, 1.0, 1.0, 1.0) if own else shape.rgba
+    red, green, blue = (round(255 * min(1.0, max(0.0, float(c)))) for c in rgba[:3])
+    opacity = min(1.0, max(0.0, float(rgba[3])))
+    return meshcat.geometry.MeshPhongMaterial(
+        color=(red << 16) | (green << 8) | blue,
+        opacity=opacity,
+        transparent=opacity < 1.0,
+        vertexColors=bool(own),
+        shininess=18,
+        specular=0x222222,
+    )
+
+
+def capsule(radius: float, length: float) -> TriMesh:
+    """Return a capsule along z; `length` is that of its cylindrical part [m]."""
+    n, rings = CAPSULE_SEGMENTS, CAPSULE_SEGMENTS // 4
+    quarter = np.linspace(0, np.pi / 2, rings + 1)
+    polar = np.concatenate([quarter, np.pi - quarter[::-1]])
+    out = np.sin(polar) * (np.abs(np.cos(polar)) < 1)  # exactly nothing at the poles
+    lift = np.repeat([length / 2, -length / 2], rings + 1) + radius * np.cos(polar)
+    turn = np.arange(n) * 2 * np.pi / n
+    ring = np.stack([np.cos(turn), np.sin(turn), np.zeros(n)], axis=1)
+    vertices = np.concatenate([radius * o * ring + [0, 0, z] for o, z in zip(out, lift, strict=True)])
+    last = len(polar) - 2
+    faces = []
+    for row in range(last + 1):
+        if row == rings and length == 0:
+            continue
+        for i in range(n):
+            a, b = row * n + i, row * n + (i + 1) % n
+            faces += [(a, a + n, b)] if row > 0 else []
+            faces += [(b, a + n, b + n)] if row < last else []
+    return TriMesh(vertices.astype(np.float32), np.array(faces, dtype=np.int32))

@@ -1,0 +1,48 @@
+"""Shapes added to a scene that is shown, and bodies taken out of it, without drawing the rest again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from urdfkit.view.content.meshcat_objects import SharedGeometry, geometry_of, link_path, material
+
+if TYPE_CHECKING:
+    from urdfkit.scene import Shape
+    from urdfkit.view.content.mesh_store import GeometryStore
+
+
+def draw_more(
+    shapes: Sequence[Shape], window: Any, geometries: GeometryStore, *, instead_of: Sequence[str] = ()
+) -> None:
+    """Send shapes beside those that are there.
+
+    Args:
+        shapes: to be added.
+        window: takes meshcat commands by ``send``.
+        geometries: takes the meshes; none is forgotten, see `forget_others`.
+        instead_of: bodies whose shapes are taken out first.
+    """
+    import meshcat  # after `nodes`, which knows what it warns of
+
+    root = meshcat.Visualizer.view_into(window, meshcat.path.Path())
+    for body in instead_of:
+        root[link_path(body).lstrip("/")].delete()
+    counts: dict[str, int] = {}
+    for shape in shapes:
+        where = f"{link_path(shape.body)}/{shape.role}"
+        number = counts[where] = counts.get(where, -1) + 1
+        geometry, inner = geometry_of(shape, geometries)
+        if geometry is None:
+            continue
+        node = root[f"{where.lstrip('/')}/{number}"]
+        node.set_object(geometry, material(shape))
+        node.set_transform(np.asarray(shape.placement, dtype=float) @ inner)
+
+
+def forget_others(shapes: Iterable[Shape], geometries: GeometryStore) -> None:
+    """Forget all meshes but those of these shapes."""
+    used = (geometry_of(shape, geometries)[0] for shape in shapes)
+    geometries.keep_only({geometry.name for geometry in used if isinstance(geometry, SharedGeometry)})

@@ -1,0 +1,142 @@
+"""The page in one file: all it is made of and all a browser would have been sent, to open without a server."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import posixpath
+import re
+import zlib
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.view.content.mesh_store import GeometryStore
+from urdfkit.view.protocol import websocket_messages as protocol
+from urdfkit.view.server.broadcast import pack
+from urdfkit.view.server.http_handlers import APP, OFFLINE, meshcat_bundle
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+_IMPORT = re.compile(r"""(\bfrom\s*|\bimport\s*)(["'])(\.\.?/[\w./-]+\.js)\2""")
+_PREFIX = "urdfkit/"
+
+
+class Recording:
+    """Takes what a `Server` takes, and keeps what a browser that comes in late would get."""
+
+    def __init__(self) -> None:
+        self.geometries = GeometryStore()
+        self._commands: dict[tuple[str, str], bytes] = {}
+        self._texts: dict[str, str] = {"hello": protocol.write("hello", protocol=protocol.VERSION, mode="view")}
+        self._poses: bytes | None = None
+
+    def send(self, command: Any) -> None:
+        """Keep a meshcat command."""
+        path, slot, packed = pack(command)
+        if slot is None:
+            self._commands = {key: kept for key, kept in self._commands.items() if not _below(key[0], path)}
+        else:
+            self._commands[path, slot] = packed
+
+    def show(
+        self,
+        *,
+        name: str,
+        nodes: Sequence[str],
+        joints: Sequence[dict[str, Any]] = (),
+        root: int = 0,
+        draw: Callable[[Any], None],
+    ) -> None:
+        """Replace the scene; see `Server.show`."""
+        draw(self)
+        self.declare("model", number=1, name=name, root=root, nodes=list(nodes), joints=list(joints))
+
+    def publish(self, time: float, poses: NDArray[np.float64]) -> None:
+        """Keep the poses of the links, shape (n, 7)."""
+        self._poses = protocol.pack_poses(1, time, poses, model=1)
+
+    def declare(self, type: str, **values: Any) -> None:
+        """Keep a text."""
+        self._texts[type] = protocol.write(type, **values)
+
+    tell = declare
+
+    def html(self) -> str:
+        """Return the page.
+
+        Raises:
+            MissingDependencyError: meshcat is not installed.
+        """
+        meshes = {name: zlib.compress(packed, 9) for name, packed in self.geometries}
+        recording = {
+            "commands": [_base64(packed) for packed in self._commands.values()],
+            "texts": list(self._texts.values()),
+            "poses": _base64(self._poses) if self._poses is not None else None,
+            "meshes": {name: _base64(packed) for name, packed in meshes.items()},
+        }
+        modules = {path.relative_to(APP).as_posix(): path.read_text("utf-8") for path in sorted(APP.rglob("*.js"))}
+        imports = {_PREFIX + name: _address("text/javascript", _bare(name, text)) for name, text in modules.items()}
+        start = f'import "{_PREFIX}{OFFLINE}";\nimport "{_PREFIX}app.js";\n'
+        scripts = [
+            ("", meshcat_bundle().read_text("utf-8")),
+            (' type="application/json" id="recording"', _json(recording)),
+            (' type="importmap"', _json({"imports": imports})),
+            (' type="module"', start),
+        ]
+        page = (APP / "index.html").read_text("utf-8")
+        page = re.sub(r"\s*<script\b[^>]*></script>", "", page)
+        page = re.sub(r'<link rel="stylesheet" href="/app/([\w/-]+\.css)">', _style, page)
+        page = page.replace("/app/icon.svg", _address("image/svg+xml", (APP / "icon.svg").read_text("utf-8")))
+        head = f'<meta http-equiv="Content-Security-Policy" content="{_policy([text for _, text in scripts])}">'
+        page = page.replace('<meta charset="utf-8">', f'<meta charset="utf-8">\n  {head}', 1)
+        written = "\n".join(f"<script{kind}>{_inline(text)}</script>" for kind, text in scripts)
+        before, _, after = page.rpartition("</body>")
+        return f"{before}{written}\n</body>{after}"
+
+
+def _below(path: str, above: str) -> bool:
+    return path == above or path.startswith(f"{above}/")
+
+
+def _base64(content: bytes) -> str:
+    return base64.b64encode(content).decode("ascii")
+
+
+def _address(kind: str, text: str) -> str:
+    return f"data:{kind};base64,{_base64(text.encode())}"
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")
+
+
+def _bare(name: str, text: str) -> str:
+    """Return a module whose imports are names, which an import map can answer, and not places beside it."""
+
+    def bare(found: re.Match[str]) -> str:
+        path = posixpath.normpath(posixpath.join(posixpath.dirname(name), found[3]))
+        return f"{found[1]}{found[2]}{_PREFIX}{path}{found[2]}"
+
+    return _IMPORT.sub(bare, text)
+
+
+def _style(found: re.Match[str]) -> str:
+    return f"<style>\n{(APP / found[1]).read_text('utf-8')}</style>"
+
+
+def _inline(text: str) -> str:
+    """Return a script as it may stand in a page: nothing in it ends it."""
+    return re.sub(r"</(?=script)", r"<\\/", text, flags=re.IGNORECASE)
+
+
+def _policy(scripts: Sequence[str]) -> str:
+    """Return the policy of the page: these scripts and no others, and nothing from anywhere."""
+    digests = [hashlib.sha256(_inline(text).encode()).digest() for text in scripts]
+    hashes = " ".join(f"'sha256-{_base64(digest)}'" for digest in digests)
+    return (
+        f"default-src 'none'; script-src {hashes} data:; style-src 'unsafe-inline'; img-src data: blob:; "
+        "media-src blob:; base-uri 'none'; form-action 'none'"
+    )

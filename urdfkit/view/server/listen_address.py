@@ -1,0 +1,90 @@
+"""Find a port and say under which addresses the page is reached."""
+
+from __future__ import annotations
+
+import errno
+import os
+import socket
+
+from urdfkit.errors import UsageError
+from urdfkit.view.server.access_control import is_loopback
+
+DEFAULT_PORT = 7007
+TRIES = 50
+WILDCARDS = ("0.0.0.0", "::", "")
+
+
+def bind(host: str, port: int | None) -> tuple[socket.socket, int]:
+    """Bind an address.
+
+    Args:
+        host: address or name.
+        port: exactly this port, 0 for any; None for the first free one from `DEFAULT_PORT` on.
+
+    Returns:
+        The listening socket and the port.
+
+    Raises:
+        UsageError: the port is busy (names a free one) or the address is not ours.
+    """
+    if port is not None and not 0 <= port <= 65535:
+        raise UsageError(f"port {port} is outside 0..65535")
+    candidates = [port] if port is not None else [*range(DEFAULT_PORT, DEFAULT_PORT + TRIES), 0]
+    for candidate in candidates:
+        try:
+            listening = _bind(host, candidate)
+        except OSError as error:
+            if error.errno == errno.EADDRINUSE:
+                continue
+            if error.errno == errno.EACCES:
+                free = _free_port(host, DEFAULT_PORT)
+                raise UsageError(f"port {candidate} needs privileges; {free} does not") from error
+            raise UsageError(f"cannot listen on `{host}`: {_reason(error)}") from error
+        return listening, int(listening.getsockname()[1])
+    raise UsageError(f"port {port} is busy; {_free_port(host, (port or 0) + 1)} is free")
+
+
+def _bind(host: str, port: int) -> socket.socket:
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    # No SO_REUSEPORT: a second server must fail to bind, not share the port.
+    listening = socket.create_server((host, port), family=family, backlog=128, reuse_port=False)
+    listening.setblocking(False)
+    return listening
+
+
+def _free_port(host: str, start: int) -> int:
+    for port in (*range(start, min(start + TRIES, 65536)), 0):
+        try:
+            listening = _bind(host, port)
+        except OSError:
+            continue
+        with listening:
+            return int(listening.getsockname()[1])
+    return DEFAULT_PORT
+
+
+def _reason(error: OSError) -> str:
+    if isinstance(error, socket.gaierror) or error.errno is None:
+        return str(error.strerror or error)
+    return os.strerror(error.errno)
+
+
+def urls(host: str, port: int, token: str) -> list[str]:
+    """Return the addresses of the page, the one to open on this machine first."""
+    if is_loopback(host):
+        names = ["[::1]" if ":" in host else "127.0.0.1"]
+    elif host in WILDCARDS:
+        names = ["127.0.0.1", *_network_addresses()]
+    else:
+        names = [f"[{host}]" if ":" in host else host]
+    return [f"http://{name}:{port}/?token={token}" for name in dict.fromkeys(names)]
+
+
+def _network_addresses() -> list[str]:
+    """Return this machine's address on the network, as its routing table has it; nothing is sent."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect(("192.0.2.1", 9))  # TEST-NET-1, RFC 5737
+        except OSError:
+            return []
+        return [str(probe.getsockname()[0])]
