@@ -2,8 +2,12 @@
 
 One contact after the other gets the impulse that puts it right, all others staying as they are (block Gauss-Seidel,
 projected onto the law): held where its cone allows that, or else sliding, or open. Impulses begin with those of the
-last step, so that what one step leaves the next goes on with; what rests is exact after a while. A sweep costs as much
+last step, so that what one step leaves the next continues; what rests is exact after a while. A sweep costs as much
 as there are contacts, and there are no more than `SWEEPS`.
+
+Sweeps alone carry a load from one contact to the next. What a tower lacks at its foot reaches its top some steps later,
+and it sways for ever, as if it stood on springs. So contacts are swept in their order and back, and the change of
+impulses that comes of this is the gradient of a method of conjugate gradients, see `conjugate`.
 
 Penetrations that are to be taken back contradict each other where a body lies on more points than it needs: some sweeps
 later what could not be taken back is left, or impulses would grow with each sweep.
@@ -20,17 +24,16 @@ from typing import Any
 from urdfkit.sim.engine.arrays import WIDTH, At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_transposed
+from urdfkit.sim.engine.island_solver.conjugate_gradient import KEPT, go_further, note
 
 SWEEPS = 60
-"""Most sweeps of a step."""
+"""Most sweeps of a step, each way counted."""
 LEAVE_EVERY = 10
 """Sweeps after which what could not be taken back of penetrations is left."""
 STILL = 1e-9
 """Change of velocity [m/s or rad/s] in a sweep that ends them."""
 FLAT = 1e-9
 """Determinant of what three rows of a contact feel of the masses, over the product of its diagonal, that is none."""
-KEPT = 9
-"""Numbers kept of a contact: the inverse of what its rows feel of the masses, and what single rows feel."""
 
 
 @inlined
@@ -217,8 +220,44 @@ def work_of(floats: Any, integers: Any, rows: int) -> Any:
     return met, brought
 
 
+@inlined
+def put_row_right(floats: Any, integers: Any, k: int) -> float:
+    """Give a row that is no contact's with friction the impulse that puts it right; return by how much it changes."""
+    x = field(floats, integers, At.x)
+    low = field(floats, integers, At.low)
+    high = field(floats, integers, At.high)
+    inverse = field(floats, integers, At.A)[KEPT * k // 3]
+    if inverse <= 0.0:
+        return 0.0
+    old = x[k]
+    x[k] = min(high[k], max(low[k], old - inverse * speed_of(floats, integers, k)))
+    give(floats, integers, k, x[k] - old)
+    return float(abs(x[k] - old) / inverse)
+
+
 @compiled
-def sweep(floats: Any, integers: Any, rows: int) -> int:
+def sweep_both_ways(floats: Any, integers: Any, rows: int) -> float:
+    """Put all contacts and rows right in their order, then in reverse; return by how much velocities change."""
+    mu = field(floats, integers, At.mu)
+    moved = 0.0
+    for back in range(2):
+        k = 0 if back == 0 else rows - 1
+        while 0 <= k < rows:
+            # Going back, the last row of a contact comes first.
+            if back == 1 and k >= 2 and mu[k - 2] > 0.0:
+                k -= 2
+            size = 1
+            if mu[k] > 0.0:
+                moved = max(moved, put_right(floats, integers, k))
+                size = 3
+            else:
+                moved = max(moved, put_row_right(floats, integers, k))
+            k = k + size if back == 0 else k - 1
+    return moved
+
+
+@compiled
+def sweep(floats: Any, integers: Any, root: int, rows: int) -> int:
     """Find the impulses x of an island as nearly as some sweeps do, and add to u what they do.
 
     Of the rows Y is J, and becomes whitened; of the trees u is what `smooth_motion` left there.
@@ -226,12 +265,8 @@ def sweep(floats: Any, integers: Any, rows: int) -> int:
     Returns:
         How many sweeps it took; one more than the most where more would have changed something.
     """
-    low = field(floats, integers, At.low)
-    high = field(floats, integers, At.high)
-    mu = field(floats, integers, At.mu)
     x = field(floats, integers, At.x)
     y = field(floats, integers, At.y)
-    A = field(floats, integers, At.A)
     before = field(floats, integers, At.before)
     prepare(floats, integers, rows)
     for k in range(rows):
@@ -241,23 +276,18 @@ def sweep(floats: Any, integers: Any, rows: int) -> int:
         give(floats, integers, k, x[k])
     done = 0
     moved = math.inf
-    while done < SWEEPS and moved > STILL:
-        moved = 0.0
-        k = 0
-        while k < rows:
-            if mu[k] > 0.0:
-                moved = max(moved, put_right(floats, integers, k))
-                k += 3
-                continue
-            if A[3 * k] > 0.0:
-                old = x[k]
-                x[k] = min(high[k], max(low[k], old - A[3 * k] * speed_of(floats, integers, k)))
-                give(floats, integers, k, x[k] - old)
-                moved = max(moved, abs(x[k] - old) / A[3 * k])
-            k += 1
-        done += 1
+    size = 0.0
+    while True:
+        note(floats, integers, root, rows)
+        moved = sweep_both_ways(floats, integers, rows)
+        done += 2
         if done % LEAVE_EVERY == 0:
             leave_unmet(floats, integers, rows)
+            size = 0.0
+        if moved <= STILL or done >= SWEEPS:
+            break
+        if done % LEAVE_EVERY != 0:
+            size = go_further(floats, integers, root, rows, size)
     met, brought = work_of(floats, integers, rows)
     if met + brought > 0.0:
         # Impulses never bring energy: they are all made smaller, and stay in their cones.

@@ -117,7 +117,7 @@ def settle(floats: Any, integers: Any, root: int) -> int:
                 swept = True
                 continue
         if swept:
-            counts[GUESSES] = -sweep(floats, integers, rows)
+            counts[GUESSES] = -sweep(floats, integers, root, rows)
             counts[ITERATED] += 1
         elif rows > 0 and not held:
             whiten(floats, integers, rows, single, width, False)
