@@ -99,6 +99,18 @@ def test_a_heap_of_boxes_sleeps_within_six_seconds(engine_of, count, half, seed)
     assert places[:, 2].min() > 0.06 - 1e-4
 
 
+@pytest.mark.parametrize("seed", [0, 5])
+def test_a_heap_of_boxes_balls_and_cans_sleeps_within_six_seconds(engine_of, seed):
+    makers = (
+        box,
+        lambda name, at: worlds.ball(name, at, radius=0.06),
+        lambda name, at: worlds.can(name, at, radius=0.06, length=0.12),
+    )
+    engine = rover(engine_of, bodies=tray(60, 0.4, seed=seed, top=4.0, makers=makers))
+    assert all_asleep(engine, 6.0)
+    assert max(contact.depth for contact in engine.contacts()) < 1e-4
+
+
 def test_a_heap_that_stays_awake_does_not_sink(engine_of):
     engine = rover(engine_of, bodies=tray(MOST_TREES + 3, 0.4), sleep=False)
     engine.step(2500)

@@ -11,39 +11,13 @@ from __future__ import annotations
 from typing import Any
 
 from urdfkit.sim.engine.arrays import CONTACTS, DT, LAST_PAIRS, SLEEPING, TREES, At
-from urdfkit.sim.engine.collision.support_points import CAPSULE, CYLINDER, SPHERE
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.contacts.broadphase import bound
+from urdfkit.sim.engine.contacts.rolling_resistance import rolls
 from urdfkit.sim.engine.contacts.warm_start import copy_contact
 from urdfkit.sim.engine.dynamics.mass_matrix import place
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, store_spatial, store_vector
-from urdfkit.sim.engine.sleep.sleep_criteria import ASKED, PATIENCE, asked_of, grow_calm, is_free_body
-
-
-@inlined
-def is_round(floats: Any, integers: Any, shape: int) -> bool:
-    """Return whether a shape is round and on a body that nothing holds."""
-    if shape < 0:
-        return False
-    body = field(integers, integers, At.shape_body)[shape]
-    kind = field(integers, integers, At.shape_kind)[shape]
-    if body < 0 or kind not in (SPHERE, CYLINDER, CAPSULE):
-        return False
-    return is_free_body(integers, field(integers, integers, At.body_tree)[body])
-
-
-@compiled
-def rolls(floats: Any, integers: Any, root: int) -> bool:
-    """Return whether an island touches with something that can roll."""
-    contact_next = field(integers, integers, At.contact_next)
-    contact_shape = field(integers, integers, At.contact_shape)
-    contact_against = field(integers, integers, At.contact_against)
-    k = field(integers, integers, At.island_contact)[root]
-    while k >= 0:
-        if is_round(floats, integers, contact_shape[k]) or is_round(floats, integers, contact_against[k]):
-            return True
-        k = contact_next[k]
-    return False
+from urdfkit.sim.engine.sleep.sleep_criteria import ASKED, PATIENCE, asked_of, grow_calm
 
 
 @compiled

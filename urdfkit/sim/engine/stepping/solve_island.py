@@ -23,6 +23,7 @@ from urdfkit.sim.engine.constraints.constraint_rows import joint_rows
 from urdfkit.sim.engine.constraints.contact_rows import contact_rows
 from urdfkit.sim.engine.constraints.joint_limits import passes_limits, whirls
 from urdfkit.sim.engine.constraints.joint_servos import SERVO_ATTEMPTS, limited, overloaded, smooth_motion
+from urdfkit.sim.engine.contacts.rolling_resistance import resist_rolling
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
 from urdfkit.sim.engine.dynamics.tree_motion import evaluate
 from urdfkit.sim.engine.island_solver.gauss_seidel import sweep
@@ -78,6 +79,7 @@ def settle(floats: Any, integers: Any, root: int) -> int:
     attempt = 0
     # What `hold` gives up, for more trees than blocks are for or for more rows than it comes near to, is swept.
     swept = False
+    resist_rolling(floats, integers, root, dt)
     while True:
         has_servo = False
         rows = island_dofs = 0
