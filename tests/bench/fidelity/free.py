@@ -148,11 +148,11 @@ def top(run: Run) -> float:
 
 ROWS = (
     Row("free fall, 2 s", "½·g·t² = 19.62 m", "m", free_fall, 1e-9, 1e-9),
-    Row("projectile that spins, 2 s", "v·t − ½·g·t²", "m", projectile, 1e-8, 1e-8),
+    Row("spinning projectile, 2 s", "v·t − ½·g·t²", "m", projectile, 1e-8, 1e-8),
     Row("torque-free spin, 60 s: energy", "constant", "", spin_energy, 1e-11, 1e-9),
     Row("torque-free spin, 60 s: angular momentum", "constant vector", "", spin_momentum, 1e-10, 2e-9),
     Row(
-        "torque-free spin about the middle axis: time between tumbles",
+        "torque-free spin about the intermediate axis: tumbling period",
         "2·K(k²)·√(I₁I₂I₃/…)",
         "",
         tumbling,
@@ -163,6 +163,6 @@ ROWS = (
     pendulum(0.1),
     pendulum(math.pi / 2),
     pendulum(2.5),
-    Row("double pendulum, 60 s: energy, of 31 J that swing", "constant", "J", double_pendulum, 1e-3, 0.5),
+    Row("double pendulum, 60 s: energy, of 31 J in motion", "constant", "J", double_pendulum, 1e-3, 0.5),
     Row("heavy top: precession", "A·cos θ·Ω² − C·ω·Ω + m·g·l = 0", "", top, 1e-9, 1e-9),
 )

@@ -98,7 +98,7 @@ def skid_turn(run: Run) -> float:
 
 
 def locked(run: Run) -> float:
-    """Return how far from the closed form a robot stops that brakes with locked wheels, going askew [m]."""
+    """Return how far from the closed form a robot stops that brakes with locked wheels, sliding obliquely [m]."""
     twist = (2.0 * math.cos(0.5), 2.0 * math.sin(0.5), 0, 0, 0, 0)
     wheels = dict.fromkeys((*LEFT, *RIGHT), 0.0)
     end = run(Scene("skid", 2.0, spawn=SKID, twist=twist, command=(0.0, 0.0), wheels=wheels))[-1].base.position
@@ -121,17 +121,19 @@ def parked(run: Run) -> float:
 
 
 ROWS = (
-    Row("lever into its limit at 3 rad/s: how far beyond", "0", "rad", limit_at_speed, 1e-9, 1e-9),
-    Row("carriage of 2 kg on its limit: how far beyond", "0", "m", limit_at_rest, 1e-9, 1e-9),
+    Row("lever into its limit at 3 rad/s: limit violation", "0", "rad", limit_at_speed, 1e-9, 1e-9),
+    Row("carriage of 2 kg on its limit: limit violation", "0", "m", limit_at_rest, 1e-9, 1e-9),
     Row("lever held by dry friction, 1 s", "0", "m", dry_hold, 1e-9, 1e-9),
-    Row("flywheel stopped by dry friction: where", "I·ω²/2τ = 5 rad", "rad", dry_stop, 1e-9, 1e-9),
+    Row("flywheel stopped by dry friction: stopping angle", "I·ω²/2τ = 5 rad", "rad", dry_stop, 1e-9, 1e-9),
     Row("flywheel slowed by damping, 1 s", "ω·exp(−d·t/I)", "", damped, 1e-9, 1e-9),
     Row("two wheels coupled by <mimic>, driven", "½·τ·t²/(I + n²·J)", "", gears, 1e-9, 1e-9, bullet=False),
-    Row("arm held out by PID, 10 s", "the target", "rad", arm, 1e-9, 1e-9, 1e-7),
-    Row("differential drive, ramped, 10 s: where it gets", "the ideal unicycle", "m", diff_drive, 0.0003, 0.0015, 1e-7),
-    Row("differential drive: odometry beside the truth", "0", "m", odometry, 1e-6, 1e-5, 1e-7),
+    Row("stretched arm held by PID, 10 s", "the target", "rad", arm, 1e-9, 1e-9, 1e-7),
+    Row(
+        "differential drive, ramped, 10 s: final position", "the ideal unicycle", "m", diff_drive, 0.0003, 0.0015, 1e-7
+    ),
+    Row("differential drive: odometry compared with the true pose", "0", "m", odometry, 1e-6, 1e-5, 1e-7),
     Row("skid steer on the spot: yaw rate", "ω·b²/(a² + b²)", "", skid_turn, 1e-9, 1e-9),
-    Row("locked wheels, going askew: where it stops", "v²/2μg = 0.3398 m", "m", locked, 1e-6, 1e-5, 1e-7),
+    Row("locked wheels, sliding obliquely: stopping distance", "v²/2μg = 0.3398 m", "m", locked, 1e-6, 1e-5, 1e-7),
     Row("four wheels driven by 0.2 N·m", "4τ/r/(m + 4I/r²)", "", traction, 1e-9, 1e-9),
     Row("parked on a slope with its brakes on, 10 s", "0", "m", parked, 1e-9, 1e-9),
 )

@@ -75,14 +75,14 @@ def table(sections: Sequence[tuple[str, Sequence[Result]]]) -> str:
     results = [result for _, part in sections for result in part]
     counts = {word: sum(result.verdict == word for result in results) for word in ("better", "equal", "**worse**")}
     lines.append(
-        f"Of {len(results)} rows ours is better than the better peer in {counts['better']}, equal in "
-        f"{counts['equal']}, worse in {counts['**worse**']}."
+        f"Compared with the better peer, urdfkit is better in {counts['better']} of {len(results)} rows, equal in "
+        f"{counts['equal']} and worse in {counts['**worse**']}."
     )
     for title, part in sections:
         lines += ["", f"### {title}", ""]
         lines.append(
-            "| what | closed form | ours, 1 ms | ours, 5 ms | MuJoCo, default | MuJoCo, best | PyBullet, default "
-            "| PyBullet, best | better peer | ours is |"
+            "| quantity | closed form | urdfkit, 1 ms | urdfkit, 5 ms | MuJoCo, default | MuJoCo, best "
+            "| PyBullet, default | PyBullet, best | better peer | urdfkit is |"
         )
         lines.append("|" + "---|" * 10)
         for result in part:

@@ -26,7 +26,7 @@ def stopping(direction: float) -> Row:
         return distance(end[:2], (way * math.cos(direction), way * math.sin(direction)))
 
     name = "straight" if not direction else "diagonally"
-    return Row(f"box sliding {name}: where it stops", f"v²/2μg = {way:.4f} m", "m", error, 1e-6, 3e-5, 1e-7)
+    return Row(f"box sliding {name}: stopping distance", f"v²/2μg = {way:.4f} m", "m", error, 1e-6, 3e-5, 1e-7)
 
 
 def threshold(run: Run) -> float:
@@ -178,9 +178,9 @@ ROWS = (
     Row("ball that slides, then rolls", "5/7·v", "m/s", bowling, 1e-9, 1e-9),
     Row("ball with back and side spin", "(5·v − 2·r·ω)/7", "m/s", side_spin, 1e-9, 1e-9),
     Row("box dropped 0.5 m: rebound", "0", "m", rebound, 1e-9, 1e-9),
-    Row("box dropped 0.5 m: how deep it sinks", "0", "m", sinking, 1e-9, 1e-9),
+    Row("box dropped 0.5 m: penetration", "0", "m", sinking, 1e-9, 1e-9),
     Row("box at rest, 10 s", "0", "m", standing, 1e-12, 1e-12),
-    Row("two balls head on: common velocity", "m·v/(m + M) = 0.8 m/s", "m/s", head_on, 1e-8, 1e-8, 1e-8),
-    Row("two spinning balls askew: momentum of both", "constant", "SI", askew, 1e-10, 1e-10),
+    Row("head-on impact of two balls: common velocity", "m·v/(m + M) = 0.8 m/s", "m/s", head_on, 1e-8, 1e-8, 1e-8),
+    Row("oblique impact of two spinning balls: total momentum", "constant", "SI", askew, 1e-10, 1e-10),
     Row("five boxes stacked, 10 s", "0", "m", stack, 1e-9, 1e-9),
 )
