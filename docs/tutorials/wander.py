@@ -1,4 +1,4 @@
-"""Wander: a robot with a laser drives about the house and turns away from what is near."""
+"""Drive a robot with a laser scanner through the house and avoid obstacles."""
 
 from typing import Any
 
@@ -8,13 +8,13 @@ from urdfkit.messages import TWIST, twist
 from urdfkit.sim import Simulator
 
 SCAN, COMMAND = "/scan", "/cmd_vel"
-NEAR = 0.8  # [m]: what is nearer ahead is turned away from
+NEAR = 0.8  # [m]: distance ahead below which the robot turns away
 
 
-def look(scan: Any) -> None:
-    """Steer by one scan."""
+def on_scan(scan: Any) -> None:
+    """Publish a velocity command for one scan."""
     angles = scan.angle_min + scan.angle_increment * np.arange(len(scan.ranges))
-    ranges = np.minimum(scan.ranges, scan.range_max)  # +inf where nothing is
+    ranges = np.minimum(scan.ranges, scan.range_max)  # +inf: no obstacle in range
     left, right = ranges[(angles > 0) & (angles < 1)].min(), ranges[(angles > -1) & (angles < 0)].min()
     blocked = min(left, right) < NEAR
     speed, turn = (0.0, 1.0 if left > right else -1.0) if blocked else (0.3, 0.0)
@@ -22,6 +22,6 @@ def look(scan: Any) -> None:
 
 
 simulator = Simulator("diff_wheeled_robot_with_laser", world="house")
-simulator.subscribe(SCAN, "sensor_msgs/msg/LaserScan", look)
+simulator.subscribe(SCAN, "sensor_msgs/msg/LaserScan", on_scan)
 simulator.run(20.0)
 print("at x {:.1f} m, y {:.1f} m".format(*simulator.state.base_pose))
