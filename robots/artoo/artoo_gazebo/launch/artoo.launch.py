@@ -1,4 +1,4 @@
-"""Gazebo with the robot in it: ros2 launch artoo_gazebo artoo.launch.py.
+"""Start Gazebo with the robot: ros2 launch artoo_gazebo artoo.launch.py.
 
 Then drive it: ros2 run teleop_twist_keyboard teleop_twist_keyboard --ros-args -r cmd_vel:=/artoo/cmd_vel
 """
@@ -13,7 +13,7 @@ from launch_ros.substitutions import FindPackageShare
 
 
 def generate_launch_description():
-    """Start Gazebo, put the robot in, bridge its topics, and publish its frames."""
+    """Start Gazebo, spawn the robot, bridge its topics, and publish its frames."""
     gazebo = FindPackageShare("artoo_gazebo")
     model = PathJoinSubstitution([FindPackageShare("artoo_description"), "urdf", "artoo.urdf.xacro"])
     simulated = {"use_sim_time": True}

@@ -1,4 +1,4 @@
-"""Gazebo Classic with the robot in it: ros2 launch bot_gazebo bot_classic.launch.py.
+"""Start Gazebo Classic with the robot: ros2 launch bot_gazebo bot_classic.launch.py.
 
 Then drive it: ros2 run teleop_twist_keyboard teleop_twist_keyboard --ros-args -r cmd_vel:=/robot_0/cmd_vel
 """
@@ -13,7 +13,7 @@ from launch_ros.substitutions import FindPackageShare
 
 
 def generate_launch_description():
-    """Start Gazebo Classic, put the robot in, and publish its frames."""
+    """Start Gazebo Classic, spawn the robot, and publish its frames."""
     gazebo = FindPackageShare("bot_gazebo")
     model = PathJoinSubstitution([FindPackageShare("bot_description"), "urdf", "bot.urdf.xacro"])
     description = ParameterValue(Command(["xacro ", model, " gazebo:=classic"]), value_type=str)

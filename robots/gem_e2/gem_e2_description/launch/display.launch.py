@@ -1,4 +1,4 @@
-"""Look at the robot in RViz and move its joints by hand: ros2 launch gem_e2_description display.launch.py."""
+"""View the robot in RViz and move its joints with sliders: ros2 launch gem_e2_description display.launch.py."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument

@@ -1,4 +1,4 @@
-"""Gazebo with the robot in it: ros2 launch gem_e2_gazebo gem_e2.launch.py.
+"""Start Gazebo with the robot: ros2 launch gem_e2_gazebo gem_e2.launch.py.
 
 Then drive it: ros2 run teleop_twist_keyboard teleop_twist_keyboard --ros-args -r cmd_vel:=/twist_to_ackermann
 """
@@ -13,7 +13,7 @@ from launch_ros.substitutions import FindPackageShare
 
 
 def generate_launch_description():
-    """Start Gazebo, put the robot in, bridge its topics, and publish its frames."""
+    """Start Gazebo, spawn the robot, bridge its topics, and publish its frames."""
     gazebo = FindPackageShare("gem_e2_gazebo")
     model = PathJoinSubstitution([FindPackageShare("gem_e2_description"), "urdf", "gem_e2.urdf.xacro"])
     xacro = Command(["xacro ", model, " gazebo:=gz velodyne:=", LaunchConfiguration("velodyne")])

@@ -1,4 +1,4 @@
-"""The robot expands, is one tree that can move, and has no defects."""
+"""The robot expands, is one tree with movable joints, and has no lint findings."""
 
 import shutil
 import subprocess
@@ -11,7 +11,7 @@ MODEL = PACKAGE / "urdf" / "simpleton.urdf.xacro"
 
 
 def said(*command, given=""):
-    """Return what a program prints that is `given` something to read; skip the test where it is not installed."""
+    """Return the output of a program with `given` as its input; skip the test if it is not installed."""
     if shutil.which(command[0]) is None:
         raise SkipTest("{} is not installed".format(command[0]))
     done = subprocess.run([str(word) for word in command], input=given.encode(), capture_output=True)

@@ -1,4 +1,4 @@
-"""Every world is a file that Gazebo can read."""
+"""Gazebo can read every world file."""
 
 import xml.etree.ElementTree as ET
 from pathlib import Path

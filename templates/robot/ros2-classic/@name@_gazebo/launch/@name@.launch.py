@@ -1,4 +1,4 @@
-"""Gazebo with the robot in it: ros2 launch @name@_gazebo @name@.launch.py."""
+"""Start Gazebo with the robot: ros2 launch @name@_gazebo @name@.launch.py."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
@@ -10,7 +10,7 @@ from launch_ros.substitutions import FindPackageShare
 
 
 def generate_launch_description():
-    """Start Gazebo, put the robot in, and publish its frames."""
+    """Start Gazebo, spawn the robot, and publish its frames."""
     gazebo = FindPackageShare("@name@_gazebo")
     model = PathJoinSubstitution([FindPackageShare("@name@_description"), "urdf", "@name@.urdf.xacro"])
     control = FindPackageShare("@name@_@control@")

@@ -1,6 +1,6 @@
 """Drive with a joystick: ros2 launch @name@_bringup teleop.launch.py.
 
-A keyboard needs a terminal of its own: ros2 run teleop_twist_keyboard teleop_twist_keyboard
+To drive with the keyboard, use a separate terminal: ros2 run teleop_twist_keyboard teleop_twist_keyboard
 """
 
 from launch import LaunchDescription
@@ -11,7 +11,7 @@ from launch_ros.parameter_descriptions import ParameterValue
 
 
 def generate_launch_description():
-    """Read the joystick and turn its axes into commands while its button is held."""
+    """Read the joystick and convert its axes to commands while its button is pressed."""
     return LaunchDescription([
         DeclareLaunchArgument("speed", default_value="0.5", description="At full deflection [m/s]."),
         DeclareLaunchArgument("turn", default_value="1.0", description="At full deflection [rad/s]."),

@@ -1,4 +1,4 @@
-"""All of the robot: ros2 launch @name@ @robot@.launch.py."""
+"""Start all parts of the robot: ros2 launch @name@ @robot@.launch.py."""
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
@@ -10,7 +10,7 @@ from launch_ros.substitutions import FindPackageShare
 
 
 def generate_launch_description():
-    """Start Gazebo with the robot in it and, if asked to, RViz."""
+    """Start Gazebo with the robot and, if requested, RViz."""
     gazebo = FindPackageShare("@gazebo@")
     rviz_config = PathJoinSubstitution([FindPackageShare("@description@"), "rviz", "@robot@.rviz"])
     return LaunchDescription([

@@ -1,4 +1,4 @@
-"""The bridge's settings name a topic, a type and a direction on both sides, each topic once."""
+"""The settings of the bridge contain topic, type and direction for both sides, each topic once."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The controllers' settings can be read, and no joint has two controllers."""
+"""The settings of the controllers are readable, and no joint has two controllers."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ CONFIG = Path(__file__).resolve().parents[1] / "config"
 
 
 def lists_of_joints(settings):
-    """Yield what is listed as joints, wherever it is."""
+    """Yield all lists of joints at any depth."""
     for key, value in settings.items():
         if key in ("joint", "joints"):
             yield [value] if key == "joint" else value

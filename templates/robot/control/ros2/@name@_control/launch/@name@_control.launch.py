@@ -1,4 +1,4 @@
-"""Start the controllers, once the robot is in Gazebo: ros2 launch @name@_control @name@_control.launch.py."""
+"""Start the controllers after the robot is in Gazebo: ros2 launch @name@_control @name@_control.launch.py."""
 
 from launch import LaunchDescription
 from launch_ros.actions import Node
