@@ -1,0 +1,47 @@
+"""Links between pages lead to files and headings that exist, and each page of the user guide opens with an example."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md")), *sorted(ROOT.glob("robots/*/README.md"))]
+GUIDE = [page for page in PAGES if page.parent == ROOT / "docs" and page.stem not in ("architecture", "conventions")]
+
+
+def anchors(text: str) -> set[str]:
+    """Return the anchors of the headings, as GitHub computes them."""
+    headings = re.findall(r"^#+ (.+)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def broken(page: Path, text: str) -> list[str]:
+    """Return the relative links of a page without a target."""
+    found = []
+    for link in re.findall(r"\]\(([^)\s]+)\)", text):
+        name, _, anchor = link.partition("#")
+        target = page.parent / name if name else page
+        if link.startswith(("http:", "https:")):
+            continue
+        if not target.exists() or (anchor and anchor not in anchors(target.read_text(encoding="utf-8"))):
+            found.append(link)
+    return found
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_links_have_targets(page: Path) -> None:
+    assert broken(page, page.read_text(encoding="utf-8")) == []
+
+
+def test_a_broken_link_is_found() -> None:
+    text = "[a](missing.md) [b](physics.md#no-such-heading) [c](physics.md#friction) [d](#here)\n# Here\n"
+    assert broken(ROOT / "docs/linting.md", text) == ["missing.md", "physics.md#no-such-heading", "#here"]
+
+
+@pytest.mark.parametrize("page", GUIDE, ids=lambda page: page.name)
+def test_a_page_opens_with_an_example(page: Path) -> None:
+    introduction = page.read_text(encoding="utf-8").partition("\n## ")[0]
+    assert re.search(r"^```\w+\n(\$ )?(urdfkit|from|import) ", introduction, re.MULTILINE)
