@@ -23,7 +23,7 @@ from urdfkit.sim.engine.collision.workspace import (
     ON_A,
 )
 from urdfkit.sim.engine.compilation import compiled, inlined
-from urdfkit.sim.engine.elementary import sine_cosine
+from urdfkit.sim.engine.math.elementary_functions import sine_cosine
 from urdfkit.sim.engine.math.spatial_algebra import Vector, add, cross, dot, scale, sub
 
 EXACT = 1e-9

@@ -24,7 +24,7 @@ from urdfkit.sim.engine.collision.support_points import (
 )
 from urdfkit.sim.engine.collision.workspace import MOST_CORNERS
 from urdfkit.sim.engine.compilation import compiled, inlined
-from urdfkit.sim.engine.elementary import sine_cosine
+from urdfkit.sim.engine.math.elementary_functions import sine_cosine
 from urdfkit.sim.engine.math.spatial_algebra import Vector, add, cross, dot, rotate, scale, sub
 
 RIM = 8

@@ -8,7 +8,7 @@ from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.constraints.constraint_rows import friction_beside_motor
 from urdfkit.sim.engine.dynamics.mass_matrix import factor, solve_transposed
-from urdfkit.sim.engine.elementary import exponential
+from urdfkit.sim.engine.math.elementary_functions import exponential
 
 SERVO_ATTEMPTS = 8
 """How often servos taken to be at their limit are released again within a step."""

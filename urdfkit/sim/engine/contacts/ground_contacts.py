@@ -11,7 +11,7 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
-from urdfkit.sim.engine.elementary import sine_cosine
+from urdfkit.sim.engine.math.elementary_functions import sine_cosine
 from urdfkit.sim.engine.math.spatial_algebra import (
     add,
     compose,

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any
 
 from urdfkit.sim.engine.compilation import inlined
-from urdfkit.sim.engine.elementary import sine_cosine
+from urdfkit.sim.engine.math.elementary_functions import sine_cosine
 
 Vector = tuple[float, float, float]
 Spatial = tuple[Vector, Vector]

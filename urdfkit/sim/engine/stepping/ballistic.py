@@ -15,7 +15,7 @@ from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.constraints.joint_servos import smooth_motion
 from urdfkit.sim.engine.dynamics.integration import move, turned_by
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR, place, solve_forward, terms
-from urdfkit.sim.engine.elementary import sine_cosine
+from urdfkit.sim.engine.math.elementary_functions import sine_cosine
 from urdfkit.sim.engine.math.spatial_algebra import add, cross, rotate, scale, turn_of
 
 
