@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import KinematicsError
+from urdfkit.linear_algebra import matmul, vector_norm
 
 Array = NDArray[np.float64]
 
@@ -85,7 +86,7 @@ def rates(joint_type: str, q: Array, along: Mapping[str, float]) -> Array:
         x, y = along.get("x", 0.0), along.get("y", 0.0)
         return np.array([c * x + s * y, c * y - s * x, along.get("theta", 0.0)])
     linear = np.array([along.get(part, 0.0) for part in PARTS["floating"][:3]])
-    return np.concatenate([pin.Quaternion(q[3:7].copy()).matrix().T @ linear, np.zeros(3)])
+    return np.concatenate([matmul(pin.Quaternion(q[3:7].copy()).matrix().T, linear), np.zeros(3)])
 
 
 def finite(name: str, value: float, *, quantity: str = "position") -> float:
@@ -106,7 +107,7 @@ def unit_pose(pose: Array) -> Array:
         KinematicsError: not seven finite numbers, or a quaternion that is zero.
     """
     pose = np.array(pose, dtype=float)
-    if pose.shape != (7,) or not np.isfinite(pose).all() or np.linalg.norm(pose[3:]) < 1e-9:
+    if pose.shape != (7,) or not np.isfinite(pose).all() or vector_norm(pose[3:]) < 1e-9:
         raise KinematicsError("a pose is seven finite numbers: x y z and a quaternion x y z w that is not zero")
-    pose[3:] /= np.linalg.norm(pose[3:])
+    pose[3:] /= vector_norm(pose[3:])
     return pose

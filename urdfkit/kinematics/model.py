@@ -22,6 +22,7 @@ from urdfkit.kinematics.joint_limits import JointLimitError, position_limits
 from urdfkit.kinematics.joint_variables import PARTS, Array, finite, index_variables, rates, unit_pose
 from urdfkit.kinematics.mimic import Coupling, couplings
 from urdfkit.kinematics.pinocchio_model import build_model, pin
+from urdfkit.linear_algebra import matmul
 
 
 class Kinematics:
@@ -159,7 +160,7 @@ class Kinematics:
         if base is not None:
             self._require_floating()
             u[:6] = base
-        v: Array = self.mimic_matrix @ u
+        v: Array = matmul(self.mimic_matrix, u)
         return v
 
     def configuration_index(self, joint: str) -> int:

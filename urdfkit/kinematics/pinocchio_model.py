@@ -19,6 +19,7 @@ from urdfkit.description.urdf.robot import Joint, Link, Pose, Robot
 from urdfkit.errors import KinematicsError
 from urdfkit.kinematics.joint_limits import position_limits
 from urdfkit.kinematics.pinocchio_requirement import require_pinocchio
+from urdfkit.linear_algebra import matmul, vector_norm
 
 pin: Any = require_pinocchio()
 
@@ -93,7 +94,7 @@ def spatial_inertia(link: Link) -> Any:
     placement = placement_of(inertial.origin)
     R = placement.rotation
     try:
-        return pin.Inertia(inertial.mass or 0.0, placement.translation, R @ tensor @ R.T)
+        return pin.Inertia(inertial.mass or 0.0, placement.translation, matmul(matmul(R, tensor), R.T))
     except RuntimeError:  # "The 3d inertia should be positive."
         return pin.Inertia(inertial.mass or 0.0, placement.translation, np.zeros((3, 3)))
 
@@ -108,7 +109,7 @@ def joint_model(joint: Joint) -> tuple[Any, Any]:
     if joint.type == "floating":
         return pin.JointModelFreeFlyer(), identity
     axis = np.array(joint.axis, dtype=float)
-    length = float(np.linalg.norm(axis))
+    length = vector_norm(axis)
     if not np.isfinite(length) or length == 0.0:
         raise KinematicsError(
             f"joint `{joint.name}` has the axis {axis[0]:g} {axis[1]:g} {axis[2]:g}; it must point somewhere",

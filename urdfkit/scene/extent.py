@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
+from urdfkit.linear_algebra import matmul
 from urdfkit.scene.placement import pose_matrices
 from urdfkit.scene.scene_table import Role, Scene, Shape
 
@@ -56,16 +57,16 @@ def shape_bounds(shape: Shape, body: Array) -> Array:
         shape: the shape.
         body: placement of its body in the world, shape (4, 4).
     """
-    placement = body @ shape.placement
+    placement = matmul(body, shape.placement)
     R, center = placement[:3, :3], placement[:3, 3]
     if shape.mesh is not None:
-        points = shape.mesh.vertices.astype(float) @ R.T + center
+        points = matmul(shape.mesh.vertices.astype(float), R.T) + center
         return np.array([points.min(axis=0), points.max(axis=0)])
     # The support of a solid along ±e is its reach from the centre; along world axis k, R[k] is e in the solid's frame.
     along = np.abs(R[:, 2])
     match shape.geometry:
         case Box(size=size):
-            reach = np.abs(R) @ (np.array(size) / 2)
+            reach = matmul(np.abs(R), np.array(size) / 2)
         case Sphere(radius=radius):
             reach = np.full(3, radius)
         case Cylinder(radius=radius, length=length):

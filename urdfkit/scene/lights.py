@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from urdfkit.description.sdf import Light, World
 from urdfkit.description.xml.element import Element
+from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.scene.placement import pose_matrix
 from urdfkit.scene.rays.shading.direct_lighting import DIRECTIONAL, LIGHT, POINT, SPOT
 
@@ -60,8 +61,8 @@ def lighting_of(world: World) -> Lighting:
 
 def _numbers(light: Light, *, shadows: bool) -> list[float]:
     placement = pose_matrix(light.pose)
-    towards = placement[:3, :3] @ np.array(light.direction)
-    towards = towards / (np.linalg.norm(towards) or 1.0)
+    towards = matmul(placement[:3, :3], np.array(light.direction))
+    towards = towards / (vector_norm(towards) or 1.0)
     where = -towards if light.type == "directional" else placement[:3, 3]
     red, green, blue = (channel * light.intensity for channel in light.diffuse[:3])
     inner, outer, falloff = light.spot

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.description.urdf.robot import Pose
+from urdfkit.linear_algebra import vector_norm
 
 Array = NDArray[np.float64]
 
@@ -50,5 +51,5 @@ def upright(normal: ArrayLike) -> Array:
     z = np.asarray(normal, dtype=float)
     across = np.eye(3)[int(np.argmin(np.abs(z)))]
     x = np.cross(across, z)
-    x /= np.linalg.norm(x)
+    x /= vector_norm(x)
     return np.column_stack([x, np.cross(z, x), z])

@@ -12,6 +12,7 @@ from urdfkit.description.sdf import WorldLink, WorldShape
 from urdfkit.description.sdf.shapes import plugins_of
 from urdfkit.description.urdf.robot import Mesh
 from urdfkit.errors import ResourceError
+from urdfkit.linear_algebra import matmul
 from urdfkit.scene.colors import DEFAULT, GAZEBO, Rgba
 from urdfkit.scene.meshes.loader import MeshLoader
 from urdfkit.scene.placement import pose_matrix
@@ -59,7 +60,7 @@ def shapes_of_link(
                 note(f"{shape.position or body}: visual `{shape.name}` is not seen: {error}")
                 continue
         rgba = color_of(shape) if role == "visual" else None
-        placed = placement @ pose_matrix(shape.pose)
+        placed = matmul(placement, pose_matrix(shape.pose))
         placed.flags.writeable = False
         name = f"{body}/{role}/{prefix}{shape.name}"
         shown = rgba or (*DEFAULT[:3], 1.0 - shape.transparency)

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from urdfkit.description.packages.resolver import near_path
 from urdfkit.description.urdf.robot import Vector
 from urdfkit.errors import MissingDependencyError, ResourceError, did_you_mean
+from urdfkit.linear_algebra import matmul
 from urdfkit.scene.meshes.collada import harm, metres_per_unit
 from urdfkit.scene.meshes.mesh_appearance import colors_in, gloss_in, normals_in, places_in, texture_in
 from urdfkit.scene.meshes.stl import corners_of
@@ -218,7 +219,7 @@ def _merge(path: Path, parts: list[tuple[Any, Any]], scale: NDArray[np.float64],
     start = 0
     for part, transform in parts:
         linear = scale[:, None] * transform[:3, :3]
-        points = np.asarray(part.vertices, dtype=float) @ linear.T + scale * transform[:3, 3]
+        points = matmul(np.asarray(part.vertices, dtype=float), linear.T) + scale * transform[:3, 3]
         triangles = np.asarray(part.faces, dtype=np.int64).reshape(-1, 3)
         if triangles.size and (triangles.min() < 0 or triangles.max() >= len(points)):
             raise ResourceError(f"mesh {path.name} is broken: a triangle names a vertex that is not there")

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.linear_algebra import matmul
 from urdfkit.scene.meshes.textures import Texture, texture_of
 from urdfkit.scene.specular import MATT, Gloss, gloss_from
 
@@ -18,7 +19,11 @@ def normals_in(part: Any, linear: NDArray[np.float64]) -> NDArray[np.float64] | 
     written = np.asarray(part.vertex_normals, dtype=float)
     if written.shape != part.vertices.shape or np.linalg.det(linear) == 0:
         return None
-    turned = written @ np.linalg.inv(linear)  # normals go with the inverse transpose
+    # Normals go with the inverse transpose, the matrix of cofactors but for a factor.
+    cofactors = np.stack(
+        [np.cross(linear[1], linear[2]), np.cross(linear[2], linear[0]), np.cross(linear[0], linear[1])]
+    )
+    turned = matmul(written, cofactors.T) * np.sign(np.linalg.det(linear))
     length = np.linalg.norm(turned, axis=1, keepdims=True)
     unit: NDArray[np.float64] = np.divide(turned, length, out=np.zeros_like(turned), where=length > 0)
     return unit

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from urdfkit.description.sdf import Cone, Ellipsoid, Plane
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Sphere
+from urdfkit.linear_algebra import matmul
 from urdfkit.scene.meshes.loader import TriMesh
 from urdfkit.scene.placement import upright
 from urdfkit.scene.rays import primitives
@@ -72,7 +73,7 @@ class RayTable:
         for k, shape in enumerate(listed):
             kind, size, turn = _numbers(shape)
             self._kinds[k] = kind
-            local[k, :9] = (shape.placement[:3, :3] @ turn).ravel()
+            local[k, :9] = matmul(shape.placement[:3, :3], turn).ravel()
             local[k, 9:12] = shape.placement[:3, 3]
             local[k, 12:15] = size
         self._local = local.ravel()

@@ -15,6 +15,7 @@ from urdfkit.description.sdf import World, load_world
 from urdfkit.description.urdf.masses import massless
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
+from urdfkit.linear_algebra import matmul
 from urdfkit.resources import find_model
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.construction.validation import require_sound
@@ -122,7 +123,7 @@ def _is_regular(kinematics: Kinematics, q: NDArray[np.float64]) -> bool:
         return False
     upper = np.triu(pin.crba(kinematics.model, kinematics.data, q))
     G = kinematics.mimic_matrix
-    M = G.T @ (upper + np.triu(upper, 1).T) @ G
+    M = matmul(matmul(G.T, upper + np.triu(upper, 1).T), G)
     own = np.diag(M)
     if not np.isfinite(M).all() or not (own > 1e-15 * own.max(initial=0.0)).all():  # what rounding leaves of a zero
         return False

@@ -16,6 +16,7 @@ from urdfkit.description.sdf.poses import compose
 from urdfkit.description.sdf.shapes import plugins_of
 from urdfkit.description.urdf.robot import Geometry, Mesh, Pose
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import inverse_placement, matmul, vector_norm
 from urdfkit.scene import MeshLoader, Scene, Shape
 from urdfkit.scene.colors import DEFAULT, GAZEBO
 from urdfkit.scene.placement import pose_matrix
@@ -171,9 +172,9 @@ def looks_of(world: World) -> tuple[Shape, ...]:
     found: list[Shape] = []
     for model in world.models:
         for body, _, links in parts_of(model):
-            into = np.linalg.inv(pose_matrix(links[0][1]))
+            into = inverse_placement(pose_matrix(links[0][1]))
             for _, pose, link in links:
-                found += _looks(body, link, into @ pose_matrix(pose), meshes, len(found))
+                found += _looks(body, link, matmul(into, pose_matrix(pose)), meshes, len(found))
     return tuple(found)
 
 
@@ -190,30 +191,30 @@ def _merged(name: str, around: Pose, links: Sequence[Placed], meshes: MeshLoader
     masses, centres, tensors, pieces = [], [], [], []
     for _, pose, link in links:
         _require_ordinary(link, name)
-        inside = np.linalg.inv(frame) @ pose_matrix(pose)
+        inside = matmul(inverse_placement(frame), pose_matrix(pose))
         inertial = link.inertial
-        axes = inside @ pose_matrix(inertial.pose)
+        axes = matmul(inside, pose_matrix(inertial.pose))
         ixx, ixy, ixz, iyy, iyz, izz = (
             getattr(inertial, entry) for entry in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
         )
         tensor = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
         masses.append(inertial.mass)
         centres.append(axes[:3, 3])
-        tensors.append(axes[:3, :3] @ tensor @ axes[:3, :3].T)
+        tensors.append(matmul(matmul(axes[:3, :3], tensor), axes[:3, :3].T))
         for shape in touchable(link):
             if isinstance(shape.geometry, Plane):
                 raise _endless(name, shape)
             pieces.append(_piece(shape, inside, name, meshes))
     mass = float(sum(masses))
     weights = np.array(masses) / mass if mass > 0.0 else np.full(len(masses), 1.0 / len(masses))
-    centre = weights @ np.array(centres)
+    centre = matmul(weights, np.array(centres))
     inertia = np.zeros((3, 3))
     for m, c, tensor in zip(masses, centres, tensors, strict=True):
         off = c - centre
-        inertia += tensor + m * (off @ off * np.eye(3) - np.outer(off, off))
+        inertia += tensor + m * (matmul(off, off) * np.eye(3) - np.outer(off, off))
     where = seven(compose(around, links[0][1]))
     light = [0.0 if link.gravity else m for (_, _, link), m in zip(links, masses, strict=True)]
-    light_centre = np.array(light) @ np.array(centres) / sum(light) if any(light) else np.zeros(3)
+    light_centre = matmul(np.array(light), np.array(centres)) / sum(light) if any(light) else np.zeros(3)
     return Body(
         name,
         where,
@@ -267,10 +268,10 @@ def _surface(shape: WorldShape) -> Surface:
 def _shape(shape: WorldShape, name: str, body: str, role: Role, frame: Array, meshes: MeshLoader) -> Shape:
     """Return a shape of a world as viewer and engine know it; `frame` is that of its link."""
     geometry: Any = shape.geometry
-    placement = frame @ pose_matrix(shape.pose)
+    placement = matmul(frame, pose_matrix(shape.pose))
     mesh = None
     if isinstance(geometry, Plane):
-        placement[:3, :3] = placement[:3, :3] @ _upright(np.array(geometry.normal))
+        placement[:3, :3] = matmul(placement[:3, :3], _upright(np.array(geometry.normal)))
     elif isinstance(geometry, (Cone, Ellipsoid)):
         mesh, geometry = hull_of(geometry), Mesh("")
     elif isinstance(geometry, Mesh):
@@ -286,5 +287,5 @@ def _upright(normal: Array) -> Array:
     """Return a rotation that takes z to a unit vector."""
     across = np.eye(3)[int(np.argmin(np.abs(normal)))]
     x = np.cross(across, normal)
-    x /= np.linalg.norm(x)
+    x /= vector_norm(x)
     return np.column_stack([x, np.cross(normal, x), normal])

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
+from urdfkit.linear_algebra import matmul
 from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, STEPS, Arrays
 from urdfkit.sim.engine.scalar_views import numbers
 from urdfkit.sim.engine.state_conversion import configuration, positions, set_configuration
@@ -113,7 +114,7 @@ class Part:
         if given is not None and given[0] == step - 1 and self._met_something():
             dt = float(self._arrays["numbers"][DT])
             # Linear velocities stay constant in space while the base turns.
-            linear = pin.exp3(-dt * given[1][3:]) @ given[1][:3]
+            linear = matmul(pin.exp3(-dt * given[1][3:]), given[1][:3])
             taken = np.concatenate([linear, given[1][3:]]) - self._own_v[:6]
             self._shift_base(-0.5 * dt * taken)
         self._own_v[:6] = v
@@ -134,7 +135,7 @@ class Part:
         at = int(self._arrays["tree_s"][self._tree])
         s = self._arrays["s"][at : at + 7]
         rotation = pin.Quaternion(s[3:].copy())
-        s[:3] += rotation.matrix() @ by[:3]
+        s[:3] += matmul(rotation.matrix(), by[:3])
         s[3:] = (rotation * pin.Quaternion(pin.exp3_quat(by[3:]))).normalized().coeffs()
 
     def put(self, q: Array | None = None, v: Array | None = None) -> None:

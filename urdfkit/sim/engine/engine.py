@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
+from urdfkit.linear_algebra import matmul
 from urdfkit.scene import Shape
 from urdfkit.sim.engine.arrays import HAS_PAIRS, ITERATED, OVERFULL, STEPS
 from urdfkit.sim.engine.articulation import Part
@@ -180,10 +181,10 @@ class Engine(Part):
         n = self.kinematics.model.njoints - 1
         places, axes = a["P"][0] + a["r"][:n], a["R"][:n].reshape(-1, 3, 3)
         moment = sum(
-            sign * a[mass][:n] @ (places + np.einsum("bij,bj->bi", axes, a[centre][:n]))
+            matmul(sign * a[mass][:n], places + np.einsum("bij,bj->bi", axes, a[centre][:n]))
             for sign, mass, centre in ((1.0, "mass", "centre"), (-1.0, "weightless", "weightless_centre"))
         )
-        return float(0.5 * self.v @ M @ self.v), float(-moment @ a["gravity"])
+        return float(matmul(matmul(0.5 * self.v, M), self.v)), matmul(-moment, a["gravity"])
 
     def mass_matrix(self) -> Array:
         """Return M(q) of the robot [kg, kg·m or kg·m²]; shape (nv, nv)."""
@@ -195,7 +196,7 @@ class Engine(Part):
     def bias_forces(self) -> Array:
         """Return h(q, v): what gravity and motion demand of each dof at zero acceleration [N or N·m]; shape (nv,)."""
         a, n = self._arrays, self.kinematics.model.nv
-        return np.array(self.mass_matrix() @ turning(a, a["v"])[:n] + a["bias"][:n])
+        return np.array(matmul(self.mass_matrix(), turning(a, a["v"])[:n]) + a["bias"][:n])
 
     def body_poses(self) -> Array:
         """Return where Pinocchio's joints are: x y z [m] and rotation matrix row by row; shape (njoints - 1, 12)."""

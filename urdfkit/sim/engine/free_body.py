@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import matmul
 from urdfkit.sim.engine.arrays import Arrays
 from urdfkit.sim.engine.bodies import Body
 from urdfkit.sim.engine.layout.tree_arrays import place_free
@@ -42,7 +43,7 @@ class Loose:
     def twist(self) -> tuple[float, ...]:
         """Velocity of its origin [m/s] and angular velocity [rad/s], along the world's axes."""
         R = self._rotation()
-        return (*(R @ self._v[:3]).tolist(), *(R @ self._v[3:]).tolist())
+        return (*matmul(R, self._v[:3]).tolist(), *matmul(R, self._v[3:]).tolist())
 
     @property
     def asleep(self) -> bool:
@@ -58,7 +59,7 @@ class Loose:
         place_free(self._arrays, self._tree, pose)
         speed = _six(twist)
         R = self._rotation()
-        self._v[:3], self._v[3:] = R.T @ speed[:3], R.T @ speed[3:]
+        self._v[:3], self._v[3:] = matmul(R.T, speed[:3]), matmul(R.T, speed[3:])
         # What somebody moves is not at rest.
         self._arrays["still"][self._tree] = 0.0
 

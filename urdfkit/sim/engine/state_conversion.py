@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.sim.engine.arrays import FOUND_CONTACTS, HAS_PAIRS, SLEEPING, Arrays
 from urdfkit.sim.engine.contact_surface import Contact
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR
@@ -38,13 +40,13 @@ def set_configuration(model: Any, arrays: Arrays, q: Array, tree: int = 0) -> No
     for b, at in enumerate(_starts(arrays, tree)):
         iq, nq = model.idx_qs[b + 1], model.nqs[b + 1]
         if nq == 2:
-            s[at] = np.arctan2(q[iq + 1], q[iq])
+            s[at] = math.atan2(q[iq + 1], q[iq])
         elif nq == 4:
-            s[at : at + 3] = q[iq], q[iq + 1], np.arctan2(q[iq + 3], q[iq + 2])
+            s[at : at + 3] = q[iq], q[iq + 1], math.atan2(q[iq + 3], q[iq + 2])
         else:
             s[at : at + nq] = q[iq : iq + nq]
             if nq == 7:
-                norm = float(np.linalg.norm(s[at + 3 : at + 7]))
+                norm = vector_norm(s[at + 3 : at + 7])
                 if not norm > 1e-9:
                     raise SimulationError(f"q has no orientation for joint `{model.names[b + 1]}`: its quaternion is 0")
                 s[at + 3 : at + 7] /= norm
@@ -100,7 +102,7 @@ def contacts(arrays: Arrays, touches: Sequence[Touching], ground: str, dt: float
                 _vector(arrays["contact_origin"][tree] + arrays["contact_point"][k]),
                 _vector(frame[2]),
                 -float(arrays["contact_gap"][k]),
-                _vector(impulse @ frame / dt),
+                _vector(matmul(impulse, frame) / dt),
                 mine.number,
                 -1 if other is None else other.number,
             )

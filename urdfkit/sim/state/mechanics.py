@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.kinematics import Kinematics
+from urdfkit.linear_algebra import matmul
 from urdfkit.sim.state.quaternion import product, rotate
 
 Array = NDArray[np.float64]
@@ -91,4 +92,4 @@ def energy_of(
         mass -= light
     if base is not None:
         moment = mass * base[:3] + rotate(base[3:], moment)
-    return float(kinetic), float(-gravity @ moment)
+    return float(kinetic), matmul(-gravity, moment)

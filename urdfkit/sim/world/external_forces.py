@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.sim.state.quaternion import product, rotate
 
 if TYPE_CHECKING:
@@ -143,7 +144,7 @@ def _on_body(body: Loose, push: Push, dt: float) -> Array:
 
 def _half_a_step_later(quaternion: Sequence[float], rate: Sequence[float], dt: float) -> tuple[float, ...]:
     """Return where an orientation is after half a step of turning at a rate along the world's axes [rad/s]."""
-    angle = float(np.linalg.norm(rate)) * dt / 2
+    angle = vector_norm(rate) * dt / 2
     scale = 0.5 * dt / 2 * float(np.sinc(angle / 2 / np.pi))
     x, y, z = (scale * part for part in rate)
     return product((x, y, z, float(np.cos(angle / 2))), quaternion)
@@ -163,8 +164,8 @@ def _on_link(robot: SimulatedRobot, link: str, push: Push, dt: float) -> Array:
     q = pin.integrate(model, robot.part.q, 0.5 * dt * robot.part.v)
     frame = kinematics.frame(link)
     jacobian = pin.computeFrameJacobian(model, data, q, frame, pin.LOCAL_WORLD_ALIGNED)
-    arm = data.oMf[frame].rotation @ np.array(push.at)
-    found: Array = jacobian.T @ np.concatenate([force, np.array(torque) + np.cross(arm, force)])
+    arm = matmul(data.oMf[frame].rotation, np.array(push.at))
+    found: Array = matmul(jacobian.T, np.concatenate([force, np.array(torque) + np.cross(arm, force)]))
     return found
 
 

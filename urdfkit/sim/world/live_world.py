@@ -13,6 +13,7 @@ from urdfkit.description.sdf import World
 from urdfkit.description.sdf.poses import IDENTITY, compose, inverse
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import matmul
 from urdfkit.sim.state.arguments import vector
 from urdfkit.sim.state.poses import pose_from, seven
 from urdfkit.sim.world.external_forces import Pushes
@@ -169,7 +170,7 @@ class Stage(Assembly):
         q, v = robot.part.q, robot.part.v.copy()
         q[:7] = seven(pose)
         R = _matrix(q[3:7])
-        v[:3], v[3:6] = R.T @ moving[:3], R.T @ moving[3:]
+        v[:3], v[3:6] = matmul(R.T, moving[:3]), matmul(R.T, moving[3:])
         robot.part.put(q, v)
         robot.state.advance(0)
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from urdfkit.description.sdf import World
 from urdfkit.description.sdf.poses import compose
+from urdfkit.linear_algebra import inverse_placement, matmul
 from urdfkit.scene import MeshLoader, Role, Scene, Shape
 from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.placement import pose_matrices, pose_matrix
@@ -110,12 +111,12 @@ def world_scene(world: World, note: Callable[[str], None] | None = None) -> tupl
     poses: list[Any] = []
     for model in world.models:
         for name, _, links in parts_of(model):
-            body, into = BODY + name, np.linalg.inv(pose_matrix(links[0][1]))
+            body, into = BODY + name, inverse_placement(pose_matrix(links[0][1]))
             names.append(body)
             poses.append(seven(compose(model.pose, links[0][1])))
             for link_name, pose, link in links:
                 prefix = f"{link_name}/" if len(links) > 1 else ""
-                placed = into @ pose_matrix(pose)
+                placed = matmul(into, pose_matrix(pose))
                 label = label_of(model.plugins)
                 shapes += shapes_of_link(link, body, placed, meshes=meshes, prefix=prefix, label=label, note=note)
     return Scene(tuple(names), tuple(shapes)), np.array(poses, dtype=float).reshape(-1, 7)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.linear_algebra import matmul, vector_norm
+
 if TYPE_CHECKING:
     from urdfkit.sim.engine import Contact
     from urdfkit.sim.plugins.sensors.point_motion import Motion
@@ -34,7 +36,7 @@ class Slip:
     @property
     def speed(self) -> float:
         """How fast it slides [m/s]."""
-        return float(np.linalg.norm(self.velocity))
+        return vector_norm(self.velocity)
 
 
 def slips(population: Population, contacts: tuple[Contact, ...]) -> list[Slip]:
@@ -53,7 +55,7 @@ def slips(population: Population, contacts: tuple[Contact, ...]) -> list[Slip]:
         velocity = _at(one, position)
         if (other := motions.of(contact.b)) is not None:
             velocity -= _at(other, position)
-        velocity -= (velocity @ normal) * normal
+        velocity -= matmul(velocity, normal) * normal
         found.append(Slip(contact.a, contact.position, tuple(velocity.tolist())))
     return found
 

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.linear_algebra import matmul, vector_norm
+
 Array = NDArray[np.float64]
 
 MOST_VERTICES = 64
@@ -63,8 +65,8 @@ def first_corners(points: Array, tolerance: float) -> list[int]:
         if apart[furthest] <= tolerance:
             break
         corners.append(furthest)
-        along = offset[furthest] / np.linalg.norm(offset[furthest])
-        offset = offset - np.outer(offset @ along, along)
+        along = offset[furthest] / vector_norm(offset[furthest])
+        offset = offset - np.outer(matmul(offset, along), along)
         apart = np.linalg.norm(offset, axis=1)
     return corners
 
@@ -72,18 +74,18 @@ def first_corners(points: Array, tolerance: float) -> list[int]:
 def flat_hull(points: Array, corners: Array, most: int) -> Hull:
     """Return both sides of the convex polygon of points on a plane, of those furthest out in so many directions."""
     x = corners[1] - corners[0]
-    x /= np.linalg.norm(x)
+    x /= vector_norm(x)
     normal = np.cross(x, corners[2] - corners[0])
-    normal /= np.linalg.norm(normal)
+    normal /= vector_norm(normal)
     y = np.cross(normal, x)
     angles = 2.0 * np.pi * np.arange(most) / most
     directions = np.outer(np.cos(angles), x) + np.outer(np.sin(angles), y)
     loop: list[int] = []
-    for k in np.argmax(points @ directions.T, axis=0):
+    for k in np.argmax(matmul(points, directions.T), axis=0):
         if int(k) not in loop:
             loop.append(int(k))
     forward = tuple(range(len(loop)))
-    error = float(np.max((points @ directions.T).max(axis=0) - (points[loop] @ directions.T).max(axis=0)))
+    error = float(np.max(matmul(points, directions.T).max(axis=0) - matmul(points[loop], directions.T).max(axis=0)))
     return Hull(points[loop], (forward, forward[::-1]), np.array([normal, -normal]), error)
 
 
@@ -91,9 +93,9 @@ def plane_of(points: Array, face: tuple[int, ...]) -> tuple[Array, float]:
     """Return normal and offset of the plane through the first three vertices of a face."""
     p, q, r = points[list(face[:3])]
     normal = np.cross(q - p, r - p)
-    length = float(np.linalg.norm(normal))
+    length = vector_norm(normal)
     normal = normal / length if length > 0.0 else normal
-    return normal, float(normal @ p)
+    return normal, matmul(normal, p)
 
 
 def solid_hull(points: Array, corners: list[int], most: int, tolerance: float) -> Hull:
@@ -103,13 +105,13 @@ def solid_hull(points: Array, corners: list[int], most: int, tolerance: float) -
     for k in range(4):
         i, j, m = (corners[(k + n) % 4] for n in (1, 2, 3))
         normal, offset = plane_of(points, (i, j, m))
-        faces.append((i, j, m) if normal @ centre < offset else (i, m, j))
+        faces.append((i, j, m) if matmul(normal, centre) < offset else (i, m, j))
     planes = [plane_of(points, face) for face in faces]
     outside = np.arange(len(points))
     used = 4
     while True:
         normals = np.array([plane[0] for plane in planes])
-        heights = points[outside] @ normals.T - np.array([plane[1] for plane in planes])
+        heights = matmul(points[outside], normals.T) - np.array([plane[1] for plane in planes])
         highest = heights.max(axis=1)
         left = highest > tolerance
         error = float(highest.max(initial=0.0))
@@ -136,7 +138,7 @@ def solid_hull(points: Array, corners: list[int], most: int, tolerance: float) -
 def loop_normal(corners: Array) -> Array:
     """Return the unit normal of a polygon (Newell's method)."""
     normal = np.cross(corners - corners[0], np.roll(corners, -1, axis=0) - corners[0]).sum(axis=0)
-    return np.asarray(normal / np.linalg.norm(normal))
+    return np.asarray(normal / vector_norm(normal))
 
 
 def merge_faces(
@@ -144,7 +146,7 @@ def merge_faces(
 ) -> list[tuple[int, ...]]:
     """Join neighbouring triangles that lie on one plane; what does not make one loop stays apart."""
     face_of = {(f[k], f[(k + 1) % 3]): n for n, f in enumerate(faces) for k in range(3)}
-    areas = [float(np.linalg.norm(np.cross(points[f[1]] - points[f[0]], points[f[2]] - points[f[0]]))) for f in faces]
+    areas = [vector_norm(np.cross(points[f[1]] - points[f[0]], points[f[2]] - points[f[0]])) for f in faces]
     free = set(range(len(faces)))
     merged: list[tuple[int, ...]] = []
     for seed in sorted(range(len(faces)), key=lambda n: (-areas[n], n)):
@@ -158,7 +160,7 @@ def merge_faces(
                 other = face_of.get((face[(k + 1) % 3], face[k]))
                 if other is None or other in group or other not in free:
                     continue
-                if np.all(np.abs(points[list(faces[other])] @ normal - offset) <= tolerance):
+                if np.all(np.abs(matmul(points[list(faces[other])], normal) - offset) <= tolerance):
                     group.add(other)
                     waiting.append(other)
         loop = boundary([faces[n] for n in sorted(group)])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.sim.engine.collision.convex_hull import Hull
 from urdfkit.sim.engine.collision.convex_mesh import LEAF, ONE_SIDED
 
@@ -134,7 +135,7 @@ def flags(triangles: Array) -> Indices:
             triangle, neighbour = edge // 3, other // 3
             apex = triangles[neighbour][(other % 3 + 2) % 3]
             away = apex - triangles[triangle][edge % 3]
-            height = float(normals[triangle] @ away) / (float(np.linalg.norm(away)) or 1.0)
+            height = matmul(normals[triangle], away) / (vector_norm(away) or 1.0)
             if abs(height) <= CONCAVE or (is_closed and height > 0.0):
                 found[triangle] &= ~(1 << int(edge % 3))
     return found

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from urdfkit.description.sdf import Plane
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.scene import Shape
 from urdfkit.sim.engine.bodies import Body, Member
 from urdfkit.sim.engine.collision.support_points import HULL, MESH, PLANE
@@ -80,19 +81,19 @@ def touching(members: Sequence[Member], bodies: Sequence[Body]) -> list[Touching
             if shape.role != "collision":
                 continue
             frame = model.frames[member.kinematics.frame(shape.body)]
-            placement = frame.placement.homogeneous @ shape.placement
+            placement = matmul(frame.placement.homogeneous, shape.placement)
             surface, link = member.surfaces.get(shape.body, Surface()), prefix + shape.body
             number = numbers[shape.body]
             numbers[shape.body] += 1
             bolted = frame.parentJoint == 0
             at = -1 if bolted else first + frame.parentJoint - 1
-            touch = _touch(shape, surface, link, at, owner, base @ placement if bolted else placement)
+            touch = _touch(shape, surface, link, at, owner, matmul(base, placement) if bolted else placement)
             touch = replace(touch, number=number, meets=member.meets(shape.body))
             if surface.frame:
                 other = model.frames[member.kinematics.frame(surface.frame)]
-                axes = (base if other.parentJoint == 0 else np.eye(4))[:3, :3] @ other.placement.rotation
+                axes = matmul((base if other.parentJoint == 0 else np.eye(4))[:3, :3], other.placement.rotation)
                 on = -1 if other.parentJoint == 0 else first + other.parentJoint - 1
-                touch = replace(touch, along=axes @ np.array(surface.fdir1 or (0.0, 0.0, 0.0)), along_body=on)
+                touch = replace(touch, along=matmul(axes, np.array(surface.fdir1 or (0.0, 0.0, 0.0))), along_body=on)
             if bolted:
                 still.append(touch)
                 continue
@@ -102,7 +103,7 @@ def touching(members: Sequence[Member], bodies: Sequence[Body]) -> list[Touching
         pose = pose_matrix(body.pose) if body.static else np.eye(4)
         for number, piece in enumerate(body.pieces):
             at = -1 if body.static else first
-            touch = _touch(piece.shape, piece.surface, body.name, at, owner, pose @ piece.shape.placement)
+            touch = _touch(piece.shape, piece.surface, body.name, at, owner, matmul(pose, piece.shape.placement))
             (still if body.static else moving).append(replace(touch, number=number))
         first += not body.static
     return moving + still
@@ -114,7 +115,7 @@ def _touch(shape: Shape, surface: Surface, link: str, body: int, owner: int, pla
     if kind == HULL and body < 0 and shape.mesh is not None:
         # What does not move is taken as it is; what moves for its convex hull.
         kind, triangles = MESH, np.asarray(shape.mesh.vertices, dtype=np.float64)[shape.mesh.faces]
-    radius = float(np.linalg.norm(size)) if kind != ground_contacts.CAPSULE else size[0] + size[1]
+    radius = vector_norm(size) if kind != ground_contacts.CAPSULE else size[0] + size[1]
     if kind == ground_contacts.SPHERE:
         radius = size[0]
     elif kind in (HULL, MESH):
@@ -122,7 +123,7 @@ def _touch(shape: Shape, surface: Surface, link: str, body: int, owner: int, pla
     elif kind == PLANE:
         radius = BOUNDLESS
     R, p = placement[:3, :3], placement[:3, 3]
-    along = R @ np.array(surface.fdir1 or (0.0, 0.0, 0.0))
+    along = matmul(R, np.array(surface.fdir1 or (0.0, 0.0, 0.0)))
     return Touching(
         link,
         0,
@@ -194,7 +195,7 @@ def box_of(touch: Touching) -> tuple[Array, Array]:
 def still_box(touch: Touching) -> tuple[Array, Array]:
     """Return middle and half edges [m] of the box along the world's axes that holds a shape that does not move."""
     if touch.kind in (HULL, MESH):
-        corners = touch.vertices @ touch.R.T + touch.p
+        corners = matmul(touch.vertices, touch.R.T) + touch.p
         low, high = corners.min(axis=0), corners.max(axis=0)
         return 0.5 * (low + high), 0.5 * (high - low)
-    return touch.p, np.abs(touch.R) @ box_of(touch)[1]
+    return touch.p, matmul(np.abs(touch.R), box_of(touch)[1])

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.sim.engine.arrays import Arrays
 from urdfkit.sim.engine.bodies import Body, Member
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR, PRISMATIC, REVOLUTE
@@ -30,9 +31,9 @@ def pose_matrix(pose: Sequence[float]) -> Array:
     import pinocchio as pin
 
     values = np.array(pose, dtype=float)
-    if values.shape != (7,) or not np.isfinite(values).all() or not np.linalg.norm(values[3:]) > 1e-9:
+    if values.shape != (7,) or not np.isfinite(values).all() or not vector_norm(values[3:]) > 1e-9:
         raise SimulationError("the pose of a base or body is x y z and a quaternion x y z w that is not zero")
-    values[3:] /= np.linalg.norm(values[3:])
+    values[3:] /= vector_norm(values[3:])
     return np.array(pin.XYZQUATToSE3(values).homogeneous)
 
 
@@ -65,7 +66,7 @@ def fill_member(arrays: Arrays, tree: int, member: Member) -> None:
         placement = model.jointPlacements[k + 1].homogeneous
         parent = int(model.parents[k + 1]) - 1
         if parent < 0 and not kinematics.floating_base:
-            placement = base @ placement
+            placement = matmul(base, placement)
         subspace = joint_subspace(model, k + 1)
         arrays["kind"][b] = KINDS[joint.nv][1 if subspace[3:].any() else 0]
         arrays["parent"][b] = -1 if parent < 0 else first_body + parent
@@ -139,7 +140,7 @@ def place_free(arrays: Arrays, tree: int, pose: Sequence[float]) -> None:
     at = int(arrays["tree_s"][tree])
     values = np.array(pose, dtype=float)
     arrays["s"][at : at + 3] = values[:3]
-    arrays["s"][at + 3 : at + 7] = values[3:] / np.linalg.norm(values[3:])
+    arrays["s"][at + 3 : at + 7] = values[3:] / vector_norm(values[3:])
 
 
 def _fill_joint(arrays: Arrays, b: int, first: int, at: int, subspace: Array, above: int) -> int:

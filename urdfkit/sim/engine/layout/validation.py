@@ -8,6 +8,7 @@ import numpy as np
 
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics.model import Kinematics
+from urdfkit.linear_algebra import vector_norm
 
 
 def require_inertia(kinematics: Kinematics) -> None:
@@ -29,7 +30,7 @@ def require_inertia(kinematics: Kinematics) -> None:
         written = kinematics.robot.joint_by_name.get(name)
         position = written.element.origin.position if written is not None else None
         link = (written.child if written is not None else kinematics.root) or ""
-        lever = any(np.linalg.norm(model.inertias[i].lever) > 0.0 for i in moved)
+        lever = any(vector_norm(model.inertias[i].lever) > 0.0 for i in moved)
         if mass > 0.0 and (turning or lever or kind.shortname().startswith("JointModelP")):
             continue
         lacks = "mass" if not mass > 0.0 else "moment of inertia"

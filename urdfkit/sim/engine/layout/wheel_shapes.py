@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.kinematics.model import Kinematics
+from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.sim.engine.collision.support_points import HULL
 from urdfkit.sim.engine.contacts import ground_contacts
 from urdfkit.sim.engine.layout.tree_arrays import joint_subspace
@@ -39,22 +40,22 @@ def as_wheel(touch: Touching, kinematics: Kinematics, joint: int) -> Touching:
     axis = subspace[3:, 0]
     if touch.kind == ground_contacts.CYLINDER:
         along = np.cross(axis, touch.R[:, 2])
-        off = touch.p - axis * (axis @ touch.p)
-        aligned = np.linalg.norm(along) < ALIGNED and np.linalg.norm(off) < ALIGNED
+        off = touch.p - axis * matmul(axis, touch.p)
+        aligned = vector_norm(along) < ALIGNED and vector_norm(off) < ALIGNED
         return replace(touch, kind=ground_contacts.WHEEL) if aligned else touch
     return _round(touch, axis) if touch.kind == HULL else touch
 
 
 def _round(touch: Touching, axis: Array) -> Touching:
     """Return a hull that is round about an axis through the joint as a wheel, any other as it is."""
-    points = touch.vertices @ touch.R.T + touch.p
-    height = points @ axis
+    points = matmul(touch.vertices, touch.R.T) + touch.p
+    height = matmul(points, axis)
     out = points - height[:, None] * axis
     distance = np.linalg.norm(out, axis=1)
     radius = float(distance.max())
     rim = distance > TREAD * radius
     first = out[int(distance.argmax())] / radius
-    angles = np.sort(np.arctan2(out[rim] @ np.cross(axis, first), out[rim] @ first))
+    angles = np.sort(np.arctan2(matmul(out[rim], np.cross(axis, first)), matmul(out[rim], first)))
     gaps = np.diff(np.append(angles, angles[0] + 2.0 * np.pi))
     if gaps.max() > 2.0 * np.pi / SIDES * 1.01:
         return touch

@@ -7,6 +7,8 @@ step, so that its drift is smaller the oftener it measures).
 
 from __future__ import annotations
 
+from math import exp
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -33,7 +35,7 @@ class Drifting:
 
     def __init__(self, offset: Array, drift: Array, frequency: Array, noise: Array, *, period: float, key: int) -> None:
         self.offset, self.drift, self.noise = offset, drift, noise
-        self._keep = np.exp(-frequency * period)
+        self._keep = np.array([exp(-each * period) for each in frequency])
         self._gain = drift * np.sqrt(1.0 - self._keep**2)
         self._key = key
         self._restart()

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.linear_algebra import matmul
+
 if TYPE_CHECKING:
     from urdfkit.kinematics import Kinematics
     from urdfkit.sim.state.robot_state import Snapshot, State
@@ -62,6 +64,8 @@ class Moment:
         local = pin.getFrameVelocity(kinematics.model, kinematics.data, frame, pin.LOCAL)
         pose = self._snapshot.link_poses()[kinematics.link_names.index(link)]
         R = np.array(pin.Quaternion(pose[3:].copy()).matrix())
-        angular = R @ local.angular
-        arm = R @ mount[:3, 3]
-        return Motion(R @ mount[:3, :3], pose[:3] + arm, R @ local.linear + np.cross(angular, arm), angular)
+        angular = matmul(R, local.angular)
+        arm = matmul(R, mount[:3, 3])
+        return Motion(
+            matmul(R, mount[:3, :3]), pose[:3] + arm, matmul(R, local.linear) + np.cross(angular, arm), angular
+        )

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from urdfkit.description.plugins.sensor_values import senseless_parameters
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import matmul
 from urdfkit.sim.plugins.base import Sensor, Setup
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.link_sensor import carrier
@@ -91,7 +92,7 @@ class Mounted(Sensor):
             t: now [s].
         """
         layout = self._surroundings.layout()
-        frame = self.viewpoint = layout.placement(self._robot, self._link) @ self._pose
+        frame = self.viewpoint = matmul(layout.placement(self._robot, self._link), self._pose)
         seen = self._look(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, 0])))
         return tuple(partial(message, seen) for message in self.messages())
 
@@ -104,7 +105,7 @@ class Mounted(Sensor):
 
         @cache
         def seen() -> Any:
-            frame = self.viewpoint = layout.placement(self._robot, self._link) @ self._pose
+            frame = self.viewpoint = matmul(layout.placement(self._robot, self._link), self._pose)
             return self._look(t, layout, frame, np.random.Generator(np.random.Philox(key=[self._key, turn])))
 
         def offer(topic: Any, message: Callable[[Any], Any]) -> None:

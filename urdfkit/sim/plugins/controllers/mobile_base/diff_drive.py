@@ -13,6 +13,7 @@ import numpy as np
 
 from urdfkit.description.urdf.robot import Cylinder, Sphere
 from urdfkit.errors import DescriptionError
+from urdfkit.linear_algebra import vector_norm
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.sim.plugins.controllers.controller import Law
 from urdfkit.sim.plugins.controllers.mobile_base.odometry import Reckoning
@@ -91,7 +92,7 @@ class DiffDriveController(Law):
         """Return the distance of the first wheels' joints, as ROS 1 takes it from the URDF."""
         joints = self.hardware.setup.kinematics.robot.joint_by_name
         left, right = (joints[wheels[0].handle.name].origin.xyz for wheels in (self._left, self._right))
-        return float(np.linalg.norm(np.subtract(left, right)))
+        return vector_norm(np.subtract(left, right))
 
     def _measured_radius(self) -> float:
         """Return the radius of the first left wheel's collision shape, as ROS 1 takes it from the URDF."""

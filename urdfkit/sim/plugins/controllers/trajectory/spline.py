@@ -13,6 +13,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.linear_algebra import matmul
+
 Array = NDArray[np.float64]
 
 ROUNDING = 1e-9
@@ -69,7 +71,7 @@ class Trajectory:
         order = np.arange(1, 6)
         first = coefficients[1:] * order[:, None]
         second = first[1:] * order[:4, None]
-        return powers @ coefficients, powers[:5] @ first, powers[:4] @ second
+        return matmul(powers, coefficients), matmul(powers[:5], first), matmul(powers[:4], second)
 
 
 def _coefficients(start: Waypoint, end: Waypoint) -> Array:

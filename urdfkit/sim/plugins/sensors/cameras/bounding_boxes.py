@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.linear_algebra import matmul
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.gl.triangle_models import triangles_of
 from urdfkit.scene.rays.ray_scene import RayTable
@@ -65,7 +66,7 @@ class Box3D:
     def corners(self) -> Array:
         """Its corners [m]; shape (8, 3)."""
         signs = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-        found: Array = self.centre + (signs * self.size / 2) @ self.axes.T
+        found: Array = self.centre + matmul(signs * self.size / 2, self.axes.T)
         return found
 
 
@@ -104,16 +105,27 @@ def space_box(label: int, table: RayTable, shapes: list[int], frame: Array) -> B
         (shape,) = shapes
         corners = triangles_of(table, shape).reshape(-1, 3)
         placed = table.frames[shape]
-        axes, origin = frame[:3, :3].T @ placed[:9].reshape(3, 3), frame[:3, :3].T @ (placed[9:] - frame[:3, 3])
+        axes, origin = (
+            matmul(frame[:3, :3].T, placed[:9].reshape(3, 3)),
+            matmul(frame[:3, :3].T, placed[9:] - frame[:3, 3]),
+        )
     else:
         corners = np.concatenate([_in_camera(table, shape, frame) for shape in shapes]).reshape(-1, 3)
         corners = np.unique(corners, axis=0)
         origin = corners.mean(axis=0)
-        axes = np.linalg.eigh(np.cov(corners.T))[1]
+        spread = corners - origin
+        axes = _eigenvectors(matmul(spread.T, spread))
         axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
-        corners = (corners - origin) @ axes
+        corners = matmul(corners - origin, axes)
     low, high = corners.min(axis=0), corners.max(axis=0)
-    return Box3D(label, origin + axes @ ((low + high) / 2), axes, high - low)
+    return Box3D(label, origin + matmul(axes, (low + high) / 2), axes, high - low)
+
+
+def _eigenvectors(matrix: Array) -> Array:
+    """Return the eigenvectors of a symmetric matrix as columns, by Eigen: LAPACK's depend on the processor."""
+    import eigenpy  # type: ignore[import-untyped]
+
+    return np.array(eigenpy.SelfAdjointEigenSolver(matrix).eigenvectors())
 
 
 def project(points: Array, lens: Lens) -> tuple[Array, Array]:
@@ -143,6 +155,6 @@ def draw(picture: NDArray[np.uint8], box: Box2D | Box3D, lens: Lens, color: tupl
 def _in_camera(table: RayTable, shape: int, frame: Array) -> Array:
     """Return the triangles of a shape in the camera's frame [m]; shape (n, 3, 3)."""
     placed = table.frames[shape]
-    world = triangles_of(table, shape) @ placed[:9].reshape(3, 3).T + placed[9:]
-    found: Array = (world - frame[:3, 3]) @ frame[:3, :3]
+    world = matmul(triangles_of(table, shape), placed[:9].reshape(3, 3).T) + placed[9:]
+    found: Array = matmul(world - frame[:3, 3], frame[:3, :3])
     return found

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.linear_algebra import matmul
 from urdfkit.scene import Shape
 from urdfkit.scene.camera_model import Distortion
 from urdfkit.scene.ray_images import Picture
@@ -96,7 +97,7 @@ class Eye:
 
     def look(self, t: float, view: TakesPictures, frame: Array, random: np.random.Generator, *, deep: bool) -> Sight:
         """Return what is seen from where the sensor is; `deep` with depths and shapes."""
-        optics, placed = self.optics, frame @ self.pose
+        optics, placed = self.optics, matmul(frame, self.pose)
         picture = view.take(optics.lens, placed, near=optics.near, far=optics.far, samples=optics.samples, deep=deep)
         if self.noise:
             noisy = self.noise.on(picture.rgb / 255.0, random)

@@ -12,6 +12,7 @@ from urdfkit.description.plugins.sensor_values import senseless_camera
 from urdfkit.description.urdf.robot import SensorTag
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.linear_algebra import matmul
 from urdfkit.messages import header, message_type
 from urdfkit.scene.camera_model import Distortion, Lens
 from urdfkit.sim.plugins.sensors.sensor_values import number, refuse
@@ -133,10 +134,10 @@ def image(t: float, frame: str, rgb: NDArray[np.uint8], encoding: str) -> Any:
     if encoding == "bgr8":
         pixels = rgb[:, :, ::-1]
     elif encoding in ("rgb16", "mono16"):  # the same picture; white is 65535
-        deep = rgb if encoding == "rgb16" else rgb @ LUMA
+        deep = rgb if encoding == "rgb16" else matmul(rgb, LUMA)
         pixels = np.rint(deep * 257.0).astype("<u2").view(np.uint8)
     elif encoding == "mono8":
-        pixels = np.rint(rgb @ LUMA).astype(np.uint8)
+        pixels = np.rint(matmul(rgb, LUMA)).astype(np.uint8)
     elif encoding.startswith("bayer_"):
         pixels = np.empty(rgb.shape[:2], dtype=np.uint8)
         for k, color in enumerate(encoding[6:10]):

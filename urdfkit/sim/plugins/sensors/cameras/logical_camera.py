@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import tan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import inverse_placement, matmul
 from urdfkit.messages import header, message_type
 from urdfkit.messages.sensors import GZ_LOGICAL_IMAGE, GZ_LOGICAL_MODEL
 from urdfkit.scene.placement import pose_matrices
@@ -43,7 +45,7 @@ class GzLogicalCamera(Mounted):
                 f"a logical camera that sees from {self._near:g} m to {self._far:g} m sees nothing",
                 position=(inside or sensor.element).origin.position,
             )
-        self._across = np.tan(number(inside, "horizontal_fov", 1.0, least=0.0) / 2)
+        self._across = tan(number(inside, "horizontal_fov", 1.0, least=0.0) / 2)
         self._aspect = number(inside, "aspect_ratio", 1.0, least=1e-9)
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), GZ_LOGICAL_IMAGE),)
 
@@ -64,7 +66,7 @@ class GzLogicalCamera(Mounted):
 
     def _holds(self, frame: Array, point: Array) -> bool:
         """Whether a point of the world is in the frustum."""
-        x, y, z = frame[:3, :3].T @ (point - frame[:3, 3])
+        x, y, z = matmul(frame[:3, :3].T, point - frame[:3, 3])
         return bool(
             self._near <= x <= self._far and abs(y) <= x * self._across and abs(z) <= x * self._across / self._aspect
         )
@@ -76,7 +78,7 @@ class GzLogicalCamera(Mounted):
     def _message(self, sight: Sight) -> Any:
         t, frame, seen = sight
         model = message_type(GZ_LOGICAL_MODEL)
-        models = [model(name, _pose(np.linalg.inv(frame) @ placement)) for name, placement in seen]
+        models = [model(name, _pose(matmul(inverse_placement(frame), placement))) for name, placement in seen]
         return message_type(GZ_LOGICAL_IMAGE)(header(t, self.frame), _pose(frame), models)
 
 

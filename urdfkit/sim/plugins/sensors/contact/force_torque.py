@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.linear_algebra import matmul
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.plugins.base import Sensor, Setup
 from urdfkit.sim.plugins.parameters import Parameters
@@ -156,8 +157,8 @@ class ForceTorque(Sensor):
         # Half a step ago, where the engine's velocities change.
         half = 0.5 * (step.now.t - step.before.t) if step.before and step.now.step - step.before.step == 1 else 0.0
         force, torque = self._carried(step, here.position - half * here.linear)
-        R = pin.exp3(-half * here.angular) @ self._axes(step.now)
-        return self._sign * (R.T @ force), self._sign * (R.T @ torque)
+        R = matmul(pin.exp3(-half * here.angular), self._axes(step.now))
+        return self._sign * matmul(R.T, force), self._sign * matmul(R.T, torque)
 
     def _carried(self, step: Step, about: Array) -> Wrench:
         """Return what the joint does to the child, about a point."""

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.urdf.robot import Robot
+from urdfkit.linear_algebra import matmul
 from urdfkit.scene.placement import pose_matrix
 from urdfkit.sim.plugins.sensors.point_motion import Motion
 
@@ -74,7 +75,7 @@ def momentum(lumps: Sequence[Lump], motions: Sequence[Motion], about: Array) -> 
         p = lump.mass * motion.linear
         linear += p
         angular += np.cross(motion.position - about, p)
-        angular += motion.rotation @ lump.inertia @ motion.rotation.T @ motion.angular
+        angular += matmul(matmul(matmul(motion.rotation, lump.inertia), motion.rotation.T), motion.angular)
     return linear, angular
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.linear_algebra import matmul
 from urdfkit.sim.plugins.sensors.contact.collision_names import Collision, collisions_of, find, scoped_name
 
 if TYPE_CHECKING:
@@ -112,7 +113,7 @@ class Watch:
                 if collision is None:
                     continue
                 names = f"{self._model}::{link}::{collision.name}", scoped_name(other, layout, numbers[1])
-                arm = position - (origin + R @ self._centres[link])
+                arm = position - (origin + matmul(R, self._centres[link]))
                 found.setdefault(names, Touch(*names)).points.append(
                     Point(
                         position,

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.sdf import World
+from urdfkit.linear_algebra import matmul
 from urdfkit.sim.plugins.sensors.sensor_values import number
 
 Array = NDArray[np.float64]
@@ -38,7 +39,7 @@ class Earth:
 
     def locate(self, position: Array) -> tuple[float, float, float]:
         """Return latitude [°], longitude [°] and altitude [m] of a point in the world."""
-        found = self._centre(self.latitude, self.longitude, self.elevation) + self._axes() @ position
+        found = self._centre(self.latitude, self.longitude, self.elevation) + matmul(self._axes(), position)
         x, y, z = found.tolist()
         flat = hypot(x, y)
         latitude, altitude = atan2(z, flat * (1 - E2)), 0.0
@@ -65,7 +66,7 @@ class Earth:
                 [0.0, 0.0, 1.0],
             ]
         )
-        axes: Array = np.column_stack([east, north, up]) @ turn
+        axes: Array = matmul(np.column_stack([east, north, up]), turn)
         return axes
 
     @staticmethod

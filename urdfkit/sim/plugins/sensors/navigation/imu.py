@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError
+from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.plugins.base import Setup
 from urdfkit.sim.plugins.parameters import Parameters
@@ -103,13 +104,19 @@ class Imu(Carried):
 
     def _feel(self, ride: Ride) -> Felt:
         R = ride.motion.rotation
-        rotation = self._offset @ (R if self._reference is None else self._reference.T @ R)
-        true = Felt(ride.t, rotation, np.zeros(4), R.T @ ride.motion.angular, R.T @ (ride.acceleration - self._gravity))
+        rotation = matmul(self._offset, R if self._reference is None else matmul(self._reference.T, R))
+        true = Felt(
+            ride.t,
+            rotation,
+            np.zeros(4),
+            matmul(R.T, ride.motion.angular),
+            matmul(R.T, ride.acceleration - self._gravity),
+        )
         return self._err(true, ride)
 
     def _message(self, felt: Felt) -> Any:
         quaternion = from_matrix(felt.rotation) + felt.shaken
-        quaternion = quaternion / np.linalg.norm(quaternion)
+        quaternion = quaternion / vector_norm(quaternion)
         kind = message_type("geometry_msgs/msg/Quaternion")
         orientation, turning, pulled = (np.diag(each).ravel() for each in self._variances)
         return message_type(IMU)(
@@ -217,7 +224,7 @@ class HectorImu(Imu):
             error.offset = np.where(error.offset == 0.0, offset, error.offset)
         if old := read.number("gaussian_noise", unsigned=True):
             self._accelerometer.noise = self._gyro.noise = np.full(3, old)
-        level = self._accelerometer.noise**2 / max(float(self._gravity @ self._gravity), 1e-12)
+        level = self._accelerometer.noise**2 / max(matmul(self._gravity, self._gravity), 1e-12)
         self._variances = (
             np.array([level[0], level[1], float(self._heading.noise[0]) ** 2]),
             self._gyro.noise**2,
@@ -227,7 +234,7 @@ class HectorImu(Imu):
     def _err(self, felt: Felt, ride: Ride) -> Felt:
         heading = float(self._heading.at(ride.turn)[0])
         turning, pulled = felt.turning + self._gyro.at(ride.turn), felt.pulled + self._accelerometer.at(ride.turn)
-        return Felt(felt.t, felt.rotation @ rotation_matrix(0.0, 0.0, heading), felt.shaken, turning, pulled)
+        return Felt(felt.t, matmul(felt.rotation, rotation_matrix(0.0, 0.0, heading)), felt.shaken, turning, pulled)
 
 
 def _written(element: Element, random: np.random.Generator) -> tuple[tuple[Noise, ...], tuple[Noise, ...]]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from urdfkit.linear_algebra import matmul
 from urdfkit.messages import header, message_type, vector
 from urdfkit.sim.plugins.base import Setup
 from urdfkit.sim.plugins.parameters import Parameters
@@ -39,7 +40,7 @@ class GzMagnetometer(OneTopic):
         self._noises = [noise_of(axis, setup.random) for axis in axes]
 
     def _feel(self, ride: Ride) -> Any:
-        true = ride.motion.rotation.T @ self._field
+        true = matmul(ride.motion.rotation.T, self._field)
         found = [float(noise.on(value, ride.random)) for noise, value in zip(self._noises, true, strict=True)]
         spread = np.diag([noise.deviation**2 for noise in self._noises]).ravel()
         return message_type(MAGNETIC_FIELD)(header(ride.t, self.frame), vector(found), spread)
@@ -67,7 +68,7 @@ class HectorMagnetic(Carried):
         self.topics = (setup.bus.advertise(topics.resolve(read.text("topic")), kind),)
 
     def _feel(self, ride: Ride) -> Any:
-        found = vector((ride.motion.rotation.T @ self._field + self._error.at(ride.turn)).tolist())
+        found = vector((matmul(ride.motion.rotation.T, self._field) + self._error.at(ride.turn)).tolist())
         if self._is_field:
             return message_type(MAGNETIC_FIELD)(header(ride.t, self.frame), found, np.zeros(9))
         return message_type(VECTOR)(header(ride.t, self.frame), found)

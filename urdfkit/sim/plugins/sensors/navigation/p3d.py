@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.linear_algebra import matmul
 from urdfkit.messages import ODOMETRY, header, message_type, twist
 from urdfkit.sim.plugins.base import Sensor, Setup
 from urdfkit.sim.plugins.parameters import Parameters
@@ -76,7 +77,12 @@ class P3d(Sensor):
         back, arm = there.rotation.T, motion.position - there.position
         # Of a point that moves, for somebody who turns along.
         linear = motion.linear - there.linear - np.cross(there.angular, arm)
-        return Motion(back @ motion.rotation, back @ arm, back @ linear, back @ (motion.angular - there.angular))
+        return Motion(
+            matmul(back, motion.rotation),
+            matmul(back, arm),
+            matmul(back, linear),
+            matmul(back, motion.angular - there.angular),
+        )
 
     def _message(self, now: Moment, turn: int) -> Any:
         motion = self._seen_from_there(now, now.motion(self._link, np.eye(4)))
