@@ -11,19 +11,19 @@ from numba.core.codegen import JITCPUCodegen
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import cpu_target
 
-from urdfkit.compilation.level import NATIVE, level
+from urdfkit.compilation.level import NATIVE, TUNED, level
 
 
 class LevelCodegen(JITCPUCodegen):  # type: ignore[misc]
     """numba's code generator, for a level. numba keeps the level in the key of what it caches."""
 
     def _get_host_cpu_name(self) -> str:
-        """Return the level, which LLVM takes for the name of a processor."""
-        return level()
+        """Return the processor, by LLVM's name; a level is one, too."""
+        return TUNED.get(level(), (level(), ""))[0]
 
     def _get_host_cpu_features(self) -> str:
-        """Return no features besides those of the level."""
-        return ""
+        """Return what that processor has and the level does not."""
+        return TUNED.get(level(), (level(), ""))[1]
 
 
 @lru_cache(maxsize=1)

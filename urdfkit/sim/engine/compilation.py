@@ -18,9 +18,9 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 # No references are counted: whoever calls the kernel holds the two blocks, all else are views of them. Counting, atomic
 # as it is, for some two hundred views would take longer than a step.
-# Every operation is rounded as IEEE 754 has it (fastmath off), and a product before it is added: processors with fused
-# multiply-add compute the same bytes as those without.
-OPTIONS: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "nogil": True, "_nrt": False}
+# Contraction lets a·b + c be one instruction, rounded once; nothing else of IEEE 754 is given up, so NaN stays NaN.
+# Where that is done depends on the level that kernels are compiled for, not on the processor that runs them.
+OPTIONS: dict[str, Any] = {"fastmath": {"contract"}, "error_model": "numpy", "nogil": True, "_nrt": False}
 
 
 def inlined(function: Function) -> Function:

@@ -19,6 +19,8 @@ from urdfkit.sim.engine.compilation import inlined, of_kind
 
 LANES = 16
 """How many rows are taken at a time. Their numbers have room for as many more, see `arrays.allocate`."""
+FLAGS = ("contract",)
+"""As `compilation.OPTIONS` has it: a product and a sum may be one instruction."""
 
 
 @inlined
@@ -76,12 +78,12 @@ infer_global(operator.mul)(type("Multiply", (OfOne,), {}))
 
 @lower_builtin(operator.add, Numbers, Numbers)  # type: ignore[untyped-decorator]
 def _add(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-    return builder.fadd(*args)
+    return builder.fadd(*args, flags=FLAGS)
 
 
 @lower_builtin(operator.sub, Numbers, Numbers)  # type: ignore[untyped-decorator]
 def _subtract(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-    return builder.fsub(*args)
+    return builder.fsub(*args, flags=FLAGS)
 
 
 @lower_builtin(operator.mul, types.Float, Numbers)  # type: ignore[untyped-decorator]
@@ -89,7 +91,7 @@ def _multiply(context: Any, builder: Any, sig: Any, args: Any) -> Any:
     kind = sig.args[1]
     one = builder.insert_element(ir.Constant(kind.vector, ir.Undefined), args[0], ir.Constant(ir.IntType(32), 0))
     none = ir.Constant(ir.VectorType(ir.IntType(32), kind.count), [0] * kind.count)
-    return builder.fmul(builder.shuffle_vector(one, one, none), args[1])
+    return builder.fmul(builder.shuffle_vector(one, one, none), args[1], flags=FLAGS)
 
 
 def _place(builder: Any, kind: Any, block: Any, at: Any) -> Any:
