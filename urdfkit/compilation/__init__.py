@@ -1,4 +1,4 @@
-"""Compiling functions with numba, once per machine and version: see `load` and `whole`."""
+"""Compiling functions with numba, once per machine and version: see `load` and `whole_program`."""
 
 from urdfkit.compilation.load import compile_or_load, own_sources
 

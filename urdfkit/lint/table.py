@@ -2,7 +2,7 @@
 
 A small model needs a third of the rules; the others are not imported. In the first column are words, one of which must
 be there, or nothing where the rule is always asked. For a `SourceRule` they are texts in any file, or, after a star,
-endings of file names; for a `RobotRule` they are among what `glance.traits` tells of the robot.
+endings of file names; for a `RobotRule` they are among what `features.traits` tells of the robot.
 """
 
 from __future__ import annotations

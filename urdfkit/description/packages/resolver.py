@@ -140,7 +140,7 @@ class Packages:
         return answer
 
     def around(self, package: str | Path) -> list[Path]:
-        """Return the launch files and YAML around a description; see `surroundings.around`."""
+        """Return the launch files and YAML around a description; see `related_files.around`."""
         from urdfkit.description.packages.related_files import around
 
         found = around(Path(package))

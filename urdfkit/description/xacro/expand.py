@@ -10,7 +10,7 @@ Files come from strangers. xacro evaluates ``${…}`` and ``$(eval …)`` as Pyt
 round (nested functions hide their names from its check; ``$(eval …)`` sees every builtin). Here the check covers
 nested code, frames and ``vars``, and ``$(eval …)`` gets harmless builtins only; see `evaluation`. What stays possible,
 as it is part of the language: reading YAML files anywhere (``load_yaml``), reading environment variables, including
-XML files anywhere. What would take for ever or fill the memory (``${9**9**9}``) is refused; see `bounds`.
+XML files anywhere. What would take for ever or fill the memory (``${9**9**9}``) is refused; see `expressions.limits`.
 """
 
 from __future__ import annotations

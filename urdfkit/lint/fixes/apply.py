@@ -1,4 +1,4 @@
-"""Mend files: edit literal source text, lint the result, and keep it only if nothing got worse (see `caused`).
+"""Mend files: edit literal source text, lint the result, and keep it only if nothing got worse (see `regressions`).
 
 Bytes that no edit touches stay as they are: line ends, byte order marks, encodings, comments. Nothing is written before
 the mended text has been linted, and then each file is replaced in one move. Files outside the folders that were linted

@@ -110,7 +110,7 @@ class Model:
 
     @cached_property
     def hidden(self) -> Hidden:
-        """What may be in what is missing: names that nothing has here; see `hidden.doubted`."""
+        """What may be in what is missing: names that nothing has here; see `masked_names.doubted`."""
         from urdfkit.lint.model.masked_names import Hidden
 
         return Hidden(self)

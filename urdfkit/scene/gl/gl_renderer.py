@@ -31,7 +31,7 @@ class GlPainter:
     Args:
         table: the shapes; placed by whoever holds it.
         lighting: what shines.
-        backend: how the device is reached, as `probe` says.
+        backend: how the device is reached, as `driver_probe` says.
         note: tells the user that the driver has failed.
     """
 

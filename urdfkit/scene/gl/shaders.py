@@ -1,4 +1,4 @@
-"""The shaders: the light of `scene.rays.picture`, per face where that is exact, else per pixel.
+"""The shaders: the light of `scene.rays.shading.camera_picture`, per face where that is exact, else per pixel.
 
 All coordinates are in the camera's frame: x forward, y left, z up.
 """
@@ -85,7 +85,7 @@ vec4 dyed() {{
         color += textureLod(u_texture, v_uv + (k / count - 0.5) * across, level);
     return color / count;
 }}"""
-"""As `scene.rays.skin.dye`."""
+"""As `surface_attributes.dye`."""
 
 _GAIN = """
 float gain{k}(vec3 n, vec3 p) {{ {body} }}"""
@@ -115,7 +115,7 @@ _SHEEN = """
         sheen += g{k} / dot(n, to{k}) * pow(max(dot(n, normalize(to{k} + eye)), 0.0), u_gloss.a) * u_sheen{k};
     }}
 """
-"""As `scene.rays.picture.throw_back`."""
+"""As `camera_picture.throw_back`."""
 
 
 def _lights(lamps: Lamps, maps: tuple[str, ...]) -> str:

@@ -7,7 +7,7 @@
     hits = table.cast((0, 0, 0.5), directions, far=10.0)
 
 Two levels: a tree over the shapes, refitted when they move, and one per mesh, built once and kept on disk. Rays go
-through them sixteen at a time (see `packet`).
+through them sixteen at a time (see `ray_packet`).
 """
 
 from urdfkit.scene.rays.kernels import announcement, warmup

@@ -14,7 +14,7 @@ Progress = Callable[[int], None]
 
 @lru_cache(maxsize=1)
 def caster() -> Callable[..., Any]:
-    """Return the compiled `cast.cast`."""
+    """Return the compiled `ray_casting.cast`."""
     from numba import float64 as f
     from numba import int64 as i
 
@@ -36,7 +36,7 @@ def scene_type() -> Any:
 
 @lru_cache(maxsize=1)
 def looker() -> Callable[..., Any]:
-    """Return the compiled `picture.look`."""
+    """Return the compiled `camera_picture.look`."""
     from numba import float32, types, uint8
     from numba import float64 as f
     from numba import int64 as i
@@ -68,7 +68,7 @@ def looker() -> Callable[..., Any]:
 
 @lru_cache(maxsize=1)
 def outliner() -> Callable[..., Any]:
-    """Return the compiled `outline.outline`."""
+    """Return the compiled `edge_pixels.outline`."""
     from numba import int64, uint8
 
     from urdfkit.scene.rays.shading.edge_pixels import outline
@@ -78,7 +78,7 @@ def outliner() -> Callable[..., Any]:
 
 @lru_cache(maxsize=1)
 def placer() -> Callable[..., Any]:
-    """Return the compiled `place.place`."""
+    """Return the compiled `shape_placement.place`."""
     from numba import float64 as f
     from numba import int64 as i
 
@@ -109,7 +109,7 @@ def placer() -> Callable[..., Any]:
 
 @lru_cache(maxsize=1)
 def builder() -> Callable[..., Any]:
-    """Return the compiled `tree.build`, for boxes of any kind."""
+    """Return the compiled `bvh.build`, for boxes of any kind."""
     from numba import float64 as f
     from numba import int64 as i
 
@@ -120,7 +120,7 @@ def builder() -> Callable[..., Any]:
 
 @lru_cache(maxsize=1)
 def widener() -> Callable[..., Any]:
-    """Return the compiled `wide.widen`."""
+    """Return the compiled `wide_bvh.widen`."""
     from numba import float64 as f
     from numba import int64 as i
 
@@ -131,7 +131,7 @@ def widener() -> Callable[..., Any]:
 
 @lru_cache(maxsize=1)
 def filler() -> Callable[..., Any]:
-    """Return the compiled `wide.fill`."""
+    """Return the compiled `wide_bvh.fill`."""
     from numba import float64 as f
     from numba import int64 as i
 

@@ -172,8 +172,8 @@ def cast(
     """Cast rays, in packets as they come.
 
     Args:
-        scene: frames, kinds and roots of shapes; order, boxes and children of the tree over them (see `wide`); boxes,
-            children and triangles of all meshes. Shapes that are not in the tree come last.
+        scene: frames, kinds and roots of shapes; order, boxes and children of the tree over them (see `wide_bvh`);
+            boxes, children and triangles of all meshes. Shapes that are not in the tree come last.
         frame: rotation by rows and position of the frame that the rays are given in.
         origins: [m], one for all or one each; shape (1 or n, 3).
         directions: of length 1; shape (n, 3).

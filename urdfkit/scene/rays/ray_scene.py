@@ -205,11 +205,11 @@ class RayTable:
 
 
 def widened(bounds: Array, links: Numbers) -> tuple[Array, Numbers]:
-    """Return boxes and children of a tree as packets walk it, see `wide.widen`.
+    """Return boxes and children of a tree as packets walk it, see `wide_bvh.widen`.
 
     Args:
         bounds: boxes of the nodes with two children; shape (nodes, 6).
-        links: of these nodes, see `tree.build`; shape (nodes, 2).
+        links: of these nodes, see `bvh.build`; shape (nodes, 2).
     """
     most = len(links) // 2 + 1
     children, origins = np.empty((most, CHILDREN, 3), dtype=np.int64), np.empty(most, dtype=np.int64)

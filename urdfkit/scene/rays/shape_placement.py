@@ -45,7 +45,7 @@ def place(
         order: of the tree.
         bounds: of the tree.
         links: of the tree.
-        wide: the tree as packets walk it, see `wide.widen`.
+        wide: the tree as packets walk it, see `wide_bvh.widen`.
         origins: of its nodes.
         children: boxes of its nodes' children.
         health: nodes in the tree (zero: not built yet), the sum of their areas when it was built, nodes in `wide`.

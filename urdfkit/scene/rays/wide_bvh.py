@@ -32,7 +32,7 @@ def widen(bounds: Any, links: Any, wide: Any, origins: Any) -> int:
 
     Args:
         bounds: boxes of the nodes with two children; shape (nodes, 6).
-        links: as `tree.build` leaves them; shape (nodes, 2).
+        links: as `bvh.build` leaves them; shape (nodes, 2).
         wide: becomes, per child, for a leaf its first place in the order and how many; for the others, the number of
             its node and zero; and which node with two children it was, `NONE` for no child; shape (≥ nodes / 2, 8, 3).
         origins: to work on; shape (≥ nodes / 2,).

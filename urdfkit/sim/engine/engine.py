@@ -51,7 +51,7 @@ class Engine(Part):
         weightless: the robot's links that gravity does not pull.
         others: more robots.
         bodies: what else is there, free or not.
-        sleep: whether what is at rest may sleep, see `world.sleep`: it costs nothing then. One robot alone never does,
+        sleep: whether what is at rest may sleep, see `sleep.sleep`: it costs nothing then. One robot alone never does,
             nor does anything with the provider ``pinocchio``.
 
     Raises:

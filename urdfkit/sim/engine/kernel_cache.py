@@ -50,7 +50,7 @@ def kernel() -> Kernel:
 
 @lru_cache(maxsize=1)
 def world_kernel() -> Kernel:
-    """Return the compiled `world.step.advance`, from the cache where there is one."""
+    """Return the compiled `world_step.advance`, from the cache where there is one."""
     from urdfkit.sim.engine.stepping.world_step import advance
 
     return load_compiled(advance, ("floats", "integers", "count", "flag"), digest=world_digest())

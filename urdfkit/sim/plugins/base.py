@@ -142,7 +142,7 @@ class Drive(ABC):
 class Sensor(ABC):
     """Measures and publishes.
 
-    Publications that fell due while nobody listened are counted together at the next stop, as in `publications`; so
+    Publications that fell due while nobody listened are counted together at the next stop, as in `publishers`; so
     what a sensor tells may depend on the number of a publication (`done`), never on how often it was asked.
 
     Attributes:

@@ -25,7 +25,7 @@ def draw_more(
         geometries: takes the meshes; none is forgotten, see `forget_others`.
         instead_of: bodies whose shapes are taken out first.
     """
-    import meshcat  # after `nodes`, which knows what it warns of
+    import meshcat  # after `meshcat_objects`, which knows what it warns of
 
     root = meshcat.Visualizer.view_into(window, meshcat.path.Path())
     for body in instead_of:

@@ -1,8 +1,8 @@
 """Which simulations are running: a note of each, so that a command finds it.
 
 While a simulation is driven, a file that only this user can read says where its page is, with the key. It lies beside
-the keys of pages (see `keys`), is named by the port and goes when the simulation ends. Where no file can be kept
-safely there is no note, and the address has to be given.
+the keys of pages (see `saved_tokens`), is named by the port and goes when the simulation ends. Where no file can be
+kept safely there is no note, and the address has to be given.
 """
 
 from __future__ import annotations

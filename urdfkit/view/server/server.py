@@ -165,7 +165,7 @@ class Server:
             self.hub.poses(*latest)
 
     def sense(self, key: str, index: int, time: float, kind: int, content: bytes) -> None:
-        """Send what a source sees to who wants its key, until the next from it; see `protocol.pack_sensed`."""
+        """Send what a source sees to who wants its key, until the next from it; see `pack_sensed`."""
         sequence = next(self._seen) & 0xFFFFFFFF
         self._post(self.hub.view, key, sequence, protocol.pack_sensed(index, time, kind, content, sequence))
 

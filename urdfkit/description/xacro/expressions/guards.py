@@ -1,4 +1,4 @@
-"""Rewrites an expression so that whatever can grow, or go on, is done by the guards of `bounds`."""
+"""Rewrites an expression so that whatever can grow, or go on, is done by the guards of `limits`."""
 
 from __future__ import annotations
 

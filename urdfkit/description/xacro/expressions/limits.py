@@ -1,7 +1,7 @@
 """How much an expression may compute and make: what Python itself would go on with until memory or patience ends.
 
 A description is the text of a stranger, and ``${9**9**9}`` takes for ever. So whatever can grow is done by a guard that
-looks first: `guarding` puts them where an expression has operators, calls, displays and loops. A result is bounded, and
+looks first: `guards` puts them where an expression has operators, calls, displays and loops. A result is bounded, and
 so is the sum of the steps of one run: a step is an operation, an element of a list, or 8 characters of a text.
 """
 

@@ -81,7 +81,7 @@ def look(
     """Look along rays that begin at a frame's origin, packets of neighbouring pixels at a time.
 
     Args:
-        scene: as for `cast.cast`.
+        scene: as for `ray_casting.cast`.
         cover: as `scene`, but without what casts no shadow: its kind is none.
         paint: colour and opacity of each shape, 0..1, shape (shapes, 4); what it takes from skins, shape (shapes,);
             colour and exponent of its gloss, shape (shapes, 4); skins of the triangles, shape (triangles, `SKIN`);
@@ -95,7 +95,7 @@ def look(
         order: number of each ray's pixel in the results; shape (n,).
         near: where rays begin to see [m].
         far: where they end [m].
-        work: shape (≥ `cast.SCRATCH`,).
+        work: shape (≥ `ray_casting.SCRATCH`,).
         desk: shape (≥ `DESK`,).
         rgb: becomes the picture, 0..255; shape (n, 3).
         depths: becomes the distance along the camera's x [m], infinite where nothing is seen; shape (n,).

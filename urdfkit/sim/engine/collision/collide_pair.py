@@ -49,7 +49,7 @@ def collide_pair(
     """Find the contacts of two shapes whose gap is below `margin`; return how many.
 
     Args:
-        kind_a: kind of the first shape (`shapes.SPHERE` and so on).
+        kind_a: kind of the first shape (`support_points.SPHERE` and so on).
         size_a: its sizes [m].
         R_a: its rotation, nine numbers row by row.
         p_a: its centre [m].
@@ -59,7 +59,7 @@ def collide_pair(
         R_b: the same.
         p_b: the same.
         data_b: the same.
-        numbers: vertices and so on of all hulls and meshes (`geometry.Geometry`).
+        numbers: vertices and so on of all hulls and meshes (`geometry_arrays.Geometry`).
         indices: their heads and so on.
         margin: gap below which a contact is found [m].
         work: working memory, `WORK` floats.

@@ -44,7 +44,7 @@ class Geometry:
         return sum(len(part) for part in self._indices)
 
     def add_hull(self, hull: Hull) -> int:
-        """Add a hull (see `hull.convex_hull`); return its `data`."""
+        """Add a hull (see `convex_hull.convex_hull`); return its `data`."""
         at, first = self._next_index(), self._next_number()
         loops = np.cumsum([0, *(len(face) for face in hull.faces)])
         head = [len(hull.vertices), first, len(hull.faces), first + hull.vertices.size, at + 6, at + 6 + len(loops)]

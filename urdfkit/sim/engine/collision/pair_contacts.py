@@ -18,8 +18,8 @@ class Placed:
     """A shape at its place.
 
     Attributes:
-        kind: `shapes.SPHERE` and so on.
-        size: [m], see `shapes`.
+        kind: `support_points.SPHERE` and so on.
+        size: [m], see `support_points`.
         R: its rotation, shape (3, 3).
         p: its centre [m], shape (3,).
         data: of a hull or mesh, what `Geometry` returned.

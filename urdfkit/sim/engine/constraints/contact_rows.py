@@ -78,7 +78,8 @@ def write_free(
 def free_rows(floats: Any, integers: Any, k: int, row: int, width: int, dt: float) -> bool:
     """Write the rows of a contact of a free body with what does not move, or with another; return whether it was one.
 
-    They are what `contact_rows` and `exchange` find from the motion subspaces, read off the bodies' axes.
+    They are what `contact_rows` and `contact_point_correction` find from the motion subspaces, read off the axes
+    of the bodies.
     """
     contact_body = field(integers, integers, At.contact_body)
     contact_other = field(integers, integers, At.contact_other)
@@ -103,7 +104,7 @@ def free_rows(floats: Any, integers: Any, k: int, row: int, width: int, dt: floa
     if other >= 0:
         one = body_tree[other]
         shift = sub(load_vector(contact_origin, tree), load_vector(contact_origin, one))
-        # Both have the impulse where it is halfway through the step: see `exchange`.
+        # Both have the impulse where it is halfway through the step: see `contact_point_correction`.
         first = load_vector(contact_point, first_of_pair(integers, k))
         way = scale(0.5 * dt, wandering(floats, integers, k, first, add(first, shift)))
         for j in range(3 if rubs else 1):

@@ -2,7 +2,7 @@
 
 With rows that hold taken for stiff dampers, the impulses are corrected until the rows are where they should be (the
 method of multipliers), starting from those of the last step. If the law then forbids something, rows are let go or
-held, or contacts slide (see `slip`), some times over.
+held, or contacts slide (see `coulomb_direction`), some times over.
 
 Source: M. R. Hestenes, J. Optim. Theory Appl. 4 (1969) 303-320: multipliers.
 """

@@ -1,8 +1,8 @@
 """Islands whose rows contradict each other, or slide in many places: a convex problem, and another from its result.
 
-A round minimises a convex function (see `cones`) from the last step's velocities and impulses: what lies, lies there
-already. The first rounds are soft, which takes few steps, the others a hundred times as hard. Rounds end once the next
-would change nothing.
+A round minimises a convex function (see `convex_newton`) from the last step's velocities and impulses: what lies, lies
+there already. The first rounds are soft, which takes few steps, the others a hundred times as hard. Rounds end once the
+next would change nothing.
 
 Penetrations that are to be taken back seldom fit together where a body lies on more points than it needs; each round
 leaves of them what it could not take back. Without that impulses would grow, of rows that can never be met.
@@ -41,7 +41,7 @@ HEAP_ROUNDS = 2
 GROSS = 1e-3
 """Velocity [m/s or rad/s] by which rounds may leave a heap off the law: beyond, what is pushed down sinks."""
 TRIED_AFTER = 5
-"""Rounds after which what rows do is tried once more, see `states`: where slips are slow to settle that is quicker."""
+"""Rounds after which `active_set` is tried once more: where slips are slow to settle that is quicker."""
 SOLVED = 1e-10
 """Velocity [m/s or rad/s] that the next round may still change where the law is met."""
 NEAR = 5e-6

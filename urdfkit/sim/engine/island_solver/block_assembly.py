@@ -1,4 +1,4 @@
-"""Writing the matrix M + Jᵀ·D·J of an island, see `blocks`."""
+"""Writing the matrix M + Jᵀ·D·J of an island, see `block_matrix`."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def assemble(floats: Any, integers: Any, root: int, rows: int, n: int, coned: bo
     k = 0
     while k < rows:
         if state[k] == SLIDES:
-            # Two rows that its slip makes of three: see `slip` and `cones`.
+            # Two rows that its slip makes of three: see `coulomb_direction` and `convex_newton`.
             a, b = near[k + 1], near[k + 2]
             c, share = (mu[k], 1.0 / math.sqrt(1.0 + mu[k] * mu[k])) if coned else (0.0, 1.0)
             at = k * width

@@ -5,9 +5,9 @@ fewer unknowns than rows: a box on four points has six against twelve, and boxes
 nothing to do with each other. With the rows taken for stiff dampers the matrix M + Jᵀ·D·J has a block for each tree and
 for each pair of trees that touch. It is factored in the order in which the fewest blocks fill in.
 
-`states` tries what rows do, from what they did in the last step. Where that leads nowhere, a tree alone is
+`active_set` tries what rows do, from what they did in the last step. Where that leads nowhere, a tree alone is
 tried once more with tiny penetrations and gaps left as they are: they contradict rows that hold, of friction too, as at
-a robot that is jammed. Where that leads nowhere either, `rounds` gets there from anywhere.
+a robot that is jammed. Where that leads nowhere either, `augmented_lagrangian` gets there from anywhere.
 """
 
 from __future__ import annotations

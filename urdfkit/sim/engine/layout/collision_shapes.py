@@ -38,7 +38,7 @@ class Touching:
         owner: number of the robot or body it belongs to.
         meets: whether it touches others of its owner.
         kind: of shape.
-        size: [m], see `collide`.
+        size: [m], see `ground_contacts`.
         R: axes in the body.
         p: centre in the body [m].
         radius: of a ball round the centre that holds the shape [m].

@@ -1,4 +1,4 @@
-"""Where two trees swap an impulse, see `exchange`; written again in numpy, for the reference."""
+"""Where two trees swap an impulse: `contacts.contact_point_correction` in numpy, for the reference."""
 
 from __future__ import annotations
 

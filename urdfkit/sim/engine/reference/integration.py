@@ -1,4 +1,4 @@
-"""How coordinates move by velocities, in numpy: the reference's part of `integrate` and `flight`."""
+"""How coordinates move by velocities: `dynamics.integration` and `stepping.ballistic` in numpy."""
 
 from __future__ import annotations
 

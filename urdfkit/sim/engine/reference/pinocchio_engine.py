@@ -137,7 +137,7 @@ class Reference:
                 self.impulses[row.contact] = first, second, normal
 
     def _fly(self, v: Array, dofs: Array) -> Array:
-        """Advance a tree that nothing holds as `flight.fly` does; return its velocities."""
+        """Advance a tree that nothing holds as `ballistic.fly` does; return its velocities."""
         a, dt = self.a, self.dt
         kept, v_first = a["s"].copy(), v.copy()
         move(a, a["s"], v_first, -0.5 * dt)
@@ -366,7 +366,7 @@ class Reference:
 
 
 def late_share(z: float) -> float:
-    """Return how much of a damper acts on the velocity at the end of a step, see `servo.late_share`."""
+    """Return how much of a damper acts on the velocity at the end of a step, see `joint_servos.late_share`."""
     return 1.0 / -np.expm1(-z) - 1.0 / z if z > 1e-2 else 0.5 + z / 12.0 - z**3 / 720.0
 
 

@@ -9,12 +9,12 @@ from urdfkit.sim.engine.solver.active_set_newton import solve
 
 
 def find_candidates(floats: Any, integers: Any) -> int:
-    """List pairs and mark trees, as `search.candidates` does, for bodies placed by other means."""
+    """List pairs and mark trees, as `contact_search.candidates` does, for bodies placed by other means."""
     return candidates(floats, integers)
 
 
 def find_contacts(floats: Any, integers: Any, pairs: int) -> int:
-    """Find the contacts, as `search.touching` does, of bodies placed by other means."""
+    """Find the contacts, as `contact_search.touching` does, of bodies placed by other means."""
     return touching(floats, integers, pairs)
 
 

@@ -1,9 +1,9 @@
 """Sleep: trees at rest are left as they are, with the forces they rest on, until something happens to them.
 
-An island falls asleep once all its trees have been at rest for `PATIENCE`, see `rest`, with nothing asked of them.
-Where it touches with something round it is enough that its bodies are slow: rigid bodies roll on for ever where real
-ones would come to rest. The contacts of sleepers are kept from the end of their room on, so that they can be told and
-found again.
+An island falls asleep once all its trees have been at rest for `PATIENCE`, see `sleep_criteria`, with nothing asked of
+them. Where it touches with something round it is enough that its bodies are slow: rigid bodies roll on for ever where
+real ones would come to rest. The contacts of sleepers are kept from the end of their room on, so that they can be told
+and found again.
 """
 
 from __future__ import annotations

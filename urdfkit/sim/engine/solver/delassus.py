@@ -1,4 +1,4 @@
-"""Rows whitened by the mass matrices, and what comes of their impulses: A = J·M⁻¹·Jᵀ, see `solve`."""
+"""Rows whitened by the mass matrices, and what comes of their impulses: A = J·M⁻¹·Jᵀ, see `active_set_newton`."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """The step of one robot on its plane: from one configuration and velocity to the next, all in one compiled call.
 
-`world.step` does the same for several robots, bodies and what they meet; this one knows that there is but one tree and
+`world_step` does the same for several robots, bodies and what they meet; this one knows that there is but one tree and
 is half as fast again.
 """
 

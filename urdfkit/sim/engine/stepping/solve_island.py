@@ -77,7 +77,7 @@ def settle(floats: Any, integers: Any, root: int) -> int:
     # the second part is done again.
     halfway = False
     attempt = 0
-    # What `hold` gives up, for more trees than blocks are for or for more rows than it comes near to, is swept.
+    # What `velocity_blocks` gives up, for more trees than blocks are for or too many rows, is swept.
     swept = False
     resist_rolling(floats, integers, root, dt)
     while True:
