@@ -25,7 +25,7 @@ from collections.abc import Iterable
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from urdfkit.description.xml.source import Position
+    from urdfkit.position import Position
 
 
 class UrdfkitError(Exception):

@@ -29,7 +29,7 @@ from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.placement import pose_matrices, pose_matrix
 from urdfkit.scene.ray_images import Painter
 from urdfkit.scene.rays import RayTable, warmup
-from urdfkit.sim.world.scene_view import world_scene
+from urdfkit.sim.scene_view import world_scene
 
 EYE = Pose((-4.5, -3.5, 1.7), (0.0, 0.35, 0.7))
 LENS = Lens(640, 480, 1.2)

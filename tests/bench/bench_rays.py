@@ -25,7 +25,7 @@ from urdfkit.scene.lights import lighting_of
 from urdfkit.scene.placement import pose_matrices, pose_matrix
 from urdfkit.scene.ray_images import Painter
 from urdfkit.scene.rays import RayTable, warmup
-from urdfkit.sim.world.scene_view import world_scene
+from urdfkit.sim.scene_view import world_scene
 
 ORIGIN = np.array([0.3, 0.2, 0.4])
 FAR = 30.0

@@ -21,8 +21,9 @@ from collections import Counter
 from pathlib import Path
 
 from urdfkit.errors import UrdfkitError
-from urdfkit.lint.engine.run import Options, run
+from urdfkit.lint.engine.run import run
 from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.options import Options
 from urdfkit.resources import robots_dir
 
 SECONDS = 5.0

@@ -17,10 +17,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from urdfkit.lint.engine.run import Options, model_of, run
+from urdfkit.lint.engine.checker import model_of
+from urdfkit.lint.engine.run import run
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.model.tags import Document, Tag
 from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.options import Options
 from urdfkit.resources import find_model
 
 ROBOTS = (

@@ -14,10 +14,9 @@ from urdfkit.cli.sim import bench
 from urdfkit.cli.sim.bench_table import table
 from urdfkit.sim.bench import memory_use, scenes
 from urdfkit.sim.bench.comparison import Compared, Scaled, Speed
-from urdfkit.sim.bench.correctness_checks import Check
 from urdfkit.sim.bench.memory_use import Memory
 from urdfkit.sim.bench.report import Report, as_json
-from urdfkit.sim.bench.scene import Servo
+from urdfkit.sim.bench.scene import Check, Servo
 from urdfkit.sim.bench.scenes import SCENES
 
 Capture = pytest.CaptureFixture[str]

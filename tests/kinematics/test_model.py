@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import KinematicsError, UrdfkitError
 from urdfkit.kinematics import JointLimitError, Kinematics
@@ -256,7 +257,7 @@ def test_link_poses_are_the_chained_origins(kinematics: Kinematics) -> None:
         )
     )
     placed = {"world": np.eye(4)}
-    for joint in kinematics.robot.tree_order():
+    for joint in tree_order(kinematics.robot):
         placed[joint.child or ""] = placed[joint.parent or ""] @ _origin(joint) @ _motion(joint, positions)
     for name, matrix in placed.items():
         pose = poses[name]

@@ -6,8 +6,9 @@ import pytest
 
 from urdfkit.description.xml.element import Element
 from urdfkit.lint import edits
-from urdfkit.lint.engine.run import Options, model_of
+from urdfkit.lint.engine.checker import model_of
 from urdfkit.lint.finding import Fix
+from urdfkit.lint.project.options import Options
 
 TEXT = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:property name="w" value="2"/>

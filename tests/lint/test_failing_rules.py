@@ -8,7 +8,8 @@ import pytest
 
 from urdfkit.cli import main
 from urdfkit.lint.editor.open_files import Project
-from urdfkit.lint.engine.run import Options, lint
+from urdfkit.lint.engine.run import lint
+from urdfkit.lint.project.options import Options
 from urdfkit.lint.rules.joints.axis_zero import AxisZero
 
 JOINT = '<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>'

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from urdfkit.lint.engine.run import Options, run
+from urdfkit.lint.engine.run import run
 from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.options import Options
 
 TENSOR = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
 INERTIAL = f'<inertial><origin xyz="0 0 0"/><mass value="1"/>{TENSOR}</inertial>'

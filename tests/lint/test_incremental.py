@@ -14,7 +14,9 @@ from urdfkit.description.xacro.fast.incremental import Memory
 from urdfkit.description.xml.reader import document_of
 from urdfkit.description.xml.source import Source
 from urdfkit.lint.editor.open_files import Project
-from urdfkit.lint.engine.run import Checker, Options, merged
+from urdfkit.lint.engine.checker import Checker
+from urdfkit.lint.engine.run import merged
+from urdfkit.lint.project.options import Options
 from urdfkit.resources import find_model, robot_names
 
 PIECES = (

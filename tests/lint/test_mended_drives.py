@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from urdfkit.lint import lint
-from urdfkit.lint.engine.run import Options
 from urdfkit.lint.fixes.apply import fix
 from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.options import Options
 
 SHARED = Path(__file__).parents[2].parent / "shared"
 COMPLETE = ("diff_wheeled_robot", "mybot", "simpleton_urdf", "simpleton_xacro")

@@ -11,9 +11,13 @@ import jsonschema
 import pytest
 
 from urdfkit.description.xml.source import Span
-from urdfkit.lint.engine.run import Options, Outcome, run
+from urdfkit.lint.engine.run import (
+    Outcome,
+    run,
+)
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.project.entry_files import find_entries
+from urdfkit.lint.project.options import Options
 from urdfkit.lint.report.github import as_github
 from urdfkit.lint.report.junit import as_junit
 from urdfkit.lint.report.sarif import as_sarif

@@ -11,9 +11,9 @@ import pytest
 
 from urdfkit.lint import RULES, lint
 from urdfkit.lint.catalogue import SECTIONS, page, sections, title
-from urdfkit.lint.engine.run import Options
 from urdfkit.lint.fixes.apply import fix
 from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.options import Options
 from urdfkit.lint.rule import Rule
 
 HERE = Path(__file__).parent / "rules"

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from urdfkit.lint import Finding, lint
-from urdfkit.lint.engine.run import Options, run
+from urdfkit.lint.engine.run import run
 from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.options import Options
 
 SHARED = Path(__file__).parents[2].parent / "shared"
 

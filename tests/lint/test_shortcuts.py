@@ -91,7 +91,7 @@ def test_texts_are_cut_at_their_expressions(text: str) -> None:
 
 def test_what_xacro_imports_later_is_the_module_itself() -> None:
     code = (
-        "import sys; from urdfkit.description.xacro.expand import _stock; x = _stock();"
+        "import sys; from urdfkit.description.xacro.stock_xacro import _stock; x = _stock();"
         "assert not {'ast', 'glob', 'xacro.cli'} & set(sys.modules), sys.modules.keys();"
         "assert x.is_valid_name('a') and not x.is_valid_name('if') and x.glob.glob('nothing*') == [];"
         "import ast, glob; assert x.ast.parse is ast.parse; assert x.glob.glob is glob.glob;"

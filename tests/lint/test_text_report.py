@@ -7,9 +7,10 @@ import re
 import pytest
 
 from urdfkit.description.xml.source import Expansion, Position, Source, Span
-from urdfkit.lint.engine.run import Options, run
+from urdfkit.lint.engine.run import run
 from urdfkit.lint.finding import Finding, Fix
 from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.options import Options
 from urdfkit.lint.report.text import TextReport, statistics, summary
 
 INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="3"/>'

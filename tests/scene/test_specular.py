@@ -15,7 +15,7 @@ from urdfkit.scene import MeshLoader, scene_of
 from urdfkit.scene.camera_model import Lens
 from urdfkit.scene.placement import pose_matrix
 from urdfkit.scene.specular import GLOSSY, MATT, MOST, gloss_from
-from urdfkit.sim.world.scene_view import world_scene
+from urdfkit.sim.scene_view import world_scene
 
 BLACK = (0.0, 0.0, 0.0, 1.0)
 SUN = Light("sun", "directional", direction=(0.0, 0.3, -1.0), diffuse=(1, 1, 1, 1), specular=(0.8, 0.6, 0.4, 1.0))

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfkit.sim.plugins.drives.speed_limits import SpeedLimiter
+from urdfkit.sim.plugins.speed_limits import SpeedLimiter
 
 DT = 0.001
 

@@ -147,9 +147,9 @@ def _name(template: Template, asked: str | None, file: Path) -> str:
 
 def _mended(stage: Path) -> Sequence[str]:
     """Apply the safe fixes of the linter in a folder; return what was mended and what is left, a line each."""
-    from urdfkit.lint.engine.run import Options
     from urdfkit.lint.fixes.apply import fix
     from urdfkit.lint.project.entry_files import find_entries
+    from urdfkit.lint.project.options import Options
 
     fixed = fix(find_entries([stage]), Options(package_path=(stage,), guess_target=True), within=[stage])
     for change in fixed.changes:

@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from typing import Any
 
     from urdfkit.description.urdf.robot import Inertial, Link
-    from urdfkit.lint.engine.run import Options
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.fixes.inertia_edits import Right
     from urdfkit.lint.model.model import Model
     from urdfkit.lint.project.entry_files import Entry
+    from urdfkit.lint.project.options import Options
 
 FAR = 10.0
 """Factor beside the moments of evenly filled shapes that is called wrong: motors and batteries explain less."""
@@ -77,8 +77,9 @@ def run(arguments: argparse.Namespace) -> int:
         UsageError: an argument makes no sense.
         UrdfkitError: there is no such model or link, its inertia cannot be computed, or cannot be written.
     """
-    from urdfkit.lint.engine.run import Options, model_of
+    from urdfkit.lint.engine.checker import model_of
     from urdfkit.lint.project.entry_files import Entry
+    from urdfkit.lint.project.options import Options
     from urdfkit.resources import find_model
 
     plain = [word for word in arguments.words if ":=" not in word]
@@ -212,9 +213,10 @@ def _write(
     entry: Entry, options: Options, model: Model, writes: Sequence[tuple[Link, Right, dict[str, Any]]], *, alone: bool
 ) -> None:
     """Write what was computed: checked in memory first, then each file replaced in one move."""
-    from urdfkit.lint.engine.run import Options, model_of
+    from urdfkit.lint.engine.checker import model_of
     from urdfkit.lint.fixes.apply import changes, may_be_changed
     from urdfkit.lint.fixes.inertia_edits import edits, right
+    from urdfkit.lint.project.options import Options
 
     wanted = []
     for link, value, row in writes:

@@ -13,11 +13,12 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Sequence
 
-    from urdfkit.lint.engine.run import Options, Outcome
+    from urdfkit.lint.engine.run import Outcome
+    from urdfkit.lint.engine.settings import Settings
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.fixes.apply import Fixed
     from urdfkit.lint.project.entry_files import Entry
-    from urdfkit.lint.project.settings import Settings
+    from urdfkit.lint.project.options import Options
 
 _EPILOG = """examples:
   urdfkit lint urdf/robot.urdf.xacro use_camera:=true
@@ -143,18 +144,18 @@ class _Run:
         if arguments.no_config:
             return None
         if arguments.config is not None:
-            from urdfkit.lint.project.settings import read
+            from urdfkit.lint.engine.settings import read
 
             return read(arguments.config)
         start = Path(self.paths[0]) if Path(self.paths[0]).exists() else Path.cwd()
         if not _has_settings(start):
             return None
-        from urdfkit.lint.project.settings import find
+        from urdfkit.lint.engine.settings import find
 
         return find(start)
 
     def _options(self, xacro_arguments: dict[str, str]) -> Options:
-        from urdfkit.lint.engine.run import Options
+        from urdfkit.lint.project.options import Options
 
         arguments, settings = self.arguments, self.settings
         folders = tuple(_folder(word) for word in arguments.package_path)
@@ -301,7 +302,7 @@ def _folder(word: str) -> Path:
 
 
 def _has_settings(start: Path) -> bool:
-    """Whether there may be settings above a path; `urdfkit.lint.project.settings` knows which."""
+    """Whether there may be settings above a path; `urdfkit.lint.engine.settings` knows which."""
     folder = os.path.abspath(start)  # noqa: PTH100 - a dozen look-ups before every run
     while True:
         if os.path.exists(f"{folder}/urdfkit.toml") or os.path.exists(f"{folder}/pyproject.toml"):  # noqa: PTH110

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.urdf.parser import parse
+from urdfkit.description.urdf.queries import cycles
 from urdfkit.description.urdf.robot import Joint, Link, Problem, Robot
 from urdfkit.description.xacro.expand import expand, is_xacro
 from urdfkit.description.xacro.expanded import Expanded
@@ -125,7 +126,7 @@ def _reasons(robot: Robot) -> Iterator[ModelError]:
                 f"({parents[0].element.origin.position}) and `{parents[1].name}`",
                 parents[1].element,
             )
-    for loop in robot.cycles():
+    for loop in cycles(robot):
         yield _error(f"the joints form a loop: {' → '.join(_loop_links(loop))}", loop[0].element)
     roots = robot.roots()
     if len(roots) > 1:

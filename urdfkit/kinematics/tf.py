@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Joint, Robot
 from urdfkit.kinematics.joint_variables import Array
 from urdfkit.kinematics.model import Kinematics
@@ -72,7 +73,7 @@ class TransformTree:
         self.kinematics = kinematics if isinstance(kinematics, Kinematics) else Kinematics(kinematics)
         self.root = self.kinematics.root
         self.frames = self.kinematics.link_names
-        self.edges = tuple(_edge(joint) for joint in self.kinematics.robot.tree_order())
+        self.edges = tuple(_edge(joint) for joint in tree_order(self.kinematics.robot))
         self.parents: dict[str, str | None] = {self.root: None}
         self.parents.update((edge.child, edge.parent) for edge in self.edges)
 

@@ -21,15 +21,16 @@ from urdfkit.sim.construction.initial_overlap import note_overlaps
 from urdfkit.sim.construction.loading import load_robot, require_sense, the_world
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.engine.engine import Provider
-from urdfkit.sim.plugins.base import Drive, Setup
+from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.publishers import Clock
 from urdfkit.sim.plugins.ros_distro import Distro
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.scene_view import Surroundings
 from urdfkit.sim.state.arguments import number, three
 from urdfkit.sim.state.ticks import Ticks
 from urdfkit.sim.world.entities import Population
 from urdfkit.sim.world.gazebo_services import ModelStates, listen
 from urdfkit.sim.world.live_world import Stage
-from urdfkit.sim.world.scene_view import Surroundings
 from urdfkit.sim.world.scheduler import Agenda
 from urdfkit.sim.world.simulated_robot import SimulatedRobot
 

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from urdfkit.description.urdf.parser import parse
+from urdfkit.description.urdf.queries import cycles, tree_order
 from urdfkit.description.urdf.robot import JOINT_TYPES, Box, Capsule, Cylinder, Mesh, Pose, Robot, Sphere
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import number, numbers, why_not
@@ -271,9 +272,9 @@ elements = st.recursive(
 def test_parsing_never_raises_and_queries_work_on_anything(children: list[Element]) -> None:
     robot = parse(Element("robot", {}, children, "", origin))
     assert len(robot.links) == sum(child.tag == "link" for child in children)
-    for loop in robot.cycles():
+    for loop in cycles(robot):
         assert all(below.child == after.parent for below, after in itertools.pairwise(loop))
-    assert len(robot.tree_order()) <= len(robot.joints)
+    assert len(tree_order(robot)) <= len(robot.joints)
 
 
 @given(st.floats(allow_nan=False))

@@ -11,6 +11,7 @@ import xacro
 
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.expand import expand
+from urdfkit.description.xml.start_tag import start_tag
 from urdfkit.errors import ResourceError, UrdfkitError, XacroError, XmlError
 
 Write = Callable[[str, str], Path]
@@ -87,7 +88,7 @@ def test_byte_order_mark_and_line_ends_do_not_move_anything(write: Write, prefix
     assert expanded.root is not None
     link = expanded.root.children[0]
     assert str(link.origin.position) == "a.xacro:2:12"
-    tag = expanded.sources["a.xacro"].start_tag(link.origin.position)
+    tag = start_tag(expanded.sources["a.xacro"], link.origin.position)
     assert tag is not None
     assert tag.attributes["name"].raw == "a"
 

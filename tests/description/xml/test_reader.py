@@ -12,6 +12,7 @@ from urdfkit.description.xacro.expand import expand, expand_leniently
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import MAX_BYTES, document_of, element_of, read_source, stamped_document
 from urdfkit.description.xml.source import Source
+from urdfkit.description.xml.start_tag import element_span, start_tag
 from urdfkit.errors import ResourceError, UrdfkitError, XmlError
 
 Write = Callable[[str, str], Path]
@@ -124,12 +125,12 @@ def test_every_element_is_where_its_origin_says(text: str) -> None:
     root = document_of(source)
     for element in root.walk():
         position = element.origin.position
-        tag = source.start_tag(position)
+        tag = start_tag(source, position)
         assert tag is not None
         assert source.text.startswith(f"<{element.tag}", source.offset(position.line, position.column))
         assert list(tag.attributes) == list(element.attributes)
         assert tag.span.start == position
-        span = source.element_span(position)
+        span = element_span(source, position)
         assert span is not None
         inside = source.text[source.offset(span.line, span.column) : source.offset(span.end_line, span.end_column)]
         alone = document_of(Source("b", inside))

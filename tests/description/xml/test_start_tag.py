@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from urdfkit.description.xml.reader import document_of
 from urdfkit.description.xml.source import Position, Source
+from urdfkit.description.xml.start_tag import element_span, start_tag
 
 TEXT = """<robot name='r'>
   <link
@@ -18,7 +19,7 @@ def slice_of(span: object) -> str:
 
 
 def test_the_parts_of_a_start_tag() -> None:
-    tag = SOURCE.start_tag(Position("f", 2, 3))
+    tag = start_tag(SOURCE, Position("f", 2, 3))
     assert tag is not None
     assert slice_of(tag.span) == '<link\n     name = "a>b" kind=\'"q"\'/>'
     assert slice_of(tag.name) == "link"
@@ -33,19 +34,19 @@ def test_the_parts_of_a_start_tag() -> None:
 
 
 def test_a_whole_element() -> None:
-    span = SOURCE.element_span(Position("f", 4, 20))
+    span = element_span(SOURCE, Position("f", 4, 20))
     assert span is not None
     assert slice_of(span) == '<joint name="j"><joint/><!-- <joint> --><![CDATA[</joint>]]></joint >'
-    whole = SOURCE.element_span(Position("f", 1, 1))
+    whole = element_span(SOURCE, Position("f", 1, 1))
     assert whole is not None
     assert slice_of(whole) == TEXT.rstrip()
 
 
 def test_where_no_tag_is() -> None:
-    assert SOURCE.start_tag(Position("f", 1, 2)) is None
-    assert SOURCE.start_tag(Position("f", 99, 1)) is None
-    assert SOURCE.start_tag(Position("f", 5, 1)) is None
-    assert SOURCE.element_span(Position("f", 99, 1)) is None
+    assert start_tag(SOURCE, Position("f", 1, 2)) is None
+    assert start_tag(SOURCE, Position("f", 99, 1)) is None
+    assert start_tag(SOURCE, Position("f", 5, 1)) is None
+    assert element_span(SOURCE, Position("f", 99, 1)) is None
 
 
 def test_offsets_and_positions_are_inverse() -> None:

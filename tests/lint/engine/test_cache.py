@@ -9,8 +9,12 @@ import pytest
 
 from urdfkit.lint.engine import run as engine
 from urdfkit.lint.engine.cache import folder
-from urdfkit.lint.engine.run import Options, Outcome, run
+from urdfkit.lint.engine.run import (
+    Outcome,
+    run,
+)
 from urdfkit.lint.project.entry_files import find_entries
+from urdfkit.lint.project.options import Options
 
 HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
 MODEL = """<xacro:include filename="$(find p)/urdf/part.xacro"/>

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from urdfkit.errors import ResourceError
 from urdfkit.lint import lint
-from urdfkit.lint.engine.run import Options
 from urdfkit.lint.fixes.apply import Change, fix, may_be_changed
 from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.options import Options
 
 BAD = """<robot name="r">
   <!-- <macro name="commented"/> -->

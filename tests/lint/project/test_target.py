@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from urdfkit.errors import UsageError
-from urdfkit.lint.engine.run import Options, run
+from urdfkit.lint.engine.run import run
 from urdfkit.lint.project.entry_files import Entry
+from urdfkit.lint.project.options import Options
 from urdfkit.lint.project.target import TARGETS, family_of, guess, known_target
 
 AMENT = "<export><build_type>ament_cmake</build_type></export>"

@@ -22,7 +22,7 @@ from urdfkit.scene.lights import Lighting, lighting_of
 from urdfkit.scene.placement import pose_matrix
 from urdfkit.scene.ray_images import Painter, Picture
 from urdfkit.scene.rays import RayTable
-from urdfkit.sim.world.scene_view import world_scene
+from urdfkit.sim.scene_view import world_scene
 
 DEVICE = probe()
 pytestmark = pytest.mark.opengl

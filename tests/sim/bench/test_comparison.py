@@ -9,10 +9,8 @@ import pytest
 
 from urdfkit.sim.bench import peer_engines as module
 from urdfkit.sim.bench.comparison import Compared, Scaled, Speed
-from urdfkit.sim.bench.correctness_checks import Check
 from urdfkit.sim.bench.peer_engines import choose
-from urdfkit.sim.bench.running_scene import Running
-from urdfkit.sim.bench.scene import Scene
+from urdfkit.sim.bench.scene import Check, Running, Scene
 
 FINE = Check("speed", 1.0, 1.0, 0.1, "m/s")
 OFF = Check("speed", 0.5, 1.0, 0.1, "m/s")

@@ -8,7 +8,7 @@ import pytest
 from urdfkit.description import load
 from urdfkit.errors import SimulationError
 from urdfkit.sim import Simulator
-from urdfkit.sim.plugins.controllers.pid import Gains
+from urdfkit.sim.state.pid import Gains
 from urdfkit.sim.world.live_parameters import Tuning
 from urdfkit.sim.world.slip_velocity import slips
 

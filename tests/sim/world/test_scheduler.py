@@ -10,7 +10,7 @@ import pytest
 
 from urdfkit.messages import FLOAT, TWIST, from_fields, twist
 from urdfkit.sim import Simulator
-from urdfkit.sim.plugins.controllers.pid import Gains
+from urdfkit.sim.state.pid import Gains
 from urdfkit.sim.state.ticks import NEVER
 from urdfkit.sim.world.live_parameters import Tuning
 

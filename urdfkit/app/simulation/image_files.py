@@ -11,7 +11,7 @@ from urdfkit.app.simulation import saved_topics
 from urdfkit.errors import MissingDependencyError, UsageError
 
 if TYPE_CHECKING:
-    from urdfkit.cli.sim.option_values import TopicFile
+    from urdfkit.app.simulation.saved_topics import TopicFile
     from urdfkit.sim.simulator import Simulator
 
 IMAGE = "sensor_msgs/msg/Image"

@@ -5,15 +5,21 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from urdfkit.bus import absolute
 from urdfkit.description.packages.resolver import near_path
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
-    from urdfkit.cli.sim.option_values import TopicFile
     from urdfkit.sim.simulator import Simulator
+
+
+class TopicFile(NamedTuple):
+    """``TOPIC=FILE``: what to save where; the topic is empty where it is left out."""
+
+    topic: str
+    file: Path
 
 
 SAVED_BY = {

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.urdf.queries import tree_order
+
 if TYPE_CHECKING:
     from urdfkit.description import Robot
     from urdfkit.scene import Shape
@@ -102,7 +104,7 @@ class Figures:
 def _tip(robot: Robot) -> str:
     """Return the first link of those that the most moving joints carry."""
     moved = {robot.roots()[0].name: 0}
-    for joint in robot.tree_order():
+    for joint in tree_order(robot):
         moved[str(joint.child)] = moved[str(joint.parent)] + (joint.type != "fixed")
     return max(moved, key=lambda name: moved[name])
 

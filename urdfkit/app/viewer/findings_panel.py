@@ -11,10 +11,11 @@ if TYPE_CHECKING:
     from urdfkit.app.viewer.source_links import Whereabouts
     from urdfkit.description.urdf.robot import Robot
     from urdfkit.description.xml.source import Expansion, Source, Span
-    from urdfkit.lint.engine.run import Options, Outcome
+    from urdfkit.lint.engine.run import Outcome
+    from urdfkit.lint.engine.settings import Settings
     from urdfkit.lint.finding import Finding, Fix
     from urdfkit.lint.project.entry_files import Entry
-    from urdfkit.lint.project.settings import Settings
+    from urdfkit.lint.project.options import Options
     from urdfkit.resources import ModelArgument
 
 LINES = 12
@@ -110,13 +111,13 @@ class Findings:
         return [Entry(path.relative_to(here) if path.is_relative_to(here) else path)]
 
     def _settings(self) -> Settings:
-        from urdfkit.lint.project.settings import find
+        from urdfkit.lint.engine.settings import find
 
         return find(self.model.path)
 
     def _options(self, settings: Settings) -> Options:
         """Return how ``urdfkit lint`` would look at this model, with the arguments it is shown with."""
-        from urdfkit.lint.engine.run import Options
+        from urdfkit.lint.project.options import Options
 
         target, ours = settings.target, tuple(Path(folder) for folder in self.model.package_path)
         return Options(

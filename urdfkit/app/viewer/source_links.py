@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from urdfkit.description.xml.source import Source
+from urdfkit.description.xml.start_tag import element_span
 from urdfkit.errors import ResourceError
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ class Whereabouts:
 
     def _end(self, position: Position) -> Place | None:
         source = self._source(position.file)
-        span = source.element_span(position) if source is not None else None
+        span = element_span(source, position) if source is not None else None
         return None if span is None else (span.end_line, span.end_column)
 
 

@@ -12,7 +12,7 @@ from urdfkit.errors import MissingDependencyError
 if TYPE_CHECKING:
     from pygls.lsp.server import LanguageServer
 
-    from urdfkit.lint.engine.run import Options
+    from urdfkit.lint.project.options import Options
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -46,8 +46,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _options(arguments: argparse.Namespace) -> Options:
-    from urdfkit.lint.engine.run import Options
-    from urdfkit.lint.project.settings import find
+    from urdfkit.lint.engine.settings import find
+    from urdfkit.lint.project.options import Options
     from urdfkit.lint.project.target import known_target
 
     settings = find(Path.cwd())

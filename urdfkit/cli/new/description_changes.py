@@ -132,8 +132,9 @@ def apply(
 
 def _new_findings(alterations: Sequence[Alteration], model: ModelArgument, stage: Path | None) -> list[Finding]:
     """Return what the linter has against the description as it would be, and not as it is."""
-    from urdfkit.lint.engine.run import Options, run
+    from urdfkit.lint.engine.run import run
     from urdfkit.lint.project.entry_files import find_entries
+    from urdfkit.lint.project.options import Options
     from urdfkit.scaffold.additions.file_changes import texts
 
     entries = find_entries([model.path])

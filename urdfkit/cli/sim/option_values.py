@@ -9,6 +9,8 @@ from math import isfinite
 from pathlib import Path
 from typing import NamedTuple
 
+from urdfkit.app.simulation.saved_topics import TopicFile
+
 
 def number(text: str) -> float:
     """Return a finite number.
@@ -165,13 +167,6 @@ def topic_message(text: str) -> TopicMessage:
     if len(parts) < 2:
         raise argparse.ArgumentTypeError(f'`{text}` is not "TOPIC TYPE YAML@T"')
     return TopicMessage(parts[0], parts[1], parts[2] if len(parts) == 3 else "{}", t)
-
-
-class TopicFile(NamedTuple):
-    """``TOPIC=FILE``: what to save where; the topic is empty where it is left out."""
-
-    topic: str
-    file: Path
 
 
 def topic_file(*suffixes: str) -> Callable[[str], TopicFile]:

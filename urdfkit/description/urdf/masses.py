@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Joint, Link, Robot
 
 
@@ -24,7 +25,7 @@ def massless(robot: Robot, *, floating: bool) -> list[tuple[Link, Joint | None]]
         body_of[root.name] = root.name
         if floating:
             tops[root.name] = None
-    for joint in robot.tree_order():
+    for joint in tree_order(robot):
         if joint.child is None:
             continue
         if joint.is_movable:

@@ -359,15 +359,3 @@ class Robot:
     def link_by_name_in_order(self) -> list[Link]:
         """Return the links in document order without duplicates."""
         return [link for link in self.links if self.link_by_name[link.name] is link]
-
-    def cycles(self) -> list[list[Joint]]:
-        """Return kinematic loops: each a list of joints that lead from a link back to itself."""
-        from urdfkit.description.urdf.queries import cycles
-
-        return cycles(self)
-
-    def tree_order(self) -> list[Joint]:
-        """Return the joints reachable from the roots, parents before children, depth first in document order."""
-        from urdfkit.description.urdf.queries import tree_order
-
-        return tree_order(self)

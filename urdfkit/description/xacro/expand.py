@@ -2,9 +2,7 @@
 
 This is stock xacro; nothing of its language is written anew. The files are parsed by a builder that stamps each
 element with its place (minidom keeps the stamp as user data and hands it to clones), and a macro call renews the
-stamps of the body it clones. This module is the only owner of xacro's module globals: it sets them for one expansion
-and puts them back, under a lock, so that expansions can follow each other in any order, from any thread, after any
-error.
+stamps of the body it clones. `stock_xacro` sets xacro's module globals for one expansion and puts them back.
 
 Files come from strangers. xacro evaluates ``${…}`` and ``$(eval …)`` as Python, and its own precautions can be got
 round (nested functions hide their names from its check; ``$(eval …)`` sees every builtin). Here the check covers
@@ -15,32 +13,18 @@ XML files anywhere. What would take for ever or fill the memory (``${9**9**9}``)
 
 from __future__ import annotations
 
-import sys
-from _thread import RLock  # threading itself takes half a millisecond to import
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from importlib import import_module
+from collections.abc import Mapping
 from pathlib import Path
-from types import ModuleType
 
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.expanded import Expanded
+from urdfkit.description.xacro.stock_xacro import recovered, xacro_for
 from urdfkit.description.xml.reader import absolute, document_of, read_source, shown_path
 from urdfkit.errors import ResourceError, XmlError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any
-
-    from urdfkit.description.xacro.expansion import Run
     from urdfkit.description.xacro.fast.incremental import Memory
-    from urdfkit.description.xacro.recovery import RecoveringRun
-
-_LATER = ("ast", "glob", "xacro.cli")
-"""What xacro imports and needs for odd names, for includes with ``*``, and for its own command line."""
-
-_LOCK = RLock()
-_RECURSION_LIMIT = 10_000
 
 
 def expand(
@@ -71,7 +55,7 @@ def expand(
     from urdfkit.description.xacro.expansion import Run
 
     run = Run(str(path), arguments or {}, packages)
-    with _xacro_for(run):
+    with xacro_for(run):
         try:
             run.expand()
         except XmlError:
@@ -126,73 +110,9 @@ def expand_leniently(
     return quick.outcome()
 
 
-def recovered(run: RecoveringRun) -> RecoveringRun:
-    """Expand by a run, and by others that know what the one before found defined too late; return the last."""
-    for _ in range(3):
-        with _xacro_for(run):
-            run.expand()
-        if (again := run.with_hindsight()) is None:
-            break
-        run = again
-    return run
-
-
 def is_xacro(path: str | Path) -> bool:
     """Whether a file is run through xacro: all but ``.urdf`` files are (which xacro leaves as they are if plain)."""
     return not str(path).lower().endswith(".urdf")
-
-
-class _Later(ModuleType):
-    """A module that is imported when somebody takes something from it."""
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("__"):
-            raise AttributeError(name)
-        if sys.modules.get(self.__name__) is self:
-            del sys.modules[self.__name__]
-        return getattr(import_module(self.__name__), name)
-
-
-def _process_args(*arguments: Any, **options: Any) -> Any:
-    from xacro.cli import process_args
-
-    return process_args(*arguments, **options)
-
-
-def _stock() -> Any:
-    """Import xacro without what most files do not need of it: that takes as long as expanding a small one."""
-    if "xacro" not in sys.modules:
-        later: dict[str, Any] = {name: _Later(name) for name in _LATER if name not in sys.modules}
-        if "xacro.cli" in later:
-            later["xacro.cli"].process_args = _process_args
-        sys.modules.update(later)
-        try:
-            import xacro
-        finally:
-            for name, module in later.items():
-                if sys.modules.get(name) is module:
-                    del sys.modules[name]
-    import xacro
-
-    return xacro
-
-
-@contextmanager
-def _xacro_for(run: Run) -> Iterator[None]:
-    """Lend xacro's module globals to one run."""
-    xacro = _stock()
-    with _LOCK:
-        lent = run.take(xacro)
-        saved = {name: getattr(xacro, name) for name in lent}
-        recursion_limit = sys.getrecursionlimit()
-        vars(xacro).update(lent)
-        # The hooks add frames to every level of macro calls; what stock xacro can nest must still fit.
-        sys.setrecursionlimit(max(recursion_limit, _RECURSION_LIMIT))
-        try:
-            yield
-        finally:
-            sys.setrecursionlimit(recursion_limit)
-            vars(xacro).update(saved)
 
 
 def _read_plain(

@@ -4,8 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from urdfkit.description.xml.source import Origin
+from urdfkit.description.xml.source import Expansion, Origin
 from urdfkit.record import field, record
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+MAX_DEPTH = 200
+"""A description is refused when its elements are nested deeper; people's nest less than 20 deep."""
+
+STAMP = "urdfkit.origin"
+"""The key under which the elements of a minidom carry their `Stamp` (as DOM user data)."""
+
+Stamp = tuple[str, int, int, tuple[Expansion, ...]]
+"""File, line, column and chain of macro calls: an `Origin` before anybody asks for it."""
 
 
 @record(eq=False)
@@ -46,3 +59,9 @@ class Element:
         yield self
         for child in self.children:
             yield from child.walk()
+
+
+def stamp_of(node: Any) -> Stamp:
+    """Return the stamp of a minidom element that `stamped_document` made, or of a clone of one."""
+    stamp: Stamp = node.getUserData(STAMP)
+    return stamp

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from xml.dom.expatbuilder import ExpatBuilder, ExpatBuilderNS
 
-from urdfkit.description.xml.reader import MAX_DEPTH, STAMP, stamp_of
+from urdfkit.description.xml.element import MAX_DEPTH, STAMP, stamp_of
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

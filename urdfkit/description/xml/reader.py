@@ -13,8 +13,8 @@ from functools import partial
 from pathlib import Path
 from xml.parsers import expat
 
-from urdfkit.description.xml.element import Element
-from urdfkit.description.xml.source import Expansion, Origin, Position, Source, content_of
+from urdfkit.description.xml.element import MAX_DEPTH, Element, stamp_of
+from urdfkit.description.xml.source import Origin, Position, Source, content_of
 from urdfkit.errors import ResourceError, XmlError
 
 TYPE_CHECKING = False
@@ -24,9 +24,6 @@ if TYPE_CHECKING:
 
 MAX_BYTES = 64 * 2**20
 """A description is refused when it is larger [bytes]."""
-
-MAX_DEPTH = 200
-"""A description is refused when its elements are nested deeper; people's nest less than 20 deep."""
 
 MAX_MADE_DEPTH = 400
 """What macros and blocks make is refused when it is nested deeper: Python, and what looks through it, allow 1,000."""
@@ -39,12 +36,6 @@ MAX_ATTRIBUTES = 1_000
 
 MAX_TAGS = 100_000
 """A description is refused when it has more tags and comments; a robot of 1,200 links has 30,000."""
-
-STAMP = "urdfkit.origin"
-"""The key under which the elements of a minidom carry their `Stamp` (as DOM user data)."""
-
-Stamp = tuple[str, int, int, tuple[Expansion, ...]]
-"""File, line, column and chain of macro calls: an `Origin` before anybody asks for it."""
 
 _TAG_NAME = r"</?\s*([^\s<>/]*)"
 
@@ -181,12 +172,6 @@ def element_of(node: Any, depth: int = 0) -> Element:
     # <xacro:attribute> may leave a number where minidom wants text.
     attributes = {name: str(attribute.value) for name, attribute in (node._attrs or {}).items()}
     return Element(node.tagName, attributes, children, text.strip(), Origin(Position(file, line, column), expansions))
-
-
-def stamp_of(node: Any) -> Stamp:
-    """Return the stamp of a minidom element that `stamped_document` made, or of a clone of one."""
-    stamp: Stamp = node.getUserData(STAMP)
-    return stamp
 
 
 def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[str, int]]]) -> None:

@@ -6,11 +6,8 @@ import os
 from functools import cached_property
 from pathlib import Path
 
+from urdfkit.position import Position as Position
 from urdfkit.record import field, record
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    from urdfkit.description.xml.start_tag import StartTag
 
 
 def content_of(path: Path, most: int = -1) -> bytes:
@@ -29,18 +26,6 @@ def content_of(path: Path, most: int = -1) -> bytes:
     if content is None:
         raise BlockingIOError(11, "it is no file on disk", str(path))
     return content
-
-
-@record(order=True)
-class Position:
-    """A place in a file. Lines and columns count from 1; columns count characters, not bytes."""
-
-    file: str
-    line: int
-    column: int
-
-    def __str__(self) -> str:
-        return f"{self.file}:{self.line}:{self.column}"
 
 
 @record(order=True)
@@ -173,18 +158,6 @@ class Source:
         """Return the span between two offsets."""
         first, last = self.position(start), self.position(end)
         return Span(self.file, first.line, first.column, last.line, last.column)
-
-    def start_tag(self, position: Position) -> StartTag | None:
-        """Return the parts of the start tag at `position` (an `Origin`'s), or None when there is none."""
-        from urdfkit.description.xml.start_tag import start_tag
-
-        return start_tag(self, position)
-
-    def element_span(self, position: Position) -> Span | None:
-        """Return the span of the whole element whose start tag is at `position`, end tag included."""
-        from urdfkit.description.xml.start_tag import element_span
-
-        return element_span(self, position)
 
 
 class Overlay(str):

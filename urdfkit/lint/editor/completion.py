@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from urdfkit.description.urdf.robot import JOINT_TYPES
+from urdfkit.lint.editor.plugin_parameters import described, plugin_around
 from urdfkit.lint.model.xacro_prefix import URDF_ATTRIBUTES, URDF_CHILDREN
 from urdfkit.record import record
 
@@ -13,7 +14,6 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from urdfkit.description.plugins import PluginSpec
     from urdfkit.lint.editor.cursor import Cursor
     from urdfkit.lint.model.model import Model
     from urdfkit.lint.model.tags import Tag
@@ -77,20 +77,6 @@ def fits(model: Model, cursor: Cursor) -> list[Fit]:
     return list(_attributes(model, name, attributes, len(last[0]) if last is not None else 0))
 
 
-def plugin_around(tag: Tag | None) -> list[PluginSpec]:
-    """Return the tables of the plugin that a tag is; none where it is none, or none that we know."""
-    written = tag.attributes.get("filename") if tag is not None and tag.name == "plugin" else None
-    if written is None or tag is None:
-        return []
-    from urdfkit.description.plugins import ALL_SPECS
-    from urdfkit.description.plugins.lookup import stem
-
-    name = tag.attributes.get("name")
-    found = [spec for spec in ALL_SPECS if stem(written.value) in spec.filenames]
-    exact = [spec for spec in found if name is not None and name.value.strip() in spec.class_names]
-    return exact or found
-
-
 def _around(cursor: Cursor) -> Tag | None:
     """Return the element that what is being typed stands in."""
     start = cursor.document.source.text.rfind("<", 0, cursor.offset)
@@ -115,8 +101,6 @@ def _open_at(text: str) -> Iterator[str]:
 def _elements(model: Model, cursor: Cursor, typed: int) -> Iterator[Fit]:
     around = _around(cursor)
     for spec in plugin_around(around):
-        from urdfkit.lint.editor.hover import described
-
         for parameter in spec.parameters:
             detail = f"{spec.kind} ({spec.generation}): {described(parameter)}"
             yield Fit(parameter.tag, "parameter", detail, typed)

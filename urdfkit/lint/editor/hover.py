@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from urdfkit.lint.editor.navigation import at
+from urdfkit.lint.editor.plugin_parameters import described, plugin_around
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from urdfkit.description.plugins import Parameter
     from urdfkit.description.urdf.robot import Link
     from urdfkit.lint.editor.cursor import Cursor
     from urdfkit.lint.finding import Finding
@@ -67,8 +67,6 @@ def _listed(written: str, values: list[str]) -> str:
 
 def _parameter(cursor: Cursor) -> list[str]:
     """Return what the tables say of a plugin's parameter."""
-    from urdfkit.lint.editor.completion import plugin_around
-
     tag = cursor.tag
     if tag is None or tag.parent is None:
         return []
@@ -78,16 +76,6 @@ def _parameter(cursor: Cursor) -> list[str]:
         if parameter is not None:
             found.append(f"`<{tag.name}>` of {spec.kind} ({spec.generation}): {described(parameter)}")
     return found
-
-
-def described(parameter: Parameter) -> str:
-    """Return what a parameter is, in a few words."""
-    meaning = parameter.meaning.replace("_", " ")
-    unit = f" {parameter.unit}" if parameter.unit else ""
-    default = parameter.default
-    rest = "has to be written" if default is None else f"default `{default}`" if default else "default empty"
-    names = f"; names a {parameter.names}" if parameter.names else ""
-    return f"{meaning}{unit}, {rest}{names}"
 
 
 def _macro(model: Model, cursor: Cursor) -> list[str]:

@@ -64,9 +64,9 @@ def file_at(model: Model, cursor: Cursor) -> Path | None:
         if not path.is_file():
             path = model.expanded.packages.relocate(path) or path
         return path if "$" not in value and path.is_file() else None
-    for mesh, element, _ in meshes(model):
+    for mesh, element, _ in meshes(model.robot):
         if model.tag(element.origin.position) is tag:
-            return path_of(mesh, model)
+            return path_of(mesh, model.expanded)
     return None
 
 

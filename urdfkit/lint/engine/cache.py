@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 
     from urdfkit.description.packages.resolver import Packages
     from urdfkit.description.xacro.expanded import Expanded
-    from urdfkit.lint.engine.run import Options
     from urdfkit.lint.project.entry_files import Entry
+    from urdfkit.lint.project.options import Options
 
 _VARIABLES = (
     "ROS_PACKAGE_PATH",

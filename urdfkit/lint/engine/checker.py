@@ -14,48 +14,25 @@ from urdfkit.description.xml.source import Origin, Position
 from urdfkit.lint.finding import Finding, Found
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.entry_files import Entry, is_nearly_robot
+from urdfkit.lint.project.options import Options
 from urdfkit.lint.project.rule_selection import selection
 from urdfkit.lint.project.target import family_of, release_of
 from urdfkit.lint.rule import FaultRule, RobotRule, Rule, SourceRule
 from urdfkit.lint.rules import around_rules, fault_rules, robot_rules, source_rules
-from urdfkit.record import field, record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Iterator
     from typing import Any
 
     from urdfkit.description.urdf.robot import Robot
     from urdfkit.description.xacro.fast.incremental import Memory
     from urdfkit.description.xml.source import Source
     from urdfkit.lint.engine.cache import Cache
-    from urdfkit.lint.engine.suppressions import Suppression
+    from urdfkit.lint.facts.suppressions import Suppression
 
 _EVERYWHERE = ("xml", "encoding", "misspelt-directive", "directive-attribute", "too-large", "too-many")
 """Kinds of faults that count in a file which others include, too: the rest may be due to what only those define."""
-
-
-@record
-class Options:
-    """What to look for, and how to expand.
-
-    Attributes:
-        select: codes, or beginnings of codes, to report; all where it is empty.
-        ignore: codes, or beginnings, not to report.
-        target: the consumer the robot is meant for, as `known_target` returns it.
-        arguments: values for ``$(arg …)``.
-        package_path: folders to look for packages in first.
-        texts: contents to lint instead of those on disk, by absolute path.
-        guess_target: where `target` is None, take what the package.xml of each robot tells.
-    """
-
-    select: tuple[str, ...] = ()
-    ignore: tuple[str, ...] = ()
-    target: str | None = None
-    arguments: Mapping[str, str] = field(default_factory=dict)
-    package_path: tuple[Path, ...] = ()
-    texts: Mapping[str, str] = field(default_factory=dict)
-    guess_target: bool = False
 
 
 def model_of(path: Path, options: Options, *, packages: Packages | None = None, memory: Memory | None = None) -> Model:
@@ -218,7 +195,7 @@ class Checker:
 
     def _suppress(self, findings: list[Finding], model: Model, entry: Entry) -> tuple[list[Finding], tuple[str, ...]]:
         """Return what no comment suppresses, and the places of the comments that do, for all files of the model."""
-        from urdfkit.lint.engine.suppressions import suppressed, suppressions
+        from urdfkit.lint.facts.suppressions import suppressed, suppressions
         from urdfkit.lint.rules.document.unknown_suppression import UnknownSuppression
         from urdfkit.lint.rules.document.unused_suppression import UnusedSuppression
 

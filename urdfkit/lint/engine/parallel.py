@@ -9,15 +9,15 @@ from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 
 from urdfkit.errors import ResourceError
-from urdfkit.lint.engine.run import Checker
+from urdfkit.lint.engine.checker import Checker
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from urdfkit.lint.engine.run import Options
     from urdfkit.lint.finding import Found
     from urdfkit.lint.project.entry_files import Entry
+    from urdfkit.lint.project.options import Options
 
 _checkers: list[Checker] = []
 """The checker of this process, once it has one: what it learns of packages serves all its files."""

@@ -5,11 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from urdfkit.errors import ResourceError
-from urdfkit.lint.engine.checker import Checker as Checker
-from urdfkit.lint.engine.checker import Options as Options
-from urdfkit.lint.engine.checker import model_of as model_of
+from urdfkit.lint.engine.checker import Checker
 from urdfkit.lint.finding import SEVERITIES, Finding
 from urdfkit.lint.project.entry_files import Entry, find_entries
+from urdfkit.lint.project.options import Options
 from urdfkit.lint.project.target import known_target
 from urdfkit.record import record
 

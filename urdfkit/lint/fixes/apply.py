@@ -12,8 +12,12 @@ from pathlib import Path
 
 from urdfkit.description.xml.source import Overlay
 from urdfkit.errors import ResourceError
-from urdfkit.lint.engine.run import Options, Outcome, run
+from urdfkit.lint.engine.run import (
+    Outcome,
+    run,
+)
 from urdfkit.lint.fixes.regressions import Written, left_over, new_findings
+from urdfkit.lint.project.options import Options
 from urdfkit.record import record
 
 TYPE_CHECKING = False

@@ -101,9 +101,9 @@ def _moments(geometry: Geometry, model: Model, notes: dict[str, None]) -> Moment
 
     if not isinstance(geometry, Mesh):
         return of_primitive(geometry)
-    from urdfkit.lint.model.mesh_files import moments
+    from urdfkit.lint.facts.inertia.mesh_moments import moments
 
-    found, note = moments(geometry, model)
+    found, note = moments(geometry, model.expanded)
     if note:
         notes[note] = None
     return found

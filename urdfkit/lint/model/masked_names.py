@@ -16,10 +16,35 @@ from urdfkit.lint.model.xacro_prefix import misspelt_in_robot
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
+    from typing import Protocol
 
+    from urdfkit.description.urdf.robot import Robot
+    from urdfkit.description.xacro.expanded import Expanded
     from urdfkit.description.xacro.faults import Fault
-    from urdfkit.lint.model.model import Model
-    from urdfkit.lint.model.tags import Tag
+    from urdfkit.description.xml.source import Position
+    from urdfkit.lint.model.tags import Document, Tag
+
+    class Model(Protocol):
+        """What is asked here of `urdfkit.lint.model.model.Model`."""
+
+        @property
+        def robot(self) -> Robot:
+            """The robot."""
+
+        @property
+        def expanded(self) -> Expanded:
+            """The outcome of the expansion."""
+
+        @property
+        def hidden(self) -> Hidden:
+            """What may be in what is missing."""
+
+        def document(self, file: str) -> Document:
+            """Return the tags of a file."""
+
+        def tag(self, position: Position) -> Tag | None:
+            """Return the tag at a position."""
+
 
 _NAMED = ("link", "joint")
 _EXPRESSION = r"(\$\([^()]*\)|\$\{[^{}]*\})"

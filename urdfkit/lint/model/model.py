@@ -241,7 +241,7 @@ class Model:
         if mesh not in self._boxes:
             from urdfkit.lint.model.mesh_files import box
 
-            self._boxes[mesh] = box(mesh, self)
+            self._boxes[mesh] = box(mesh, self.expanded)
         return self._boxes[mesh]
 
     @cached_property

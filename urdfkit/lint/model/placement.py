@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import cos, hypot, pi, sin, sqrt
 
+from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
 from urdfkit.record import record
 
@@ -65,7 +66,7 @@ class Frame:
 def frames(robot: Robot) -> dict[str, Frame]:
     """Return link name → its frame in the root link, every joint at zero."""
     found = {link.name: Frame() for link in robot.roots()}
-    for joint in robot.tree_order():
+    for joint in tree_order(robot):
         if joint.child is not None and joint.parent in found and joint.child not in found:
             found[joint.child] = found[joint.parent].moved(joint.origin)
     return found

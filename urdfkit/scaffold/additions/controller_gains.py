@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 from urdfkit.description.sdf.poses import compose, rotate, rotation_of, transpose
+from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Inertia, Joint, Pose, Robot, Vector
 
 _GRAVITY = 9.81
@@ -43,7 +44,7 @@ def gains(robot: Robot, joint: Joint) -> Gains:
 def _carried(robot: Robot, joint: Joint) -> tuple[float, float]:
     """Return the inertia about the axis [kg m²] and the greatest moment of the weight [N m]; of slides in kg and N."""
     places = {joint.child: Pose()}
-    for other in robot.tree_order():
+    for other in tree_order(robot):
         if other.parent in places and other.child is not None and other.child not in places:
             places[other.child] = compose(places[other.parent], other.origin)
     length = sqrt(sum(part * part for part in joint.axis)) or 1.0

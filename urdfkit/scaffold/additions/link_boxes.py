@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from math import sqrt
 
 from urdfkit.description.sdf.poses import Rotation, between, compose, rotation_of
+from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Link, Mesh, Pose, Robot, Sphere, Vector
 from urdfkit.errors import MissingDependencyError, ResourceError
 
@@ -27,7 +28,7 @@ class Boxes:
     def __init__(self, robot: Robot) -> None:
         self._robot = robot
         self._poses = {root.name: Pose() for root in robot.roots()}
-        for joint in robot.tree_order():
+        for joint in tree_order(robot):
             if joint.parent in self._poses and joint.child is not None:
                 self._poses[joint.child] = compose(self._poses[joint.parent], joint.origin)
         self._meshes: dict[Mesh, Bounds | None] = {}

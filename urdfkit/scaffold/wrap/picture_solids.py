@@ -8,6 +8,7 @@ from math import inf, sqrt
 from typing import Literal
 
 from urdfkit.description.sdf.poses import Rotation, compose, rotate, rotation_of, transpose
+from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Pose, Robot, Sphere, Vector
 
 _GREY = (0.7, 0.7, 0.7)
@@ -48,7 +49,7 @@ def solids_of(robot: Robot) -> list[Solid]:
         robot: a tree.
     """
     poses = {root.name: Pose() for root in robot.roots()}
-    for joint in robot.tree_order():
+    for joint in tree_order(robot):
         if joint.parent in poses and joint.child is not None:
             poses[joint.child] = compose(poses[joint.parent], joint.origin)
     named = {material.name: material.rgba for material in robot.materials if material.rgba is not None}

@@ -7,11 +7,9 @@ from dataclasses import dataclass
 from functools import partial
 from statistics import median
 
-from urdfkit.sim.bench.correctness_checks import Check
 from urdfkit.sim.bench.engine_scene import InUrdfkit
 from urdfkit.sim.bench.peer_engines import GLANCE, Choice, Peer, Trial, choose, rate
-from urdfkit.sim.bench.running_scene import Running
-from urdfkit.sim.bench.scene import Scene
+from urdfkit.sim.bench.scene import Check, Running, Scene
 from urdfkit.sim.bench.scenes import robots
 from urdfkit.sim.bench.simulator_scene import InSimulator, fits
 

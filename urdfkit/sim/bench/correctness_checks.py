@@ -3,16 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from math import atan2, cos, hypot, isfinite, pi, sin, sqrt
-from typing import TYPE_CHECKING
+from math import atan2, cos, hypot, pi, sin, sqrt
 
-from urdfkit.sim.bench.scene import DT, Thing
+from urdfkit.sim.bench.scene import DT, Check, Running, Thing
 
-if TYPE_CHECKING:
-    from urdfkit.sim.bench.running_scene import Running
-
-Checks = tuple["Check", ...]
+Checks = tuple[Check, ...]
 
 MOTION, SKIDDING = 0.05, 0.1
 """Share of speed or turning rate by which a robot may be off that rolls, or that skids."""
@@ -26,30 +21,6 @@ HOLD = 1.0
 """Simulated seconds an arm has to come to rest."""
 SETTLE = 2.0
 """Simulated seconds a stack is watched."""
-
-
-@dataclass(frozen=True, slots=True)
-class Check:
-    """One thing that must be so.
-
-    Attributes:
-        what: is looked at.
-        value: as found; of several robots the one that is furthest off.
-        ideal: as it must be.
-        tolerance: by which it may be off.
-        unit: of the three.
-    """
-
-    what: str
-    value: float
-    ideal: float
-    tolerance: float
-    unit: str
-
-    @property
-    def ok(self) -> bool:
-        """Whether it is so."""
-        return isfinite(self.value) and abs(self.value - self.ideal) <= self.tolerance
 
 
 def drives(speed: float, rate: float) -> Callable[[Running], Checks]:

@@ -11,8 +11,14 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from urdfkit.sim.bench.running_scene import Pose, Running
-from urdfkit.sim.bench.scene import DT, GRAVITY, Scene, Thing
+from urdfkit.sim.bench.scene import (
+    DT,
+    GRAVITY,
+    Pose,
+    Running,
+    Scene,
+    Thing,
+)
 
 
 @dataclass(frozen=True, slots=True)

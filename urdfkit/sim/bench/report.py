@@ -8,9 +8,8 @@ from statistics import median
 from typing import Any
 
 from urdfkit.sim.bench.comparison import COUNTS, OURS, SCALING, WHOLE, Compared, Scaled, Speed
-from urdfkit.sim.bench.correctness_checks import Check
 from urdfkit.sim.bench.memory_use import MOST, ROBOT, WORLD, Memory
-from urdfkit.sim.bench.scene import CALL, DT
+from urdfkit.sim.bench.scene import CALL, DT, Check
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
 Vector = tuple[float, float, float]
 
 
@@ -71,3 +76,44 @@ class Contact:
     force: Vector
     a_shape: int = 0
     b_shape: int = -1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Touching:
+    """A collision shape, as the kernel knows it.
+
+    Attributes:
+        link: what contacts call what it is on.
+        number: of the shape among those of its link, in their order.
+        body: number of the body it is on; -1 when it does not move, and then it is placed in the world.
+        owner: number of the robot or body it belongs to.
+        meets: whether it touches others of its owner.
+        kind: of shape.
+        size: [m], see `ground_contacts`.
+        R: axes in the body.
+        p: centre in the body [m].
+        radius: of a ball round the centre that holds the shape [m].
+        mu: friction coefficient along `along`.
+        mu2: across it.
+        along: direction of `mu`, in `along_body` or, if that is -1, in the world; zero for none.
+        along_body: number of the body it turns with.
+        vertices: of a hull or mesh [m], shape (n, 3).
+        triangles: of a mesh [m], shape (m, 3, 3); of a hull those it was made from do not matter.
+    """
+
+    link: str
+    number: int
+    body: int
+    owner: int
+    meets: bool
+    kind: int
+    size: tuple[float, float, float]
+    R: Array
+    p: Array
+    radius: float
+    mu: float
+    mu2: float
+    along: Array
+    along_body: int
+    vertices: Array
+    triangles: Array

@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.sim.engine.arrays import FOUND_CONTACTS, HAS_PAIRS, SLEEPING, Arrays
-from urdfkit.sim.engine.contact_surface import Contact
+from urdfkit.sim.engine.contact_surface import Contact, Touching
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR
-from urdfkit.sim.engine.layout.collision_shapes import Touching
 
 Array = NDArray[np.float64]
 

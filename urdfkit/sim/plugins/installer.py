@@ -16,12 +16,17 @@ from urdfkit.description.plugins.unknown_plugins import unknown
 from urdfkit.description.sdf.reader.world_plugins import NEEDLESS
 from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
 from urdfkit.errors import SimulationError, UsageError
-from urdfkit.sim.plugins.base import Controller, Drive, Sensor, Setup
+from urdfkit.sim.plugins.base import (
+    Controller,
+    Drive,
+    Sensor,
+)
 from urdfkit.sim.plugins.controllers import CONTROLLERS
 from urdfkit.sim.plugins.controllers.joints.joint_state_broadcaster import JointStatePublisher
 from urdfkit.sim.plugins.drives import DRIVES
 from urdfkit.sim.plugins.publishers import JointStates, all_joint_states, joint_states
 from urdfkit.sim.plugins.sensors import SENSORS
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.unknown_tags import SharedTopics, misspelt, not_read, strange
 
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from urdfkit.bus import Bus, Topic
+from urdfkit.description.urdf.queries import tree_order
 from urdfkit.messages import CLOCK, JOINT_STATE, TF, header, message_type, stamp, transform
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.topic_names import Topics
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from urdfkit.description.plugins import PluginSpec
     from urdfkit.description.urdf.robot import Plugin
     from urdfkit.kinematics import Kinematics
-    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.state.robot_state import State
 
 CLOCK_RATE = 100.0
@@ -139,7 +140,7 @@ def publish_fixed(bus: Bus, state: State, kinematics: Kinematics, namespace: str
 
 
 def _parents(kinematics: Kinematics, *, movable: bool) -> tuple[tuple[str, str], ...]:
-    joints = kinematics.robot.tree_order()
+    joints = tree_order(kinematics.robot)
     return tuple((j.parent or "", j.child or "") for j in joints if j.is_movable is movable)
 
 

@@ -16,7 +16,7 @@ from urdfkit.sim.engine.scalar_views import numbers
 
 if TYPE_CHECKING:
     from urdfkit.description.urdf.robot import Joint
-    from urdfkit.sim.plugins.controllers.pid import Gains
+    from urdfkit.sim.state.pid import Gains
 
 Array = NDArray[np.float64]
 

@@ -3,16 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.sim.state.poses import pose_of
 
 if TYPE_CHECKING:
     from urdfkit.sim.engine import Body
-    from urdfkit.sim.world.entities import Population
+    from urdfkit.sim.world.live_world import Stage
 
 ZERO = (0.0, 0.0, 0.0)
+
+
+class Population(Protocol):
+    """What bodies are in, see `urdfkit.sim.world.entities.Population`."""
+
+    _stage: Stage
+
+    def push(
+        self,
+        name: str,
+        force: Sequence[float] = ZERO,
+        torque: Sequence[float] = ZERO,
+        *,
+        at: Sequence[float] = ZERO,
+        for_seconds: float | None = None,
+    ) -> None:
+        """Push a body."""
+
+    def release(self, name: str) -> None:
+        """End all pushes on a body."""
 
 
 class Thing:

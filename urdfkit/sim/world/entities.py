@@ -17,7 +17,7 @@ from urdfkit.scene import Scene, Shape
 from urdfkit.sim.construction.initial_overlap import note_overlaps
 from urdfkit.sim.construction.rigid_bodies import looks_of, parts_of
 from urdfkit.sim.construction.spawn import Spawn
-from urdfkit.sim.plugins.base import Setup
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.arguments import Named, nearest
 from urdfkit.sim.state.poses import pose_of, seven
 from urdfkit.sim.world.body import Thing

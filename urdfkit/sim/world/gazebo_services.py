@@ -7,7 +7,7 @@ noted, and nothing else happens, as when a service answers with an error.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.messages import message_type, vector
@@ -29,15 +29,84 @@ from urdfkit.sim.state.quaternion import product, rotate
 from urdfkit.sim.world.spawn_requests import Arrival, arrival, arrival_of_text
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
     from urdfkit.bus import Bus
-    from urdfkit.sim.simulator import Simulator
+    from urdfkit.description.sdf import World
+    from urdfkit.description.urdf.robot import Pose
     from urdfkit.sim.state.robot_state import State
+    from urdfkit.sim.world.body import Thing
+    from urdfkit.sim.world.external_forces import Target
+    from urdfkit.sim.world.live_world import Stage
 
 MODEL_STATES_RATE = 100.0
 """[Hz]; Gazebo publishes them every step."""
 
 
-def listen(simulator: Simulator) -> None:
+class Simulation(Protocol):
+    """What the services act on, see `urdfkit.sim.simulator.Simulator`."""
+
+    bus: Bus
+    dt: float
+    _package_path: tuple[str | Path, ...]
+    _stage: Stage
+
+    @property
+    def t(self) -> float:
+        """Simulated time [s]."""
+        ...
+
+    @property
+    def world(self) -> World:
+        """The world as it is."""
+        ...
+
+    @property
+    def bodies(self) -> Mapping[str, Thing]:
+        """The world's rigid bodies by name."""
+        ...
+
+    def note(self, text: str) -> None:
+        """Tell the user something."""
+
+    def at(self, t: float, call: Callable[[], None]) -> None:
+        """Call `call` at simulated time `t` [s]."""
+
+    def spawn(self, model: Arrival, pose: Pose, *, name: str | None) -> str:
+        """Put a model or a robot into the world."""
+        ...
+
+    def remove(self, name: str) -> None:
+        """Take something out of the world."""
+
+    def place(self, name: str, pose: Pose, twist: Sequence[float] = ...) -> None:
+        """Put something elsewhere."""
+
+    def pose(self, name: str) -> tuple[float, ...]:
+        """Return where something is."""
+        ...
+
+    def push(
+        self,
+        name: str,
+        force: Sequence[float],
+        torque: Sequence[float],
+        *,
+        at: Sequence[float] = ...,
+        for_seconds: float | None = None,
+    ) -> None:
+        """Push a body or a link."""
+
+    def release(self, name: str) -> None:
+        """End all pushes on a body or link."""
+
+    def _free(self, name: str) -> str: ...
+
+    def _target(self, name: str) -> Target: ...
+
+
+def listen(simulator: Simulation) -> None:
     """Do what the topics of this module ask for."""
     heard = _Heard(simulator)
     world = f"/world/{simulator.world.name}"
@@ -58,7 +127,7 @@ def listen(simulator: Simulator) -> None:
         simulator.bus.subscribe(topic, type, _noting(simulator, topic, act))
 
 
-def _noting(simulator: Simulator, topic: str, act: Callable[[Any], None]) -> Callable[[Any], None]:
+def _noting(simulator: Simulation, topic: str, act: Callable[[Any], None]) -> Callable[[Any], None]:
     def receive(message: Any) -> None:
         try:
             act(message)
@@ -69,7 +138,7 @@ def _noting(simulator: Simulator, topic: str, act: Callable[[Any], None]) -> Cal
 
 
 class _Heard:
-    def __init__(self, simulator: Simulator) -> None:
+    def __init__(self, simulator: Simulation) -> None:
         self._simulator = simulator
 
     def set_model_state(self, message: Any) -> None:
@@ -185,7 +254,7 @@ class _Heard:
 class ModelStates(Publication):
     """``/gazebo/model_states``: where every model and robot is, and how it moves; only while somebody listens."""
 
-    def __init__(self, bus: Bus, dt: float, simulator: Simulator) -> None:
+    def __init__(self, bus: Bus, dt: float, simulator: Simulation) -> None:
         super().__init__(bus.advertise("/gazebo/model_states", MODEL_STATES), MODEL_STATES_RATE, dt)
         self._simulator = simulator
 

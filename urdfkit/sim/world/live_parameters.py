@@ -16,8 +16,8 @@ from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.kinematics.pinocchio_model import spatial_inertia
 from urdfkit.sim.construction.loading import sound_gravity
 from urdfkit.sim.engine import Surface
-from urdfkit.sim.plugins.controllers.pid import Gains
 from urdfkit.sim.state.arguments import nearest, number
+from urdfkit.sim.state.pid import Gains
 
 if TYPE_CHECKING:
     from urdfkit.sim.plugins.controllers.joint_handle import Follower

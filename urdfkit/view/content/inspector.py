@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
 from urdfkit.description.xml.source import Source
+from urdfkit.description.xml.start_tag import element_span
 from urdfkit.errors import ResourceError
 from urdfkit.kinematics.pinocchio_model import joint_model
 from urdfkit.scene.placement import pose_matrix
@@ -43,7 +45,7 @@ def inspection(kinematics: Kinematics) -> dict[str, Any]:
     robot = kinematics.robot
     excerpt = excerpts()
     links = [_link(robot.link_by_name[name], excerpt) for name in kinematics.link_names]
-    joints = [_joint(joint, kinematics, excerpt) for joint in robot.tree_order()]
+    joints = [_joint(joint, kinematics, excerpt) for joint in tree_order(robot)]
     order = {joint.name: i for i, joint in enumerate(robot.joints)}
     return {"root": kinematics.root, "links": links, "joints": sorted(joints, key=lambda row: order[row["name"]])}
 
@@ -61,7 +63,7 @@ def excerpts() -> Callable[[Element], dict[str, Any]]:
     def excerpt(element: Element) -> dict[str, Any]:
         at = element.origin.position
         text = source(at.file)
-        span = text.element_span(at) if text is not None else None
+        span = element_span(text, at) if text is not None else None
         last = at.line if span is None else min(span.end_line, at.line + LINES - 1)
         lines = [text.line(number) for number in range(at.line, last + 1)] if text is not None else []
         return {

@@ -9,7 +9,7 @@ from tornado.web import RequestHandler
 from urdfkit.view.server.access_control import Gate, headers
 
 if TYPE_CHECKING:
-    from urdfkit.view.server.server import Server
+    from urdfkit.view.server.page_server import PageServer
 
 REFUSED = """<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>urdfkit: not let in</title><link rel="stylesheet" href="/app/styles/refused.css">
@@ -24,7 +24,7 @@ class Guarded(RequestHandler):
 
     open_to_all = False
 
-    def initialize(self, server: Server) -> None:
+    def initialize(self, server: PageServer) -> None:
         """Take what the route hands over."""
         self.server = server
 

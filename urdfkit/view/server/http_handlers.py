@@ -16,7 +16,7 @@ from urdfkit.view.server.authenticated_handler import Guarded
 from urdfkit.view.server.websocket import Socket
 
 if TYPE_CHECKING:
-    from urdfkit.view.server.server import Server
+    from urdfkit.view.server.page_server import PageServer
 
 PING = 5.0
 """Seconds between pings; a browser that does not answer one before the next is gone."""
@@ -28,7 +28,7 @@ OFFLINE = "page/offline.js"
 """The module that only a page in one file begins with."""
 
 
-def application(server: Server) -> Application:
+def application(server: PageServer) -> Application:
     """Return the tornado application of a server."""
     files = {path.relative_to(APP).as_posix(): path for path in APP.rglob("*") if path.suffix in TYPES}
     files[MESHCAT] = meshcat_bundle()

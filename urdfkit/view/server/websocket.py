@@ -24,7 +24,7 @@ from urdfkit.view.server.broadcast import CLEAR
 from urdfkit.view.server.send_queue import Channel, Frame
 
 if TYPE_CHECKING:
-    from urdfkit.view.server.server import Server
+    from urdfkit.view.server.page_server import PageServer
 
 COMPLAINTS = 10
 """Dropped messages reported per page."""
@@ -39,7 +39,7 @@ class Socket(Guarded, WebSocketHandler):
 
     _numbers = itertools.count(1)
 
-    def initialize(self, server: Server) -> None:
+    def initialize(self, server: PageServer) -> None:
         """Take what the route hands over."""
         super().initialize(server)
         self.client = next(Socket._numbers)

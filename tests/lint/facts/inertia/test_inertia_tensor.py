@@ -6,9 +6,10 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from urdfkit.lint.engine.run import Options, model_of
+from urdfkit.lint.engine.checker import model_of
 from urdfkit.lint.facts.inertia.inertia_tensor import tensor_of
 from urdfkit.lint.facts.inertia.principal_moments import is_possible
+from urdfkit.lint.project.options import Options
 
 LINK = """<link name="a"><inertial>{origin}<mass value="{mass}"/>
 <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>{shapes}</link>"""

@@ -8,9 +8,11 @@ import pytest
 import trimesh
 
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Sphere
-from urdfkit.lint.engine.run import Options, model_of
+from urdfkit.lint.engine.checker import model_of
 from urdfkit.lint.facts.inertia.link_solids import Moments, of_primitive, placed, union
-from urdfkit.lint.model.mesh_files import meshes, moments
+from urdfkit.lint.facts.inertia.mesh_moments import moments
+from urdfkit.lint.model.mesh_files import meshes
+from urdfkit.lint.project.options import Options
 
 
 def entries(matrix: np.ndarray) -> list[float]:
@@ -84,7 +86,7 @@ def of_mesh(write, mesh: trimesh.Trimesh, scale: str = "1 1 1"):
     path = write("r.urdf", f'<robot name="r"><link name="a">{shape}</link></robot>')
     path.with_name("m.stl").write_bytes(mesh.export(file_type="stl"))
     model = model_of(path, Options())
-    return moments(next(meshes(model))[0], model)
+    return moments(next(meshes(model.robot))[0], model.expanded)
 
 
 def test_a_closed_mesh_is_summed_up_and_may_be_mirrored(write):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.simulation.features.feature import Done, Part, Takes
 from urdfkit.sim.construction.loading import STRONGEST
-from urdfkit.sim.plugins.controllers.pid import Gains
+from urdfkit.sim.state.pid import Gains
 from urdfkit.sim.world.live_parameters import LEAST_MASS, Tuning
 from urdfkit.view.protocol.page_requests import Order, Schema, number, numbers, text
 

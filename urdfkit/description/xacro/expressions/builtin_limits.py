@@ -11,9 +11,24 @@ from urdfkit.description.xacro.expressions.value_size import check_characters, c
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import Any
+    from collections.abc import Iterator
+    from typing import Any, Protocol
 
-    from urdfkit.description.xacro.expressions.limits import Bounds
+    class Bounds(Protocol):
+        """What the checks need of `limits.Bounds`."""
+
+        def each(self, items: Iterable[Any]) -> Iterator[Any]:
+            """Yield the items, each of which is a step."""
+
+        def spend(self, steps: int) -> None:
+            """Count steps."""
+
+        def plus(self, a: Any, b: Any) -> Any:
+            """Return a + b."""
+
+        def times(self, a: Any, b: Any) -> Any:
+            """Return a * b."""
+
 
 _MAX_FACTORIAL = 1_000
 _MAX_DIGITS = 3_000

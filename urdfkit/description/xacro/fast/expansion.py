@@ -68,7 +68,7 @@ class QuickRun(RecoveringRun):
 
     def printed(self) -> str:
         """Return the document as stock xacro prints it: by a run that keeps what is to be printed."""
-        from urdfkit.description.xacro.expand import recovered
+        from urdfkit.description.xacro.stock_xacro import recovered
 
         run = RecoveringRun(
             self.path, self.arguments, self.packages, mend_prefixes=self._mend_prefixes, texts=self.texts

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from urdfkit.description.xacro.expansion import Run
-    from urdfkit.description.xml.reader import Stamp
+    from urdfkit.description.xml.element import Stamp
 
 
 class Attributes(dict[str, str]):

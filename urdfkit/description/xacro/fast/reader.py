@@ -7,8 +7,8 @@ from xml.parsers import expat
 
 from urdfkit.description.xacro.fast.nodes import Attributes, Document, Node, with_texts
 from urdfkit.description.xacro.fast.templates import Pattern
-from urdfkit.description.xml.element import Element
-from urdfkit.description.xml.reader import MAX_DEPTH, MAX_VALUE, parse_with, refuse_excess, too_deep
+from urdfkit.description.xml.element import MAX_DEPTH, Element
+from urdfkit.description.xml.reader import MAX_VALUE, parse_with, refuse_excess, too_deep
 from urdfkit.description.xml.source import Origin, Position, Source
 from urdfkit.description.xml.vocabulary import TAGS
 

@@ -8,7 +8,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from urdfkit.lint.engine.suppressions import Suppression
+    from urdfkit.lint.facts.suppressions import Suppression
     from urdfkit.lint.finding import Finding
     from urdfkit.lint.model.model import Model
 

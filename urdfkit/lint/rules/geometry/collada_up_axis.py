@@ -52,12 +52,12 @@ class ColladaUpAxis(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each COLLADA file whose up axis or unit differs from URDF."""
         assets: dict[str, tuple[str, float]] = {}
-        for mesh, element, link in meshes(model):
+        for mesh, element, link in meshes(model.robot):
             uri = mesh.uri.strip()
             if not uri.lower().endswith(".dae"):
                 continue
             if uri not in assets:
-                assets[uri] = _asset(path_of(mesh, model))
+                assets[uri] = _asset(path_of(mesh, model.expanded))
             axis, unit = assets[uri]
             if axis not in ("", "Z_UP"):
                 message = f"mesh `{uri}` has {axis[0].lower()} up, which only some readers convert to z up"

@@ -56,7 +56,7 @@ class MeshAbsolutePath(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each literal absolute path."""
-        for mesh, element, link in meshes(model):
+        for mesh, element, link in meshes(model.robot):
             uri = mesh.uri.strip()
             if not is_absolute(uri) or model.literal(element, "filename") is None:
                 continue

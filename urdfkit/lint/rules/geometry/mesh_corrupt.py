@@ -62,9 +62,9 @@ class MeshCorrupt(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each file that contains no mesh."""
         faults: dict[str, str] = {}
-        for mesh, element, link in meshes(model):
+        for mesh, element, link in meshes(model.robot):
             if mesh.uri not in faults:
-                path = path_of(mesh, model)
+                path = path_of(mesh, model.expanded)
                 faults[mesh.uri] = _fault(path) if path is not None and path.is_file() else ""
                 box = model.box_of(mesh) if path is not None and not faults[mesh.uri] and any(mesh.scale) else None
                 if box is not None and not any(box[1]):

@@ -56,11 +56,11 @@ class MeshFileMissing(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each missing mesh file."""
         failures: dict[str, tuple[str, str] | None] = {}
-        for mesh, element, link in meshes(model):
+        for mesh, element, link in meshes(model.robot):
             if model.is_unresolved(element, "filename") or "$" in mesh.uri:
                 continue
             if mesh.uri not in failures:
-                failures[mesh.uri] = missing(mesh, model)
+                failures[mesh.uri] = missing(mesh, model.expanded)
             failure = failures[mesh.uri]
             if failure is None or failure[0] != "file":
                 continue

@@ -58,7 +58,7 @@ class MeshFormatUnsupported(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each mesh of an unsupported format."""
         formats = _FORMATS.get(model.target or "", _USUAL)
-        for mesh, element, link in meshes(model):
+        for mesh, element, link in meshes(model.robot):
             suffix = mesh.uri.strip().rpartition("/")[2].rpartition(".")[2].lower()
             if suffix not in formats and "$" not in suffix and not model.is_unresolved(element, "filename"):
                 reader = f"{model.target} does" if model.target in _FORMATS else "most readers do"

@@ -50,12 +50,12 @@ class MeshPackageUnknown(RobotRule):
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each missing package, at its first mesh."""
         reported: set[str] = set()
-        for mesh, element, link in meshes(model):
+        for mesh, element, link in meshes(model.robot):
             name = mesh.uri.strip().partition("://")[2].partition("/")[0]
             if name in reported or "$" in mesh.uri or not mesh.uri.strip().startswith(("package://", "model://")):
                 continue
             reported.add(name)
-            if missing(mesh, model) == ("package", name):
+            if missing(mesh, model.expanded) == ("package", name):
                 yield self.at(
                     model,
                     element,

@@ -86,7 +86,7 @@ class MeshScaleSuspect(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each mesh that is far too large or too small."""
-        sized_meshes = [(mesh, element, link, _size(model, mesh)) for mesh, element, link in meshes(model)]
+        sized_meshes = [(mesh, element, link, _size(model, mesh)) for mesh, element, link in meshes(model.robot)]
         if not any(size for *_, size in sized_meshes):
             return
         references = _reference_sizes(model)

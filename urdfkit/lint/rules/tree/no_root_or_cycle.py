@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.queries import cycles
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -47,7 +48,7 @@ class NoRootOrCycle(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each loop, at the last of its joints in the file."""
-        for loop in model.robot.cycles():
+        for loop in cycles(model.robot):
             last = max(loop, key=model.robot.joints.index)
             links = [str(joint.parent) for joint in loop]
             yield self.at(

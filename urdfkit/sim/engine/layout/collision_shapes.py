@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.scene import Shape
 from urdfkit.sim.engine.bodies import Body, Member
 from urdfkit.sim.engine.collision.support_points import HULL, MESH, PLANE
-from urdfkit.sim.engine.contact_surface import Surface
+from urdfkit.sim.engine.contact_surface import Surface, Touching
 from urdfkit.sim.engine.contacts import ground_contacts
 from urdfkit.sim.engine.layout.tree_arrays import pose_matrix
 from urdfkit.sim.engine.layout.wheel_shapes import as_wheel
@@ -25,47 +25,6 @@ Array = NDArray[np.float64]
 
 BOUNDLESS = 1e9
 """Radius of the ball round a plane [m]."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Touching:
-    """A collision shape, as the kernel knows it.
-
-    Attributes:
-        link: what contacts call what it is on.
-        number: of the shape among those of its link, in their order.
-        body: number of the body it is on; -1 when it does not move, and then it is placed in the world.
-        owner: number of the robot or body it belongs to.
-        meets: whether it touches others of its owner.
-        kind: of shape.
-        size: [m], see `ground_contacts`.
-        R: axes in the body.
-        p: centre in the body [m].
-        radius: of a ball round the centre that holds the shape [m].
-        mu: friction coefficient along `along`.
-        mu2: across it.
-        along: direction of `mu`, in `along_body` or, if that is -1, in the world; zero for none.
-        along_body: number of the body it turns with.
-        vertices: of a hull or mesh [m], shape (n, 3).
-        triangles: of a mesh [m], shape (m, 3, 3); of a hull those it was made from do not matter.
-    """
-
-    link: str
-    number: int
-    body: int
-    owner: int
-    meets: bool
-    kind: int
-    size: tuple[float, float, float]
-    R: Array
-    p: Array
-    radius: float
-    mu: float
-    mu2: float
-    along: Array
-    along_body: int
-    vertices: Array
-    triangles: Array
 
 
 def touching(members: Sequence[Member], bodies: Sequence[Body]) -> list[Touching]:

@@ -15,7 +15,7 @@ from urdfkit.sim.engine.contacts import ground_contacts
 from urdfkit.sim.engine.layout.tree_arrays import joint_subspace
 
 if TYPE_CHECKING:
-    from urdfkit.sim.engine.layout.collision_shapes import Touching
+    from urdfkit.sim.engine.contact_surface import Touching
 
 Array = NDArray[np.float64]
 

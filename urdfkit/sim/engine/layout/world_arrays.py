@@ -13,10 +13,13 @@ from urdfkit.sim.engine.collision.collide_pair import MOST
 from urdfkit.sim.engine.collision.convex_hull import convex_hull
 from urdfkit.sim.engine.collision.geometry_arrays import Geometry
 from urdfkit.sim.engine.collision.support_points import HULL, MESH
-from urdfkit.sim.engine.contact_surface import Ground
+from urdfkit.sim.engine.contact_surface import Ground, Touching
 from urdfkit.sim.engine.contacts import ground_contacts
 from urdfkit.sim.engine.island_solver.gauss_seidel import KEPT
-from urdfkit.sim.engine.layout.collision_shapes import Touching, box_of, still_box
+from urdfkit.sim.engine.layout.collision_shapes import (
+    box_of,
+    still_box,
+)
 from urdfkit.sim.engine.layout.tree_arrays import fill_free, fill_member
 
 Array = NDArray[np.float64]

@@ -14,8 +14,8 @@ from urdfkit.sim.plugins.controllers.joint_handle import LOOK, NEAR, Follower, J
 
 if TYPE_CHECKING:
     from urdfkit.sim.plugins.controllers.joint_limits import JointLimits
-    from urdfkit.sim.plugins.controllers.pid import Gains
     from urdfkit.sim.state.joint_commands import Motors
+    from urdfkit.sim.state.pid import Gains
     from urdfkit.sim.state.robot_state import State
 
 INTERFACES = ("position", "velocity", "effort")

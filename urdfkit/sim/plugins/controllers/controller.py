@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from urdfkit.errors import DescriptionError, did_you_mean
 from urdfkit.sim.plugins.controllers.command_output import Output
@@ -16,11 +16,19 @@ from urdfkit.sim.state.ticks import NEVER
 if TYPE_CHECKING:
     from urdfkit.bus import Topic
     from urdfkit.description.control import Settings
-    from urdfkit.sim.plugins.base import Setup
     from urdfkit.sim.plugins.controllers.joint_handle import Follower
-    from urdfkit.sim.plugins.controllers.mobile_base.odometry import Reckoning
+    from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.state.joint_commands import Motors
     from urdfkit.sim.state.robot_state import State
+
+
+class Estimator(Protocol):
+    """Odometry of a wheeled robot."""
+
+    frame: str
+
+    def estimate(self, state: State) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
+        """Return position [m] and quaternion x y z w at which the controller believes the robot to be now."""
 
 
 @dataclass
@@ -99,7 +107,7 @@ class Law(ABC):
         self.outputs: tuple[Output, ...] = ()
         self.publications: list[Publication] = []
         self.commands: dict[str, str] = {}
-        self.reckoning: Reckoning | None = None
+        self.reckoning: Estimator | None = None
         self.running = False
         self.configure()
 

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 from urdfkit.errors import SimulationError
 from urdfkit.messages import FLOAT
-from urdfkit.sim.plugins.base import Controller, Setup
+from urdfkit.sim.plugins.base import Controller
 from urdfkit.sim.plugins.controllers.joint_handle import Follower, JointHandle
-from urdfkit.sim.plugins.controllers.pid import Gains
 from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.state.pid import Gains
 from urdfkit.sim.state.ticks import NEVER
 
 if TYPE_CHECKING:

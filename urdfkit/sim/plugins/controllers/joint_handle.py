@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import inf, isfinite, pi, remainder
 from typing import TYPE_CHECKING
 
-from urdfkit.sim.plugins.controllers.pid import Gains, Integral
+from urdfkit.sim.state.pid import Gains, Integral
 
 if TYPE_CHECKING:
     from urdfkit.description.urdf.robot import Joint

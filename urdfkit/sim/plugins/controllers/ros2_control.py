@@ -14,7 +14,7 @@ from urdfkit.description.packages.resolver import near_path
 from urdfkit.description.plugins.controller_plugins import GAZEBO_ROS2_CONTROL
 from urdfkit.description.xml.numbers import number
 from urdfkit.errors import ResourceError, SimulationError, did_you_mean
-from urdfkit.sim.plugins.base import Controller, Setup
+from urdfkit.sim.plugins.base import Controller
 from urdfkit.sim.plugins.controllers.command_output import (
     INTERFACES,
     EffortOutput,
@@ -28,6 +28,7 @@ from urdfkit.sim.plugins.controllers.controller import Hardware
 from urdfkit.sim.plugins.controllers.controller_manager import serve
 from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
 from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 
 if TYPE_CHECKING:

@@ -11,16 +11,17 @@ from urdfkit.description.control import Settings, find_configuration
 from urdfkit.description.control.ros1_controllers import controllers
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.messages import BOOL
-from urdfkit.sim.plugins.base import Controller, Setup
+from urdfkit.sim.plugins.base import Controller
 from urdfkit.sim.plugins.controllers.command_output import EffortOutput, Output, PositionOutput, VelocityOutput
 from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
 from urdfkit.sim.plugins.controllers.controller import Hardware
 from urdfkit.sim.plugins.controllers.controller_manager import serve
 from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
 from urdfkit.sim.plugins.controllers.joint_limits import read_limits
-from urdfkit.sim.plugins.controllers.pid import read_gains
 from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.state.pid import read_gains
 
 if TYPE_CHECKING:
     from urdfkit.description.control import Configuration

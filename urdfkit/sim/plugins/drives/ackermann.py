@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from urdfkit.errors import SimulationError
 from urdfkit.messages import message_type
-from urdfkit.sim.plugins.base import Drive, Setup
+from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.drives.gazebo_pid import Pid
 from urdfkit.sim.plugins.drives.odometry_output import from_world, odometer
 from urdfkit.sim.plugins.drives.steering_joints import put
@@ -19,6 +19,7 @@ from urdfkit.sim.plugins.drives.velocity_command import Command
 from urdfkit.sim.plugins.drives.wheel_geometry import wheel_centre, wheel_radius
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
 from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.joint_commands import effort_limit
 from urdfkit.sim.state.mechanics import in_the_world

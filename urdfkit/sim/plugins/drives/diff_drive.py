@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 
 from urdfkit.errors import SimulationError
 from urdfkit.messages import BOOL
-from urdfkit.sim.plugins.base import Drive, Setup
+from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.drives.odometry_output import Estimate, by_encoder, from_wheels, from_world, odometer
-from urdfkit.sim.plugins.drives.speed_limits import limiter
 from urdfkit.sim.plugins.drives.velocity_command import Command
 from urdfkit.sim.plugins.drives.wheel_geometry import turns_right
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
 from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.plugins.speed_limits import limiter
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_odometry import WheelOdometry
 

@@ -9,11 +9,12 @@ from copy import copy
 from typing import TYPE_CHECKING
 
 from urdfkit.errors import SimulationError
-from urdfkit.sim.plugins.base import Drive, Setup
+from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.drives.odometry_output import from_mecanum, odometer
-from urdfkit.sim.plugins.drives.speed_limits import limiter
 from urdfkit.sim.plugins.drives.velocity_command import Command
 from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.setup import Setup
+from urdfkit.sim.plugins.speed_limits import limiter
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_odometry import MecanumOdometry
 

@@ -12,8 +12,8 @@ from urdfkit.messages import ODOMETRY, TF, header, message_type, transform, twis
 
 if TYPE_CHECKING:
     from urdfkit.bus import Bus, Topic
-    from urdfkit.sim.plugins.base import Setup
     from urdfkit.sim.plugins.parameters import Parameters
+    from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.plugins.topic_names import Topics
     from urdfkit.sim.plugins.wheel_odometry import BicycleOdometry, MecanumOdometry, WheelOdometry
 

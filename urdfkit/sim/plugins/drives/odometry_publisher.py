@@ -9,9 +9,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from urdfkit.errors import SimulationError
-from urdfkit.sim.plugins.base import Drive, Setup
+from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.drives.odometry_output import Estimate, Odometer, from_world
 from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.quaternion import from_rpy, product, rotate
 

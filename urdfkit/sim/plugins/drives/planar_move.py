@@ -9,10 +9,11 @@ from __future__ import annotations
 from math import cos, pi, remainder, sin
 from typing import TYPE_CHECKING
 
-from urdfkit.sim.plugins.base import Drive, Setup
+from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.drives.odometry_output import Estimate, from_world, odometer
 from urdfkit.sim.plugins.drives.velocity_command import Command
 from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.quaternion import rotate, yaw_of
 

@@ -14,8 +14,8 @@ from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_odometry import WheelOdometry
 
 if TYPE_CHECKING:
-    from urdfkit.sim.plugins.base import Setup
     from urdfkit.sim.plugins.parameters import Parameters
+    from urdfkit.sim.plugins.setup import Setup
 
 
 class SkidSteer(DiffDrive):

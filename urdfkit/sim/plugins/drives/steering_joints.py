@@ -6,7 +6,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.state.joint_commands import Motors
     from urdfkit.sim.state.robot_state import State
 

@@ -11,12 +11,13 @@ from copy import copy
 from math import pi
 from typing import TYPE_CHECKING
 
-from urdfkit.sim.plugins.base import Drive, Setup
+from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.drives.odometry_output import by_encoder, from_wheels, from_world, odometer
 from urdfkit.sim.plugins.drives.steering_joints import put
 from urdfkit.sim.plugins.drives.velocity_command import Command
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
 from urdfkit.sim.plugins.parameters import Parameters
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.plugins.wheel_odometry import WheelOdometry
 from urdfkit.sim.state.ticks import Ticks

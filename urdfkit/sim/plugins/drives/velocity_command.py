@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.messages import TWIST
 
 if TYPE_CHECKING:
-    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.plugins.setup import Setup
 
 STILL = (0.0, 0.0, 0.0)
 """No velocity."""

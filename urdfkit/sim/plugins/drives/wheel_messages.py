@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.messages import JOINT_STATE, TF, header, message_type, transform
 
 if TYPE_CHECKING:
-    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.state.robot_state import Snapshot, State
 
 

@@ -12,17 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.errors import SimulationError, did_you_mean
-from urdfkit.sim.plugins.base import Sensor, Setup
+from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.point_motion import Moment, Motion
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.ticks import NEVER
 
 if TYPE_CHECKING:
     from urdfkit.description.xml.element import Element
+    from urdfkit.sim.scene_view import Surroundings
     from urdfkit.sim.state.robot_state import State
-    from urdfkit.sim.world.scene_view import Surroundings
 
 Array = NDArray[np.float64]
 

@@ -13,16 +13,17 @@ from numpy.typing import NDArray
 from urdfkit.description.plugins.sensor_values import senseless_parameters
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import matmul
-from urdfkit.sim.plugins.base import Sensor, Setup
+from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.link_sensor import carrier
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of, refuse
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 
 if TYPE_CHECKING:
     from urdfkit.description.urdf.robot import SensorTag
+    from urdfkit.sim.scene_view import Layout
     from urdfkit.sim.state.robot_state import State
-    from urdfkit.sim.world.scene_view import Layout
 
 Array = NDArray[np.float64]
 

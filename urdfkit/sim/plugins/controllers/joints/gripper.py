@@ -11,7 +11,7 @@ from urdfkit.errors import DescriptionError
 from urdfkit.sim.plugins.controllers.actions.action_goal import ABORTED, SUCCEEDED, Action, RefusalError
 from urdfkit.sim.plugins.controllers.controller import Law
 from urdfkit.sim.plugins.controllers.joint_handle import Follower
-from urdfkit.sim.plugins.controllers.pid import read_gains
+from urdfkit.sim.state.pid import read_gains
 
 if TYPE_CHECKING:
     from collections.abc import Callable

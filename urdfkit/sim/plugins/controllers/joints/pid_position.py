@@ -15,7 +15,7 @@ from urdfkit.errors import DescriptionError
 from urdfkit.messages import FLOAT, FLOATS, JOINT_CONTROLLER_STATE, header, message_type
 from urdfkit.sim.plugins.controllers.controller import Law
 from urdfkit.sim.plugins.controllers.joint_handle import Follower
-from urdfkit.sim.plugins.controllers.pid import Gains, read_gains
+from urdfkit.sim.state.pid import Gains, read_gains
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -17,7 +17,7 @@ from urdfkit.linear_algebra import vector_norm
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.sim.plugins.controllers.controller import Law
 from urdfkit.sim.plugins.controllers.mobile_base.odometry import Reckoning
-from urdfkit.sim.plugins.drives.speed_limits import SpeedLimiter
+from urdfkit.sim.plugins.speed_limits import SpeedLimiter
 from urdfkit.sim.plugins.wheel_odometry import WheelOdometry
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ from urdfkit.sim.plugins.wheel_odometry import BicycleOdometry, along_arc
 if TYPE_CHECKING:
     from urdfkit.description.control import Settings
     from urdfkit.sim.plugins.controllers.command_output import Output
-    from urdfkit.sim.plugins.drives.speed_limits import SpeedLimiter
+    from urdfkit.sim.plugins.speed_limits import SpeedLimiter
     from urdfkit.sim.state.joint_commands import Motors
     from urdfkit.sim.state.robot_state import State
 

@@ -15,10 +15,10 @@ from urdfkit.sim.plugins.controllers.actions.action_goal import ABORTED, SUCCEED
 from urdfkit.sim.plugins.controllers.command_output import INTERFACES, Output
 from urdfkit.sim.plugins.controllers.controller import Law
 from urdfkit.sim.plugins.controllers.joint_handle import Follower
-from urdfkit.sim.plugins.controllers.pid import Gains, read_gains
 from urdfkit.sim.plugins.controllers.trajectory.spline import ROUNDING, Array, Trajectory, Waypoint
 from urdfkit.sim.plugins.controllers.trajectory.tolerances import Tolerances
 from urdfkit.sim.plugins.controllers.trajectory.trajectory_message import INVALID_JOINTS, TrajectoryReader, point_of
+from urdfkit.sim.state.pid import Gains, read_gains
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -25,10 +25,10 @@ from urdfkit.sim.plugins.sensors.cameras.camera import Camera, Sight
 from urdfkit.sim.plugins.sensors.cameras.camera_optics import CAMERA_INFO, IMAGE, image
 
 if TYPE_CHECKING:
-    from urdfkit.sim.plugins.base import Setup
     from urdfkit.sim.plugins.parameters import Parameters
+    from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.world.scene_view import Layout
+    from urdfkit.sim.scene_view import Layout
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]

@@ -36,10 +36,10 @@ if TYPE_CHECKING:
     from urdfkit.description.urdf.robot import SensorTag
     from urdfkit.description.xml.element import Element
     from urdfkit.scene.renderer import TakesPictures
-    from urdfkit.sim.plugins.base import Setup
     from urdfkit.sim.plugins.parameters import Parameters
+    from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.world.scene_view import Layout
+    from urdfkit.sim.scene_view import Layout
 
 Array = NDArray[np.float64]
 

@@ -14,8 +14,8 @@ from urdfkit.sim.plugins.sensors.cameras.depth_points import points, within
 from urdfkit.sim.plugins.sensors.cloud_messages import POINT_CLOUD_2
 
 if TYPE_CHECKING:
-    from urdfkit.sim.plugins.base import Setup
     from urdfkit.sim.plugins.parameters import Parameters
+    from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.plugins.topic_names import Topics
 
 

@@ -16,10 +16,10 @@ from urdfkit.sim.plugins.sensors.cameras.multicamera import MultiCamera
 from urdfkit.sim.plugins.sensors.cloud_messages import POINT_CLOUD_2
 
 if TYPE_CHECKING:
-    from urdfkit.sim.plugins.base import Setup
     from urdfkit.sim.plugins.parameters import Parameters
+    from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.world.scene_view import Layout
+    from urdfkit.sim.scene_view import Layout
 
 Array = NDArray[np.float64]
 

@@ -21,9 +21,9 @@ from urdfkit.sim.state.quaternion import from_matrix
 
 if TYPE_CHECKING:
     from urdfkit.description.urdf.robot import SensorTag
-    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.world.scene_view import Layout
+    from urdfkit.sim.scene_view import Layout
 
 Array = NDArray[np.float64]
 Sight = tuple[float, Array, list[tuple[str, Array]]]

@@ -19,18 +19,19 @@ from urdfkit.errors import SimulationError
 from urdfkit.messages import BOOL, header, message_type, vector
 from urdfkit.messages.sensors import CONTACT_STATE, CONTACTS_STATE, GZ_CONTACT, GZ_CONTACTS, GZ_JOINT_WRENCH
 from urdfkit.messages.simulation import ENTITY
-from urdfkit.sim.plugins.base import Sensor, Setup
+from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.contact.watched_contacts import Point, Seen, Touch, Watch
 from urdfkit.sim.plugins.sensors.link_sensor import carrier
 from urdfkit.sim.plugins.sensors.sensor_values import rate_of
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.ticks import NEVER
 
 if TYPE_CHECKING:
     from urdfkit.description.xml.element import Element
+    from urdfkit.sim.scene_view import Layout
     from urdfkit.sim.state.robot_state import State
-    from urdfkit.sim.world.scene_view import Layout
 
 Array = NDArray[np.float64]
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from urdfkit.description.sdf import World
     from urdfkit.description.urdf.robot import Robot
     from urdfkit.scene import Scene
-    from urdfkit.sim.world.scene_view import Layout
+    from urdfkit.sim.scene_view import Layout
 
 _LUMP = "_fixed_joint_lump__"
 _COUNTED = re.compile(r"_\d+$")

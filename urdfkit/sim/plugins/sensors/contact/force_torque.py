@@ -18,12 +18,13 @@ from numpy.typing import NDArray
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.linear_algebra import matmul
 from urdfkit.messages import header, message_type, vector
-from urdfkit.sim.plugins.base import Sensor, Setup
+from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.contact.joint_load import Wrench, below, lumps_of, momentum, weight
 from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
 from urdfkit.sim.plugins.sensors.point_motion import Moment
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.ticks import NEVER
 

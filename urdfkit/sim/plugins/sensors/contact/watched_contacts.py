@@ -16,9 +16,9 @@ from urdfkit.sim.plugins.sensors.contact.collision_names import Collision, colli
 if TYPE_CHECKING:
     from urdfkit.description.xml.element import Element
     from urdfkit.sim.engine import Contact
-    from urdfkit.sim.plugins.base import Setup
+    from urdfkit.sim.plugins.setup import Setup
+    from urdfkit.sim.scene_view import Layout
     from urdfkit.sim.state.robot_state import State
-    from urdfkit.sim.world.scene_view import Layout
 
 Array = NDArray[np.float64]
 Seen = dict[tuple[str, str], "list[Contact]"]

@@ -12,8 +12,8 @@ from urdfkit.sim.plugins.sensors import cloud_messages
 from urdfkit.sim.plugins.sensors.lidars.lidar import LASER_SCAN, RANGE, Lidar, Reading
 
 if TYPE_CHECKING:
-    from urdfkit.sim.plugins.base import Setup
     from urdfkit.sim.plugins.parameters import Parameters
+    from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.plugins.topic_names import Topics
 
 Messages = tuple[Callable[[Reading], Any], ...]

@@ -11,19 +11,19 @@ import numpy as np
 
 from urdfkit.messages import header, message_type
 from urdfkit.messages.sensors import GZ_ALTIMETER, HECTOR_ALTIMETER
-from urdfkit.sim.plugins.base import Setup
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
 from urdfkit.sim.plugins.sensors.link_sensor import Carried, Ride
 from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
 from urdfkit.sim.plugins.sensors.point_motion import Moment
 from urdfkit.sim.plugins.sensors.sensor_values import number
+from urdfkit.sim.plugins.setup import Setup
 
 if TYPE_CHECKING:
     from urdfkit.description.xml.element import Element
     from urdfkit.sim.plugins.topic_names import Topics
+    from urdfkit.sim.scene_view import Surroundings
     from urdfkit.sim.state.robot_state import State
-    from urdfkit.sim.world.scene_view import Surroundings
 
 FLUID_PRESSURE = "sensor_msgs/msg/FluidPressure"
 POINT = "geometry_msgs/msg/PointStamped"

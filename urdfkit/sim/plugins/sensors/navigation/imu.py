@@ -18,20 +18,20 @@ from numpy.typing import NDArray
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import matmul, vector_norm
 from urdfkit.messages import header, message_type, vector
-from urdfkit.sim.plugins.base import Setup
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
 from urdfkit.sim.plugins.sensors.link_sensor import Carried, Ride
 from urdfkit.sim.plugins.sensors.noise import Noise, noise_of
 from urdfkit.sim.plugins.sensors.point_motion import Moment
 from urdfkit.sim.plugins.sensors.sensor_values import rotation_matrix
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.quaternion import from_matrix
 
 if TYPE_CHECKING:
     from urdfkit.description.xml.element import Element
     from urdfkit.sim.plugins.topic_names import Topics
+    from urdfkit.sim.scene_view import Surroundings
     from urdfkit.sim.state.robot_state import State
-    from urdfkit.sim.world.scene_view import Surroundings
 
 IMU = "sensor_msgs/msg/Imu"
 

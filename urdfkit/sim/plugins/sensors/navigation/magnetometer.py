@@ -10,18 +10,18 @@ import numpy as np
 
 from urdfkit.linear_algebra import matmul
 from urdfkit.messages import header, message_type, vector
-from urdfkit.sim.plugins.base import Setup
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.hector_drift import drifting
 from urdfkit.sim.plugins.sensors.link_sensor import Carried, Ride
 from urdfkit.sim.plugins.sensors.navigation.altimeter_and_barometer import OneTopic, itself
 from urdfkit.sim.plugins.sensors.navigation.geodesy import Earth, earth_of
 from urdfkit.sim.plugins.sensors.noise import noise_of
+from urdfkit.sim.plugins.setup import Setup
 
 if TYPE_CHECKING:
     from urdfkit.description.xml.element import Element
     from urdfkit.sim.plugins.topic_names import Topics
-    from urdfkit.sim.world.scene_view import Surroundings
+    from urdfkit.sim.scene_view import Surroundings
 
 MAGNETIC_FIELD = "sensor_msgs/msg/MagneticField"
 VECTOR = "geometry_msgs/msg/Vector3Stamped"

@@ -13,9 +13,10 @@ import numpy as np
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.linear_algebra import matmul
 from urdfkit.messages import ODOMETRY, header, message_type, twist
-from urdfkit.sim.plugins.base import Sensor, Setup
+from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.sensors.point_motion import Moment, Motion
+from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
 from urdfkit.sim.state.quaternion import from_matrix, from_rpy, product
 

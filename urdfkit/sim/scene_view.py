@@ -24,13 +24,32 @@ from urdfkit.sim.construction.rigid_bodies import parts_of
 from urdfkit.sim.state.poses import seven
 
 if TYPE_CHECKING:
-    from urdfkit.sim.state.robot_state import Snapshot
-    from urdfkit.sim.world.simulated_robot import SimulatedRobot
+    from urdfkit.kinematics import Kinematics
+    from urdfkit.sim.state.robot_state import Snapshot, State
 
 Array = NDArray[np.float64]
 
 BODY = "world/"
 """Goes before the names of the world's bodies: no link has a slash there."""
+
+
+class SeenRobot(Protocol):
+    """What sensors may know of a robot, see `SimulatedRobot`."""
+
+    @property
+    def kinematics(self) -> Kinematics:
+        """Its model."""
+        ...
+
+    @property
+    def scene(self) -> Scene:
+        """Its shapes."""
+        ...
+
+    @property
+    def state(self) -> State:
+        """Where it is."""
+        ...
 
 
 class Populated(Protocol):
@@ -47,7 +66,7 @@ class Populated(Protocol):
         ...
 
     @property
-    def robots(self) -> Mapping[str, SimulatedRobot]:
+    def robots(self) -> Mapping[str, SeenRobot]:
         """By name."""
         ...
 
@@ -205,7 +224,7 @@ class Surroundings:
         return self._population.world
 
     @property
-    def robots(self) -> Mapping[str, SimulatedRobot]:
+    def robots(self) -> Mapping[str, SeenRobot]:
         """The robots by name."""
         return self._population.robots
 

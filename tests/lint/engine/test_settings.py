@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from urdfkit.errors import UsageError
-from urdfkit.lint.project.settings import Settings, find, read
+from urdfkit.lint.engine.settings import Settings, find, read
 
 WHOLE = """[lint]
 target = "ros2"

@@ -1,0 +1,72 @@
+"""What a mesh weighs: moments of its volume, summed over the tetrahedra of its triangles."""
+
+from __future__ import annotations
+
+from urdfkit.lint.facts.inertia.link_solids import Moments
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
+
+    from urdfkit.description.urdf.robot import Mesh
+    from urdfkit.description.xacro.expanded import Expanded
+
+
+def moments(mesh: Mesh, expanded: Expanded) -> tuple[Moments, str]:
+    """Return what a mesh weighs about its own frame, scale included, and what had to be taken for it; see `Moments`.
+
+    A closed surface is summed up over the tetrahedra between its triangles and the origin (Mirtich 1996 has the
+    integrals); what is not closed is taken as its convex hull, and as the box around it where there is no scipy.
+
+    Raises:
+        ResourceError: it is not there, or broken.
+        MissingDependencyError: trimesh is not installed.
+    """
+    import numpy as np
+
+    from urdfkit.errors import MissingDependencyError
+    from urdfkit.scene.meshes.loader import MeshLoader
+
+    path = expanded.packages.resolve(mesh.uri.strip(), expanded.path)
+    triangles = MeshLoader().load(path, mesh.scale)
+    points, indices = np.unique(triangles.vertices.astype(float), axis=0, return_inverse=True)
+    faces = indices.reshape(-1)[triangles.faces]
+    note = ""
+    box = float(np.prod(np.ptp(points, axis=0)))
+    a, b, c = (points[faces[:, corner]] for corner in range(3))
+    filled = abs(float(np.einsum("ij,ij", a, np.cross(b, c)))) / 6.0
+    if not _is_closed(faces) or filled < 1e-6 * box:
+        note = f"the surface of {path.name} is not closed: its convex hull is taken"
+        try:
+            import trimesh
+
+            hull = trimesh.convex.convex_hull(trimesh.Trimesh(points, faces, process=False))
+        except ImportError as error:
+            raise MissingDependencyError(
+                f"{path.name} is not closed, its hull needs scipy: pip install scipy"
+            ) from error
+        except Exception:
+            return Moments(0.0, (0.0, 0.0, 0.0), (0.0,) * 6), f"{path.name} is flat: it has no volume"
+        points, faces = np.asarray(hull.vertices, dtype=float), np.asarray(hull.faces)
+    a, b, c = (points[faces[:, corner]] for corner in range(3))
+    volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
+    first = volumes @ (a + b + c) / 4.0
+    corners = np.stack([a, b, c], axis=1)
+    whole = corners.sum(axis=1)
+    second = np.einsum("n,nci,ncj->ij", volumes, corners, corners) + np.einsum("n,ni,nj->ij", volumes, whole, whole)
+    second /= 20.0
+    sign = -1.0 if volumes.sum() < 0.0 else 1.0  # a surface inside out, or mirrored by its scale
+    x, y, z = (sign * first).tolist()
+    squares = tuple((sign * second[np.triu_indices(3)]).tolist())
+    return Moments(abs(float(volumes.sum())), (x, y, z), squares), note
+
+
+def _is_closed(faces: Any) -> bool:
+    """Whether every edge of a surface is walked once in each direction."""
+    import numpy as np
+
+    faces = faces[(faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])]
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
+    size = int(edges.max(initial=0)) + 1
+    forth, back = (np.sort(edges[:, i] * size + edges[:, 1 - i]) for i in (0, 1))
+    return len(faces) > 0 and bool(np.array_equal(forth, back))
