@@ -1,1 +1,4 @@
-"""What carries messages out of the process: recordings."""
+"""Carry messages out of the process: recordings.
+
+A bus goes in; an MCAP file that ``ros2 bag`` reads comes out.
+"""

@@ -1,4 +1,8 @@
-"""Compiling functions with numba, once per machine and version: see `load` and `whole_program`."""
+"""Compile functions with numba, once per machine and version.
+
+A function and the types of its arguments go in; machine code comes out, from the cache where it is there (`load`), else
+compiled as one program with all it calls (`whole_program`).
+"""
 
 from urdfkit.compilation.load import compile_or_load, own_sources
 

@@ -1,4 +1,7 @@
-"""Robot → pin.Model: configurations by name, frames of all links, transforms between them."""
+"""Forward kinematics of a robot by Pinocchio: configurations by name, frames of all links, transforms between them.
+
+A `Robot` goes in; placements, transforms and the ``pin.Model`` come out.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Write packages from templates: questions, answers, files, all or nothing."""
+"""Write packages from templates, all or nothing.
+
+A template and answers go in; packages, or changes to a description that exists, come out.
+"""
 
 from urdfkit.scaffold.templates.computed_answers import computed
 from urdfkit.scaffold.templates.names import check_package_name, sanitised

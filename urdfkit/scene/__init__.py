@@ -1,4 +1,7 @@
-"""One scene table for sensors and viewer: bodies, shapes, colours, meshes."""
+"""One scene table for sensors and viewer: bodies, shapes, colours, meshes.
+
+A robot or a world goes in; shapes on bodies come out, and pictures and distances by rays or OpenGL.
+"""
 
 from urdfkit.scene.extent import bounds, lowest_point
 from urdfkit.scene.meshes.loader import MeshLoader, TriMesh

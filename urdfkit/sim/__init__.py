@@ -1,5 +1,7 @@
 """The simulator: drives, sensors and controllers around the physics engine, publishing on a bus.
 
+A robot, a world and commands go in; states, messages and recordings come out.
+
 ::
 
     from urdfkit.sim import Simulator

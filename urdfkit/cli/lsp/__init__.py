@@ -1,4 +1,7 @@
-"""``urdfkit lsp``: a language server for URDF and xacro, on standard input and output."""
+"""``urdfkit lsp``: a language server for URDF and xacro, on standard input and output.
+
+Requests of an editor go in; diagnostics, hovers, completions and edits of `urdfkit.lint.editor` come out.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""``urdfkit new``: write packages from a template."""
+"""``urdfkit new``: write packages from a template, or add a sensor, an arm or controllers to a description.
+
+Arguments and answers go in; `urdfkit.scaffold` writes the files, and the next commands are printed.
+"""
 
 from __future__ import annotations
 

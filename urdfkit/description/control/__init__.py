@@ -1,4 +1,7 @@
-"""How controllers are configured: parameters in YAML, launch files that load them, and where both are found."""
+"""How controllers are configured: parameters in YAML, launch files that load them, and where both are found.
+
+A robot and its packages go in; settings that know their place come out.
+"""
 
 from __future__ import annotations
 

@@ -1,1 +1,4 @@
-"""How findings are shown: text for people, JSON for programs."""
+"""Formats of findings: text for people; JSON, SARIF, JUnit and GitHub annotations for programs.
+
+Findings go in; text comes out.
+"""

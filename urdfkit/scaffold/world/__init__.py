@@ -1,4 +1,7 @@
-"""Worlds for `urdfkit new world`: rooms, offices, houses, obstacles; the same answers give the same bytes."""
+"""Worlds for `urdfkit new world`: rooms, offices, houses, obstacles.
+
+Answers go in, SDF comes out; the same answers give the same bytes.
+"""
 
 from urdfkit.scaffold.world.world_contents import contents
 

@@ -1,4 +1,7 @@
-"""The physics engine: rigid bodies, contacts, friction, joint limits and motors, compiled."""
+"""The physics engine: rigid bodies, contacts, friction, joint limits and motors, compiled.
+
+Robots, bodies and targets go in; configurations, velocities and contacts after each step come out.
+"""
 
 from urdfkit.sim.engine.bodies import Body, Member, Piece
 from urdfkit.sim.engine.contact_surface import Contact, Ground, Surface

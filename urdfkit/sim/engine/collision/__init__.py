@@ -1,1 +1,4 @@
-"""Collisions between pairs of shapes, compiled: `collide_pair`, hulls and meshes as arrays."""
+"""Collisions between pairs of shapes, compiled: primitives, convex hulls (GJK, EPA) and meshes.
+
+Two shapes and their placements go in; contact points with normals and gaps come out.
+"""

@@ -1,1 +1,4 @@
-"""The step of a world: robots, free bodies and what they meet, island by island."""
+"""One step of the engine: a robot on its plane, or a world island by island.
+
+The arrays of the engine go in and come out one step later.
+"""

@@ -1,4 +1,7 @@
-"""Controllers the simulator knows, in the order they are tried."""
+"""Controllers of ros_control, ros2_control and Gazebo; `CONTROLLERS` lists them in the order they are tried.
+
+Parameters and commands go in; joint commands, states and odometry come out.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Drives the simulator knows, in the order they are tried."""
+"""Drives of wheeled robots; `DRIVES` lists them in the order they are tried.
+
+Velocity commands go in; joint commands, odometry and transforms come out.
+"""
 
 from __future__ import annotations
 

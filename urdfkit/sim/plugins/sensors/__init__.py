@@ -1,4 +1,7 @@
-"""Sensors the simulator knows, in the order they are tried."""
+"""Sensors; `SENSORS` lists them in the order they are tried.
+
+The state of the robot and the scene around it go in; messages at the rate of the sensor come out.
+"""
 
 from __future__ import annotations
 
