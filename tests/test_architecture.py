@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import urdfkit
+from tests.import_graph import cycles, import_graph
 
 ROOT = Path(urdfkit.__file__).parent
 HEAVY = ("numpy", "scipy", "pinocchio", "trimesh", "meshcat", "tornado", "numba", "rosbags", "torch")
@@ -71,6 +74,64 @@ def owners(package: str) -> set[str]:
 )
 def test_a_dependency_is_used_only_in_its_rooms(package: str, rooms: set[str]) -> None:
     assert owners(package) <= rooms
+
+
+def test_no_modules_import_each_other() -> None:
+    graph = import_graph(ROOT)
+    assert len(graph) > 800
+    assert sum(map(len, graph.values())) > 3000
+    assert cycles(graph) == []
+
+
+PLANTED = {
+    "at_run_time": {"a": "from house.b import b", "b": "def b():\n    from house import c", "c": "import house.a"},
+    "for_types": {"a": "from house.b import B", "b": "if TYPE_CHECKING:\n    from house.a import A"},
+    "by_a_name_of_a_lazy_package": {
+        "room/__init__": "if TYPE_CHECKING:\n    from house.a import A as B\n\ndef __getattr__(name): ...",
+        "a": "import house.b",
+        "b": "from house.room import B",
+    },
+}
+
+
+@pytest.mark.parametrize("modules", PLANTED.values(), ids=PLANTED)
+def test_modules_that_import_each_other_are_found(tmp_path: Path, modules: dict[str, str]) -> None:
+    for name, text in {"__init__": "", **modules}.items():
+        path = tmp_path / "house" / f"{name}.py"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    expected = [f"house.{name}" for name in modules if "/" not in name]
+    assert cycles(import_graph(tmp_path / "house")) == [expected]
+
+
+def test_modules_that_import_one_way_are_no_cycle(tmp_path: Path) -> None:
+    (tmp_path / "house").mkdir()
+    for name, text in {"__init__": "", "a": "import house.b\nimport house.c", "b": "import house.c", "c": ""}.items():
+        (tmp_path / "house" / f"{name}.py").write_text(text)
+    assert cycles(import_graph(tmp_path / "house")) == []
+
+
+MOST = 16
+"""Modules of one folder, `__init__.py` counted out; a family of rules has as many as the field has defects."""
+
+
+def test_no_folder_holds_too_many_modules() -> None:
+    folders = {path for path in ROOT.rglob("*") if path.is_dir() and path.parent != ROOT / "lint" / "rules"}
+    counts = {
+        str(folder.relative_to(ROOT)): len([p for p in folder.glob(f"*{suffix}") if p.name != "__init__.py"])
+        for folder in (*folders, ROOT)
+        for suffix in (".py", ".js")
+    }
+    assert {folder: count for folder, count in counts.items() if count > MOST} == {}
+
+
+def test_every_package_says_what_it_is_for() -> None:
+    silent = []
+    for path in ROOT.rglob("__init__.py"):
+        text = ast.get_docstring(ast.parse(path.read_text("utf-8"))) or ""
+        if path.parent.parent != ROOT / "lint" / "rules" and len(re.findall(r"\.(?=\s|$)", text)) < 2:
+            silent.append(str(path.parent.relative_to(ROOT)))
+    assert silent == []
 
 
 def test_no_module_is_too_long() -> None:
