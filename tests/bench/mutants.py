@@ -267,7 +267,7 @@ def is_found(mutant: Mutant) -> tuple[bool, list[str]]:
     if mutant.code == "J403":
         line = last = text.count("\n", 0, text.rfind("<joint", 0, mutant.start)) + 1
     findings = run([Entry(entry)], Options(texts={str(path): changed})).findings
-    serious = [finding for finding in findings if finding.severity != "info"]
+    serious = [finding for finding in findings if finding.severity != "note"]
     names = (f"of line {_opened(text, mutant, line)} ", f"{mutant.file}:{line}")
     near = [
         finding.code

@@ -47,7 +47,7 @@ def test_notes_do_not_make_it_fail(package, capsys):
         f'<robot name="n"><link name="a"><inertial><mass value="1"/>{tensor}</inertial></link></robot>'
     )
     assert main(["lint", "note.urdf"]) == 0
-    assert "I503 info:" in capsys.readouterr().out
+    assert "I503 note:" in capsys.readouterr().out
 
 
 def test_json_is_one_value_with_the_agreed_keys(package, capsys):

@@ -133,7 +133,7 @@ def test_junit_has_a_suite_for_each_file_and_a_failure_for_each_error_and_warnin
     root = ElementTree.fromstring(as_junit(outcome.findings, outcome.files))
     suites = {suite.get("name"): suite for suite in root}
     assert set(suites) == {"urdf/bäd.xacro", "urdf/clean one.urdf"}
-    serious = [finding for finding in outcome.findings if finding.severity != "info"]
+    serious = [finding for finding in outcome.findings if finding.severity != "note"]
     assert root.get("failures") == str(len(serious)) == str(len(root.findall(".//failure")))
     assert len(root.findall(".//skipped")) == len(outcome.findings) - len(serious)
     assert [case.get("name") for case in suites["urdf/clean one.urdf"]] == ["no finding"]
@@ -158,6 +158,6 @@ def test_github_annotations_are_commands_of_one_line(outcome):
     lines = as_github(outcome.findings).splitlines()
     assert len(lines) == len(outcome.findings)
     assert all(line.startswith(("::error ", "::warning ", "::notice ")) for line in lines)
-    finding = Finding("N302", "x", "info", "50 %\nof a: b, c", Span("a,b:c.urdf", 2, 3, 4, 5))
+    finding = Finding("N302", "x", "note", "50 %\nof a: b, c", Span("a,b:c.urdf", 2, 3, 4, 5))
     where = "file=a%2Cb%3Ac.urdf,line=2,endLine=4,col=3,title=N302 x"
     assert as_github([finding]) == f"::notice {where}::50 %25%0Aof a: b, c"

@@ -166,7 +166,7 @@ def test_of_a_link_that_is_there_twice_no_shapes_are_compared(tmp_path):
     heavy = "<inertial><mass value='9'/><inertia ixx='.1' ixy='0' ixz='0' iyy='.1' iyz='0' izz='.1'/></inertial>"
     small = "<link name='a'><collision><geometry><box size='.01 .01 .01'/></geometry></collision>"
     (tmp_path / "r.urdf").write_text(f"<robot name='r'><link name='a'>{heavy}</link>{small}</link></robot>")
-    assert {finding.code for finding in lint(tmp_path) if finding.severity != "info"} == {"T206"}
+    assert {finding.code for finding in lint(tmp_path) if finding.severity != "note"} == {"T206"}
 
 
 def test_sensors_of_the_new_gazebo_are_none_of_the_classic_one():
@@ -209,7 +209,7 @@ def test_wheels_that_sink_a_mass_that_lacks_and_what_a_foreign_plugin_hides(tmp_
     (tmp_path / "r.urdf").write_text(DRIVEN.format(wheels=wheels))
 
     def serious(target):
-        return sorted(f.code for f in lint(tmp_path, target=target) if f.severity != "info")
+        return sorted(f.code for f in lint(tmp_path, target=target) if f.severity != "note")
 
     assert serious("ros1") == ["G610", "G610", "I501", "S901", "S902", "S908", "Z805"]
     assert serious("gz") == ["I501", "Z807"]
@@ -282,7 +282,7 @@ def test_a_formula_with_a_slip_is_one_finding(tmp_path):
 </robot>
 """
     )
-    assert [finding.code for finding in lint(tmp_path) if finding.severity != "info"] == ["X119"]
+    assert [finding.code for finding in lint(tmp_path) if finding.severity != "note"] == ["X119"]
 
 
 def test_a_misspelt_child_is_one_finding(tmp_path):

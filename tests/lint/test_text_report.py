@@ -82,8 +82,8 @@ def test_places_without_text_have_no_excerpt():
 def test_severity_and_fix_are_shown():
     finding = at(1, 1, 2, fix=Fix("safe", "Mend it", ()))
     assert TextReport({}).finding(finding) == "f.xacro:1:1: T203 [*] wrong\n   = fix (--fix): Mend it"
-    mild = Finding(**{**finding.__dict__, "severity": "info", "fix": Fix("unsafe", "Mend it", ())})
-    assert TextReport({}).finding(mild).splitlines()[0] == "f.xacro:1:1: T203 info: wrong"
+    mild = Finding(**{**finding.__dict__, "severity": "note", "fix": Fix("unsafe", "Mend it", ())})
+    assert TextReport({}).finding(mild).splitlines()[0] == "f.xacro:1:1: T203 note: wrong"
     assert "(--fix --unsafe-fixes): Mend it" in TextReport({}).finding(mild)
 
 
@@ -108,7 +108,7 @@ def test_chains_name_each_call_once_and_what_is_around():
 def test_summary_and_statistics():
     error, fixable = at(1, 1, 2), at(2, 1, 2, fix=Fix("safe", "t", ()))
     unsafe = Finding(**{**error.__dict__, "severity": "warning", "fix": Fix("unsafe", "t", ()), "code": "J405"})
-    note = Finding(**{**error.__dict__, "severity": "info"})
+    note = Finding(**{**error.__dict__, "severity": "note"})
     assert summary([]) == "All checks passed."
     assert summary([error]) == "Found 1 error."
     assert summary([error, fixable, unsafe, note]) == (

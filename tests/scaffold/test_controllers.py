@@ -87,7 +87,7 @@ def new(*options):
 
 
 def clean(folder):
-    return [str(finding) for finding in lint([folder], package_path=[folder.parent]) if finding.severity != "info"]
+    return [str(finding) for finding in lint([folder], package_path=[folder.parent]) if finding.severity != "note"]
 
 
 FLAVOURS = {

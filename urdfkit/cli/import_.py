@@ -155,7 +155,7 @@ def _mended(stage: Path) -> Sequence[str]:
     for change in fixed.changes:
         change.write()
     said = [f"mended: {count} × {code}" for code, count in sorted(fixed.fixed.items())]
-    left = [finding for finding in fixed.outcome.findings if finding.severity != "info"]
+    left = [finding for finding in fixed.outcome.findings if finding.severity != "note"]
     codes: dict[str, int] = {}
     for finding in left:
         codes[finding.code] = codes.get(finding.code, 0) + 1

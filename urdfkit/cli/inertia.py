@@ -139,7 +139,7 @@ def _wrong(path: Path, options: Options) -> dict[str, list[Finding]]:
 
     found: dict[str, list[Finding]] = {}
     for finding in lint([Entry(path)], options).findings:
-        if finding.link and finding.severity != "info":
+        if finding.link and finding.severity != "note":
             found.setdefault(finding.link, []).append(finding)
     return found
 

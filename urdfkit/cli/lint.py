@@ -224,7 +224,7 @@ class _Run:
         for change in fixed.changes:
             sys.stdout.write(change.diff())
         refused = self._refuse(fixed.outcome)
-        left = sum(finding.severity != "info" for finding in self._left(fixed.outcome).findings)
+        left = sum(finding.severity != "note" for finding in self._left(fixed.outcome).findings)
         if left:
             print(f"{left} finding{'s' if left > 1 else ''} would be left; nothing was written.", file=sys.stderr)
         return 2 if refused else 1 if fixed.changes or left else 0
@@ -273,7 +273,7 @@ class _Run:
             show(outcome, form=arguments.format, statistics=arguments.statistics, color=arguments.color)
         if refused:
             return 2
-        return 1 if any(finding.severity != "info" for finding in outcome.findings) else 0
+        return 1 if any(finding.severity != "note" for finding in outcome.findings) else 0
 
 
 def _split(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:

@@ -10,11 +10,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import Any, Literal
 
-    Severity = Literal["error", "warning", "info"]
+    Severity = Literal["error", "warning", "note"]
     Safety = Literal["safe", "unsafe"]
 
-SEVERITIES = ("error", "warning", "info")
-"""From worst to mildest. `info` does not make ``urdfkit lint`` exit with 1."""
+SEVERITIES = ("error", "warning", "note")
+"""From worst to mildest. `note` does not make ``urdfkit lint`` exit with 1."""
 
 
 @record(order=True)
@@ -62,7 +62,7 @@ class Finding:
     Attributes:
         code: e.g. ``I503``.
         name: the rule's name, e.g. ``inertia-triangle-inequality``.
-        severity: ``error``, ``warning`` or ``info``.
+        severity: ``error``, ``warning`` or ``note``.
         message: one line: what is wrong, with values and units.
         span: the start tag, attribute or text a person wrote, with the file as shown to the user.
         link: the link it is about, after expansion; the first of several expansions.

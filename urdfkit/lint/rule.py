@@ -120,7 +120,7 @@ class FaultRule(Rule):
         """Yield the finding of a fault that the rule claims."""
         if self.may_be_elsewhere and (missing := model.missing_file):
             help = f"it may be defined in {missing}, which is not there"
-            yield self.at(model, fault, fault.message, attribute=fault.attribute, help=help, severity="info")
+            yield self.at(model, fault, fault.message, attribute=fault.attribute, help=help, severity="note")
         else:
             yield self.at(model, fault, fault.message, attribute=fault.attribute)
 

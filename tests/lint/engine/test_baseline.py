@@ -18,7 +18,7 @@ def finding(code: str, line: int, severity: str = "error", message: str = "m") -
 
 def test_what_is_known_is_left_out_wherever_it_has_moved(tmp_path):
     file = tmp_path / "known.json"
-    before = [finding("E008", 3), finding("E008", 9), finding("T203", 4), finding("J413", 5, "info")]
+    before = [finding("E008", 3), finding("E008", 9), finding("T203", 4), finding("J413", 5, "note")]
     assert write(file, before) == 3
     after = [finding("E008", 13), finding("E008", 19), finding("E008", 20), finding("N302", 1)]
     new, known, gone = unknown(after, read(file))

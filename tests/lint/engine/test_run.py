@@ -59,7 +59,7 @@ def test_one_run_reports_everything(write):
     assert sorted(codes(found)) == ["E001", "I503", "J401", "X101", "X103", "X104", "X113"]
     assert next(f for f in found if f.code == "E001").file == "broken.xacro"
     # What is not defined may be in the file that is not there.
-    assert [f.code for f in found if f.severity == "info"] == ["X104", "X103"]
+    assert [f.code for f in found if f.severity == "note"] == ["X104", "X103"]
     assert "may be defined in missing.xacro" in next(f.help for f in found if f.code == "X103")
 
 
@@ -68,7 +68,7 @@ def test_an_argument_may_be_declared_in_a_file_that_is_not_there(write):
     (alone,) = lint(write("alone.xacro", link))
     assert (alone.code, alone.severity) == ("X106", "error")
     found = lint(write("r.xacro", f'<xacro:include filename="missing.xacro"/>\n{link}'))
-    assert sorted((f.code, f.severity) for f in found) == [("X106", "info"), ("X113", "error")]
+    assert sorted((f.code, f.severity) for f in found) == [("X106", "note"), ("X113", "error")]
     assert "may be defined in missing.xacro" in next(f.help for f in found if f.code == "X106")
 
 

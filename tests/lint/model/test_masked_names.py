@@ -52,7 +52,7 @@ def test_what_an_error_cannot_have_hidden_is_said(write, fault):
 )
 def test_slips_are_said_as_notes_where_any_name_may_be_missing(write, fault, why):
     write("broken.xacro", b"<robot><link name='x'>")
-    assert found(write("r.xacro", ROBOT.format(fault))) == dict.fromkeys(SLIPS, ("info", why, None))
+    assert found(write("r.xacro", ROBOT.format(fault))) == dict.fromkeys(SLIPS, ("note", why, None))
     others = ROBOT.replace("bse", "tower").replace("mst", "turret").replace("m_j", "hinge")
     assert found(write("r.xacro", others.format(fault))) == {}
 

@@ -70,7 +70,7 @@ def test_every_sensor_is_added_and_lints_clean(place, ros):
     folder = robot(place, ros)
     for kind in KINDS:
         assert new(kind, folder) == 0
-    assert [str(finding) for finding in lint([folder]) if finding.severity != "info"] == []
+    assert [str(finding) for finding in lint([folder]) if finding.severity != "note"] == []
     found = load(find_model([str(folder)]).path)
     assert {sensor.name for block in found.gazebo for sensor in block.sensors} >= {"lidar", "camera", "imu"}
     assert {f"{kind}_link" for kind in KINDS} <= set(found.link_by_name)

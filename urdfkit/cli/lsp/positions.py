@@ -54,7 +54,7 @@ def diagnostic(finding: Finding, source: Source) -> types.Diagnostic:
     severities = {
         "error": types.DiagnosticSeverity.Error,
         "warning": types.DiagnosticSeverity.Warning,
-        "info": types.DiagnosticSeverity.Information,
+        "note": types.DiagnosticSeverity.Information,
     }
     text = f"{finding.message}\n{finding.help}" if finding.help else finding.message
     related = []

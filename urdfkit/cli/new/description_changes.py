@@ -150,7 +150,7 @@ def _new_findings(alterations: Sequence[Alteration], model: ModelArgument, stage
             texts=overlay,
             guess_target=True,
         )
-        return [finding for finding in run(entries, options).findings if finding.severity != "info"]
+        return [finding for finding in run(entries, options).findings if finding.severity != "note"]
 
     before, after = found({}), found(dict(texts(alterations)))
     known: dict[tuple[str, str], int] = {}

@@ -156,7 +156,7 @@ def findings(folder: Path, *, beside: Path | None = None) -> list[Fault]:
     return [
         Fault(f"{f.code} {f.message} ({Path(f.file).name}:{f.line})", f.severity == "error")
         for f in found
-        if f.severity != "info"
+        if f.severity != "note"
     ]
 
 

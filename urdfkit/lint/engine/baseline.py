@@ -57,7 +57,7 @@ def write(path: Path, findings: Iterable[Finding]) -> int:
 
     from urdfkit.atomic import write_text
 
-    counts = Counter(map(_key, (finding for finding in findings if finding.severity != "info")))
+    counts = Counter(map(_key, (finding for finding in findings if finding.severity != "note")))
     rows = [
         {"file": file, "code": code, "message": message, **({"count": count} if count > 1 else {})}
         for (file, code, message), count in sorted(counts.items())

@@ -60,7 +60,7 @@ class Written:
 
     def has_caused(self, finding: Finding, source: Source) -> bool:
         """Return whether the edits have caused a finding that is new after them."""
-        if finding.severity == "info":
+        if finding.severity == "note":
             return False
         if finding.code in _ALWAYS or not self.names.isdisjoint(_NAMED.findall(finding.message)):
             return True

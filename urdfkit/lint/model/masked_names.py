@@ -192,7 +192,7 @@ def doubted(model: Model, name: str, near: str | None, finding: Finding) -> Iter
         yield finding
     elif near is not None and is_slip(name, near):
         help = f"it may be in {hidden.anything}"
-        yield Finding(**{**finding.__dict__, "severity": "info", "help": help, "fix": None})
+        yield Finding(**{**finding.__dict__, "severity": "note", "help": help, "fix": None})
 
 
 def is_slip(name: str, near: str) -> bool:

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from urdfkit.lint.finding import Finding
 
-_LEVELS = {"error": "error", "warning": "warning", "info": "notice"}
+_LEVELS = {"error": "error", "warning": "warning", "note": "notice"}
 
 
 def as_github(findings: Iterable[Finding]) -> str:

@@ -35,7 +35,7 @@ def as_junit(findings: Sequence[Finding], files: Iterable[str]) -> str:
 
 
 def _failures(findings: Iterable[Finding]) -> int:
-    return sum(finding.severity != "info" for finding in findings)
+    return sum(finding.severity != "note" for finding in findings)
 
 
 def _suite(file: str, findings: list[Finding]) -> str:
@@ -50,7 +50,7 @@ def _suite(file: str, findings: list[Finding]) -> str:
 def _case(finding: Finding) -> str:
     name = f"{finding.code} {finding.name}, line {finding.line}"
     head = f"    <testcase classname={_attribute(finding.file)} name={_attribute(name)}>"
-    if finding.severity == "info":
+    if finding.severity == "note":
         return f"{head}\n      <skipped message={_attribute(finding.message)}/>\n    </testcase>"
     lines = [f"{finding.file}:{finding.line}:{finding.column}: {finding.message}"]
     lines += [f"help: {finding.help}"] if finding.help else []

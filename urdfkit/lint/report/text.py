@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
 
 _RESET = "\x1b[0m"
-_STYLES = {"error": "\x1b[1;31m", "warning": "\x1b[1;33m", "info": "\x1b[1;36m", "bold": "\x1b[1m", "dim": "\x1b[34m"}
+_STYLES = {"error": "\x1b[1;31m", "warning": "\x1b[1;33m", "note": "\x1b[1;36m", "bold": "\x1b[1m", "dim": "\x1b[34m"}
 _TAB = "    "
 _CONTROL = r"[\x00-\x1f\x7f-\x9f]"
 """What a terminal would obey."""
@@ -99,8 +99,8 @@ def summary(findings: Sequence[Finding]) -> str:
     """Return the last line: how many findings of which severity, and how many of them can be fixed."""
     if not findings:
         return "All checks passed."
-    counts = [(sum(f.severity == severity for f in findings), severity) for severity in ("error", "warning", "info")]
-    words = {"error": ("error", "errors"), "warning": ("warning", "warnings"), "info": ("note", "notes")}
+    counts = [(sum(f.severity == severity for f in findings), severity) for severity in ("error", "warning", "note")]
+    words = {"error": ("error", "errors"), "warning": ("warning", "warnings"), "note": ("note", "notes")}
     found = ", ".join(f"{count} {words[severity][count != 1]}" for count, severity in counts if count)
     safe = sum(f.fix is not None and f.fix.safety == "safe" for f in findings)
     unsafe = sum(f.fix is not None for f in findings) - safe

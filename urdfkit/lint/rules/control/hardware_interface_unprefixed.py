@@ -61,7 +61,7 @@ class HardwareInterfaceUnprefixed(RobotRule):
 
     code = "C704"
     name = "hardware-interface-unprefixed"
-    severity = "info"
+    severity = "note"
     fix = "safe"
     not_for = NOT_GAZEBO
 

@@ -114,7 +114,7 @@ class InterfaceLimits(RobotRule):
             if abs(value - limit) <= 1e-3 * max(abs(limit), 1e-3):
                 continue
             unit = _UNITS[name][joint.type != "prismatic"]
-            severity: Severity = "info"
+            severity: Severity = "note"
             help = None
             if joint.type != "prismatic" and name == "position" and abs(value) > _DEGREES_RATIO * max(abs(limit), 0.1):
                 severity, help = "warning", "write angles in radians"

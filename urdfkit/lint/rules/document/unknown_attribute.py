@@ -103,5 +103,5 @@ class UnknownAttribute(RobotRule):
                     if suggestion
                     else f"known attributes: {', '.join(allowed) or 'none'}",
                     fix=fix,
-                    severity=None if suggestion or attribute in _ALL else "info",
+                    severity=None if suggestion or attribute in _ALL else "note",
                 )

@@ -42,7 +42,7 @@ class UnusedSuppression(Rule):
 
     code = "E019"
     name = "unused-suppression"
-    severity = "info"
+    severity = "note"
 
     def check(self, unused: Iterable[tuple[Suppression, Collection[str]]], model: Model) -> Iterator[Finding]:
         """Yield a finding for each suppression, with its unused codes."""

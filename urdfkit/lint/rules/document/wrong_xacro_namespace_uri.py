@@ -72,7 +72,7 @@ class WrongXacroNamespaceUri(SourceRule):
             help=f'write xmlns:xacro="{NAMESPACE}"',
             fix=Fix("safe", "Replace with xacro's namespace", (Edit(span, NAMESPACE),)),
             # Output of xacro keeps the declaration, but does not use it.
-            severity="info" if document.source.file.endswith(".urdf") and "<xacro:" not in text else None,
+            severity="note" if document.source.file.endswith(".urdf") and "<xacro:" not in text else None,
         )
 
 

@@ -73,7 +73,7 @@ class DuplicateSensorOrPlugin(RobotRule):
                 yield self._duplicate(model, plugin.element, f"duplicate plugin name `{plugin.name}`", first, "warning")
             elif other is not plugin.element:
                 message = f"plugin name `{plugin.name}` is also used in another sensor"
-                yield self._duplicate(model, plugin.element, message, other, "info")
+                yield self._duplicate(model, plugin.element, message, other, "note")
 
     def _duplicate(
         self, model: Model, element: Element, message: str, first: Element, severity: Severity | None = None

@@ -67,7 +67,7 @@ class PluginParamUnknown(RobotRule):
             spec = spec_of(plugin, model.target) if not is_foreign(plugin, model) else None
             for parameter in unread(plugin, spec) if spec is not None else ():
                 if parameter.promised:
-                    yield self.at(model, parameter.element, parameter.message, severity="info")
+                    yield self.at(model, parameter.element, parameter.message, severity="note")
                     continue
                 suggestion = parameter.meant
                 yield self.at(

@@ -66,7 +66,7 @@ class ColladaUpAxis(RobotRule):
             elif abs(unit - 1.0) > 1e-6:
                 message = f"mesh `{uri}` is in units of {unit:g} m, which some readers ignore"
                 help = "export the mesh in metres"
-                yield self.at(model, element, message, attribute="filename", link=link.name, help=help, severity="info")
+                yield self.at(model, element, message, attribute="filename", link=link.name, help=help, severity="note")
 
 
 def _asset(path: Path | None) -> tuple[str, float]:

@@ -62,7 +62,7 @@ class VisualWithoutCollision(RobotRule):
 
     code = "G610"
     name = "visual-without-collision"
-    severity = "info"
+    severity = "note"
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each link without a collision shape, at its first visual."""

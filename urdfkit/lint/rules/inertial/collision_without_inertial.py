@@ -68,7 +68,7 @@ class CollisionWithoutInertial(RobotRule):
 
     code = "I512"
     name = "collision-without-inertial"
-    severity = "info"
+    severity = "note"
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each fixed link with a collision shape and without a mass."""

@@ -78,7 +78,7 @@ class InertiaCopyPaste(RobotRule):
 
     code = "I510"
     name = "inertia-copy-paste"
-    severity = "info"
+    severity = "note"
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each tensor that several links of different size share, at the first link."""

@@ -77,5 +77,5 @@ class InertiaTriangleInequality(RobotRule):
                     f"{a} + {b} < {c}",
                     link=link.name,
                     help="compute it from shape and mass; set placeholders for products of inertia to 0",
-                    severity="error" if large - small - middle > TOLERANCE * large else "info",
+                    severity="error" if large - small - middle > TOLERANCE * large else "note",
                 )

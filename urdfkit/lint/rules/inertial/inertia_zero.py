@@ -88,5 +88,5 @@ class InertiaZero(RobotRule):
                 link=link.name,
                 help="compute the inertia from shape and mass",
                 fix=computed(model, link, inertia.element),
-                severity=None if link.name in moving else "info",
+                severity=None if link.name in moving else "note",
             )

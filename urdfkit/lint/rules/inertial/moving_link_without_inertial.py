@@ -75,7 +75,7 @@ class MovingLinkWithoutInertial(RobotRule):
 
     code = "I511"
     name = "moving-link-without-inertial"
-    severity = "info"
+    severity = "note"
     not_for = frozenset(("moveit",))
 
     def check(self, model: Model) -> Iterator[Finding]:
@@ -84,7 +84,7 @@ class MovingLinkWithoutInertial(RobotRule):
         if model.is_incomplete:
             return
         shaped = [link.name for link in robot.links if link.visuals or link.collisions]
-        severity: Severity = "error" if is_simulated(model) else "info"
+        severity: Severity = "error" if is_simulated(model) else "note"
         if all(link.inertial is None for link in robot.links):
             moved = {joint.child for joint in robot.joints if _is_moving(joint)}
             first = next((link for link in robot.links if link.name in moved and link.name in shaped), None)

@@ -59,7 +59,7 @@ class AxisMissing(RobotRule):
 
     code = "J413"
     name = "axis-missing-on-movable"
-    severity = "info"
+    severity = "note"
     fix = "safe"
 
     def check(self, model: Model) -> Iterator[Finding]:

@@ -54,7 +54,7 @@ class AxisOrLimitOnFixed(RobotRule):
 
     code = "J418"
     name = "axis-or-limit-on-fixed"
-    severity = "info"
+    severity = "note"
     fix = "safe"
 
     def check(self, model: Model) -> Iterator[Finding]:

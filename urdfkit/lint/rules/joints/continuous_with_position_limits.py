@@ -81,5 +81,5 @@ class ContinuousWithPositionLimits(RobotRule):
                 joint=joint.name,
                 help="remove lower and upper, or use the type `revolute` if the joint has end stops",
                 fix=Fix("unsafe", "Remove the position limits", edits) if edits else None,
-                severity="info" if is_unbounded else None,
+                severity="note" if is_unbounded else None,
             )

@@ -53,7 +53,7 @@ class EffortOrVelocityZero(RobotRule):
 
     code = "J409"
     name = "effort-or-velocity-zero"
-    severity = "info"
+    severity = "note"
     not_for = frozenset(("moveit",))
 
     def check(self, model: Model) -> Iterator[Finding]:

@@ -81,7 +81,7 @@ class LimitEqual(RobotRule):
                     f"joint `{joint.name}` cannot move: {reason}",
                     joint=joint.name,
                     help=f"write the range of motion, or use the type {alternative}`fixed` if it never moves",
-                    severity="info" if lower else None,
+                    severity="note" if lower else None,
                 )
 
 

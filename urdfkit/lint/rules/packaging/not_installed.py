@@ -79,7 +79,7 @@ class NotInstalled(RobotRule):
                 yield Finding(
                     self.code,
                     self.name,
-                    "warning" if "ament" in install_rules else "info",
+                    "warning" if "ament" in install_rules else "note",
                     f"folder `{folder}` of this package is not installed",
                     source.span(match.start(), match.end()),
                     help="add it to install(DIRECTORY …) in CMakeLists.txt, or to data_files in setup.py",

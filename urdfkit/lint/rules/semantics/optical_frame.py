@@ -57,7 +57,7 @@ class OpticalFrame(RobotRule):
 
     code = "S905"
     name = "optical-frame-convention"
-    severity = "info"
+    severity = "note"
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each optical frame with a different rotation."""

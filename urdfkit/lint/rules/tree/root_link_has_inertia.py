@@ -54,7 +54,7 @@ class RootLinkHasInertia(RobotRule):
 
     code = "T210"
     name = "root-link-has-inertia"
-    severity = "info"
+    severity = "note"
     only_for = (
         "ros1",
         "ros2",

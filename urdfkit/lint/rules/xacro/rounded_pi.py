@@ -64,7 +64,7 @@ class RoundedPi(SourceRule):
 
     code = "X112"
     name = "redundant-pi-definition"
-    severity = "info"
+    severity = "note"
     fix = "safe"
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:

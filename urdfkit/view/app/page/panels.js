@@ -40,7 +40,7 @@ class Panel {
     return !this.section.hidden;
   }
 
-  /** Show a number (or nothing, for null) on the rail; `tone` is error, warning, info or nothing. */
+  /** Show a number (or nothing, for null) on the rail; `tone` is error, warning, note or nothing. */
   badge(text, tone = "") {
     this.count.hidden = text === null || text === "";
     this.count.textContent = text ?? "";

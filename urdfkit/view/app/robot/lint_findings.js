@@ -5,7 +5,7 @@ import { excerpt, source } from "./inspector.js";
 import { inline, markdown } from "../page/markdown.js";
 
 const SHIELD = "M12 3l8 3v6c0 4.5-3.3 7.8-8 9-4.7-1.2-8-4.5-8-9V6zM12 8v5M12 16v.1";
-const TONES = ["error", "warning", "info"];
+const TONES = ["error", "warning", "note"];
 
 const worst = (findings) => TONES.find((tone) => findings.some((finding) => finding.severity === tone)) ?? "";
 
@@ -110,7 +110,7 @@ export function findings(page) {
 }
 
 function words(findings) {
-  const names = { error: ["error", "errors"], warning: ["warning", "warnings"], info: ["note", "notes"] };
+  const names = { error: ["error", "errors"], warning: ["warning", "warnings"], note: ["note", "notes"] };
   return TONES.map((tone) => [findings.filter((finding) => finding.severity === tone).length, names[tone]])
     .filter(([count]) => count)
     .map(([count, [one, many]]) => `${count} ${count === 1 ? one : many}`)
