@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from urdfkit.cli import lint
-from urdfkit.cli.fast_lint_arguments import plain
+from urdfkit.cli.fast_lint_arguments import parse_simple
 from urdfkit.cli.parser import Parser, add_common
 
 
@@ -28,11 +28,11 @@ def parsed(words: list[str]) -> dict:
     ],
 )
 def test_paths_and_switches_are_read_as_the_parser_does(words):
-    assert vars(plain(words)) == parsed(words)
+    assert vars(parse_simple(words)) == parsed(words)
 
 
 @pytest.mark.parametrize(
     "words", [["--target", "gz"], ["-h"], ["--fixx"], ["--"], ["-"], ["-qv"], ["--select=I"], ["a", "--jobs", "2"]]
 )
 def test_all_else_is_the_parsers(words):
-    assert plain(words) is None
+    assert parse_simple(words) is None

@@ -36,7 +36,7 @@ BAD = link(f'<inertial><!-- kept --><mass value="3"/>{INERTIA.format(4)}</inerti
 def test_it_shows_both_and_says_what_is_wrong(write, capsys):
     assert main(["inertia", str(write(BAD)), "a"]) == 1
     out = capsys.readouterr().out
-    assert out.startswith("a  r.urdf.xacro:3\n  1 collision shape, 0.002 m³ together\n")
+    assert out.startswith("a  r.urdf.xacro:3\n  1 collision shape, 0.002 m³ in total\n")
     assert "present        computed" in out
     assert "320 times" in out  # 4 kg·m² beside 3 · (0.2² + 0.1²)/12
     assert "  warning: iyy is 800 times that of the shapes\n" in out
@@ -100,7 +100,7 @@ def test_what_is_right_already_is_not_written(write, capsys):
     main(["inertia", str(path), "a", "--write"])
     said = capsys.readouterr()
     assert "wrote" not in said.err
-    assert "note: not written: it says so already" in said.out
+    assert "note: not written: the file has these values already" in said.out
     assert path.read_bytes() == mended
 
 
@@ -170,8 +170,8 @@ def test_lines_that_are_put_in_end_as_the_others(write, link, end):
     ("words", "message"),
     [
         (["b"], "no link `b` in robot `r`"),
-        (["a", "c"], "one MODEL and one LINK"),
-        (["a", "--mass", "-1"], "`-1` is no positive number"),
+        (["a", "c"], "expected one MODEL and one LINK"),
+        (["a", "--mass", "-1"], "`-1` is not a positive number"),
         (["a", "--mass", "1", "--density", "2"], "not allowed with"),
         (["a", "--from", "visual"], "no visual shapes to compute from; it has collision shapes"),
     ],

@@ -81,7 +81,7 @@ def test_diff_writes_nothing(package, capsys):
     assert main(["lint", "--diff"]) == 1
     captured = capsys.readouterr()
     assert '+<xacro:part n="a"/>\n' in captured.out
-    assert captured.err == "1 finding would be left; nothing was written.\n"
+    assert captured.err == "1 finding would remain; nothing was written.\n"
     assert Path("urdf/bad.urdf.xacro").read_text() == BAD
     assert main(["lint", "--diff", "urdf/clean.urdf"]) == 0
     assert capsys.readouterr().out == ""
@@ -108,8 +108,8 @@ def test_xacro_arguments(package, capsys):
         (["/no/where"], "no such file"),
         (["--select", "I53"], "--select I53: there is no such rule"),
         (["--target", "gzz"], "did you mean `gz`"),
-        (["--unsafe-fixes"], "--unsafe-fixes goes with --fix or --diff"),
-        ([":=5"], "lacks its key"),
+        (["--unsafe-fixes"], "--unsafe-fixes requires --fix or --diff"),
+        ([":=5"], "has no key"),
         (["--format", "jsn"], "did you mean `json`"),
         (["--package-path", "nowhere"], "--package-path nowhere: no such folder"),
         (["empty"], "no robot description"),

@@ -88,7 +88,7 @@ def test_a_misspelt_option_is_told_before_what_it_leaves_out(capsys):
 def test_an_option_with_a_value_that_it_does_not_take(capsys):
     for word, value in (("-h2", "2"), ("--help=me", "me")):
         assert main(["new", "robot", word]) == 2
-        said = f"urdfkit: new robot: argument -h/--help: takes no value, and `{value}` is behind it\n"
+        said = f"urdfkit: new robot: argument -h/--help: accepts no value, got `{value}`\n"
         assert capsys.readouterr().err == said
     assert main(["sim", "run", "simpleton"]) == 2
     assert "arguments are required: --for" in capsys.readouterr().err

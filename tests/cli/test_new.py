@@ -126,7 +126,7 @@ def test_packages_inside_a_package_get_a_word(place, capsys, ros):
 def test_packages_beside_src_get_a_word(place, capsys):
     (place / "src").mkdir()
     assert main(["new", "package", "scout_bringup", "--yes"]) == 0
-    assert "belong in there (--into src)" in capsys.readouterr().err
+    assert "use --into src" in capsys.readouterr().err
     assert main(["new", "package", "scout_bringup", "--yes", "--into", "src"]) == 0
     assert "src" not in capsys.readouterr().err
 
@@ -139,7 +139,7 @@ def test_what_is_written_is_there_though_it_cannot_be_printed(place, thing):
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False, timeout=60)
     assert done.returncode == 2
     assert done.stderr == (
-        "urdfkit: all was written to .; only what was done could not be printed: No space left on device\n"
+        "urdfkit: all files were written to ., but the report could not be printed: No space left on device\n"
     )
     assert list(place.glob("mine*"))
 
@@ -200,7 +200,7 @@ def test_yes_asks_nothing(place, monkeypatch):
 def test_end_of_input_writes_nothing(place, monkeypatch):
     shown = type_in(monkeypatch, "scout")
     assert main(["new", "robot"]) == 2
-    assert "no more answers: nothing was written" in shown.getvalue()
+    assert "end of input before the last answer; nothing was written" in shown.getvalue()
     assert list(place.iterdir()) == []
 
 
@@ -211,7 +211,10 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
         (["robot", "My Robot"], "no ROS package name: .*; did you mean `my_robot`?"),
         (["robot", "scout_description"], "did you mean `scout`?"),
         (["robot", "my", "scout"], "unrecognized arguments: scout; did you mean `my_scout`?"),
-        (["robot", "--name", "scout"], "unrecognized arguments: --name; it stands by itself: urdfkit new robot NAME"),
+        (
+            ["robot", "--name", "scout"],
+            "unrecognized arguments: --name; it is a positional argument: urdfkit new robot NAME",
+        ),
         (["robot", "src/scout"], "did you mean `scout --into src`?"),
         (
             ["robot", "scout", "--ros", "foxy"],
@@ -272,7 +275,7 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
         (["wrld", "w"], "did you mean `world`?"),
         (["robto", "r"], "invalid choice: 'robto'.*did you mean `robot`"),
         ([], r"required: KIND \(.*robot, world"),
-        (["robot", "scout", "--diff"], "--diff goes with --update"),
+        (["robot", "scout", "--diff"], "--diff requires --update"),
         (["--update"], r"nothing to update in \.: no \*/urdfkit-new\.toml"),
         (["robot", "scout", "--template", "mine"], "--template mine: no such folder"),
     ],

@@ -100,11 +100,13 @@ def test_update(scout, capsys):
     assert "scout_description/docs" not in shown  # it looks the same
     assert main(["new", "robot", "--update", "--mass", "8"]) == 2
     captured = capsys.readouterr()
-    assert "files would change and nothing was changed: --yes changes them, --diff only shows it" in captured.err
+    assert (
+        "files would change; nothing was changed: use --yes to change them, --diff to print the changes" in captured.err
+    )
     assert 'value="5"' in (scout / "scout_description/urdf/scout.urdf.xacro").read_text()
     (scout / "scout_description/README.md").write_text("mine")
     assert main(["new", "robot", "--update", "--mass", "8", "--yes"]) == 0
-    assert "scout_description/README.md: edited by you: what it would be is put beside it as README.md.new" in (
+    assert "scout_description/README.md: edited by you: the new version is saved as README.md.new" in (
         capsys.readouterr().out
     )
     assert (scout / "scout_description/README.md").read_text() == "mine"
@@ -196,7 +198,7 @@ def test_a_template_of_ones_own(place, own, capsys):
     assert (place / "box/box.txt").read_text() == "2 m"
     own.rename(own.with_name("moved"))
     assert main(["new", "--update"]) == 2
-    assert "the template ../template that template was made by is gone: --template DIR" in capsys.readouterr().err
+    assert "the template ../template of this template does not exist: use --template DIR" in capsys.readouterr().err
     assert main(["new", "--update", "--template", "../moved"]) == 2
     both = "is for `urdfkit new robot --template ../template`, not for `urdfkit new robot --template ../moved`"
     assert both in capsys.readouterr().err
@@ -244,8 +246,8 @@ def test_what_an_edited_file_includes_is_kept(place, capsys):
     assert main(["new", "robot", "--update", "--sensor", "", "--yes", "-q"]) == 0
     said = lines_of(capsys)
     lidar = "scout_description/urdf/sensors/lidar"
-    assert f"{lidar}.xacro: kept: scout_description/urdf/scout.urdf.xacro names it" in said
-    assert f"{lidar}_gazebo.xacro: kept: {lidar}.xacro names it" in said
+    assert f"{lidar}.xacro: kept: scout_description/urdf/scout.urdf.xacro refers to it" in said
+    assert f"{lidar}_gazebo.xacro: kept: {lidar}.xacro refers to it" in said
     assert "scout_description/urdf/sensors/camera.xacro: removed" in said
     assert model.read_text() == edited
     assert main(["lint", "scout_description", "-q"]) == 0
@@ -304,12 +306,12 @@ def test_new_parts_beside_an_edited_file_wait_for_it_to_be_merged(place, capsys,
     assert main(["new", "robot", "--update", *options, "--yes", "-q"]) == 0
     said = capsys.readouterr().err
     assert said == (
-        "urdfkit: left to merge: scout_description/urdf/scout.urdf.xacro.new into your scout.urdf.xacro; "
-        "until then nothing uses what is new\n"
+        "urdfkit: to do: merge scout_description/urdf/scout.urdf.xacro.new into your scout.urdf.xacro; "
+        "until then its new elements have no effect\n"
     )
     assert model.read_text() == mine
     assert main(["new", "--update"]) == 0
-    assert "scout_description/urdf/scout.urdf.xacro.new is left to merge" in capsys.readouterr().err
+    assert "scout_description/urdf/scout.urdf.xacro.new remains to be merged" in capsys.readouterr().err
     model.write_text(
         model.with_name("scout.urdf.xacro.new").read_text().replace("</robot>", "  <!-- mine -->\n</robot>")
     )
@@ -327,7 +329,7 @@ def test_a_package_that_an_edited_file_names_is_kept_whole(place, capsys):
         path.write_text(f"{path.read_text()}<!-- mine -->\n")
     capsys.readouterr()
     assert main(["new", "robot", "--update", "--arm", "none", "--yes", "-q"]) == 0
-    assert "picker_control/package.xml: kept: picker_gazebo/launch/picker.launch names it" in lines_of(capsys)
+    assert "picker_control/package.xml: kept: picker_gazebo/launch/picker.launch refers to it" in lines_of(capsys)
     assert (place / "picker_control/config/controllers.yaml").is_file()
     assert main(["lint", "picker_description", "-q"]) == 0
 
@@ -362,8 +364,8 @@ def test_joints_that_edited_settings_do_not_know_are_told(place, capsys):
     assert main(["new", "robot", "--update", "--arm", "6", "--gripper", "--yes", "-q"]) == 0
     said = capsys.readouterr().err
     assert (
-        "left to merge: rover_control/config/controllers.yaml.new into your controllers.yaml; until then "
-        "no controller of it moves `forearm_roll_joint`, `wrist_roll_joint`, `left_finger_joint`\n"
+        "to do: merge rover_control/config/controllers.yaml.new into your controllers.yaml; until then "
+        "its controllers do not move `forearm_roll_joint`, `wrist_roll_joint`, `left_finger_joint`\n"
     ) in said
     assert "K960 unknown controller `gripper_controller`" in said
     settings.with_name("controllers.yaml.new").replace(settings)

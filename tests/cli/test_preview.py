@@ -125,7 +125,7 @@ def test_who_does_not_know_may_ask(terminal):
     asking.until("noetic is ROS 1, the others ROS 2")
     asking.until("ROS distribution")
     asking.type("quit")
-    asking.until("--ros `quit` is not available.*; Ctrl-C ends, and writes nothing")
+    asking.until("--ros `quit` is not available.*; press Ctrl-C to exit without writing")
 
 
 def test_answers_can_be_edited_and_earlier_ones_called_back(terminal):

@@ -156,7 +156,10 @@ def test_missing_peers_are_named_and_left_out(capsys: Capture, monkeypatch: pyte
     assert set(report["missing"]) == {"mujoco", "pybullet"}
     assert report["engines"].keys() == {"urdfkit"}
     for label in ("MuJoCo", "PyBullet"):
-        assert f"urdfkit: {label} is not installed, so it is left out: pip install 'urdfkit[bench]'" in err.splitlines()
+        assert (
+            f"urdfkit: {label} is not installed and is skipped; install it with pip install 'urdfkit[bench]'"
+            in err.splitlines()
+        )
 
 
 def test_progress_is_told_beside_the_results_unless_quiet(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -191,8 +194,8 @@ def test_scenes_are_listed(capsys: Capture) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["--scene", "diff-drvie"], "there is no scene `diff-drvie`; did you mean `diff-drive`?"),
-        (["--scene", "Memory"], "there is no scene `Memory`; did you mean `memory`?"),
+        (["--scene", "diff-drvie"], "unknown scene `diff-drvie`; did you mean `diff-drive`?"),
+        (["--scene", "Memory"], "unknown scene `Memory`; did you mean `memory`?"),
         (["--rounds", "0"], "`0` must be a whole number, one or more"),
         (["--seconds", "-1"], "`-1` must be greater than zero"),
     ],
@@ -249,7 +252,7 @@ def test_memory_that_cannot_be_measured_is_left_out(capsys: Capture, monkeypatch
     assert main(["sim", "bench", "--scene", "memory", "--json"]) == 0
     out, err = capsys.readouterr()
     assert json.loads(out)["memory"] is None
-    assert "urdfkit: memory is left out: the process whose memory was to be measured failed" in err
+    assert "urdfkit: memory is skipped: the process whose memory was to be measured failed" in err
 
 
 def test_one_thread_is_asked_for(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -144,7 +144,7 @@ def test_two_drivers_on_one_joint_are_never_written(place, capsys):
         assert main(["new", "controllers", "--into", str(model)]) == 2
         said = capsys.readouterr().err
         assert "is driven already, by" in said
-        assert "no joint left that a controller could move; nothing was changed" in said
+        assert "no joint without a controller; nothing was changed" in said
         assert model.read_bytes() == before
 
 
@@ -222,7 +222,7 @@ def test_nothing_is_overwritten(place, capsys):
     folder = robot(place, ROVER)
     (place / "rover_control").mkdir()
     assert new() == 2
-    assert "rover_control is already there; nothing is overwritten" in capsys.readouterr().err
+    assert "rover_control exists already; choose another --name" in capsys.readouterr().err
     (place / "rover_control").rmdir()
     (folder / "urdf/control.xacro").write_text("<robot/>")
     assert new() == 2
@@ -344,7 +344,7 @@ def test_what_the_plugin_reads_gets_the_controllers(place, capsys):
     assert new() == 0
     said = capsys.readouterr()
     assert "ros2 run controller_manager spawner base_controller arm_controller" in said.out
-    assert "base_controller: left_joint, right_joint (velocity, as the model has it)" in said.err
+    assert "base_controller: left_joint, right_joint (velocity, as in the model)" in said.err
     after = (folder / "config/mine.yaml").read_text()
     assert all(line in after for line in mine.splitlines())
     settings = yaml.safe_load(after)
@@ -371,7 +371,7 @@ def test_a_plugin_whose_file_is_not_there_is_told_of(place, capsys):
     assert new() == 2
     said = capsys.readouterr().err
     assert "plugin `loop` names " in said
-    assert "config/none.yaml, which is not there" in said
+    assert "config/none.yaml, which does not exist" in said
 
 
 def test_controllers_of_another_robot_are_none_of_ours(place):
@@ -457,7 +457,7 @@ def test_a_joint_that_nothing_can_move_is_told_with_its_place(place, capsys):
     assert new() == 0
     lines = (folder / "urdf/rover.urdf.xacro").read_text().splitlines()
     number = next(number for number, line in enumerate(lines, 1) if 'effort="0"' in line)
-    said = f"rover.urdf.xacro:{number}:5: `shoulder_joint` may have no effort: its controller will not move it\n"
+    said = f"rover.urdf.xacro:{number}:5: `shoulder_joint` has the limit effort 0: its controller cannot move it\n"
     assert said in capsys.readouterr().err
 
 
@@ -496,7 +496,7 @@ def test_a_robot_without_ros_gets_what_needs_none(place, capsys, tell):
     assert main(["new", "arm", "--into", "ab_description", "--dof", "4", "--gripper", "-q"]) == 0
     before = set(place.rglob("*"))
     assert main(["new", "controllers", "--into", "ab_description", "--name", "x"]) == 2
-    assert "--name is for a package of ROS, and this robot is made without" in capsys.readouterr().err
+    assert "--name is for a ROS package, and this robot has none" in capsys.readouterr().err
     assert main(["new", "controllers", "--into", "ab_description"]) == 0
     said = capsys.readouterr()
     assert "elbow_joint: topic arm/elbow" in said.err
@@ -512,7 +512,7 @@ def test_a_robot_without_ros_gets_what_needs_none(place, capsys, tell):
     for finger in ("left_finger_joint", "right_finger_joint"):
         assert simulator.state.position(finger) == pytest.approx(0.01, abs=2e-4)
     assert main(["new", "controllers", "--into", "ab_description"]) == 2
-    assert "no joint left that a controller could move" in capsys.readouterr().err
+    assert "no joint without a controller" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -523,7 +523,7 @@ def test_what_starts_all_of_a_robot_can_be_told_of_them(place, capsys, ros, laun
     assert main(["new", "arm", "--into", "ab_description", "-q"]) == 0
     capsys.readouterr()
     assert main(["new", "controllers", "--into", "ab_description"]) == 0
-    _, add = capsys.readouterr().out.split(f"to start them with the rest, add to {launch}:\n")
+    _, add = capsys.readouterr().out.split(f"to start the controllers with the robot, add to {launch}:\n")
     lines, depends = add.split("and to ab_bringup/package.xml:\n")
     assert depends == "  <exec_depend>ab_control</exec_depend>\n"
     before = (place / launch).read_text()

@@ -1,8 +1,8 @@
 """The command line: `main(argv) -> int`, one module per command, each imported only when it is called.
 
 A command module has two functions: ``configure(parser)`` adds its arguments, ``run(arguments) -> int`` does the work
-and returns the exit code (0 done, 1 done and something to report, 2 could not do it). Whatever it raises as an
-`UrdfkitError` is printed in one line.
+and returns the exit code (0: success, 1: success, with findings to report, 2: failure). An `UrdfkitError` is
+printed in one line.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ COMMANDS = {
     "topic": "inspect and publish topics of a running simulation: list, info, echo, hz, bw, pub",
     "completion": "print the completion script of bash, zsh or fish",
 }
-"""Command → what it does. The module ``urdfkit.cli.<command>`` implements it; ``import_`` is ``import``."""
+"""Command → its description. The module ``urdfkit.cli.<command>`` implements it; ``import_`` is ``import``."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -52,11 +52,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
     for stream in (sys.stdout, sys.stderr):
-        # Units and arrows are not in every terminal's character set: `?` is better than an error.
+        # Units and arrows are missing in some terminals' character sets: `?` is better than an error.
         if isinstance(stream, TextIOWrapper) and (stream.encoding or "").lower().replace("-", "") != "utf8":
             stream.reconfigure(errors="replace")
     try:
-        if "_ARGCOMPLETE" in os.environ:  # a shell asks what may follow
+        if "_ARGCOMPLETE" in os.environ:  # a shell requests completions
             from urdfkit.cli.completion import complete
 
             complete()
@@ -67,7 +67,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
-        # The reader of our output went away (`| head`); keep the interpreter from complaining at exit.
+        # The reader of the output closed the pipe (`| head`); prevent the interpreter's error message at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 141
     except OSError as error:
@@ -84,15 +84,15 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def program() -> None:
-    """Be the program ``urdfkit``: run one command and leave with its exit code.
+    """Run the program ``urdfkit``: execute one command and exit with its exit code.
 
-    The light commands leave without taking the interpreter apart: freeing, object by object, what is about to vanish
-    takes a fifth of the time of a lint. What has threads or compiled libraries to wind down leaves as usual.
+    The light commands exit without finalizing the interpreter: deallocating every object takes a fifth of the time of a
+    lint. Commands with threads or compiled libraries exit as usual, so that their exit handlers run.
     """
     for name in ("stdout", "stderr"):
-        if getattr(sys, name) is None:  # closed by who started us (`2>&-`): notes go nowhere then
+        if getattr(sys, name) is None:  # closed by the parent process (`2>&-`): output is discarded
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w"))
-    # Looking for cyclic garbage while modules load and trees are built finds none, and takes a fifteenth of a lint.
+    # A lint creates no cyclic garbage while it loads modules and builds trees; searching takes a fifteenth of a lint.
     gc.set_threshold(100_000)
     code = main()
     if not {"numpy", "threading", "atexit"}.isdisjoint(sys.modules):
@@ -107,9 +107,9 @@ def program() -> None:
 
 def _run(arguments: list[str]) -> int:
     if arguments[:1] == ["lint"]:
-        from urdfkit.cli.fast_lint_arguments import plain
+        from urdfkit.cli.fast_lint_arguments import parse_simple
 
-        if (parsed := plain(arguments[1:])) is not None:
+        if (parsed := parse_simple(arguments[1:])) is not None:
             return int(_module("lint").run(parsed))
     command = next((a for a in arguments if not a.startswith("-")), None)
     if command is not None and command not in COMMANDS and command == arguments[0]:
@@ -121,7 +121,7 @@ def _run(arguments: list[str]) -> int:
 
 
 def parser_of(command: str | None, *, complete: bool = True) -> Parser:
-    """Return the parser of the command line; only that of `command` has arguments, as configuring all takes time.
+    """Return the parser of the command line; only `command` gets its arguments, because configuring all takes time.
 
     Args:
         command: the command to configure; None for none.

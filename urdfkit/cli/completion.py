@@ -29,7 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def complete() -> None:
-    """Answer the shell that asks for completions (``_ARGCOMPLETE``), then exit."""
+    """Print the completions that the shell requests (``_ARGCOMPLETE``), then exit."""
     import argcomplete
 
     from urdfkit.cli import parser_of
@@ -57,7 +57,7 @@ def _with_subcommands(parser: argparse.ArgumentParser) -> list[argparse.Argument
 
 
 def _add_completers(parser: argparse.ArgumentParser) -> None:
-    """Complete arguments by the names that urdfkit knows: robots, worlds, rules; and by files, as other arguments."""
+    """Complete arguments by the names of bundled robots, worlds and rules, and by files."""
     from argcomplete.completers import FilesCompleter
 
     from urdfkit.description.sdf.model_library import world_names
@@ -77,7 +77,7 @@ def _add_completers(parser: argparse.ArgumentParser) -> None:
         if listed is None:
             continue
 
-        def completer(prefix: str, *, of: Callable[[], list[str]] = listed, **_: object) -> list[str]:
-            return [*(name for name in of() if name.startswith(prefix)), *FilesCompleter()(prefix)]
+        def completer(prefix: str, *, names_of: Callable[[], list[str]] = listed, **_: object) -> list[str]:
+            return [*(name for name in names_of() if name.startswith(prefix)), *FilesCompleter()(prefix)]
 
         action.completer = completer  # type: ignore[attr-defined]

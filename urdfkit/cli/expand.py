@@ -33,7 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
     from urdfkit.resources import find_model
 
     model = find_model(arguments.model, package_path=arguments.package_path)
-    # The path as it was typed, where it was one: it is in the banner, and stock xacro shows what was typed too.
+    # A path is passed as typed, because the banner shows it, as in stock xacro.
     typed = next((word for word in arguments.model if ":=" not in word and Path(word).is_file()), str(model.path))
     expanded = expand(
         typed, arguments=model.arguments, packages=Packages(model.package_path, model.path), run_xacro=True

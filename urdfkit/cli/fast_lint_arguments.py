@@ -1,6 +1,6 @@
-"""A command line of ``urdfkit lint`` with nothing but paths and switches, read without argparse.
+"""Parse a command line of ``urdfkit lint`` that has only paths and switches, without argparse.
 
-Most runs are such, and argparse takes as long to load and to make as a small robot to lint.
+Most runs are such, and loading and configuring argparse takes as long as linting a small robot.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ _SWITCHES = ("fix", "unsafe_fixes", "diff", "statistics", "watch", "no_config", 
 _NAMES = {"-q": "quiet", "-v": "verbose", **{f"--{name.replace('_', '-')}": name for name in _SWITCHES}}
 
 
-class Plain:
-    """What the parser of the command would return.
+class SimpleArguments:
+    """Arguments as the parser of the command returns them.
 
     Args:
-        paths: what is no switch.
-        given: the switches that are there.
+        paths: the positional arguments.
+        switches: names of the switches that are set.
     """
 
-    def __init__(self, paths: list[str], given: set[str]) -> None:
+    def __init__(self, paths: list[str], switches: set[str]) -> None:
         self.command = "lint"
         self.paths = paths
         self.select: list[str] = []
@@ -31,18 +31,18 @@ class Plain:
         self.target = self.baseline = self.write_baseline = self.config = self.jobs = None
         self.format, self.color = "text", "auto"
         for name in _SWITCHES:
-            setattr(self, name, name in given)
+            setattr(self, name, name in switches)
 
 
-def plain(words: Sequence[str]) -> argparse.Namespace | None:
-    """Return what the parser would, None where it is needed: for options with values, and for what is no option."""
+def parse_simple(words: Sequence[str]) -> argparse.Namespace | None:
+    """Return the parsed arguments; None for options with values and unknown options, which need the full parser."""
     paths: list[str] = []
-    given: set[str] = set()
+    switches: set[str] = set()
     for word in words:
         if not word.startswith("-"):
             paths.append(word)
         elif word in _NAMES:
-            given.add(_NAMES[word])
+            switches.add(_NAMES[word])
         else:
             return None
-    return Plain(paths, given)  # type: ignore[return-value]
+    return SimpleArguments(paths, switches)  # type: ignore[return-value]

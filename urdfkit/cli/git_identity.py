@@ -1,4 +1,4 @@
-"""Who writes: what git knows of the user."""
+"""Name and e-mail address of the user, from the configuration of git."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ if TYPE_CHECKING:
 
 
 def identity(template: Template) -> dict[str, str]:
-    """Return maintainer and e-mail as git knows them, if it does and they will do.
+    """Return the maintainer and e-mail address that git is configured with and the template accepts.
 
     Args:
-        template: which asks for them.
+        template: the template with the questions `maintainer` and `email`.
     """
-    found: dict[str, str] = {}
+    answers: dict[str, str] = {}
     for name, key in (("maintainer", "user.name"), ("email", "user.email")):
         try:
             answer = subprocess.run(
                 ["git", "config", "--get", key], capture_output=True, text=True, timeout=5, check=True
             )
-            found[name] = template.question(name).accept(answer.stdout)
+            answers[name] = template.question(name).accept(answer.stdout)
         except (OSError, subprocess.SubprocessError, UnicodeDecodeError, UsageError):
             continue
-    return found
+    return answers

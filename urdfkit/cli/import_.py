@@ -1,4 +1,4 @@
-"""``urdfkit import``: wrap a bare URDF, e.g. what a CAD program wrote, into packages."""
+"""``urdfkit import``: wrap a bare URDF, such as a CAD export, into packages."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 _SUFFIXES = ("_description", "_gazebo", "_bringup", "_urdf", ".sldasm", ".SLDASM")
 
 _MESH = "a mesh: import the URDF that names it"
-_OTHER = {
-    ".sdf": "SDF: `--world` of the simulator takes it, import takes URDF",
-    ".world": "a world: `--world` of the simulator takes it, import takes URDF",
+_OTHER_FORMATS = {
+    ".sdf": "SDF: the option `--world` of the simulator accepts it; import a URDF instead",
+    ".world": "a world: the option `--world` of the simulator accepts it; import a URDF instead",
     ".zip": "an archive: unpack it, and import the URDF in it",
     **dict.fromkeys((".stl", ".dae", ".obj", ".gltf", ".glb", ".ply"), _MESH),
     **dict.fromkeys((".step", ".stp", ".sldasm", ".sldprt", ".f3d", ".fcstd"), "CAD: import the URDF exported from it"),
 }
-"""What is no URDF, by the end of its name."""
+"""Suffix of a file that is not a URDF → what the file is, and what to do instead."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -35,39 +35,41 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "examples:\n  urdfkit import arm.urdf\n  urdfkit import export/arm.urdf --name arm --ros noetic --into src"
     )
     if isinstance(parser, Parser):
-        parser.elsewhere = _meant
+        parser.elsewhere = _suggestion
     parser.add_argument("file", metavar="FILE", help="the URDF; it is only read")
-    parser.add_argument("--name", help="what the packages' names begin with (default: the robot's)")
+    parser.add_argument("--name", help="prefix of the packages' names (default: the robot's name)")
     parser.add_argument(
         "--ros", default="jazzy", help="ROS distribution: humble, jazzy, kilted, lyrical, noetic, or none"
     )
-    parser.add_argument("--into", metavar="DIR", default=".", help="folder to write to (default: where you stand)")
     parser.add_argument(
-        "--meshes", action="append", default=[], metavar="DIR", help="look for meshes here first (repeatable)"
+        "--into", metavar="DIR", default=".", help="folder to write to (default: the working directory)"
+    )
+    parser.add_argument(
+        "--meshes", action="append", default=[], metavar="DIR", help="search this folder for meshes first (repeatable)"
     )
     parser.add_argument(
         "--repository",
         action=argparse.BooleanOptionalAction,
-        help="README, CI, pre-commit, dev container beside the packages (default: where that folder is new or empty)",
+        help="write README, CI, pre-commit and dev container next to the packages (default: for a new or empty folder)",
     )
     for name in ("maintainer", "email", "license"):
         parser.add_argument(
-            f"--{name}", help=f"for package.xml{' (default: as git knows)' if name != 'license' else ''}"
+            f"--{name}", help=f"for package.xml{' (default: from git config)' if name != 'license' else ''}"
         )
 
 
-def _meant(unknown: str) -> str:
-    """Return what to say of a word that is no option: that it is where to write to, or of which name."""
+def _suggestion(unknown: str) -> str:
+    """Return the option that an unknown word probably stands for, as the end of a message."""
     if unknown in ("-o", "--out", "--output", "--dir", "--dest"):
         return "; did you mean `--into`?"
     return "" if unknown.startswith("-") else f"; did you mean `--into {unknown}`?"
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Find the meshes, render, mend, move into place.
+    """Find the meshes, render the packages, apply safe fixes, move the packages into place.
 
     Raises:
-        UrdfkitError: it could not be done; nothing was written then.
+        UrdfkitError: the import failed; nothing was written.
     """
     from urdfkit.app.termination import ended_by_signals
     from urdfkit.cli.git_identity import identity
@@ -77,24 +79,30 @@ def run(arguments: argparse.Namespace) -> int:
 
     file = _file(arguments.file)
     template = load_template(templates_dir() / "package")
-    given = identity(template)
+    answers = identity(template)
     for name in ("ros", "maintainer", "email", "license"):
         if (value := getattr(arguments, name)) is not None:
-            given[name] = value if (name, value) == ("ros", "none") else template.question(name).accept(value)
+            answers[name] = value if (name, value) == ("ros", "none") else template.question(name).accept(value)
     name = _name(template, arguments.name, file)
     folders = [_folder(word) for word in arguments.meshes]
-    given |= {"year": str(datetime.now(timezone.utc).year), "into": Path(arguments.into).as_posix()}
+    answers |= {"year": str(datetime.now(timezone.utc).year), "into": Path(arguments.into).as_posix()}
     with ended_by_signals():
         wrapped = wrap(
-            file, name, Path(arguments.into), given, mesh_folders=folders, mend=_mended, repository=arguments.repository
+            file,
+            name,
+            Path(arguments.into),
+            answers,
+            mesh_folders=folders,
+            mend=_apply_fixes,
+            repository=arguments.repository,
         )
     for folder, count in zip(wrapped.folders, wrapped.files, strict=True):
         print(f"{folder.as_posix()}  {count} files")
     if wrapped.beside:
-        print(f"beside them: {', '.join(wrapped.beside)}")
+        print(f"next to them: {', '.join(wrapped.beside)}")
     if not arguments.quiet:
         if wrapped.meshes:
-            print(f"\n{wrapped.meshes} mesh{'es' if wrapped.meshes > 1 else ''} copied; {file} is as it was")
+            print(f"\n{wrapped.meshes} mesh{'es' if wrapped.meshes > 1 else ''} copied; {file} is unchanged")
         for line in wrapped.said:
             print(line)
         where = shlex.quote(wrapped.folders[0].as_posix())
@@ -107,20 +115,18 @@ def _file(word: str) -> Path:
     if path.is_dir():
         from urdfkit.resources import models_in
 
-        found = models_in(path)
-        if len(found) != 1:
-            listed = f": {', '.join(each.name for each in found[:8])}" if found else ""
-            raise ResourceError(f"{word} is a folder with {len(found)} descriptions; name the file{listed}")
-        path = found[0]
+        models = models_in(path)
+        if len(models) != 1:
+            listed = f": {', '.join(each.name for each in models[:8])}" if models else ""
+            raise ResourceError(f"{word} is a folder with {len(models)} descriptions; name the file{listed}")
+        path = models[0]
     if not path.is_file():
-        there = [each.name for each in path.parent.iterdir()] if path.parent.is_dir() else []
-        raise ResourceError(f"no such file: {word}{did_you_mean(path.name, there)}")
-    if (instead := _OTHER.get(path.suffix.lower())) is not None:
+        siblings = [each.name for each in path.parent.iterdir()] if path.parent.is_dir() else []
+        raise ResourceError(f"no such file: {word}{did_you_mean(path.name, siblings)}")
+    if (instead := _OTHER_FORMATS.get(path.suffix.lower())) is not None:
         raise UsageError(f"{word} is {instead}")
     if path.suffix == ".xacro":
-        raise UsageError(
-            f"{path} is a xacro, which may have files beside it: urdfkit expand {path} -o FILE.urdf, and import that"
-        )
+        raise UsageError(f"{path} is a xacro file: run urdfkit expand {path} -o FILE.urdf, and import FILE.urdf")
     return path
 
 
@@ -131,13 +137,13 @@ def _folder(word: str) -> Path:
     return path
 
 
-def _name(template: Template, asked: str | None, file: Path) -> str:
-    """Return the name asked for, checked, or the robot's as ROS would have it."""
+def _name(template: Template, requested: str | None, file: Path) -> str:
+    """Return the requested name, checked, or the robot's name as a valid ROS package name."""
     from urdfkit.description.xacro.expand import expand_leniently
     from urdfkit.scaffold import check_package_name, sanitised
 
-    if asked is not None:
-        return check_package_name(asked, suffixes=("_description", "_gazebo", "_bringup"))
+    if requested is not None:
+        return check_package_name(requested, suffixes=("_description", "_gazebo", "_bringup"))
     root = expand_leniently(file).root
     name = (root.get("name") if root is not None else None) or file.stem
     for suffix in _SUFFIXES:
@@ -145,24 +151,25 @@ def _name(template: Template, asked: str | None, file: Path) -> str:
     return check_package_name(sanitised(name))
 
 
-def _mended(stage: Path) -> Sequence[str]:
-    """Apply the safe fixes of the linter in a folder; return what was mended and what is left, a line each."""
+def _apply_fixes(folder: Path) -> Sequence[str]:
+    """Apply the safe fixes of the linter in a folder; return one line per rule with fixed or remaining findings."""
     from urdfkit.lint.fixes.apply import fix
     from urdfkit.lint.project.entry_files import find_entries
     from urdfkit.lint.project.options import Options
 
-    fixed = fix(find_entries([stage]), Options(package_path=(stage,), guess_target=True), within=[stage])
+    fixed = fix(find_entries([folder]), Options(package_path=(folder,), guess_target=True), within=[folder])
     for change in fixed.changes:
         change.write()
-    said = [f"mended: {count} × {code}" for code, count in sorted(fixed.fixed.items())]
-    left = [finding for finding in fixed.outcome.findings if finding.severity != "note"]
+    lines = [f"fixed: {count} × {code}" for code, count in sorted(fixed.fixed.items())]
+    remaining = [finding for finding in fixed.outcome.findings if finding.severity != "note"]
     codes: dict[str, int] = {}
-    for finding in left:
+    for finding in remaining:
         codes[finding.code] = codes.get(finding.code, 0) + 1
-    first = {finding.code: finding for finding in reversed(left)}
-    said += [
-        f"left: {count} × {code}, e.g. line {first[code].line}: {first[code].message}" for code, count in codes.items()
+    first = {finding.code: finding for finding in reversed(remaining)}
+    lines += [
+        f"remaining: {count} × {code}, e.g. line {first[code].line}: {first[code].message}"
+        for code, count in codes.items()
     ]
-    if left:
-        said.append("the package's own test of the linter fails until these are mended, or ignored with a comment")
-    return said
+    if remaining:
+        lines.append("the package's lint test fails until these findings are fixed, or ignored with a comment")
+    return lines

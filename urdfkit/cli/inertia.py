@@ -1,4 +1,4 @@
-"""``urdfkit inertia``: the right mass, centre of mass and inertia of links, from their shapes."""
+"""``urdfkit inertia``: compute mass, centre of mass and inertia of links from their shapes."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from urdfkit.lint.project.entry_files import Entry
     from urdfkit.lint.project.options import Options
 
-FAR = 10.0
-"""Factor beside the moments of evenly filled shapes that is called wrong: motors and batteries explain less."""
+MAX_RATIO = 10.0
+"""Ratio to the moments of shapes of uniform density above which a moment is reported; motors explain smaller ones."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -34,26 +34,32 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "examples:\n"
         "  urdfkit inertia simpleton chassis\n"
         "  urdfkit inertia urdf/arm.urdf.xacro forearm --density 2700 --write\n\n"
-        "solids are filled evenly; what primitives share counts once; --write changes the file a person wrote\n"
-        "exit: 0 nothing is wrong, 1 something is, 2 could not compute or write"
+        "solids have uniform density; the overlap of primitives counts once; --write changes the source file\n"
+        "exit: 0 no defects, 1 defects found, 2 could not compute or write"
     )
     parser.add_argument(
         "words",
         nargs="*",
         metavar="MODEL [LINK]",
         help="a .urdf or .xacro file, a package folder or a robot name; key:=value xacro arguments; then the link "
-        "(all links with a mass when left out)",
+        "(default: all links with a mass)",
     )
     weight = parser.add_mutually_exclusive_group()
-    weight.add_argument("--mass", type=_positive, metavar="KG", help="what the link weighs (default: as written)")
-    weight.add_argument("--density", type=_positive, metavar="KG/M3", help="of what it is made of: aluminium 2700")
-    parser.add_argument("--from", dest="kind", choices=("collision", "visual"), help="which shapes to take")
+    weight.add_argument("--mass", type=_positive, metavar="KG", help="mass of the link (default: the mass in the file)")
+    weight.add_argument(
+        "--density", type=_positive, metavar="KG/M3", help="density of the material, e.g. 2700 for aluminium"
+    )
+    parser.add_argument("--from", dest="kind", choices=("collision", "visual"), help="shapes to use")
     parser.add_argument(
-        "--write", action="store_true", help="write it into the file; without LINK for links that are wrong"
+        "--write", action="store_true", help="write the values into the file; without LINK only for links with defects"
     )
     parser.add_argument("--json", action="store_true", help="print one JSON value")
     parser.add_argument(
-        "--package-path", action="append", default=[], metavar="DIR", help="look for packages here too (repeatable)"
+        "--package-path",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="search this folder for packages too (repeatable)",
     )
 
 
@@ -66,16 +72,16 @@ def _positive(text: str) -> float:
     except ValueError:
         value = -1.0
     if not isfinite(value) or value <= 0.0:
-        raise ArgumentTypeError(f"`{text}` is no positive number")
+        raise ArgumentTypeError(f"`{text}` is not a positive number")
     return value
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Compute, show and perhaps write.
+    """Compute, print and, on request, write the inertia.
 
     Raises:
-        UsageError: an argument makes no sense.
-        UrdfkitError: there is no such model or link, its inertia cannot be computed, or cannot be written.
+        UsageError: an argument is invalid.
+        UrdfkitError: the model or link is unknown, or its inertia cannot be computed or written.
     """
     from urdfkit.lint.engine.checker import model_of
     from urdfkit.lint.project.entry_files import Entry
@@ -84,7 +90,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     plain = [word for word in arguments.words if ":=" not in word]
     if len(plain) > 2:
-        raise UsageError(f"inertia: one MODEL and one LINK, not {len(plain)} words: {' '.join(plain)}")
+        raise UsageError(f"inertia: expected one MODEL and one LINK, got {len(plain)} words: {' '.join(plain)}")
     name = plain[1] if len(plain) == 2 else None
     words = [*plain[:1], *(word for word in arguments.words if ":=" in word)]
     found = find_model(words, package_path=arguments.package_path)
@@ -122,7 +128,9 @@ def _chosen(model: Model, name: str | None) -> list[Link]:
     links = list(model.robot.link_by_name_in_order())
     if not links:
         fault = next(iter(model.expanded.faults), None)
-        raise ModelError(fault.message if fault else "no link in it", position=fault.position if fault else None)
+        raise ModelError(
+            fault.message if fault else "the robot has no links", position=fault.position if fault else None
+        )
     if name is None:
         return [link for link in links if link.inertial is not None]
     if name not in model.robot.link_by_name:
@@ -133,15 +141,15 @@ def _chosen(model: Model, name: str | None) -> list[Link]:
 
 
 def _wrong(path: Path, options: Options) -> dict[str, list[Finding]]:
-    """Return what the linter says of the masses and inertia of each link, notes left out."""
+    """Return the errors and warnings of the linter about mass and inertia, by link."""
     from urdfkit.lint.engine.run import run as lint
     from urdfkit.lint.project.entry_files import Entry
 
-    found: dict[str, list[Finding]] = {}
+    by_link: dict[str, list[Finding]] = {}
     for finding in lint([Entry(path)], options).findings:
         if finding.link and finding.severity != "note":
-            found.setdefault(finding.link, []).append(finding)
-    return found
+            by_link.setdefault(finding.link, []).append(finding)
+    return by_link
 
 
 def _row(
@@ -175,24 +183,24 @@ def _row(
         "rpy": list(link.inertial.origin.rpy) if link.inertial is not None else [0.0, 0.0, 0.0],
         "inertia": dict(zip(COMPONENTS, value.tensor, strict=True)),
     }
-    row["findings"] += _off(row["present"], row["computed"])
+    row["findings"] += _deviations(row["present"], row["computed"])
     row["shapes"] = {"kind": value.kind, "count": value.count, "volume": value.volume, "shared": value.shared}
     row["notes"] = list(value.notes)
     return row, value
 
 
-def _off(present: dict[str, Any] | None, computed: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return what is wrong beside the shapes: moments that no other distribution of the mass explains."""
+def _deviations(present: dict[str, Any] | None, computed: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return findings about moments that differ from those of the shapes by more than `MAX_RATIO`."""
     tensor = (present or {}).get("inertia")
     if tensor is None:
         return []
-    found = []
+    findings = []
     for name in ("ixx", "iyy", "izz"):
         ratio = tensor[name] / computed["inertia"][name]
-        if not 1.0 / FAR < ratio < FAR:
+        if not 1.0 / MAX_RATIO < ratio < MAX_RATIO:
             message = f"{name} is {ratio:.3g} times that of the shapes"
-            found.append({"code": None, "severity": "warning", "message": message})
-    return found
+            findings.append({"code": None, "severity": "warning", "message": message})
+    return findings
 
 
 def _present(inertial: Inertial | None) -> dict[str, Any] | None:
@@ -212,7 +220,7 @@ def _present(inertial: Inertial | None) -> dict[str, Any] | None:
 def _write(
     entry: Entry, options: Options, model: Model, writes: Sequence[tuple[Link, Right, dict[str, Any]]], *, alone: bool
 ) -> None:
-    """Write what was computed: checked in memory first, then each file replaced in one move."""
+    """Write the computed values: verified in memory first, then each file replaced atomically."""
     from urdfkit.lint.engine.checker import model_of
     from urdfkit.lint.fixes.apply import changes, may_be_changed
     from urdfkit.lint.fixes.inertia_edits import edits, right
@@ -229,18 +237,20 @@ def _write(
             continue
         wanted += made
         if not made:
-            row["notes"].append("not written: it says so already, to the six digits that are written")
+            row["notes"].append("not written: the file has these values already, to six digits")
         row["written"] = sorted({f"{edit.span.file}:{edit.span.line}" for edit in made})
     changed = changes(wanted, model.expanded.sources, within=may_be_changed([entry.path]))
     texts = {str(change.path): change.text for change in changed}
     again = model_of(entry.path, Options(**{**options.__dict__, "texts": texts}))
     for link, value, row in writes:
-        mended = again.robot.link_by_name.get(link.name)
+        fixed_link = again.robot.link_by_name.get(link.name)
         if not row["written"]:
             continue
-        if mended is None or not _agree(mended.inertial, right(again, mended, mass=value.mass, kind=value.kind)):
+        if fixed_link is None or not _agree(
+            fixed_link.inertial, right(again, fixed_link, mass=value.mass, kind=value.kind)
+        ):
             raise UrdfkitError(
-                f"the inertia of link `{link.name}` would not come out as written; nothing was written",
+                f"the inertia of link `{link.name}` would differ from the computed values; nothing was written",
                 position=link.element.origin.position,
             )
     for change in changed:
@@ -264,11 +274,9 @@ def _text(row: dict[str, Any]) -> str:
     present, computed, shapes = row["present"], row["computed"], row["shapes"]
     lines = [f"{row['link']}  {row['file']}:{row['line']}"]
     if computed is not None:
-        shared = (
-            f", of which {shapes['shared']:.4g} m³ were shared by several and count once" if shapes["shared"] else ""
-        )
+        shared = f", of which {shapes['shared']:.4g} m³ are overlaps, counted once" if shapes["shared"] else ""
         plural = "s" if shapes["count"] > 1 else ""
-        lines.append(f"  {shapes['count']} {shapes['kind']} shape{plural}, {shapes['volume']:.6g} m³ together{shared}")
+        lines.append(f"  {shapes['count']} {shapes['kind']} shape{plural}, {shapes['volume']:.6g} m³ in total{shared}")
         lines.append(f"  {'':14}{'present':>16}{'computed':>16}")
         pairs = [("mass [kg]", present and present["mass"], computed["mass"])]
         middle = present["xyz"] if present else [None] * 3
@@ -292,7 +300,7 @@ def _number(value: float | None, scale: float) -> str:
 
 
 def _times(present: float | None, computed: float, scale: float) -> str:
-    """Say how many times too large or small a value is, where that is more than half."""
+    """Return how many times too large or small a value is; empty where the ratio is less than 1.5."""
     if present is None or present <= 0.0 or computed <= 1e-9 * scale:
         return ""
     ratio = present / computed

@@ -1,4 +1,4 @@
-"""``urdfkit info``: what a robot is made of."""
+"""``urdfkit info``: print the links, joints, mass, sensors and drives of a robot."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print what the robot is made of."""
+    """Print the properties of the robot."""
     from urdfkit.description import load
     from urdfkit.resources import find_model
 
@@ -41,10 +41,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def facts_of(robot: Robot) -> dict[str, Any]:
-    """Return what ``urdfkit info --json`` prints.
+    """Return the object that ``urdfkit info --json`` prints.
 
     Lengths are in metres, masses in kilograms; centre of mass and bounding box (of visuals and collisions) are in the
-    root frame with all joints at zero, null where they cannot be computed: ``note`` says why.
+    root frame with all joints at zero, null where they cannot be computed: ``note`` contains the reason.
     """
     from urdfkit.description.urdf.queries import mass
 

@@ -1,4 +1,4 @@
-"""``urdfkit lint``: find and mend the defects of a URDF or xacro."""
+"""``urdfkit lint``: find and fix the defects of a URDF or xacro."""
 
 from __future__ import annotations
 
@@ -38,29 +38,35 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "paths",
         nargs="*",
         metavar="PATH",
-        help="files, package folders or workspaces (left out: where you stand); then key:=value xacro arguments",
+        help="files, package folders or workspaces (default: the working directory); then key:=value xacro arguments",
     )
-    add("--fix", action="store_true", help="mend what has a safe fix")
+    add("--fix", action="store_true", help="apply safe fixes")
     add("--unsafe-fixes", action="store_true", help="with --fix or --diff: apply unsafe fixes too")
-    add("--diff", action="store_true", help="show what --fix would change, and change nothing")
-    add("--select", action="append", default=[], metavar="CODES", help="only these: I503,J or I,X1")
-    add("--ignore", action="append", default=[], metavar="CODES", help="not these")
+    add("--diff", action="store_true", help="print the changes of --fix without writing them")
+    add("--select", action="append", default=[], metavar="CODES", help="only these rules: I503,J or I,X1")
+    add("--ignore", action="append", default=[], metavar="CODES", help="skip these rules")
     add(
         "--target",
         metavar="NAME",
         help="ros1, ros2, gz, classic, mujoco, isaac, drake, moveit or urdfkit, the first four with a release where it "
-        "matters (ros2-jazzy, gz-harmonic), or any: what holds for all of them (default: guessed from package.xml)",
+        "matters (ros2-jazzy, gz-harmonic), or any: only rules for every target (default: guessed from package.xml)",
     )
     add("--format", choices=FORMATS, default="text", help="text (default), json, sarif, github or junit")
-    add("--statistics", action="store_true", help="count by rule instead of listing")
+    add("--statistics", action="store_true", help="print the number of findings per rule")
     add("--watch", action="store_true", help="lint again whenever a file changes")
-    add("--baseline", type=Path, metavar="FILE", help="leave out the findings that are known by this file")
-    add("--write-baseline", type=Path, metavar="FILE", help="make what is found now known by this file")
+    add("--baseline", type=Path, metavar="FILE", help="report only findings that are not in this baseline")
+    add("--write-baseline", type=Path, metavar="FILE", help="write the current findings to FILE as a baseline")
     add("--config", type=Path, metavar="FILE", help="read the settings from this file")
-    add("--no-config", action="store_true", help="read no settings")
-    add("--package-path", action="append", default=[], metavar="DIR", help="look for packages here too (repeatable)")
-    add("--no-cache", action="store_true", help="lint again what has not changed")
-    add("--jobs", type=_count, metavar="N", help="lint in so many processes (default: one per core)")
+    add("--no-config", action="store_true", help="ignore settings files")
+    add(
+        "--package-path",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="search this folder for packages too (repeatable)",
+    )
+    add("--no-cache", action="store_true", help="lint unchanged files again")
+    add("--jobs", type=_count, metavar="N", help="number of processes (default: one per core)")
     parser.epilog = _EPILOG
 
 
@@ -68,16 +74,16 @@ def _count(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         from argparse import ArgumentTypeError
 
-        raise ArgumentTypeError(f"`{text}` is no number of processes")
+        raise ArgumentTypeError(f"`{text}` is not a number of processes")
     return int(text)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Lint, and fix where asked to.
+    """Lint, and apply fixes on request.
 
     Raises:
-        UsageError: an argument or a setting makes no sense.
-        ResourceError: a path is not there, or a file cannot be read or written.
+        UsageError: an argument or a setting is invalid.
+        ResourceError: a path does not exist, or a file cannot be read or written.
     """
     _check(arguments)
     if arguments.watch:
@@ -90,15 +96,15 @@ def _check(arguments: argparse.Namespace) -> None:
 
     changes = arguments.fix or arguments.diff
     if arguments.unsafe_fixes and not changes:
-        raise UsageError("--unsafe-fixes goes with --fix or --diff")
+        raise UsageError("--unsafe-fixes requires --fix or --diff")
     if arguments.watch and (changes or arguments.write_baseline):
-        raise UsageError("--watch only looks: it goes without --fix, --diff and --write-baseline")
+        raise UsageError("--watch cannot be combined with --fix, --diff or --write-baseline")
     if arguments.write_baseline and changes:
-        raise UsageError("--write-baseline goes without --fix and --diff")
+        raise UsageError("--write-baseline cannot be combined with --fix or --diff")
     if arguments.statistics and arguments.format not in ("text", "json"):
-        raise UsageError(f"--statistics are text or json, not {arguments.format}")
+        raise UsageError(f"--statistics supports the formats text and json, not {arguments.format}")
     if arguments.config and arguments.no_config:
-        raise UsageError("either --config or --no-config")
+        raise UsageError("--config cannot be combined with --no-config")
 
 
 def _watch(arguments: argparse.Namespace) -> int:
@@ -108,7 +114,7 @@ def _watch(arguments: argparse.Namespace) -> int:
     def once() -> Outcome | None:
         try:
             return _Run(arguments).run()[1]
-        except UrdfkitError as error:  # a file that is half written: it will come
+        except UrdfkitError as error:  # e.g. a file that is half written
             print(f"urdfkit: {error}", file=sys.stderr)
             return None
 
@@ -117,7 +123,7 @@ def _watch(arguments: argparse.Namespace) -> int:
 
 
 class _Run:
-    """One run: what the command line and the settings ask for together."""
+    """One run: the options of the command line merged with the settings."""
 
     def __init__(self, arguments: argparse.Namespace) -> None:
         self.arguments = arguments
@@ -127,7 +133,7 @@ class _Run:
         self.options = self._options(xacro_arguments)
 
     def run(self) -> tuple[int, Outcome]:
-        """Lint, and fix where asked to; return the exit code and what is left."""
+        """Lint, and apply fixes on request; return the exit code and the remaining findings."""
         from urdfkit.lint.engine.run import run as lint
 
         arguments = self.arguments
@@ -139,7 +145,7 @@ class _Run:
         return self._report(outcome), outcome
 
     def _settings(self) -> Settings | None:
-        """Return what a file says; None without one: most runs have none, and need no module for it."""
+        """Return the settings file; None without one. Most runs have none, and then the module is not imported."""
         arguments = self.arguments
         if arguments.no_config:
             return None
@@ -184,7 +190,7 @@ class _Run:
         return settings is not None and any(settings.matches(path, pattern) for pattern in settings.exclude)
 
     def _is_wanted(self, finding: Finding) -> bool:
-        """Whether the settings have nothing against a finding in its file."""
+        """Whether the settings do not exclude a finding in its file."""
         settings = self.settings
         if settings is None:
             return True
@@ -224,20 +230,22 @@ class _Run:
         for change in fixed.changes:
             sys.stdout.write(change.diff())
         refused = self._refuse(fixed.outcome)
-        left = sum(finding.severity != "note" for finding in self._left(fixed.outcome).findings)
-        if left:
-            print(f"{left} finding{'s' if left > 1 else ''} would be left; nothing was written.", file=sys.stderr)
-        return 2 if refused else 1 if fixed.changes or left else 0
+        remaining = sum(finding.severity != "note" for finding in self._left(fixed.outcome).findings)
+        if remaining:
+            print(
+                f"{remaining} finding{'s' if remaining > 1 else ''} would remain; nothing was written.", file=sys.stderr
+            )
+        return 2 if refused else 1 if fixed.changes or remaining else 0
 
     def _refuse(self, outcome: Outcome) -> bool:
-        """Say what could not be linted, one line each; return whether there was anything."""
+        """Print the paths that could not be linted, one line each; return whether there are any."""
         reasons = (*self.refused, *outcome.refused)
         for reason in reasons:
             print(f"urdfkit: {reason}", file=sys.stderr)
         return bool(reasons)
 
     def _left(self, outcome: Outcome) -> Outcome:
-        """Return what is to be reported: neither against the settings nor known by the baseline."""
+        """Return the outcome without findings that the settings exclude or the baseline contains."""
         from urdfkit.lint.engine.run import Outcome
 
         arguments = self.arguments
@@ -248,10 +256,12 @@ class _Run:
         if file is not None and arguments.write_baseline is None:
             from urdfkit.lint.engine.baseline import read, unknown
 
-            findings, known, gone = unknown(findings, read(file))
+            findings, matched, obsolete = unknown(findings, read(file))
             if not arguments.quiet:
-                hint = f"; {gone} are there no more: --write-baseline {file} forgets them" if gone else ""
-                print(f"urdfkit: {known} finding{'s' if known != 1 else ''} known by {file}{hint}", file=sys.stderr)
+                hint = f"; {obsolete} no longer occur: remove them with --write-baseline {file}" if obsolete else ""
+                print(
+                    f"urdfkit: {matched} finding{'s' if matched != 1 else ''} matched by {file}{hint}", file=sys.stderr
+                )
         return Outcome(**{**outcome.__dict__, "findings": tuple(findings)})
 
     def _report(self, whole: Outcome) -> int:
@@ -265,7 +275,10 @@ class _Run:
 
             count = write(arguments.write_baseline, outcome.findings)
             if not arguments.quiet:
-                print(f"urdfkit: {count} findings are known by {arguments.write_baseline} now", file=sys.stderr)
+                print(
+                    f"urdfkit: wrote {count} finding{'s' if count != 1 else ''} to {arguments.write_baseline}",
+                    file=sys.stderr,
+                )
             return 2 if refused else 0
         if refused and not whole.files and arguments.format == "text":
             return 2  # nothing was linted
@@ -287,7 +300,7 @@ def _split(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
         elif key:
             xacro_arguments[key] = value
         else:
-            raise UsageError(f"`{word}` lacks its key: xacro arguments are key:=value")
+            raise UsageError(f"`{word}` has no key: write xacro arguments as key:=value")
     return paths or ["."], xacro_arguments
 
 
@@ -302,7 +315,7 @@ def _folder(word: str) -> Path:
 
 
 def _has_settings(start: Path) -> bool:
-    """Whether there may be settings above a path; `urdfkit.lint.engine.settings` knows which."""
+    """Whether a settings file may exist above a path; `urdfkit.lint.project.settings` reads it."""
     folder = os.path.abspath(start)  # noqa: PTH100 - a dozen look-ups before every run
     while True:
         if os.path.exists(f"{folder}/urdfkit.toml") or os.path.exists(f"{folder}/pyproject.toml"):  # noqa: PTH110

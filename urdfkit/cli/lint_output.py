@@ -1,4 +1,4 @@
-"""What ``urdfkit lint`` prints, in each of its formats."""
+"""Output of ``urdfkit lint`` in each of its formats."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ def show(outcome: Outcome, *, form: str, statistics: bool, color: str) -> None:
     """Print the findings.
 
     Args:
-        outcome: what was found.
+        outcome: the result of the run.
         form: one of `FORMATS`.
-        statistics: count by rule instead of listing; as text or JSON.
+        statistics: print the number of findings per rule, as text or JSON.
         color: ``auto``, ``always`` or ``never``.
     """
     findings = outcome.findings

@@ -14,22 +14,22 @@ if TYPE_CHECKING:
     from urdfkit.lint.engine.run import Outcome
 
 INTERVAL = 0.3
-"""Seconds between two looks at the files."""
+"""Seconds between two checks of the files."""
 
 _SUFFIXES = (".urdf", ".xacro", ".gazebo", ".yaml", ".yml", ".xml", ".toml", ".stl", ".dae", ".obj")
 
 
 def watch(lint: Callable[[], Outcome | None], paths: Iterable[Path]) -> None:
-    """Lint whenever something has changed, until interrupted.
+    """Lint whenever a file changes, until interrupted.
 
     Args:
-        lint: lints and prints; returns what was read, None where it could not.
-        paths: files and folders named by the user: what comes into them is seen too.
+        lint: lint and print; return the outcome, or None on failure.
+        paths: files and folders named by the user; files created in the folders are watched too.
     """
     named = list(paths)
     files: set[Path] = set()
     while True:
-        seen = _state(files, named)  # before they are read: a file that is saved meanwhile is linted again
+        seen = _state(files, named)  # before the files are read: a file saved in the meantime is linted again
         if sys.stdout.isatty():
             print("\x1b[2J\x1b[3J\x1b[H", end="")
         before = time.time()
@@ -44,7 +44,7 @@ def watch(lint: Callable[[], Outcome | None], paths: Iterable[Path]) -> None:
 
 
 def _state(files: Iterable[Path], named: Iterable[Path]) -> dict[str, tuple[int, int]]:
-    """Return size and time of everything that counts."""
+    """Return size and modification time of every watched file."""
     every = {str(file) for file in files}
     for path in named:
         if path.is_dir():

@@ -1,4 +1,4 @@
-"""An argument parser whose errors are one line with the nearest right thing."""
+"""Argument parser whose errors are one line with the nearest valid name."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class HelpFormatter(argparse.RawDescriptionHelpFormatter):
-    """argparse's, but it finds the width without shutil, which takes longer to import than a command line to parse."""
+    """Formatter of argparse that finds the width without shutil, whose import takes longer than parsing."""
 
     def __init__(
         self, prog: str, indent_increment: int = 2, max_help_position: int = 24, width: int | None = None
@@ -26,16 +26,16 @@ class HelpFormatter(argparse.RawDescriptionHelpFormatter):
 
 
 def columns() -> int | None:
-    """Return the width of the terminal in columns (``COLUMNS`` comes first); None when the output goes elsewhere."""
+    """Return the width of the terminal in columns (``COLUMNS`` has precedence); None without a terminal."""
     try:
-        given = int(os.environ.get("COLUMNS") or 0)
-        return given or os.get_terminal_size(sys.__stdout__.fileno() if sys.__stdout__ else 1).columns or None
+        width = int(os.environ.get("COLUMNS") or 0)
+        return width or os.get_terminal_size(sys.__stdout__.fileno() if sys.__stdout__ else 1).columns or None
     except (ValueError, OSError):
         return None
 
 
 class Parser(argparse.ArgumentParser):
-    """argparse, but a wrong argument raises `UsageError` instead of printing the usage."""
+    """Parser of argparse that raises `UsageError` for a wrong argument instead of printing the usage."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         kwargs.setdefault("allow_abbrev", False)
@@ -45,10 +45,10 @@ class Parser(argparse.ArgumentParser):
         """Whether options may stand between positional arguments."""
         self._words: list[str] = []
         self.elsewhere: Callable[[str], str] = lambda _: ""
-        """What to say of an option that this command does not have, but maybe one of its subcommands."""
+        """Return the suggestion for an option that this command does not have, e.g. the subcommand that has it."""
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """Take options between positional arguments too: ``urdfkit tf simpleton --json base camera``.
+        """Accept options between positional arguments too: ``urdfkit tf simpleton --json base camera``.
 
         Raises:
             UsageError: an argument that this command does not have.
@@ -58,22 +58,22 @@ class Parser(argparse.ArgumentParser):
             return super().parse_known_args(words, namespace)
         self._words = words
         if self._subparsers is not None:
-            found, unknown = super().parse_known_args(words, namespace)
+            parsed, unknown = super().parse_known_args(words, namespace)
             if unknown:
                 self.error(f"unrecognized arguments: {' '.join(unknown)}")
-            return found, unknown
+            return parsed, unknown
         self.intermixed = False  # argparse's own method for it calls this method again
         usage, self.usage = self.usage, self.usage or ""  # argparse would format it for its own error messages
         try:
-            found, unknown = self.parse_known_intermixed_args(words, namespace)
+            parsed, unknown = self.parse_known_intermixed_args(words, namespace)
         finally:
             self.intermixed, self.usage = True, usage
-        if unknown:  # said here, where the options are known; the parser above knows only its own
+        if unknown:  # reported here, where the options of the subcommand are defined
             self.error(f"unrecognized arguments: {' '.join(unknown)}")
-        return found, unknown
+        return parsed, unknown
 
     def prepare(self, words: list[str]) -> None:
-        """Add the options that depend on the words of the command line; by default there are none."""
+        """Add the options that depend on the words of the command line; none by default."""
 
     def error(self, message: str) -> NoReturn:
         """Raise instead of exiting.
@@ -82,24 +82,24 @@ class Parser(argparse.ArgumentParser):
             UsageError: always.
         """
         hint = ""
-        # What is misspelt is often what seems to be missing.
+        # A misspelt option often is the cause of a missing argument.
         if "unrecognized arguments" not in message and (misspelt := self._unknown_option()) is not None:
             message = f"unrecognized arguments: {misspelt}"
-        message = re.sub(r"ignored explicit argument '(.*)'", r"takes no value, and `\1` is behind it", message)
+        message = re.sub(r"ignored explicit argument '(.*)'", r"accepts no value, got `\1`", message)
         if unknown := re.search(r"unrecognized arguments: (\S+)", message):
             hint = self.elsewhere(unknown[1]) or did_you_mean(unknown[1], self._option_string_actions)
         elif choice := re.search(r"invalid choice: '([^']*)' \(choose from (.*)\)", message):
             option = f"--{choice[1]}"
-            told = f"; did you mean `{option}`?" if option in self._option_string_actions else ""
-            hint = told or did_you_mean(choice[1], re.findall(r"[\w-]+", choice[2]))
+            as_option = f"; did you mean `{option}`?" if option in self._option_string_actions else ""
+            hint = as_option or did_you_mean(choice[1], re.findall(r"[\w-]+", choice[2]))
         elif "expected 3 arguments" in message:
-            hint = ": three numbers with blanks between, such as 0.1 0 0.2"
+            hint = ": three numbers separated by spaces, such as 0.1 0 0.2"
         raise UsageError(f"{self.prog.removeprefix('urdfkit').strip()}: {message}{hint}".removeprefix(": "))
 
     def _unknown_option(self) -> str | None:
         """Return the first long option that this command does not have."""
         words = self._words[: self._words.index("--")] if "--" in self._words else self._words
-        if self._subparsers is not None:  # what is behind a subcommand is the subcommand's
+        if self._subparsers is not None:  # words after a subcommand belong to the subcommand
             words = list(takewhile(lambda word: word.startswith("-"), words))
         named = (word.partition("=")[0] for word in words if word.startswith("--"))
         return next((name for name in named if name not in self._option_string_actions), None)
@@ -122,24 +122,24 @@ def add_model(parser: argparse.ArgumentParser, *, optional: bool = True) -> None
         action="append",
         default=[],
         metavar="DIR",
-        help="look for packages here too (repeatable)",
+        help="search this folder for packages too (repeatable)",
     )
 
 
 def add_common(parser: argparse.ArgumentParser, *, nested: bool = False) -> None:
-    """Add the options every command has: ``-q``, ``-v`` and ``--color``, where the command has none of its own.
+    """Add the common options ``-q``, ``-v`` and ``--color``, except those that the command defines itself.
 
     Args:
-        parser: of the command; its subcommands get them too.
-        nested: whether a parser above has them already, and with them the defaults.
+        parser: parser of the command; its subcommands get the options too.
+        nested: whether a parent parser has the options already, with their defaults.
     """
-    taken = parser._option_string_actions
+    defined = parser._option_string_actions
     off, auto = (argparse.SUPPRESS, argparse.SUPPRESS) if nested else (False, "auto")
-    if "--quiet" not in taken and "-q" not in taken:
+    if "--quiet" not in defined and "-q" not in defined:
         parser.add_argument("-q", "--quiet", action="store_true", default=off, help="print results only, no notes")
-    if "--verbose" not in taken and "-v" not in taken:
+    if "--verbose" not in defined and "-v" not in defined:
         parser.add_argument("-v", "--verbose", action="store_true", default=off, help="print more notes")
-    if "--color" not in taken:
+    if "--color" not in defined:
         parser.add_argument(
             "--color", choices=("auto", "always", "never"), default=auto, help="colour the output (default: auto)"
         )

@@ -1,4 +1,4 @@
-"""``urdfkit rule``: the page of a rule, or the catalogue."""
+"""``urdfkit rule``: print the page of a rule, or the list of all rules."""
 
 from __future__ import annotations
 
@@ -11,15 +11,17 @@ if TYPE_CHECKING:
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
-    parser.add_argument("code", nargs="?", metavar="CODE", help="a code (I503) or name; the catalogue when left out")
+    parser.add_argument(
+        "code", nargs="?", metavar="CODE", help="code (I503) or name of a rule (default: list all rules)"
+    )
     parser.epilog = "examples:\n  urdfkit rule\n  urdfkit rule I503"
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print it.
+    """Print the page of the rule, or the list.
 
     Raises:
-        UsageError: there is no such rule.
+        UsageError: the rule is unknown.
     """
     from urdfkit.lint.catalogue import page, rules
 
@@ -33,8 +35,8 @@ def run(arguments: argparse.Namespace) -> int:
             return 0
     from urdfkit.errors import UsageError, did_you_mean
 
-    known = [word for rule in rules() for word in (rule.code, rule.name)]
-    raise UsageError(f"there is no rule `{wanted}`{did_you_mean(wanted, known) or '; urdfkit rule lists them'}")
+    names = [word for rule in rules() for word in (rule.code, rule.name)]
+    raise UsageError(f"unknown rule `{wanted}`{did_you_mean(wanted, names) or '; run urdfkit rule to list all rules'}")
 
 
 def _catalogue(rules: tuple[type[Rule], ...]) -> str:
@@ -43,4 +45,4 @@ def _catalogue(rules: tuple[type[Rule], ...]) -> str:
     width = max(len(rule.name) for rule in rules)
     ways = {"safe": "[*]", "unsafe": "[?]", "none": "   "}
     lines = [f"{r.code}  {r.severity:7s}  {ways[r.fix]}  {r.name:{width}s}  {title(r)}" for r in rules]
-    return "\n".join([*lines, "", "[*] mended by --fix   [?] by --fix --unsafe-fixes"])
+    return "\n".join([*lines, "", "[*] fixed by --fix   [?] fixed by --fix --unsafe-fixes"])

@@ -90,7 +90,7 @@ def test_it_becomes_packages(export, capsys, ros):
     beside = [".devcontainer", ".github", ".gitignore", ".pre-commit-config.yaml", "LICENSE", "README.md", "pytest.ini"]
     assert sorted(path.name for path in src.iterdir()) == sorted([*beside, *packages])
     said = capsys.readouterr().out
-    assert f"beside them: {', '.join(beside)}" in said
+    assert f"next to them: {', '.join(beside)}" in said
     assert "2 meshes copied" in said
     package = src / "my_arm_description"
     assert (package / "meshes/base_link.STL").read_bytes() == stl()
@@ -120,7 +120,7 @@ def test_what_is_mended_and_left_is_told(export, capsys):
     code = main(["import", "export/urdf/arm.urdf"])
     said = capsys.readouterr()
     assert (code, said.err) == (0, "")
-    assert "mended: " in said.out
+    assert "fixed: " in said.out
 
 
 @pytest.mark.parametrize(
@@ -219,7 +219,7 @@ def test_a_missing_mesh_is_refused(export, capsys):
         (["export/urdf/arm.urdf", "--meshs", "a"], "did you mean `--meshes`?"),
         (["export/urdf/arm.urdf", "--meshes", "a"], "--meshes a: no such folder"),
         (["export/urdf/two.urdf"], "urdfkit: export/urdf/two.urdf:1:"),
-        (["x.xacro"], "is a xacro"),
+        (["x.xacro"], "is a xacro file"),
         (["export/urdf/arm.urdf", "--out", "a"], "did you mean `--into`?"),
         (["export/urdf/arm.urdf", "src"], "did you mean `--into src`?"),
         (["export/urdf/room.sdf"], "room.sdf is SDF"),
@@ -306,7 +306,7 @@ def test_what_lies_beside_stays(export, capsys):
     src.mkdir()
     (src / "README.md").write_text("mine")
     assert main(["import", "export/urdf/arm.urdf", "--into", "src"]) == 0
-    assert "beside them" not in capsys.readouterr().out
+    assert "next to them" not in capsys.readouterr().out
     assert not (src / ".github").exists()
     assert main(["import", "export/urdf/arm.urdf", "--into", "src", "--name", "other", "--repository"]) == 0
     assert (src / "README.md").read_text() == "mine"
@@ -364,5 +364,5 @@ def test_names_that_a_uri_would_have_to_escape(export, ros):
 def test_what_its_own_test_will_say_is_told(export, capsys):
     assert main(["import", "export/urdf/arm.urdf", "--into", "src"]) == 0
     said = capsys.readouterr().out
-    assert "left: 1 × I507" in said
-    assert "the package's own test of the linter fails until these are mended" in said
+    assert "remaining: 1 × I507" in said
+    assert "the package's lint test fails until these findings are fixed" in said

@@ -23,26 +23,30 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.epilog = "examples:\n  urdfkit lsp\n  urdfkit lsp --target ros2"
     parser.add_argument("--target", metavar="NAME", help="as for urdfkit lint (default: guessed from package.xml)")
     parser.add_argument(
-        "--package-path", action="append", default=[], metavar="DIR", help="look for packages here too (repeatable)"
+        "--package-path",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="search this folder for packages too (repeatable)",
     )
-    parser.add_argument("--stdio", action="store_true", help="speak on standard input and output, as it does anyway")
+    parser.add_argument("--stdio", action="store_true", help="use standard input and output (the default)")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Serve until the editor ends it.
+    """Serve until the editor closes the connection.
 
     Raises:
         MissingDependencyError: pygls is not installed.
-        UsageError: there is no such target, or a setting makes no sense.
+        UsageError: the target is unknown, or a setting is invalid.
     """
     try:
         import pygls.lsp.server  # noqa: F401
     except ImportError as error:
         raise MissingDependencyError("lsp needs pygls: pip install 'urdfkit[lsp]'") from error
-    from urdfkit.cli.lsp.rejected_requests import speak_in_lines
+    from urdfkit.cli.lsp.rejected_requests import log_in_one_line
 
     if not arguments.verbose:
-        speak_in_lines()
+        log_in_one_line()
     gc.disable()  # see Session
     server_for(_options(arguments)).start_io()
     return 0

@@ -1,4 +1,4 @@
-"""Places and findings in the words of the Language Server Protocol: URIs, lines from 0, columns in UTF-16."""
+"""Convert positions and findings to the Language Server Protocol: URIs, lines from 0, columns in UTF-16."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def path_of(uri: str) -> Path | None:
-    """Return the file of a URI; None for what is none: a text that was never saved, a page, no URI at all."""
+    """Return the file of a URI; None for any other URI, e.g. of an unsaved text or a web page, and for invalid URIs."""
     try:
         parsed = urlparse(uri)
     except ValueError:
@@ -50,7 +50,7 @@ def range_of(source: Source, span: Span) -> types.Range:
 
 
 def diagnostic(finding: Finding, source: Source) -> types.Diagnostic:
-    """Return a finding as the protocol has it."""
+    """Convert a finding to a diagnostic of the protocol."""
     severities = {
         "error": types.DiagnosticSeverity.Error,
         "warning": types.DiagnosticSeverity.Warning,
@@ -73,6 +73,6 @@ def diagnostic(finding: Finding, source: Source) -> types.Diagnostic:
 
 
 def failure(text: str) -> types.Diagnostic:
-    """Return what could not be looked at, by our own fault, as the protocol has it: at the start of the file."""
+    """Return a diagnostic at the start of the file for an internal error."""
     start = types.Position(0, 0)
     return types.Diagnostic(types.Range(start, start), text, severity=types.DiagnosticSeverity.Error, source="urdfkit")

@@ -1,4 +1,4 @@
-"""What is said on the wire when a request is refused, and on standard error: one line, never a traceback."""
+"""Rejection of invalid requests: one line on the wire and on standard error, never a traceback."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 
 
 class Protocol(LanguageServerProtocol):
-    """The protocol, where a request that makes no sense is answered: pygls leaves the editor waiting for ever."""
+    """The protocol with an error response to every invalid request; pygls leaves the editor waiting for ever."""
 
     def structure_message(self, data: dict[str, Any]) -> Any:
-        """Return a message as pygls has it; None for a request that has been refused.
+        """Return a message structured by pygls; None for a request that has been rejected.
 
         Raises:
-            JsonRpcException: a notification makes no sense.
+            JsonRpcException: a notification is invalid.
         """
         try:
             return super().structure_message(data)
@@ -31,24 +31,24 @@ class Protocol(LanguageServerProtocol):
             return None
 
     def handle_message(self, message: Any) -> None:
-        """Deal with a message, unless it has been refused."""
+        """Handle a message, unless it has been rejected."""
         if message is not None:
             super().handle_message(message)
 
 
 class OneLine(logging.Formatter):
-    """What goes wrong, in one line each."""
+    """Log formatter that prints each error in one line."""
 
     def format(self, record: logging.LogRecord) -> str:
-        """Return the first line of a message, with what was raised."""
+        """Return the first line of a message, with the exception."""
         text = record.getMessage().partition("\n")[0]
         raised = record.exc_info[1] if record.exc_info else None
-        what = f": {type(raised).__name__}: {_reason(raised)}" if raised is not None else ""
-        return f"urdfkit: {text[:200]}{what}"
+        cause = f": {type(raised).__name__}: {_reason(raised)}" if raised is not None else ""
+        return f"urdfkit: {text[:200]}{cause}"
 
 
-def speak_in_lines() -> None:
-    """Have pygls say what goes wrong in one line, and nothing of requests that are refused: the editor says so."""
+def log_in_one_line() -> None:
+    """Make pygls log each error in one line, and omit rejected requests, which the editor reports."""
     handler = logging.StreamHandler()
     handler.setLevel(logging.WARNING)
     handler.setFormatter(OneLine())
@@ -60,7 +60,7 @@ def speak_in_lines() -> None:
 
 
 def _is_answered(record: logging.LogRecord) -> bool:
-    """Whether the editor is told, or another line says it, or the editor has gone."""
+    """Whether the editor receives the error, another line reports it, or the editor has disconnected."""
     raised = record.exc_info[1] if record.exc_info else None
     is_refusal = isinstance(raised, JsonRpcInvalidParams) and raised.__cause__ is None
     has_gone = isinstance(raised, ConnectionError) or (isinstance(raised, ValueError) and "closed file" in str(raised))
@@ -72,7 +72,7 @@ def _is_request(data: Mapping[str, Any]) -> bool:
 
 
 def _reason(error: BaseException) -> str:
-    """Return what is at the bottom of an error, in one line."""
+    """Return the root cause of an error, in one line."""
     while True:
         below = getattr(error, "exceptions", None)
         if below:

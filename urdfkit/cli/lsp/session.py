@@ -1,4 +1,4 @@
-"""Session: what an editor asks, answered from a project."""
+"""Session of one editor: diagnostics, hover, navigation, renaming and completion for the files of a project."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Edit
 
 PAUSE = 0.005
-"""Seconds that texts rest before they are looked at: keys that follow each other closely count once."""
+"""Seconds without a change before a text is checked: key presses in quick succession count once."""
 
 IDLE = 1.0
-"""Seconds without a key after which memory is tidied up: trees that point at each other, of texts that are past."""
+"""Seconds without a key press after which garbage is collected: reference cycles of outdated trees."""
 
-MOST = 100
-"""Looks at a text after which it is tidied up all the same."""
+MAX_CHECKS = 100
+"""Number of checks after which garbage is collected without waiting."""
 
 _KINDS = {
     "element": types.CompletionItemKind.Class,
@@ -42,30 +42,30 @@ _KINDS = {
 
 
 class Session:
-    """What an editor asks, in its own words: URIs, lines from 0, columns in UTF-16.
+    """Requests of one editor, in the units of the protocol: URIs, lines from 0, columns in UTF-16.
 
     Args:
-        server: what speaks to the editor.
-        project: what is known of its files.
+        server: the connection to the editor.
+        project: the files and their analyses.
     """
 
     def __init__(self, server: LanguageServer, project: Project) -> None:
         self.server, self.project = server, project
         self._waiting: dict[str, asyncio.TimerHandle] = {}
         self._published: set[str] = set()
-        self._tidying: asyncio.TimerHandle | None = None
-        self._looks = 0
+        self._collection: asyncio.TimerHandle | None = None
+        self._checks = 0
 
     def changed(self, uri: str) -> None:
-        """Take the text of a document; publish what is found once it rests."""
-        if self._taken(uri) is None:
+        """Read the text of a document; publish its findings when no change follows within `PAUSE`."""
+        if self._update(uri) is None:
             return
         if uri in self._waiting:
             self._waiting[uri].cancel()
         self._waiting[uri] = asyncio.get_running_loop().call_later(PAUSE, self._publish, uri)
 
     def closed(self, uri: str) -> None:
-        """Let the file on disk count again."""
+        """Use the file on disk again."""
         path = path_of(uri)
         if (timer := self._waiting.pop(uri, None)) is not None:
             timer.cancel()
@@ -75,7 +75,7 @@ class Session:
             self.publish_all()
 
     def publish_all(self) -> None:
-        """Publish what is found in every open document."""
+        """Publish the findings of every open document."""
         for text in list(self.project.texts):
             self._publish(Path(text).as_uri())
 
@@ -84,7 +84,7 @@ class Session:
         path = path_of(uri)
         if path is None or str(path) not in self.project.texts:
             return
-        self._tidy_later()
+        self._schedule_collection()
         for file, findings in self.project.findings(path).items():
             its = uri if file == path else file.as_uri()
             source = self._source(file)
@@ -93,15 +93,17 @@ class Session:
                 shown += map(failure, self.project.failures(path))
             self._show(its, shown)
 
-    def _tidy_later(self) -> None:
-        """Look for cyclic garbage when nobody types: in the middle it would take longer than what is waited for."""
-        self._looks += 1
-        if self._tidying is not None:
-            self._tidying.cancel()
-        self._tidying = asyncio.get_running_loop().call_later(0.0 if self._looks > MOST else IDLE, self._tidy)
+    def _schedule_collection(self) -> None:
+        """Collect cyclic garbage while the user does not type: during typing it would delay the findings."""
+        self._checks += 1
+        if self._collection is not None:
+            self._collection.cancel()
+        self._collection = asyncio.get_running_loop().call_later(
+            0.0 if self._checks > MAX_CHECKS else IDLE, self._collect_garbage
+        )
 
-    def _tidy(self) -> None:
-        self._tidying, self._looks = None, 0
+    def _collect_garbage(self) -> None:
+        self._collection, self._checks = None, 0
         gc.collect()
 
     def _show(self, uri: str, diagnostics: list[types.Diagnostic]) -> None:
@@ -116,11 +118,11 @@ class Session:
     def _source(self, file: Path) -> Source:
         return read_source(file, shown_as=shown_path(file), texts=self.project.texts)
 
-    def _taken(self, uri: str) -> Path | None:
-        """Return the file of a URI, with its text as the editor has it; as on disk where it is not open.
+    def _update(self, uri: str) -> Path | None:
+        """Return the file of a URI after reading its text from the editor, or from disk where it is not open.
 
         Returns:
-            None for what is no file, or a file that is neither open nor there, or a folder.
+            None for a URI that is not a file, a file that neither is open nor exists, or a folder.
         """
         path = path_of(uri)
         if path is None or path.is_dir():
@@ -133,7 +135,7 @@ class Session:
     def _at(self, uri: str, position: types.Position) -> tuple[list[Analysis], Cursor, Path] | None:
         from urdfkit.lint.editor.cursor import Cursor
 
-        path = self._taken(uri)
+        path = self._update(uri)
         if path is None:
             return None
         analyses = [analysis for analysis in self.project.analyses(path) if analysis.model is not None]
@@ -145,7 +147,7 @@ class Session:
         return None
 
     def hover(self, uri: str, position: types.Position) -> types.Hover | None:
-        """Say what there is to say about a place."""
+        """Return the documentation of the element or name at a position."""
         from urdfkit.lint.editor.hover import hover
 
         found = self._at(uri, position)
@@ -162,7 +164,7 @@ class Session:
         return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, "\n\n---\n\n".join(pieces)))
 
     def definition(self, uri: str, position: types.Position) -> list[types.Location]:
-        """Return where what is under the cursor is defined, or the file it names."""
+        """Return the definition of the name at a position, or the file that the position names."""
         from urdfkit.lint.editor.navigation import definitions, file_at
 
         found = self._at(uri, position)
@@ -179,7 +181,7 @@ class Session:
         return self._locations(spans)
 
     def references(self, uri: str, position: types.Position, *, with_definition: bool) -> list[types.Location]:
-        """Return every place that names what is under the cursor."""
+        """Return every reference to the name at a position."""
         from urdfkit.lint.editor.navigation import references
 
         found = self._at(uri, position)
@@ -198,7 +200,7 @@ class Session:
         return range_of(found[1].document.source, one.span) if found is not None and one is not None else None
 
     def rename(self, uri: str, position: types.Position, name: str) -> types.WorkspaceEdit:
-        """Return the edits that call what is under the cursor something else."""
+        """Return the edits that rename the name at a position."""
         from pygls.exceptions import JsonRpcInvalidParams
 
         from urdfkit.lint.editor.navigation import rename
@@ -206,14 +208,14 @@ class Session:
         found = self._at(uri, position)
         models = [analysis.model for analysis in found[0] if analysis.model is not None] if found is not None else []
         if found is None or not models:
-            raise JsonRpcInvalidParams("there is no model to rename in")
+            raise JsonRpcInvalidParams("no robot description to rename in")
         try:
             return self._edit(rename(models, found[1], name))
         except UrdfkitError as error:
             raise JsonRpcInvalidParams(str(error)) from None
 
     def completion(self, uri: str, position: types.Position) -> list[types.CompletionItem]:
-        """Return what fits at a place."""
+        """Return the completions at a position."""
         from urdfkit.lint.editor.completion import fits
 
         found = self._at(uri, position)
@@ -232,8 +234,8 @@ class Session:
         return list(items.values())
 
     def actions(self, uri: str, within: types.Range) -> list[types.CodeAction]:
-        """Return the fixes of what is found in a range."""
-        path = self._taken(uri)
+        """Return the fixes of the findings in a range."""
+        path = self._update(uri)
         if path is None:
             return []
         source = self._source(path)

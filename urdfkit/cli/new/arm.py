@@ -1,4 +1,4 @@
-"""``urdfkit new arm``: add an arm to a description that is there."""
+"""``urdfkit new arm``: add an arm to an existing description."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import sys
 from urdfkit.cli.new.description_changes import add_description, apply, description, vector
 from urdfkit.errors import UsageError
 
-SUMMARY = "an arm, added to a description that is there"
+SUMMARY = "an arm, added to an existing description"
 _SIZES = {"reach": "arm_reach", "mass": "arm_mass", "payload": "payload", "finger_travel": "finger_travel"}
 
 
@@ -24,33 +24,35 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--dof", choices=("3", "4", "5", "6", "7"), default="6", metavar="N", help="joints, 3 to 7")
     parser.add_argument(
         "--name",
-        help="links and joints begin with it, unless it is `arm` (default: that, with a number from the second on)",
+        help="prefix of links and joints, unless it is `arm` (default: arm, numbered from the second on)",
     )
-    parser.add_argument("--parent", metavar="LINK", help="it stands on (default: base_link, or the heaviest)")
     parser.add_argument(
-        "--xyz", nargs=3, metavar="M", help="where, in LINK [m] (default: on top, where nothing else is)"
+        "--parent", metavar="LINK", help="link to mount the arm on (default: base_link, or the heaviest link)"
     )
+    parser.add_argument("--xyz", nargs=3, metavar="M", help="position in LINK [m] (default: a free place on top)")
     parser.add_argument("--rpy", nargs=3, metavar="RAD", default=["0", "0", "0"], help="roll, pitch, yaw [rad]")
-    parser.add_argument("--reach", metavar="M", help="from the shoulder to the tool [m] (default: as the link allows)")
-    parser.add_argument("--mass", metavar="KG", help="of the arm [kg]")
-    parser.add_argument("--payload", metavar="KG", help="what it can carry, a gripper included [kg]")
-    parser.add_argument("--gripper", action="store_true", help="two parallel fingers")
-    parser.add_argument("--finger-travel", metavar="M", help="how far each slides [m]")
+    parser.add_argument(
+        "--reach", metavar="M", help="distance from shoulder to tool [m] (default: by the size of the link)"
+    )
+    parser.add_argument("--mass", metavar="KG", help="mass of the arm [kg]")
+    parser.add_argument("--payload", metavar="KG", help="payload, including the gripper [kg]")
+    parser.add_argument("--gripper", action="store_true", help="add a gripper with two parallel fingers")
+    parser.add_argument("--finger-travel", metavar="M", help="travel of each finger [m]")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Load, add, lint, show or write.
+    """Load the description, add the arm, lint, print or write the change.
 
     Raises:
-        UrdfkitError: it could not be done; nothing was written then.
+        UrdfkitError: the arm could not be added; nothing was written.
     """
     try:
-        return _added(arguments)
-    except UsageError as error:  # of the template, whose options have longer names
+        return _add_arm(arguments)
+    except UsageError as error:  # the template's options have longer names
         raise UsageError(str(error).replace("--arm-", "--")) from error
 
 
-def _added(arguments: argparse.Namespace) -> int:
+def _add_arm(arguments: argparse.Namespace) -> int:
     from urdfkit.resources import templates_dir
     from urdfkit.scaffold import load_template
     from urdfkit.scaffold.additions.arm import ArmRequest, add_arm
@@ -62,7 +64,7 @@ def _added(arguments: argparse.Namespace) -> int:
             answers[question] = template.question(question).accept(value)
     model, robot, generation = description(arguments)
     xyz = None if arguments.xyz is None else vector(arguments.xyz, "--xyz")
-    # Gazebo Classic passes over joints that follow another: with ROS 1 both fingers have a motor, as in new robots.
+    # Gazebo Classic ignores mimic joints: with ROS 1 both fingers have a motor, as in new robots.
     answers["ros"] = "noetic" if generation == "classic" else "none"
     request = ArmRequest(arguments.name, answers, arguments.parent, xyz, vector(arguments.rpy, "--rpy"))
     alterations, notes = add_arm(robot, model.path, request)

@@ -1,4 +1,4 @@
-"""``urdfkit new controllers``: controllers for the joints of a description that is there."""
+"""``urdfkit new controllers``: add controllers for the joints of an existing description."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
     from urdfkit.scaffold.additions.file_changes import Alteration
     from urdfkit.scaffold.additions.joint_controllers import Controller
 
-SUMMARY = "controllers for the joints of a description that is there"
+SUMMARY = "controllers for the joints of an existing description"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
     parser.description = (
         "Write controllers: a differential drive for wheels, trajectories for arms and fingers; "
-        "what is driven already stays"
+        "joints with a drive stay unchanged"
     )
     parser.epilog = (
         "examples:\n"
@@ -36,15 +36,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add_description(parser)
     parser.add_argument(
-        "--name", help="of the new package, beside the description's or the file (default: ROBOT_control)"
+        "--name", help="name of the new package, created next to the description (default: ROBOT_control)"
     )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Load, tell what the joints are for, write a package, change the model.
+    """Load the description, classify its joints, write a package, change the model.
 
     Raises:
-        UrdfkitError: it could not be done; nothing was written then.
+        UrdfkitError: the controllers could not be added; nothing was written.
     """
     from urdfkit.atomic import staging
     from urdfkit.scaffold import check_package_name, sanitised
@@ -57,53 +57,53 @@ def run(arguments: argparse.Namespace) -> int:
     model, robot, generation = description(arguments)
     if generation == "gz" and _is_fortress(robot):
         generation = "fortress"
-    there = hardware(robot, model.path, generation=generation)
-    found = roles(robot, there, follow=generation != "classic")
-    made = controllers(found)
-    for note in () if arguments.quiet else (*found.notes, *_still(robot, made)):
+    existing = hardware(robot, model.path, generation=generation)
+    joint_roles = roles(robot, existing, follow=generation != "classic")
+    made = controllers(joint_roles)
+    for note in () if arguments.quiet else (*joint_roles.notes, *_immovable_joints(robot, made)):
         print(f"urdfkit: {note}", file=sys.stderr)
     if not made:
-        raise ResourceError(f"robot `{robot.name}` has no joint left that a controller could move; nothing was changed")
+        raise ResourceError(f"robot `{robot.name}` has no joint without a controller; nothing was changed")
     own = package_of(model.path)
     named = own.name if own is not None and own.name.endswith("_description") else robot.name or model.path.stem
     name = sanitised(named.removesuffix("_description"))
-    if there.loop is not None and generation != "classic":
-        return _added(model, robot, made, arguments, there, name, generation)
+    if existing.loop is not None and generation != "classic":
+        return _add_to_existing(model, robot, made, arguments, existing, name, generation)
     if is_without_ros(model.path):
         return _without_ros(model, robot, made, arguments, generation)
     package = check_package_name(arguments.name or f"{name}_control")
     folder = own.parent if own is not None else model.path.parent
     if (folder / package).exists():
-        raise ResourceError(f"{folder / package} is already there; nothing is overwritten: another --name")
-    namespace = (there.loop_says("robotNamespace") or robot.name or name) if there.loop is not None else name
-    with staging(folder) as stage:
-        _render(stage, package, name, made, robot, generation, namespace=namespace.strip("/"))
-        alterations = _altered(model.path, robot, made, name, generation, package, looped=there.loop is not None)
-        code = apply(alterations, model, arguments, stage=stage, folder=folder)
+        raise ResourceError(f"{folder / package} exists already; choose another --name")
+    namespace = (existing.loop_says("robotNamespace") or robot.name or name) if existing.loop is not None else name
+    with staging(folder) as staged:
+        _render(staged, package, name, made, robot, generation, namespace=namespace.strip("/"))
+        alterations = _altered(model.path, robot, made, name, generation, package, looped=existing.loop is not None)
+        code = apply(alterations, model, arguments, staged=staged, folder=folder)
     if not arguments.quiet and not arguments.diff:
         launch = (
             "roslaunch {0} {1}_control.launch" if generation == "classic" else "ros2 launch {0} {1}_control.launch.py"
         )
         print(f"  {launch.format(package, name)}  # once the robot is in Gazebo")
-        for line in _to_add(folder, package, name):
+        for line in _launch_additions(folder, package, name):
             print(line)
-    _tell(made, arguments)
+    _print_controllers(made, arguments)
     return code
 
 
-def _to_add(folder: Path, package: str, name: str) -> Iterator[str]:
-    """Yield what to add to the launch file of all of the robot, and to its package, for the controllers to start too.
+def _launch_additions(folder: Path, package: str, name: str) -> Iterator[str]:
+    """Yield the lines to add to the robot's launch file and package.xml, so that the controllers start with the robot.
 
     Args:
-        folder: of the packages.
-        package: of the controllers.
-        name: of the robot.
+        folder: folder of the packages.
+        package: package of the controllers.
+        name: name of the robot.
     """
     for whole in (folder / f"{name}_bringup", folder / f"{name}_gazebo"):
         for launch in (whole / f"launch/{name}.launch.py", whole / f"launch/{name}.launch"):
             if not launch.is_file() or not (whole / "package.xml").is_file():
                 continue
-            yield f"\nto start them with the rest, add to {shown(launch)}:"
+            yield f"\nto start the controllers with the robot, add to {shown(launch)}:"
             if launch.suffix == ".py":
                 yield "        IncludeLaunchDescription(PythonLaunchDescriptionSource(PathJoinSubstitution("
                 yield f'            [FindPackageShare("{package}"), "launch", "{name}_control.launch.py"]))),'
@@ -117,65 +117,68 @@ def _to_add(folder: Path, package: str, name: str) -> Iterator[str]:
 def _without_ros(
     model: ModelArgument, robot: Robot, made: list[Controller], arguments: argparse.Namespace, generation: str
 ) -> int:
-    """Write plugins of Gazebo beside the model.
+    """Write plugins of Gazebo into a file next to the model.
 
     Raises:
-        UsageError: Gazebo Classic, or a name for the package that there is not.
+        UsageError: the simulator is Gazebo Classic, or a package name is set.
     """
     from urdfkit.scaffold.additions.gz_only_control import plugins, topics
 
     if generation != "gz":
-        raise UsageError("--sim classic needs ROS for controllers, and this robot is made without: --sim gz")
+        raise UsageError("--sim classic needs ROS for controllers, and this robot has no ROS packages: use --sim gz")
     if arguments.name is not None:
-        raise UsageError("--name is for a package of ROS, and this robot is made without: leave it out")
-    title = "What moves the joints without ROS: each goes where its topic says, as fast as its motor may."
-    code = apply(_beside(model.path, plugins(robot, made), title), model, arguments)
+        raise UsageError("--name is for a ROS package, and this robot has none: remove the option")
+    title = "Joint controllers without ROS: each joint follows the commands on its topic."
+    code = apply(_included(model.path, plugins(robot, made), title), model, arguments)
     for joint, topic in () if arguments.quiet else topics(made).items():
         print(f"urdfkit: {joint}: topic {topic}", file=sys.stderr)
     return code
 
 
-def _tell(made: list[Controller], arguments: argparse.Namespace) -> None:
+def _print_controllers(made: list[Controller], arguments: argparse.Namespace) -> None:
     for each in () if arguments.quiet else made:
-        by = f" ({each.interface}, as the model has it)" if each.interface else ""
+        by = f" ({each.interface}, as in the model)" if each.interface else ""
         print(f"urdfkit: {each.name}: {', '.join(each.joints)}{by}", file=sys.stderr)
 
 
-def _still(robot: Robot, made: list[Controller]) -> Iterator[str]:
-    """Yield which joints get a controller and have limits that let nothing move them, with the place."""
+def _immovable_joints(robot: Robot, made: list[Controller]) -> Iterator[str]:
+    """Yield one message per joint with a new controller whose limits prevent any motion, with its position."""
     for joint in (robot.joint_by_name[name] for each in made for name in each.joints):
         limit = joint.limit
         zero = [word for word in ("effort", "velocity") if limit is not None and getattr(limit, word) == 0.0]
         if zero and limit is not None:
             place = limit.element.origin.position
-            yield f"{place}: `{joint.name}` may have no {' and no '.join(zero)}: its controller will not move it"
+            limits = " and ".join(f"{word} 0" for word in zero)
+            yield f"{place}: `{joint.name}` has the limit {limits}: its controller cannot move it"
 
 
-def _added(
+def _add_to_existing(
     model: ModelArgument,
     robot: Robot,
     made: list[Controller],
     arguments: argparse.Namespace,
-    there: Hardware,
+    existing: Hardware,
     name: str,
     generation: str,
 ) -> int:
-    """Write controllers into the file of parameters that the model names: its controller manager reads no other.
+    """Add controllers to the parameter file that the model names; its controller manager reads no other file.
 
     Raises:
-        ResourceError: it names none that can be changed.
+        ResourceError: the model names no parameter file that can be changed.
     """
     from urdfkit.scaffold.additions.controller_parameters import parameters, with_controllers
     from urdfkit.scaffold.additions.file_changes import Alteration
 
-    said = there.loop_says("parameters")
-    plugin = there.loop.name if there.loop is not None else None
-    if said is None or not Path(said).is_file():
-        wrong = f"names {said}, which is not there" if said else "names no <parameters>"
-        raise ResourceError(f"plugin `{plugin}` {wrong}: controllers go into the file that it reads")
+    parameter_file = existing.loop_says("parameters")
+    plugin = existing.loop.name if existing.loop is not None else None
+    if parameter_file is None or not Path(parameter_file).is_file():
+        wrong = f"names {parameter_file}, which does not exist" if parameter_file else "names no <parameters>"
+        raise ResourceError(f"plugin `{plugin}` {wrong}: new controllers are added to that file")
     if arguments.name is not None:
-        raise UsageError(f"--name is for a new package; plugin `{plugin}` reads {said}, so controllers go into it")
-    path = Path(said)
+        raise UsageError(
+            f"--name is for a new package; the controllers are added to {parameter_file}, which plugin `{plugin}` reads"
+        )
+    path = Path(parameter_file)
     before = path.read_bytes()
     more = parameters(robot, made, generation=generation, base=robot.roots()[0].name)
     after = with_controllers(before.decode("utf-8", "surrogateescape"), more, [each.name for each in made], path=path)
@@ -185,7 +188,7 @@ def _added(
     if not arguments.quiet and not arguments.diff:
         spawned = " ".join(each.name for each in made)
         print(f"  ros2 run controller_manager spawner {spawned}  # once the robot is in Gazebo")
-    _tell(made, arguments)
+    _print_controllers(made, arguments)
     return code
 
 
@@ -194,7 +197,7 @@ def _is_fortress(robot: Robot) -> bool:
 
 
 def _render(
-    stage: Path, package: str, name: str, made: list[Controller], robot: Robot, generation: str, *, namespace: str
+    staged: Path, package: str, name: str, made: list[Controller], robot: Robot, generation: str, *, namespace: str
 ) -> None:
     from urdfkit.cli.git_identity import identity
     from urdfkit.resources import templates_dir
@@ -204,15 +207,15 @@ def _render(
 
     template = load_template(templates_dir() / "package")
     ros = {"classic": "noetic", "fortress": "humble", "classic-ros2": "humble"}.get(generation, "jazzy")
-    given = {"name": package, "kind": "control", "ros": ros, "depends": " ".join(needs(made, generation))}
-    given["about"] = f"The controllers of the robot {name}."
-    answers: Mapping[str, str] = template.answers({**identity(template), **given})
+    answered = {"name": package, "kind": "control", "ros": ros, "depends": " ".join(needs(made, generation))}
+    answered["about"] = f"The controllers of the robot {name}."
+    answers: Mapping[str, str] = template.answers({**identity(template), **answered})
     more = parameters(robot, made, generation=generation, base=robot.roots()[0].name)
     more["namespace"] = namespace or name
     year = {"year": str(datetime.now(timezone.utc).year), "into": "."}
-    template.render({**answers, **computed("package", answers), **more, **year, "robot": name}, stage)
+    template.render({**answers, **computed("package", answers), **more, **year, "robot": name}, staged)
     if generation == "classic" and not namespace:
-        at_root(stage / package, name)
+        at_root(staged / package, name)
 
 
 def _altered(
@@ -231,20 +234,20 @@ def _altered(
     if prefix is None:
         if generation != "classic" and path.suffix != ".xacro":
             raise ResourceError(
-                f"{path} is no xacro, so that it cannot find its controllers: call it {path.stem}.urdf.xacro first"
+                f"{path} is no xacro file and cannot name its controllers: rename it to {path.stem}.urdf.xacro first"
             )
         changes = [Alteration(path, before, insert_before_end(before, text, path=path))]
-        return [*_told(path, package, generation), *changes]
+        return [*_dependency(path, package, generation), *changes]
     if (path.parent / "control.xacro").exists():
-        raise ResourceError(f"{path.parent / 'control.xacro'} is already there; nothing is overwritten")
-    changes = _beside(path, text, f"Which joints are moved, and how; the controllers are in {package}.")
+        raise ResourceError(f"{path.parent / 'control.xacro'} exists already; rename or remove it")
+    changes = _included(path, text, f"Command and state interfaces of the joints; the controllers are in {package}.")
     home = changes[0].path
     installed = with_installed(own, path, home) if (own := package_of(path)) is not None else None
-    return [*_told(path, package, generation), *([installed] if installed is not None else []), *changes]
+    return [*_dependency(path, package, generation), *([installed] if installed is not None else []), *changes]
 
 
-def _beside(path: Path, text: str, title: str) -> list[Alteration]:
-    """Return a new file with elements beside a model, and the model that includes it; a URDF alone."""
+def _included(path: Path, text: str, title: str) -> list[Alteration]:
+    """Return a new file with elements next to a model, and the model that includes the file; only the model if URDF."""
     from urdfkit.scaffold.additions.file_changes import Alteration
     from urdfkit.scaffold.additions.xml_insertion import insert_before_end, xacro_prefix
     from urdfkit.scaffold.templates.names import free
@@ -263,8 +266,8 @@ def _beside(path: Path, text: str, title: str) -> list[Alteration]:
     return [Alteration(home, None, whole.encode()), Alteration(path, before, after)]
 
 
-def _told(path: Path, package: str, generation: str) -> list[Alteration]:
-    """Return the change to package.xml of a description that says where its controllers are."""
+def _dependency(path: Path, package: str, generation: str) -> list[Alteration]:
+    """Return the change to package.xml that adds the dependency on the controllers' package."""
     from urdfkit.scaffold.additions.package_manifest import package_of, with_dependency
 
     own = package_of(path)

@@ -1,4 +1,4 @@
-"""What the commands that change a description have in common: which one, is it still clean, show or write."""
+"""Steps that the commands share that change a description: find it, lint the change, print or write it."""
 
 from __future__ import annotations
 
@@ -24,36 +24,44 @@ SIMULATORS = ("gz", "classic")
 
 
 def add_description(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments that say which description, and what is done with the change."""
+    """Add the arguments that select the description and the treatment of the change."""
     parser.add_argument(
-        "--into", metavar="DESCRIPTION", help="a .urdf or .xacro file or a package folder (default: where you stand)"
+        "--into",
+        metavar="DESCRIPTION",
+        help="a .urdf or .xacro file or a package folder (default: the working directory)",
     )
     parser.add_argument("--arg", action="append", default=[], metavar="KEY:=VALUE", help="xacro argument (repeatable)")
     parser.add_argument(
-        "--package-path", action="append", default=[], metavar="DIR", help="look for packages here too (repeatable)"
+        "--package-path",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="search this folder for packages too (repeatable)",
     )
     parser.add_argument(
-        "--sim", choices=SIMULATORS, help="gz or classic: whose plugins (default: as in package.xml and the model)"
+        "--sim",
+        choices=SIMULATORS,
+        help="simulator that the plugins are for, gz or classic (default: by package.xml and the model)",
     )
-    parser.add_argument("--diff", "--dry-run", action="store_true", help="show what would change, and change nothing")
+    parser.add_argument("--diff", "--dry-run", action="store_true", help="print the changes without writing them")
     parser.add_argument("-y", "--yes", action="store_true", help=argparse.SUPPRESS)
 
 
 def description(arguments: argparse.Namespace) -> tuple[ModelArgument, Robot, str]:
-    """Return the model, the robot that it describes, and whose plugins it has.
+    """Return the model, its robot, and the generation of its plugins.
 
     Raises:
-        ResourceError: there is no such description, or it is one of those we ship.
-        DescriptionError: it cannot be loaded.
+        ResourceError: the description does not exist, or is a bundled robot.
+        DescriptionError: the description cannot be loaded.
     """
     from urdfkit.description import load
     from urdfkit.resources import find_model
 
     into = arguments.into
     if into is not None and not Path(into).expanduser().exists():
-        there = sorted(path.name for path in Path.cwd().iterdir())
-        begun = [name for name in there if name.startswith(into) and name.endswith("_description")]
-        near = did_you_mean(into, there) or (f"; did you mean `{begun[0]}`?" if begun else "")
+        siblings = sorted(path.name for path in Path.cwd().iterdir())
+        completions = [name for name in siblings if name.startswith(into) and name.endswith("_description")]
+        near = did_you_mean(into, siblings) or (f"; did you mean `{completions[0]}`?" if completions else "")
         raise ResourceError(f"--into {into}: no such file or folder{near}")
     try:
         model = find_model([*([into] if into is not None else []), *arguments.arg], package_path=arguments.package_path)
@@ -64,19 +72,19 @@ def description(arguments: argparse.Namespace) -> tuple[ModelArgument, Robot, st
 
 
 def _generation(path: Path, robot: Robot, sim: str | None) -> str:
-    """Return ``gz``, ``classic`` (ROS 1) or ``classic-ros2``, by what is asked for, the package and the plugins."""
+    """Return ``gz``, ``classic`` (ROS 1) or ``classic-ros2``, by option `--sim`, package and plugins."""
     from urdfkit.lint.project.target import guess
 
-    found = guess(path).target
+    target = guess(path).target
     text = "".join(file.read_text("utf-8", "replace") for file in robot.files if file.is_file())
     of_classic, of_new = "libgazebo_ros" in text, "gz-sim-" in text or "ignition-gazebo-" in text or "gpu_lidar" in text
     if sim is None:
         sim = "classic" if of_classic and not of_new else "gz"
-        if found == "ros1" and not of_new:
+        if target == "ros1" and not of_new:
             sim = "classic"
     if sim == "gz":
         return "gz"
-    ros2 = found == "ros2" or (found is None and "<ros>" in text)
+    ros2 = target == "ros2" or (target is None and "<ros>" in text)
     return "classic-ros2" if ros2 else "classic"
 
 
@@ -85,35 +93,35 @@ def apply(
     model: ModelArgument,
     arguments: argparse.Namespace,
     *,
-    stage: Path | None = None,
+    staged: Path | None = None,
     folder: Path | None = None,
 ) -> int:
-    """Lint what would be, then show the difference or write.
+    """Lint the changed description, then print the difference or write it.
 
     Args:
-        alterations: of files that are there, and new ones beside them.
-        model: what is changed.
+        alterations: changes to existing files, and new files.
+        model: the changed model.
         arguments: from the command line.
-        stage: new packages that go with it, which are moved into `folder`.
-        folder: where they go.
+        staged: folder with new packages to move into `folder`.
+        folder: destination of the new packages.
 
     Raises:
-        ResourceError: something would be worse than it was, or cannot be written.
+        ResourceError: the change adds findings, or cannot be written.
     """
     from urdfkit.atomic import move_into_place
     from urdfkit.scaffold.additions.file_changes import Alteration, write_all
 
-    if new := _new_findings(alterations, model, stage):
+    if new := _new_findings(alterations, model, staged):
         more = f" (and {len(new) - 1} more)" if len(new) > 1 else ""
-        raise ResourceError(f"nothing was changed: that would bring {new[0].code} {new[0].message}{more}")
+        raise ResourceError(f"nothing was changed: the change would add {new[0].code} {new[0].message}{more}")
     if arguments.diff:
         for alteration in alterations:
             sys.stdout.write(alteration.diff())
-        if stage is not None and folder is not None:
-            for path in (each for each in sorted(stage.rglob("*")) if each.is_file() and each.name != "LICENSE"):
-                sys.stdout.write(Alteration(folder / path.relative_to(stage), None, path.read_bytes()).diff())
+        if staged is not None and folder is not None:
+            for path in (each for each in sorted(staged.rglob("*")) if each.is_file() and each.name != "LICENSE"):
+                sys.stdout.write(Alteration(folder / path.relative_to(staged), None, path.read_bytes()).diff())
         return 0
-    moved = move_into_place(stage, folder) if stage is not None and folder is not None else []
+    moved = move_into_place(staged, folder) if staged is not None and folder is not None else []
     try:
         write_all(alterations)
     except BaseException:
@@ -130,21 +138,21 @@ def apply(
     return 0
 
 
-def _new_findings(alterations: Sequence[Alteration], model: ModelArgument, stage: Path | None) -> list[Finding]:
-    """Return what the linter has against the description as it would be, and not as it is."""
+def _new_findings(alterations: Sequence[Alteration], model: ModelArgument, staged: Path | None) -> list[Finding]:
+    """Return the findings that the change adds to the description."""
     from urdfkit.lint.engine.run import run
     from urdfkit.lint.project.entry_files import find_entries
     from urdfkit.lint.project.options import Options
     from urdfkit.scaffold.additions.file_changes import texts
 
     entries = find_entries([model.path])
-    folders = (*([stage] if stage is not None else []), *model.package_path)
+    folders = (*([staged] if staged is not None else []), *model.package_path)
 
-    def found(overlay: dict[str, str]) -> list[Finding]:
-        # The rule about dependencies reads package.xml where it lies, not as it will be.
-        told = any(alteration.path.name == "package.xml" for alteration in alterations)
+    def findings_with(overlay: dict[str, str]) -> list[Finding]:
+        # The rule about dependencies reads package.xml from disk, not its new text.
+        adds_dependency = any(alteration.path.name == "package.xml" for alteration in alterations)
         options = Options(
-            ignore=("K956",) if told else (),
+            ignore=("K956",) if adds_dependency else (),
             arguments=model.arguments,
             package_path=folders,
             texts=overlay,
@@ -152,14 +160,14 @@ def _new_findings(alterations: Sequence[Alteration], model: ModelArgument, stage
         )
         return [finding for finding in run(entries, options).findings if finding.severity != "note"]
 
-    before, after = found({}), found(dict(texts(alterations)))
-    known: dict[tuple[str, str], int] = {}
+    before, after = findings_with({}), findings_with(dict(texts(alterations)))
+    counts: dict[tuple[str, str], int] = {}
     for finding in before:
-        known[finding.code, finding.message] = known.get((finding.code, finding.message), 0) + 1
+        counts[finding.code, finding.message] = counts.get((finding.code, finding.message), 0) + 1
     new = []
     for finding in after:
-        known[finding.code, finding.message] = known.get((finding.code, finding.message), 0) - 1
-        if known[finding.code, finding.message] < 0:
+        counts[finding.code, finding.message] = counts.get((finding.code, finding.message), 0) - 1
+        if counts[finding.code, finding.message] < 0:
             new.append(finding)
     return new
 
@@ -168,7 +176,7 @@ def vector(words: Sequence[str], option: str) -> tuple[float, float, float]:
     """Return the three numbers of an option.
 
     Raises:
-        UsageError: one of them is none.
+        UsageError: one of the words is not a number.
     """
     x, y, z = (number(word, option) for word in words)
     return x, y, z
@@ -178,22 +186,22 @@ def number(word: str, option: str) -> float:
     """Return the number of an option.
 
     Raises:
-        UsageError: it is none.
+        UsageError: the word is not a finite number.
     """
     try:
-        found = float(word)
+        value = float(word)
     except ValueError:
-        raise UsageError(f"{option}: `{word}` is no number") from None
-    if not math.isfinite(found):
+        raise UsageError(f"{option}: `{word}` is not a number") from None
+    if not math.isfinite(value):
         raise UsageError(f"{option}: `{word}` is not finite")
-    return found
+    return value
 
 
 def shown(path: Path) -> str:
-    """Return a path as seen from where one stands, or whole where it is elsewhere.
+    """Return a path relative to the working directory, or absolute where it is elsewhere.
 
     Args:
-        path: absolute.
+        path: absolute path.
     """
     try:
         return path.relative_to(Path.cwd()).as_posix()

@@ -1,4 +1,4 @@
-"""``urdfkit new sensor``: add a sensor to a description that is there."""
+"""``urdfkit new sensor``: add a sensor to an existing description."""
 
 from __future__ import annotations
 
@@ -8,21 +8,23 @@ import sys
 from urdfkit.cli.new.description_changes import add_description, apply, description, number, vector
 from urdfkit.errors import UsageError, did_you_mean
 
-SUMMARY = "a sensor, added to a description that is there"
+SUMMARY = "a sensor, added to an existing description"
 _KINDS = ("lidar", "lidar3d", "camera", "depth", "imu", "gps")
-_CALLED = {
+_ALIASES = {
     **dict.fromkeys(("laser", "laserscan", "hokuyo", "rplidar", "sick", "scan"), "lidar"),
     **dict.fromkeys(("velodyne", "ouster", "vlp16", "vlp-16", "pointcloud"), "lidar3d"),
     **dict.fromkeys(("webcam", "rgb", "rgb_camera", "mono"), "camera"),
     **dict.fromkeys(("realsense", "kinect", "rgbd", "depth_camera", "d435", "zed", "stereo"), "depth"),
     **dict.fromkeys(("gnss", "navsat"), "gps"),
 }
-"""What some call them, makers included."""
+"""Other names and product names → kind of sensor."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
-    parser.description = "Add a sensor: a macro in a file of its own, one include, one call; nothing else is touched."
+    parser.description = (
+        "Add a sensor: a macro in a file of its own, one include, one call; other lines stay unchanged."
+    )
     parser.epilog = (
         "examples:\n"
         "  urdfkit new sensor lidar --into scout_description\n"
@@ -31,41 +33,43 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("sensor", nargs="?", metavar="SENSOR", help=", ".join(_KINDS))
     add_description(parser)
     parser.add_argument(
-        "--name", help="of the sensor; its links begin with it (default: the kind, with a number from the second on)"
+        "--name", help="name of the sensor and prefix of its links (default: the kind, numbered from the second on)"
     )
-    parser.add_argument("--parent", metavar="LINK", help="it is mounted on (default: base_link, or the heaviest)")
+    parser.add_argument(
+        "--parent", metavar="LINK", help="link to mount the sensor on (default: base_link, or the heaviest link)"
+    )
     parser.add_argument(
         "--xyz",
         nargs=3,
         metavar="M",
-        help="where, in LINK [m] (default: on top, cameras at the front, where nothing else is)",
+        help="position in LINK [m] (default: a free place on top; for cameras at the front)",
     )
     parser.add_argument("--rpy", nargs=3, metavar="RAD", default=["0", "0", "0"], help="roll, pitch, yaw [rad]")
-    parser.add_argument("--topic", help="where it publishes; of cameras, what its topics begin with")
-    parser.add_argument("--update-rate", metavar="HZ", help="measurements per second")
+    parser.add_argument("--topic", help="topic of the sensor; for cameras the prefix of the topics")
+    parser.add_argument("--update-rate", metavar="HZ", help="measurements per second [Hz]")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Load, add, lint, show or write.
+    """Load the description, add the sensor, lint, print or write the change.
 
     Raises:
-        UrdfkitError: it could not be done; nothing was written then.
+        UrdfkitError: the sensor could not be added; nothing was written.
     """
     from urdfkit.scaffold.additions.sensor import Request, add_sensor
 
     if arguments.sensor is None:
         raise UsageError(f"new sensor: the following arguments are required: SENSOR ({', '.join(_KINDS)})")
     if arguments.sensor not in _KINDS:
-        called = _CALLED.get(arguments.sensor.lower())
+        called = _ALIASES.get(arguments.sensor.lower())
         near = f"; the nearest is `{called}`" if called else did_you_mean(arguments.sensor, _KINDS)
-        raise UsageError(f"new sensor: there is no `{arguments.sensor}`{near}; there is: {', '.join(_KINDS)}")
+        raise UsageError(f"new sensor: unknown sensor `{arguments.sensor}`{near}; available: {', '.join(_KINDS)}")
     model, robot, generation = description(arguments)
     rate = None
     if arguments.update_rate is not None:
         rate = number(arguments.update_rate, "--update-rate")
         if not 0 < rate <= 10000:
             raise UsageError(
-                f"--update-rate {arguments.update_rate} is out of range: more than 0, up to 10000 per second"
+                f"--update-rate {arguments.update_rate} is out of range: expected more than 0 and at most 10000"
             )
     request = Request(
         arguments.sensor,

@@ -1,4 +1,4 @@
-"""The options of ``urdfkit new THING``: what a template asks, ours or the user's own."""
+"""Options of ``urdfkit new KIND``: the questions of a bundled template or of the user's own."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 from urdfkit.cli.parser import Parser
 from urdfkit.scaffold import Question, Template, named_template, sanitised, template_at
 
-_CALLED = {
+_ALIASES = {
     **dict.fromkeys(("-o", "--out", "--output", "--dir", "--dest"), "--into"),
     "--rate": "--update-rate",
     "--hz": "--update-rate",
@@ -23,30 +23,30 @@ _CALLED = {
     "--pose": "--xyz",
     "--origin": "--xyz",
 }
-"""What some call options of `urdfkit new`."""
+"""Other names → options of `urdfkit new`."""
 
 
 class YesOrNo(argparse.BooleanOptionalAction):
-    """``--option`` and ``--no-option``, kept as the answers ``yes`` and ``no`` of a template's question."""
+    """``--option`` and ``--no-option``, stored as the answers ``yes`` and ``no`` of a template's question."""
 
     def __call__(self, parser: Any, namespace: Any, values: Any, option_string: str | None = None) -> None:
-        """Keep the answer."""
+        """Store the answer."""
         setattr(namespace, self.dest, "no" if (option_string or "").startswith("--no-") else "yes")
 
 
-class Kind(Parser):
-    """The parser of one template, or of the user's own that is named behind it: its options are the questions."""
+class KindParser(Parser):
+    """Parser of one template, bundled or named by ``--template``: its options are the template's questions."""
 
     _is_filled = False
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """Fill in the options first, now that it is known whose.
+        """Add the template's options, then parse.
 
         Raises:
-            UrdfkitError: there is no such template, it is wrong, or so are the arguments.
+            UrdfkitError: the template does not exist or is invalid, or an argument is.
         """
         words = list(args or ())
-        self.elsewhere = partial(_meant, self, words)
+        self.elsewhere = partial(_suggestion, self, words)
         self.prepare(words)
         return super().parse_known_args(words, namespace)
 
@@ -54,35 +54,35 @@ class Kind(Parser):
         """Add the options: the questions of the template that the words of the command line name.
 
         Raises:
-            ResourceError: there is no such template, or it is wrong.
+            ResourceError: the template does not exist or is invalid.
         """
-        if not self._is_filled and self.get_default("thing") is not None:
+        if not self._is_filled and self.get_default("new_kind") is not None:
             self._is_filled = True
-            _fill(self, chosen(self.get_default("thing"), _own(words)))
+            _fill(self, chosen(self.get_default("new_kind"), _own_template(words)))
 
 
-def _meant(kind: argparse.ArgumentParser, words: list[str], unknown: str) -> str:
-    """Return what to say of a word that is no option: whose it is, or that it stands by itself."""
+def _suggestion(kind: argparse.ArgumentParser, words: list[str], unknown: str) -> str:
+    """Return the option or position that an unknown word probably stands for, as the end of a message."""
     options = kind._option_string_actions
-    for called in (_CALLED.get(unknown), "--arm" if _CALLED.get(unknown, unknown) == "--dof" else None):
-        if called in options:
-            return f"; did you mean `{called}`?"
-    is_added = kind.get_default("thing") is None  # to a description that is there
+    for alias in (_ALIASES.get(unknown), "--arm" if _ALIASES.get(unknown, unknown) == "--dof" else None):
+        if alias in options:
+            return f"; did you mean `{alias}`?"
+    is_addition = kind.get_default("new_kind") is None
     own = next((each for each in kind._actions if not each.option_strings and each.metavar), None)
-    if own is not None and unknown in (("--kind", "--type", "--sensor") if is_added else ("--name",)):
-        return f"; it stands by itself: {kind.prog} {own.metavar}"
+    if own is not None and unknown in (("--kind", "--type", "--sensor") if is_addition else ("--name",)):
+        return f"; it is a positional argument: {kind.prog} {own.metavar}"
     if unknown.startswith("-"):
         return ""
     if "--dof" in options and unknown.isdigit():
         return f"; did you mean `--dof {unknown}`?"
-    if is_added:
+    if is_addition:
         return f"; did you mean `--into {unknown}`?"
     names = list(takewhile(lambda word: not word.startswith("-"), words))  # a name is one word
     return f"; did you mean `{sanitised(' '.join(names))}`?" if unknown in names[1:] else ""
 
 
-def _own(words: list[str]) -> str | None:
-    """Return what is named by --template among the words of a command line; None where nothing is."""
+def _own_template(words: list[str]) -> str | None:
+    """Return the value of --template on the command line; None without the option."""
     for number, word in enumerate(words):
         if word == "--template" and number + 1 < len(words):
             return words[number + 1]
@@ -91,51 +91,53 @@ def _own(words: list[str]) -> str | None:
     return None
 
 
-def chosen(thing: str, own: str | None) -> Template:
-    """Return the template of a thing, or the user's own instead.
+def chosen(kind: str, own_template: str | None) -> Template:
+    """Return the template of a kind, or the user's own template.
 
     Args:
-        thing: what ``urdfkit new`` is asked for.
-        own: a folder, as typed.
+        kind: the KIND of ``urdfkit new``.
+        own_template: folder of the user's own template, as typed.
 
     Raises:
-        ResourceError: there is no such template, or it is wrong.
+        ResourceError: the template does not exist or is invalid.
     """
-    return template_at(own) if own is not None else named_template(thing)
+    return template_at(own_template) if own_template is not None else named_template(kind)
 
 
 def _fill(kind: argparse.ArgumentParser, template: Template) -> None:
-    name = kind.get_default("thing")
+    name = kind.get_default("new_kind")
     kind.description = f"Write {template.summary}."
     kind.epilog = "\n".join(["examples:", *(f"  urdfkit new {name} {example}" for example in template.examples)])
     for question in template.questions:
         _add(kind, question)
-    kind.add_argument("--into", metavar="DIR", default=".", help="folder to write to (default: the one you stand in)")
+    kind.add_argument("--into", metavar="DIR", default=".", help="folder to write to (default: the working directory)")
     kind.add_argument(
-        "--from", dest="recipe", metavar="FILE", help="answers in TOML, such as each result keeps; options come first"
+        "--from", dest="recipe", metavar="FILE", help="read answers from this urdfkit-new.toml; options override them"
     )
-    kind.add_argument("--template", metavar="DIR", help="a template of your own, in the place of ours")
-    kind.add_argument("-y", "--yes", action="store_true", help="ask nothing: defaults for what is left out")
-    shown = "ask without showing the robot in the browser" if template.teleop else argparse.SUPPRESS
+    kind.add_argument("--template", metavar="DIR", help="folder of your own template, used instead of the bundled one")
+    kind.add_argument("-y", "--yes", action="store_true", help="ask no questions; use defaults for missing options")
+    shown = "do not show a preview in the browser" if template.teleop else argparse.SUPPRESS
     kind.add_argument("--no-preview", action="store_true", help=shown)
     kind.add_argument(
         "--update",
         action="store_true",
         default=argparse.SUPPRESS,
-        help="make again in place what was made in DIR, with these options, leaving alone what was edited",
+        help="recreate in place the packages in DIR with these options; files you edited stay unchanged",
     )
-    kind.add_argument("--diff", action="store_true", help="with --update: show what would change, and change nothing")
+    kind.add_argument("--diff", action="store_true", help="with --update: print the changes without writing them")
     if template.teleop:
-        kind.add_argument("--teleop", action="store_true", help="then drive it in the browser, as `urdfkit sim teleop`")
+        kind.add_argument(
+            "--teleop", action="store_true", help="then drive the robot in the browser, as `urdfkit sim teleop`"
+        )
     for option in template.asks_later:
         kind.add_argument(f"--{option}", dest=f"later_{option}", nargs="?", const="", help=argparse.SUPPRESS)
 
 
 def add_update(parser: argparse.ArgumentParser) -> None:
-    """Add what `urdfkit new --update` takes without a thing; a thing has its own.
+    """Add the options of `urdfkit new --update` without a KIND; each KIND has its own.
 
     Args:
-        parser: of ``urdfkit new``.
+        parser: the parser of ``urdfkit new``.
     """
     parser.add_argument("--into", dest="above_into", metavar="DIR", default=".", help=argparse.SUPPRESS)
     parser.add_argument("-y", "--yes", dest="above_yes", action="store_true", help=argparse.SUPPRESS)

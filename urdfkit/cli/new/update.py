@@ -1,4 +1,4 @@
-"""``urdfkit new --update``: show what would change, ask, change it. And what each result has to pass first."""
+"""``urdfkit new --update``: show the changes, confirm, apply them. Also the checks of every created package."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.scaffold import (
@@ -30,16 +31,19 @@ from urdfkit.scaffold import (
 )
 from urdfkit.scaffold.update.simulator_leftovers import left_behind
 
+if TYPE_CHECKING:
+    from urdfkit.scaffold.templates.recipe import Made
+
 _WORDS = {
     "add": "new",
     "replace": "changed",
     "remove": "removed",
-    "beside": "edited by you: what it would be is put beside it as {at}",
-    "keep": "left as you have it",
-    "needed": "kept: {because} names it",
+    "beside": "edited by you: the new version is saved as {at}",
+    "keep": "kept as you edited it",
+    "needed": "kept: {because} refers to it",
 }
 _JOINT = re.compile(r"\b\w+_joint\b")
-"""What joints are called in the templates."""
+"""Names of joints in the templates."""
 _COLOURS = {"+": "32", "-": "31", "@": "36"}
 
 
@@ -49,79 +53,85 @@ def run(
     folder: Path,
     arguments: argparse.Namespace,
     *,
-    own: str | None = None,
+    own_template: str | None = None,
 ) -> int:
-    """Show what would change and, when told to, change it.
+    """Print the changes and, if confirmed, apply them.
 
     Args:
-        template: of what is made again; None for the one that the recipe names.
-        given: answers in the place of the recipe's.
-        folder: it was written to, or a package in it.
+        template: the template of the packages; None for the template that the recipe names.
+        given: answers that override those of the recipe.
+        folder: the folder that was written to, or a package in it.
         arguments: from the command line.
-        own: the folder of a template of the user's own.
+        own_template: folder of the user's own template.
 
     Returns:
-        The exit code: 1 where something would change and nothing was changed.
+        The exit code: 1 where changes are pending and none was made.
 
     Raises:
-        UrdfkitError: it could not be done; nothing was changed then.
+        UrdfkitError: the update failed; nothing was changed.
     """
     recipe, into = find_recipe(template, folder)
     made = read_made(recipe)
-    template = placed(template, into) if template else _made_by(made.kind, made.source, own, into)
+    template = with_relative_source(template, into) if template else _recipe_template(made, own_template, into)
     before, answers = (template.answers(read_recipe(template, recipe, each)) for each in ({}, given))
     answers |= computed(template.name, answers)
     answers |= {"into": into.as_posix()} | ({"year": made.year} if made.year else {})
-    finish = drawn if answers.get("picture") == "yes" else None
-    with updating(template, answers, into, made, check=partial(findings, beside=into), finish=finish) as update:
-        real = [change for change in update.changes if not change.is_none]
-        if not real:
+    finish = add_picture if answers.get("picture") == "yes" else None
+    with updating(template, answers, into, made, check=partial(findings, package_path=into), finish=finish) as update:
+        pending = [change for change in update.changes if not change.is_none]
+        if not pending:
             print(f"{into}: nothing to update", file=sys.stderr)
-            _tell(f"{path}{BESIDE} is left to merge" for path in made.digests if (into / f"{path}{BESIDE}").is_file())
+            _print_notes(
+                f"{path}{BESIDE} remains to be merged" for path in made.digests if (into / f"{path}{BESIDE}").is_file()
+            )
             return 0
         _show(update.changes, recipe.relative_to(into), colour=_coloured(arguments.color), quiet=arguments.quiet)
-        if _said(arguments, "diff") or (update.refused and not update.beside):
+        if _has_option(arguments, "diff") or (update.refused and not update.beside):
             if update.refused:
                 raise ResourceError(f"nothing was changed: {update.refused}")
-            _tell(_left(update))
+            _print_notes(_remaining_steps(update))
             return 1
-        count = len(update.beside if update.refused else real)
-        if not _said(arguments, "yes") and not _agreed(count, update.refused):
+        count = len(update.beside if update.refused else pending)
+        if not _has_option(arguments, "yes") and not _is_confirmed(count, update.refused):
             return 1
         if update.refused:
             update.offer()
-            beside = ", ".join(_beside(change) for change in update.beside)
-            raise ResourceError(f"nothing was changed: {update.refused} by {beside} beside it; then the same again")
+            saved = ", ".join(_saved_as(change) for change in update.beside)
+            raise ResourceError(
+                f"nothing was changed: {update.refused} (new version: {saved}); then run the same command again"
+            )
         update.apply()
-        _tell(_left(update))
+        _print_notes(_remaining_steps(update))
     if answers.get("sim") != before.get("sim"):
         tops = {Path(path).parts[0] for path in made.digests if len(Path(path).parts) > 1}
-        _tell(left_behind(into, tops, answers.get("sim", "")))
+        _print_notes(left_behind(into, tops, answers.get("sim", "")))
     return 0
 
 
-def _tell(lines: Iterable[str]) -> None:
+def _print_notes(lines: Iterable[str]) -> None:
     for line in lines:
         print(f"urdfkit: {line}", file=sys.stderr)
 
 
-def _beside(change: Change) -> str:
+def _saved_as(change: Change) -> str:
     return change.at.name if change.at is not None else ""
 
 
-def _left(update: Update) -> Iterator[str]:
-    """Yield what an update leaves to the user, a line each."""
+def _remaining_steps(update: Update) -> Iterator[str]:
+    """Yield the steps that an update leaves to the user, one per line."""
     for change in update.beside:
-        unused = "; until then nothing uses what is new" if update.unused and change.path.suffix == ".xacro" else ""
+        unused = (
+            "; until then its new elements have no effect" if update.unused and change.path.suffix == ".xacro" else ""
+        )
         joints = _new_joints(change) if change.path.suffix in (".yaml", ".yml") else []
         if joints:
-            unused = f"; until then no controller of it moves {', '.join(f'`{joint}`' for joint in joints)}"
-        yield f"left to merge: {(change.at or change.path).as_posix()} into your {change.path.name}{unused}"
-    yield from (f"the linter would say: {line}" for line in update.warned)
+            unused = f"; until then its controllers do not move {', '.join(f'`{joint}`' for joint in joints)}"
+        yield f"to do: merge {(change.at or change.path).as_posix()} into your {change.path.name}{unused}"
+    yield from (f"the linter will report: {line}" for line in update.warned)
 
 
 def _new_joints(change: Change) -> list[str]:
-    """Return the joints that settings of controllers would be for, and those that are there are not."""
+    """Return the joints that the new controller parameters name and the present ones do not."""
     named = (
         [
             word
@@ -134,15 +144,15 @@ def _new_joints(change: Change) -> list[str]:
     return [joint for joint in dict.fromkeys(after) if joint not in before]
 
 
-def findings(folder: Path, *, beside: Path | None = None) -> list[Fault]:
-    """Return what is wrong with a result.
+def findings(folder: Path, *, package_path: Path | None = None) -> list[Fault]:
+    """Return the findings of the linter in the created packages.
 
     Args:
-        folder: where it was rendered to.
-        beside: where it goes: there may be other packages that it needs.
+        folder: the folder that the packages were rendered to.
+        package_path: destination, whose other packages may be dependencies.
 
     Raises:
-        UrdfkitError: a file of it cannot be read.
+        UrdfkitError: a file of the packages cannot be read.
     """
     from urdfkit.description.sdf import load_world
     from urdfkit.lint import lint
@@ -152,7 +162,7 @@ def findings(folder: Path, *, beside: Path | None = None) -> list[Fault]:
         load_world(world)
     if not models_in(folder):
         return []
-    found = lint([folder], package_path=[folder, *([beside] if beside is not None else [])])
+    found = lint([folder], package_path=[folder, *([package_path] if package_path is not None else [])])
     return [
         Fault(f"{f.code} {f.message} ({Path(f.file).name}:{f.line})", f.severity == "error")
         for f in found
@@ -160,14 +170,14 @@ def findings(folder: Path, *, beside: Path | None = None) -> list[Fault]:
     ]
 
 
-def drawn(folder: Path) -> None:
-    """Draw the robot into ``docs`` of its package.
+def add_picture(folder: Path) -> None:
+    """Draw the robot into the folder ``docs`` of its package.
 
     Args:
-        folder: where it was rendered to.
+        folder: the folder that the package was rendered to.
 
     Raises:
-        UrdfkitError: it cannot be loaded, or drawn.
+        UrdfkitError: the robot cannot be loaded or drawn.
     """
     from urdfkit.description import load
     from urdfkit.resources import models_in
@@ -177,30 +187,32 @@ def drawn(folder: Path) -> None:
         robot = load(model, package_path=[folder])
         picture = drawing_of(robot)
         if picture is None:
-            raise ResourceError(f"there is nothing of {robot.name} to draw but meshes: --no-picture")
+            raise ResourceError(f"cannot draw {robot.name}: it has only meshes; use --no-picture")
         docs = model.parents[1] / "docs"
         docs.mkdir(exist_ok=True)
         (docs / f"{robot.name}.png").write_bytes(picture)
 
 
-def _made_by(kind: str, source: str, own: str | None, into: Path) -> Template:
+def _recipe_template(made: Made, own_template: str | None, into: Path) -> Template:
     """Return the template that a recipe names."""
-    if own is not None:
-        return placed(template_at(own), into)
-    if not source:
-        return named_template(kind)
-    if not Path(into, source).is_dir():
-        there = ", ".join(template_names())
-        raise ResourceError(f"the template {source} that {kind} was made by is gone: --template DIR (ours: {there})")
-    return replace(template_at(str(into / source)), source=source)
+    if own_template is not None:
+        return with_relative_source(template_at(own_template), into)
+    if not made.source:
+        return named_template(made.kind)
+    if not Path(into, made.source).is_dir():
+        bundled = ", ".join(template_names())
+        raise ResourceError(
+            f"the template {made.source} of this {made.kind} does not exist: use --template DIR (bundled: {bundled})"
+        )
+    return replace(template_at(str(into / made.source)), source=made.source)
 
 
-def placed(template: Template, into: Path) -> Template:
-    """Return a template of the user's own with its place as seen from the folder that is written to.
+def with_relative_source(template: Template, into: Path) -> Template:
+    """Return a template; the user's own with its path relative to the folder that is written to.
 
     Args:
-        template: any.
-        into: the folder.
+        template: any template.
+        into: the folder that is written to.
     """
     if not template.source or Path(template.source).is_absolute():
         return template
@@ -209,7 +221,7 @@ def placed(template: Template, into: Path) -> Template:
 
 def _show(changes: tuple[Change, ...], recipe: Path, *, colour: bool, quiet: bool) -> None:
     for change in changes:
-        print(f"{change.path.as_posix()}: {_WORDS[change.kind].format(at=_beside(change), because=change.because)}")
+        print(f"{change.path.as_posix()}: {_WORDS[change.kind].format(at=_saved_as(change), because=change.because)}")
         if quiet or change.is_none or change.path == recipe:
             continue
         for line in _difference(change):
@@ -228,21 +240,23 @@ def _difference(change: Change) -> Iterator[str]:
             yield line
 
 
-def _said(arguments: argparse.Namespace, option: str) -> bool:
-    """Return whether an option was given, behind the thing or before it."""
+def _has_option(arguments: argparse.Namespace, option: str) -> bool:
+    """Return whether an option is set, before or after the KIND."""
     return bool(getattr(arguments, option, False) or getattr(arguments, f"above_{option}", False))
 
 
-def _agreed(count: int, refused: str) -> bool:
+def _is_confirmed(count: int, refused: str) -> bool:
     files = f"{count} file{'s' if count > 1 else ''}"
     if not (sys.stdin.isatty() and sys.stderr.isatty()):
         if refused:
-            raise ResourceError(f"nothing was changed: {refused}; --yes puts {files} there to merge from")
-        raise UsageError(f"{files} would change and nothing was changed: --yes changes them, --diff only shows it")
+            raise ResourceError(f"nothing was changed: {refused}; --yes saves {files} to merge from")
+        raise UsageError(
+            f"{files} would change; nothing was changed: use --yes to change them, --diff to print the changes"
+        )
     if refused:
         print(f"urdfkit: {refused}", file=sys.stderr)
-    asked = f"Put {files} there to merge from?" if refused else f"Change {files}?"
-    print(f"{asked} [y/N] ", end="", file=sys.stderr, flush=True)
+    question = f"Save {files} to merge from?" if refused else f"Change {files}?"
+    print(f"{question} [y/N] ", end="", file=sys.stderr, flush=True)
     return sys.stdin.readline().strip().lower() in ("y", "yes")
 
 

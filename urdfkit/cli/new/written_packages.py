@@ -1,4 +1,4 @@
-"""Where packages were written to: a word where no build tool looks for them, and where saying so is all that failed."""
+"""Report of written packages, and a warning where no build tool finds them."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from urdfkit.errors import ResourceError
 
 
 def misplaced(into: Path, files: Iterable[Path], *, robot: bool = False) -> str:
-    """Return why packages should be elsewhere; empty where they should not, or where none were written.
+    """Return why packages should be elsewhere; empty where their place is right, or where none were written.
 
-    colcon and catkin look for no packages inside a package; catkin_make looks in a workspace's ``src`` only.
+    colcon and catkin find no packages inside a package; catkin_make searches only a workspace's ``src``.
 
     Args:
-        into: where they were written to.
-        files: that were written.
-        robot: whether it is one, which is a package without ``package.xml`` where it is for no ROS.
+        into: the folder that was written to.
+        files: the written files.
+        robot: whether a robot was written, whose package has no ``package.xml`` without ROS.
     """
     ros = any(file.name == "package.xml" for file in files)
     if not (ros or robot):
@@ -27,23 +27,23 @@ def misplaced(into: Path, files: Iterable[Path], *, robot: bool = False) -> str:
     into = into.resolve()
     for folder in (into, *into.parents):
         if any((folder / name).is_file() for name in ("package.xml", "urdfkit-new.toml")):
-            tools = ": colcon and catkin look for none in there" if ros else ""
-            return f"written inside the package {folder.name}{tools}; they belong beside it, in {folder.parent}"
+            tools = ", where colcon and catkin find no packages" if ros else ""
+            return f"written inside the package {folder.name}{tools}; use --into {folder.parent}"
     if ros and (into / "src").is_dir():
-        return "written beside `src`: if this is a workspace, its packages belong in there (--into src)"
+        return "written next to `src`: if this folder is a workspace, use --into src"
     return ""
 
 
 @contextmanager
-def told_of_what_is_written(into: Path) -> Iterator[None]:
-    """Print what was written, in the block; where it cannot be printed, say that it is there all the same.
+def report_written(into: Path) -> Iterator[None]:
+    """Print the written packages in the block; where printing fails, report that they were written nevertheless.
 
     Args:
-        into: where it was written to.
+        into: the folder that was written to.
 
     Raises:
-        ResourceError: what was printed could not be, e.g. for want of space.
-        BrokenPipeError: nobody reads it any more.
+        ResourceError: the report could not be printed, e.g. because the disk is full.
+        BrokenPipeError: the reader has closed the pipe.
     """
     try:
         yield
@@ -51,8 +51,8 @@ def told_of_what_is_written(into: Path) -> Iterator[None]:
     except BrokenPipeError:
         raise
     except OSError as error:
-        # What could not be printed is still to be printed when the program ends.
+        # Output that could not be printed stays in the buffer and would be printed at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         raise ResourceError(
-            f"all was written to {into}; only what was done could not be printed: {error.strerror}"
+            f"all files were written to {into}, but the report could not be printed: {error.strerror}"
         ) from error

@@ -1,4 +1,4 @@
-"""`urdfkit sim bench`: our engine beside MuJoCo and PyBullet, on the same scenes."""
+"""`urdfkit sim bench`: compare urdfkit's engine with MuJoCo and PyBullet in the same scenes."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ ALSO = {
     SCALING: "cost per robot among 2, 10 and 50 in one world",
     MEMORY: "memory of a running house simulation",
 }
-"""What can be asked for beside the scenes."""
+"""Measurements in addition to the scenes."""
 INSTALL = "pip install 'urdfkit[bench]'"
-"""What brings the peers."""
+"""Command that installs the other engines."""
 THREADS = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-"""Who reads from the environment how many threads to start: one, so that CPU seconds are those of one core."""
+"""Variables that set the number of threads of libraries: one, so that CPU seconds are those of one core."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -37,7 +37,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME",
-        help="measure this only (repeatable; --list names them all)",
+        help="measure only this scene (repeatable; --list prints all names)",
     )
     add(
         "--seconds",
@@ -46,20 +46,20 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help="CPU seconds of each measurement (default: 0.3)",
     )
-    add("--rounds", type=_count, default=5, metavar="N", help="how often each is repeated, in turns (default: 5)")
-    add("--list", action="store_true", help="list the scenes and end")
+    add("--rounds", type=_count, default=5, metavar="N", help="rounds of all measurements (default: 5)")
+    add("--list", action="store_true", help="list the scenes and exit")
     add("--json", action="store_true", help="print one JSON value")
     parser.epilog = "examples:\n  urdfkit sim bench --scene diff-drive --scene arm\n  urdfkit sim bench --json"
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Measure and report; 1 where our engine got a scene wrong."""
+    """Measure and report; exit with status 1 where urdfkit's engine fails a check."""
     for name in THREADS:
         os.environ.setdefault(name, "1")
     names = {**_scenes(), **ALSO}
     for name in arguments.scene:
         if name not in names:
-            raise UsageError(f"sim bench: there is no scene `{name}`{did_you_mean(name, names)}")
+            raise UsageError(f"sim bench: unknown scene `{name}`{did_you_mean(name, names)}")
     if arguments.list:
         print(json.dumps(names, indent=1) if arguments.json else _listing(names))
         return 0
@@ -77,13 +77,13 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def measure(names: Sequence[str], *, seconds: float, rounds: int, quiet: bool = False) -> Report:
-    """Measure what is asked for.
+    """Measure scenes.
 
     Args:
-        names: of scenes, or of `ALSO`.
+        names: names of scenes, or of `ALSO`.
         seconds: CPU seconds of a measurement.
-        rounds: how often each is repeated.
-        quiet: keep progress to ourselves.
+        rounds: rounds of all measurements.
+        quiet: print no progress.
     """
     prepare(names)
     from urdfkit import __version__
@@ -102,25 +102,25 @@ def measure(names: Sequence[str], *, seconds: float, rounds: int, quiet: bool = 
             peers.append(peer)
         except ImportError:
             missing[peer.name] = INSTALL
-            print(f"urdfkit: {peer.label} is not installed, so it is left out: {INSTALL}", file=sys.stderr)
-    say = _progress(quiet=quiet)
+            print(f"urdfkit: {peer.label} is not installed and is skipped; install it with {INSTALL}", file=sys.stderr)
+    print_progress = _progress(quiet=quiet)
     held = None
     if MEMORY in names:
-        say("memory: driving through the house")
+        print_progress("memory: driving through the house")
         try:
             held = memory_use.measure()
         except SimulationError as error:
-            say("")
-            print(f"urdfkit: memory is left out: {error}", file=sys.stderr)
-    comparison = Comparison(peers, seconds=seconds, rounds=rounds, say=say)
+            print_progress("")
+            print(f"urdfkit: memory is skipped: {error}", file=sys.stderr)
+    comparison = Comparison(peers, seconds=seconds, rounds=rounds, say=print_progress)
     scenes = [comparison.compare(scene) for scene in SCENES if scene.name in names]
     scaling = comparison.scale() if SCALING in names else ()
-    say("")
+    print_progress("")
     return Report(machine(), engines, missing, seconds, rounds, scenes, scaling, held)
 
 
 def prepare(names: Sequence[str]) -> None:
-    """Compile the kernels that will be needed, so that no measurement holds a compilation."""
+    """Compile the needed kernels, so that no measurement includes a compilation."""
     from urdfkit.app.simulation.kernel_compilation import prepare_kernel
 
     prepare_kernel(sys.stderr)
@@ -149,10 +149,10 @@ def _count(text: str) -> int:
 
 
 def _progress(*, quiet: bool) -> Callable[[str], None]:
-    """Return what tells how far we are: one line that changes on a terminal, lines elsewhere; "" ends it."""
+    """Return a function that prints the progress: one updated line on a terminal, else lines; "" clears the line."""
     terminal = sys.stderr.isatty()
 
-    def say(text: str) -> None:
+    def print_progress(text: str) -> None:
         if quiet:
             return
         if terminal:
@@ -160,4 +160,4 @@ def _progress(*, quiet: bool) -> Callable[[str], None]:
         elif text:
             print(text, file=sys.stderr, flush=True)
 
-    return say
+    return print_progress

@@ -1,4 +1,4 @@
-"""What ``sim bench`` shows people: a table that narrow terminals and pipes can take."""
+"""Output of ``sim bench``: a table that fits narrow terminals and pipes."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ if TYPE_CHECKING:
 LABELS = {"urdfkit": "urdfkit", "Simulator": "in a Simulator", "mujoco": "MuJoCo", "pybullet": "PyBullet"}
 GREEN, RED, BOLD = "\x1b[32m", "\x1b[31m", "\x1b[1m"
 RESET = "\x1b[0m"
-NUMBERS = 54
-"""Columns that the numbers of a line take; remarks come after them, or below where there is too little room."""
-REMARKS = 40
-"""Columns that remarks must have to come after the numbers."""
+NUMBER_COLUMNS = 54
+"""Width of the numbers of a line [columns]; notes follow them, or are below where the terminal is too narrow."""
+NOTE_COLUMNS = 40
+"""Minimum width of notes that follow the numbers [columns]."""
 
 
 def table(report: Report, *, color: str = "auto", width: int | None = None) -> str:
     """Return the report as text.
 
     Args:
-        report: what was measured.
+        report: the measurements.
         color: ``auto``, ``always`` or ``never``.
-        width: columns there are; those of the terminal when None, without end where there is none.
+        width: width in columns; that of the terminal when None, unlimited without a terminal.
     """
     return "\n".join(_Table(color, width if width is not None else columns()).lines(as_json(report)))
 
@@ -41,67 +41,70 @@ class _Table:
         self._width = width
 
     def lines(self, report: dict[str, Any]) -> list[str]:
-        found = []
+        lines = []
         if report["scenes"]:
             many = f"{report['steps_per_call']} a call"
-            found.append(f"{'steps per CPU s':18}{'1 a call':>9}{many:>11}{'ours/theirs':>14}")
+            lines.append(f"{'steps per CPU s':18}{'1 a call':>9}{many:>11}{'ours/theirs':>14}")
         for scene in report["scenes"]:
-            found += [self._styled(f"{scene['scene']}: {scene['title']}", BOLD), *self._scene(scene)]
+            lines += [self._styled(f"{scene['scene']}: {scene['title']}", BOLD), *self._scene(scene)]
         if report["scaling"]:
-            found += ["", *self._scaling(report["scaling"])]
+            lines += ["", *self._scaling(report["scaling"])]
         if report["memory"]:
             memory = report["memory"]
             text = f"{memory['peak'] / 1e6:.0f} MB (target: under {memory['target'] / 1e6:.0f})"
             title = self._styled(f"memory: {memory['robot']} driving in {memory['world']}", BOLD)
-            found += ["", title, "  " + self._judged(text, memory["met"])]
+            lines += ["", title, "  " + self._judged(text, memory["met"])]
         machine = report["machine"]
         versions = ", ".join(f"{LABELS[name]} {version}" for name, version in report["engines"].items())
         about = f"{machine['processor']}, {machine['cores']} cores, Python {machine['python']}"
-        found += ["", *self._wrapped(f"{versions}, numba {machine['numba']}; {about}")]
+        lines += ["", *self._wrapped(f"{versions}, numba {machine['numba']}; {about}")]
         medians = f"medians of {report['rounds']} rounds of {report['seconds']:g} CPU s in turns"
-        found += self._wrapped(f"{medians}; step {report['dt']:g} s; ratios are medians of the rounds' ratios")
-        return found
+        lines += self._wrapped(f"{medians}; step {report['dt']:g} s; ratios are medians of the rounds' ratios")
+        return lines
 
     def _scene(self, scene: dict[str, Any]) -> list[str]:
-        found = []
+        lines = []
         for engine, speed in scene["engines"].items():
             rates = speed["steps_per_cpu_second"]
             line = f"  {LABELS[engine]:16}{_rate(rates['single']):>9}{_rate(rates['many']):>11}"
-            ratio, remarks = scene["ratios"].get(engine), [_checks(speed)]
+            ratio, notes = scene["ratios"].get(engine), [_checks(speed)]
             if ratio is not None:
                 met = ratio["met"] or {}
                 pair = (self._judged(f"{ratio[way]:>6.2f}", met.get(way)) for way in ("single", "many"))
                 line += "  " + "".join(pair)
                 if ratio["target"] is not None:
-                    remarks.insert(0, f"target {ratio['target']:g}")
-                remarks.insert(0, speed["settings"] or "ours: without topics and plugins")
-                remarks += _beside_a_simulator(scene["engines"], engine)
-            found += self._with_remarks(line, "; ".join(remarks), met=None if speed["right"] else False)
+                    notes.insert(0, f"target {ratio['target']:g}")
+                notes.insert(0, speed["settings"] or "ours: without topics and plugins")
+                notes += _ratio_of_simulator(scene["engines"], engine)
+            lines += self._with_notes(line, "; ".join(notes), met=None if speed["right"] else False)
             if faster := speed["faster_but_wrong"]:
                 text = f"faster but wrong: {faster['settings']} at {_rate(faster['steps_per_cpu_second'])}"
-                found += self._wrapped(f"{text}, {_checks({**faster, 'right': False})}", indent=4)
-        return found
+                lines += self._wrapped(f"{text}, {_checks({**faster, 'right': False})}", indent=4)
+        return lines
 
     def _scaling(self, scaling: dict[str, Any]) -> list[str]:
         counts = "".join(f"{count:>10}" for count in scaling["robots"])
-        found = [self._styled("scaling: CPU µs per step and robot", BOLD), f"  {'robots':16}{counts}"]
+        lines = [self._styled("scaling: CPU µs per step and robot", BOLD), f"  {'robots':16}{counts}"]
         for engine, row in scaling["engines"].items():
             ours = engine == "urdfkit"
             costs = "".join(f"{cost:>10.2f}" for cost in row["microseconds_per_robot"])
             text = f"grows {row['growth']:.2f} times" + f", target: at most {scaling['target']}" * ours
             text += "" if row["right"] else "; WRONG: not all drive as they must"
             met = row["right"] and (row["met"] if ours else None)
-            found += self._with_remarks(f"  {LABELS[engine]:16}{costs}", text, met=met)
-        return found
+            lines += self._with_notes(f"  {LABELS[engine]:16}{costs}", text, met=met)
+        return lines
 
-    def _with_remarks(self, line: str, remarks: str, *, met: bool | None) -> list[str]:
-        if self._width is None or self._width - NUMBERS >= REMARKS:
-            room = 10_000 if self._width is None else self._width - NUMBERS
-            first, *others = textwrap.wrap(remarks, room)
+    def _with_notes(self, line: str, notes: str, *, met: bool | None) -> list[str]:
+        if self._width is None or self._width - NUMBER_COLUMNS >= NOTE_COLUMNS:
+            room = 10_000 if self._width is None else self._width - NUMBER_COLUMNS
+            first, *others = textwrap.wrap(notes, room)
             plain = len(line.replace(GREEN, "").replace(RED, "").replace(RESET, ""))
-            gap = " " * max(2, NUMBERS - plain)
-            return [line + gap + self._judged(first, met), *(" " * NUMBERS + self._judged(o, met) for o in others)]
-        return [line, *(self._judged(text, met) for text in self._wrapped(remarks, indent=4))]
+            gap = " " * max(2, NUMBER_COLUMNS - plain)
+            return [
+                line + gap + self._judged(first, met),
+                *(" " * NUMBER_COLUMNS + self._judged(o, met) for o in others),
+            ]
+        return [line, *(self._judged(text, met) for text in self._wrapped(notes, indent=4))]
 
     def _wrapped(self, text: str, *, indent: int = 0) -> list[str]:
         before = " " * indent
@@ -116,8 +119,8 @@ class _Table:
         return f"{style}{text}{RESET}" if self._colored else text
 
 
-def _beside_a_simulator(engines: dict[str, Any], peer: str) -> list[str]:
-    """Return how many times the speed of a peer a whole `Simulator` has, with one step and with many a call."""
+def _ratio_of_simulator(engines: dict[str, Any], peer: str) -> list[str]:
+    """Return the speed of a whole `Simulator` relative to another engine, with one and with many steps a call."""
     whole = engines.get("Simulator")
     if whole is None or peer == "Simulator":
         return []
@@ -133,10 +136,10 @@ def _rate(steps: float) -> str:
 
 
 def _checks(speed: dict[str, Any]) -> str:
-    found = [_check(check) for check in speed["checks"]]
+    results = [_check(check) for check in speed["checks"]]
     if speed.get("asleep"):
-        found.append(f"{speed['asleep']} asleep")
-    return ("right: " if speed["right"] else "WRONG: ") + ", ".join(found)
+        results.append(f"{speed['asleep']} asleep")
+    return ("right: " if speed["right"] else "WRONG: ") + ", ".join(results)
 
 
 def _check(check: dict[str, Any]) -> str:

@@ -1,4 +1,4 @@
-"""``--controllers``: which parameter files configure the robot's controllers."""
+"""``--controllers``: parameter files that configure the robot's controllers."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ def add_controllers(parser: argparse.ArgumentParser) -> None:
         type=parameter_file,
         default=[],
         metavar="FILE.yaml",
-        help="parameters of controllers, in place of those the robot's packages load (repeatable)",
+        help="controller parameters to use instead of those of the robot's packages (repeatable)",
     )
 
 
 def parameter_file(text: str) -> str:
-    """Return the path of a file that is there.
+    """Return the path of an existing file.
 
     Raises:
-        argparse.ArgumentTypeError: it is not.
+        argparse.ArgumentTypeError: the file does not exist.
     """
     from urdfkit.description.packages.resolver import near_path
 
