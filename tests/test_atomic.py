@@ -86,7 +86,7 @@ def test_nothing_is_overwritten(tmp_path):
     with staging(tmp_path) as stage:
         (stage / "a").write_text("y")
         (stage / "b").mkdir()
-        with pytest.raises(ResourceError, match="b is already there; nothing is overwritten"):
+        with pytest.raises(ResourceError, match="b already exists; nothing is overwritten"):
             move_into_place(stage, tmp_path)
     assert [p.name for p in tmp_path.iterdir()] == ["b"]
 

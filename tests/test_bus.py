@@ -24,7 +24,7 @@ def test_subscribers_hear_in_order_until_they_close() -> None:
 def test_a_topic_has_one_type() -> None:
     bus = Bus()
     bus.advertise("a", "T")
-    with pytest.raises(UsageError, match="topic `/a` carries T, not U"):
+    with pytest.raises(UsageError, match="topic `/a` has type T, not U"):
         bus.publish("a", "U", 1)
 
 

@@ -1,6 +1,6 @@
 """urdfkit: from a URDF or xacro to a robot you lint, view, compute with and drive.
 
-The public names are resolved on first use, so that ``import urdfkit`` costs next to nothing.
+The public names are resolved on first use, so that ``import urdfkit`` is fast.
 """
 
 from __future__ import annotations

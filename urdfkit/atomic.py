@@ -1,4 +1,4 @@
-"""Write all or nothing: to a temporary place beside the target, then move."""
+"""Atomic writes: to a temporary file or folder next to the target, which is then moved."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pathlib import Path
 
 from urdfkit.errors import ResourceError, UrdfkitError
 
-_STAGE = ".urdfkit-"
+_TEMPORARY_PREFIX = ".urdfkit-"
 
 
 def write_text(path: Path, text: str) -> None:
@@ -24,8 +24,8 @@ def write_text(path: Path, text: str) -> None:
     (``\n`` is not translated).
 
     Args:
-        path: the file; its folder has to exist.
-        text: what it shall hold, written as UTF-8.
+        path: the file; its folder must exist.
+        text: the new content, written as UTF-8.
 
     Raises:
         ResourceError: it cannot be written.
@@ -37,8 +37,8 @@ def write_bytes(path: Path, content: bytes) -> None:
     """Replace the contents of a file, or leave it as it was; see `write_text`.
 
     Args:
-        path: the file; its folder has to exist.
-        content: what it shall hold.
+        path: the file; its folder must exist.
+        content: the new content.
 
     Raises:
         ResourceError: it cannot be written.
@@ -62,32 +62,32 @@ def write_bytes(path: Path, content: bytes) -> None:
 
 @contextmanager
 def staging(folder: Path) -> Iterator[Path]:
-    """Provide a temporary folder inside `folder`, gone afterwards whatever happens.
+    """Provide a temporary folder inside `folder` that is always removed afterwards.
 
-    It lies on the same file system, so that `move_into_place` is a rename. What programs that were killed have left of
-    their own is removed.
+    It lies on the same file system, so that `move_into_place` is a rename. Temporary folders
+    of killed programs are removed.
 
-    Errors name what would have been written by its place in `folder`: nobody has heard of the temporary one.
+    Errors name the target path in `folder` instead of the temporary one.
 
     Args:
-        folder: has to exist.
+        folder: must exist.
 
     Raises:
         ResourceError: nothing can be written there.
     """
     _sweep(folder)
-    with _temporary(folder) as place, _named_by_their_place(place, folder):
+    with _temporary(folder) as place, _errors_name_target(place, folder):
         yield place
 
 
 @contextmanager
 def _temporary(folder: Path) -> Iterator[Path]:
-    """Make the temporary folder, and take it away however the body ends, also when told to end in between."""
+    """Create the temporary folder, and remove it however the body ends, also on a signal."""
     place: Path | None = None
     try:
         with undisturbed():
             try:
-                place = Path(tempfile.mkdtemp(prefix=f"{_STAGE}{_host()}-{os.getpid()}-", dir=folder))
+                place = Path(tempfile.mkdtemp(prefix=f"{_TEMPORARY_PREFIX}{_host()}-{os.getpid()}-", dir=folder))
             except OSError as error:
                 raise ResourceError(f"cannot write into {folder}: {error.strerror}") from error
         yield place
@@ -98,11 +98,11 @@ def _temporary(folder: Path) -> Iterator[Path]:
 
 
 @contextmanager
-def _named_by_their_place(place: Path, folder: Path) -> Iterator[None]:
-    """Name in errors, in the place of the temporary folder, the one that it is for."""
+def _errors_name_target(place: Path, folder: Path) -> Iterator[None]:
+    """Replace the temporary folder by the target folder in error messages."""
     try:
         yield
-    except BrokenPipeError:  # no file of it: whoever reads what is printed has gone
+    except BrokenPipeError:  # not about a file: the reader of the output has closed it
         raise
     except OSError as error:
         written = Path(error.filename) if isinstance(error.filename, str) else place
@@ -112,30 +112,31 @@ def _named_by_their_place(place: Path, folder: Path) -> Iterator[None]:
     except UrdfkitError as error:
         if place.name not in str(error):
             raise
-        there = {f"{place}/": "" if folder == Path() else f"{folder}/", f"{place.resolve()}/": f"{folder.resolve()}/"}
-        said = str(error)
-        for hidden, shown in there.items():
-            said = said.replace(hidden, shown)
-        raise ResourceError(said.replace(f"{place.name}/", "")) from error
+        shown_folder = "" if folder == Path() else f"{folder}/"
+        replacements = {f"{place}/": shown_folder, f"{place.resolve()}/": f"{folder.resolve()}/"}
+        message = str(error)
+        for hidden, shown in replacements.items():
+            message = message.replace(hidden, shown)
+        raise ResourceError(message.replace(f"{place.name}/", "")) from error
 
 
 def move_into_place(staged: Path, folder: Path) -> list[Path]:
-    """Move everything in `staged` into `folder`; nothing is overwritten, and if one move fails all are undone.
+    """Move the content of `staged` into `folder`; nothing is overwritten, and if one move fails all are undone.
 
     Args:
         staged: a folder on the same file system.
-        folder: has to exist.
+        folder: must exist.
 
     Returns:
         The new paths, sorted.
 
     Raises:
-        ResourceError: something of that name is there already, or it cannot be written.
+        ResourceError: a path of that name exists, or it cannot be written.
     """
     moves = [(child, folder / child.name) for child in sorted(staged.iterdir())]
     for _, target in moves:
         if os.path.lexists(target):
-            raise ResourceError(f"{target} is already there; nothing is overwritten")
+            raise ResourceError(f"{target} already exists; nothing is overwritten")
     done: list[tuple[Path, Path]] = []
     with undisturbed():
         try:
@@ -153,15 +154,15 @@ def move_into_place(staged: Path, folder: Path) -> list[Path]:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Let Ctrl-C, a request to end and a terminal that is closed wait until the body is done.
+    """Delay SIGINT, SIGTERM and SIGHUP until the body is done.
 
-    To block the signals would not do: another thread, such as a library's, would take them, and Python would act on
-    them here all the same.
+    Blocking the signals is not enough: another thread, such as a library's, would receive them, and Python would run
+    their handlers here.
     """
     arrived: list[int] = []
     before = {}
     if threading.current_thread() is threading.main_thread():
-        for name in ("SIGINT", "SIGTERM", "SIGHUP"):  # the last is not everywhere
+        for name in ("SIGINT", "SIGTERM", "SIGHUP"):  # SIGHUP does not exist on every platform
             number = getattr(signal, name, None)
             if number is not None and signal.getsignal(number) not in (None, signal.SIG_IGN):
                 before[number] = signal.signal(number, lambda number, _: arrived.append(number))
@@ -175,11 +176,11 @@ def undisturbed() -> Iterator[None]:
 
 
 def _sweep(folder: Path) -> None:
-    """Remove the temporary folders of programs of this machine that are no more."""
-    if not hasattr(os, "uname"):  # where there is no harmless way to ask whether a process is alive
+    """Remove the temporary folders of programs of this machine that have ended."""
+    if not hasattr(os, "uname"):  # no safe test for a running process on this platform
         return
-    for path in folder.glob(f"{_STAGE}{_host()}-*-*"):
-        process = path.name.removeprefix(f"{_STAGE}{_host()}-").partition("-")[0]
+    for path in folder.glob(f"{_TEMPORARY_PREFIX}{_host()}-*-*"):
+        process = path.name.removeprefix(f"{_TEMPORARY_PREFIX}{_host()}-").partition("-")[0]
         if process.isdigit() and not _is_alive(int(process)):
             shutil.rmtree(path, ignore_errors=True)
 

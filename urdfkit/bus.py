@@ -11,7 +11,7 @@ from urdfkit.errors import UsageError
 
 @dataclass(slots=True)
 class Topic:
-    """What is known about one topic.
+    """One topic: its name, type, message count and subscribers.
 
     Attributes:
         name: absolute, e.g. ``/simpleton/cmd_vel``.
@@ -28,7 +28,7 @@ class Topic:
 
     @property
     def latest(self) -> Any:
-        """The last message; None before the first. A message that nobody listened to is built here, on first look."""
+        """The last message; None before the first. A message without subscribers is built here, on first access."""
         if self._build is not None:
             self._latest, self._build = self._build(), None
         return self._latest
@@ -41,11 +41,11 @@ class Topic:
             callback(message)
 
     def offer(self, build: Callable[[], Any], *, count: int = 1) -> None:
-        """Publish what `build` makes, but make it only when somebody listens or looks at `latest`.
+        """Publish the message that `build` makes; build it only for a subscriber or a reader of `latest`.
 
         Args:
-            build: makes the message; has to hold on to the values of now, for it may be called later.
-            count: how many publications this one stands for (those nobody listened to are not made).
+            build: makes the message; must keep the current values, because it may be called later.
+            count: number of publications this call stands for (those without subscribers are not built).
         """
         if self.subscribers:
             self.count += count - 1
@@ -89,7 +89,7 @@ class Bus:
         if topic is None:
             topic = self._topics[name] = Topic(name, type)
         elif topic.type != type:
-            raise UsageError(f"topic `{name}` carries {topic.type}, not {type}")
+            raise UsageError(f"topic `{name}` has type {topic.type}, not {type}")
         return topic
 
     def publish(self, name: str, type: str, message: Any) -> None:
@@ -103,12 +103,12 @@ class Bus:
         return Subscription(topic, callback)
 
     def latest(self, name: str) -> Any:
-        """Return the last message of a topic, None when there is none."""
+        """Return the last message of a topic; None before the first."""
         topic = self._topics.get(absolute(name))
         return None if topic is None else topic.latest
 
     def has_subscribers(self, name: str) -> bool:
-        """Whether anybody listens: sensors compute nothing for nobody."""
+        """Whether a topic has subscribers: sensors compute nothing without them."""
         topic = self._topics.get(absolute(name))
         return topic is not None and bool(topic.subscribers)
 

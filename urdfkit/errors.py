@@ -1,8 +1,8 @@
-"""What can go wrong, as a tree.
+"""The errors of urdfkit, as a tree of classes.
 
 ::
 
-    UrdfkitError                 root of everything urdfkit raises on purpose; the CLI prints it in one line, exit 2
+    UrdfkitError                 root of all errors of urdfkit; the command line prints it in one line and exits with 2
     ├── UsageError               an argument or option makes no sense
     ├── ResourceError            a robot, world, package or file name resolves to nothing
     ├── DescriptionError         the description cannot be read as a robot
@@ -12,11 +12,11 @@
     ├── KinematicsError          unknown frame or joint, a value outside the model
     │   └── JointLimitError      carries joint, value, lower, upper (urdfkit.kinematics)
     ├── SimulationError          the robot or the world cannot be simulated
-    │   └── UnknownNameError     nothing of that name in a simulation; a KeyError as well
+    │   └── UnknownNameError     unknown name in a simulation; also a KeyError
     └── MissingDependencyError   an optional package is not installed; carries the command to run
 
-A message is one line. It says what is wrong, the value with its unit, where (``file:line:column``) and the nearest
-right thing.
+A message is one line. It states the defect, the value with its unit, the position (``file:line:column``) and the
+nearest valid alternative.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ class UrdfkitError(Exception):
     """Root of all errors meant for the user.
 
     Args:
-        message: what is wrong and what would be right, without the place.
-        position: where a person wrote it, if anywhere.
+        message: the defect and the valid alternative, without the position.
+        position: the position in the source file, if there is one.
     """
 
     def __init__(self, message: str, *, position: Position | None = None) -> None:
@@ -75,7 +75,7 @@ class SimulationError(UrdfkitError):
 
 
 class UnknownNameError(SimulationError, KeyError):
-    """Nothing of that name is in a simulation; a KeyError as well, as mappings and their users want."""
+    """Unknown name in a simulation; also a KeyError, as users of mappings expect."""
 
     def __str__(self) -> str:
         """Return the message: a KeyError alone would put it in quotes."""
@@ -86,19 +86,19 @@ class MissingDependencyError(UrdfkitError):
     """An optional dependency is not installed."""
 
 
-def bug(error: BaseException, whose: str = "urdfkit") -> str:
-    """Return one line on an error that nobody meant: whose fault it is, what it says, where it was raised.
+def bug(error: BaseException, package: str = "urdfkit") -> str:
+    """Return one line about an unexpected error: the package at fault, its message, and where it was raised.
 
     Args:
         error: as it was caught.
-        whose: the package to blame.
+        package: the package at fault.
     """
     frame = error.__traceback__
     while frame is not None and frame.tb_next is not None:
         frame = frame.tb_next
     place = f"{frame.tb_frame.f_code.co_filename}:{frame.tb_lineno}" if frame is not None else "unknown place"
     what = " ".join(str(error).split())
-    return f"a bug in {whose}, not in your files: {type(error).__name__}: {what} ({place})"
+    return f"a bug in {package}, not in your files: {type(error).__name__}: {what} ({place})"
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:

@@ -1,8 +1,8 @@
-"""Records: frozen dataclasses that cost nothing to define.
+"""Records: frozen dataclasses without the cost of defining them.
 
 ``@dataclass`` writes and compiles five methods for every class, about a millisecond each, and imports `inspect`: for
-the classes of a robot that is as long as expanding a whole xacro file. A record shares its methods with all records
-instead. Where the command line has to be quick (description, lint) plain data are records; elsewhere use dataclasses.
+the classes of a robot that takes as long as expanding a whole xacro file. A record shares its methods with all records
+instead. Where start-up time matters (description, lint), plain data classes are records; elsewhere use dataclasses.
 
 `dataclasses.fields`, `replace` and `asdict` work on records, and type checkers see dataclasses.
 """
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 else:
 
     def dataclass_transform(**_):
-        """Stand in for the decorator that only type checkers read."""
+        """Substitute for the decorator, which only type checkers use."""
         return lambda function: function
 
 
 class _Field:
-    """What `field` was told about one attribute."""
+    """Arguments of `field` for one attribute."""
 
     __slots__ = ("default", "factory", "repr")
 
@@ -34,7 +34,7 @@ _MISSING = object()
 
 
 def field(*, default: Any = _MISSING, default_factory: Any = None, repr: bool = True) -> Any:
-    """Describe an attribute: its default or what makes it, and whether `repr` shows it."""
+    """Describe an attribute: its default or default factory, and whether `repr` shows it."""
     return _Field(default, default_factory, repr)
 
 
@@ -96,7 +96,7 @@ def _prepare(cls: Any, eq: bool, order: bool) -> Any:
 
 
 class _Fields:
-    """The dataclass fields of a record, made when somebody asks for them."""
+    """The dataclass fields of a record, built on first access."""
 
     def __get__(self, instance: object, owner: Any) -> Any:
         import dataclasses

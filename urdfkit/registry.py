@@ -1,7 +1,7 @@
 """Third-party rules, drives, sensors and controllers, from the entry points of installed packages.
 
-`importlib.metadata` would do the same, but takes longer to import than linting a file takes; so the few files it reads
-are read here.
+`importlib.metadata` would do the same, but takes longer to import than linting a file takes; so this
+module reads the few files itself.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class EntryPoint:
     """One line of an entry point section: ``name = module:attribute``.
 
     Attributes:
-        name: what the package calls it.
+        name: its name in the package.
         value: ``module:attribute``.
         distribution: the folder it was read from, for messages.
     """
@@ -37,7 +37,7 @@ class EntryPoint:
         """Import the module and return the attribute.
 
         Raises:
-            ResourceError: it cannot be imported; says which package is broken.
+            ResourceError: it cannot be imported; names the broken package.
         """
         module, _, attributes = self.value.partition(":")
         try:
@@ -54,7 +54,7 @@ def entry_points(group: str, path: Iterable[str] | None = None) -> list[EntryPoi
 
     Args:
         group: e.g. ``urdfkit.rules``.
-        path: folders to look for installed packages in; ``sys.path`` when None.
+        path: folders to search for installed packages; ``sys.path`` when None.
     """
     found: dict[str, EntryPoint] = {}
     for folder in sys.path if path is None else path:
@@ -66,17 +66,17 @@ def entry_points(group: str, path: Iterable[str] | None = None) -> list[EntryPoi
 
 
 def load(group: str) -> list[Any]:
-    """Import and return everything of a group.
+    """Import and return all entry points of a group.
 
     Raises:
-        ResourceError: something cannot be imported.
+        ResourceError: an entry point cannot be imported.
     """
     return [entry.load() for entry in entry_points(group)]
 
 
 def _distributions(folder: str) -> list[str]:
     try:
-        names = os.listdir(folder)  # noqa: PTH208 - names are all that is wanted
+        names = os.listdir(folder)  # noqa: PTH208 - only names are needed
     except OSError:
         return []
     return [name for name in names if name.endswith((".dist-info", ".egg-info"))]
@@ -84,7 +84,7 @@ def _distributions(folder: str) -> list[str]:
 
 def _read(file: str, group: str, distribution: str) -> list[EntryPoint]:
     heading = f"[{group}]"
-    try:  # A hundred of these on every start: without what makes files comfortable, as that takes three times as long.
+    try:  # A hundred of these on every start: unbuffered, because buffered reading takes three times as long.
         descriptor = os.open(file, os.O_RDONLY)
         try:
             content = os.read(descriptor, os.fstat(descriptor).st_size)

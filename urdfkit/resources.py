@@ -1,6 +1,6 @@
-"""Where templates and robots live, and which file a MODEL argument means.
+"""Find templates and bundled robots, and resolve a robot argument to a file.
 
-Nothing here parses XML: a look at the first tag tells a robot from a file of macros.
+This module does not parse XML: the first tag distinguishes a robot from a file of macros.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from urdfkit.errors import ResourceError, UsageError, did_you_mean
 from urdfkit.record import record
 
 MODEL_SUFFIXES = (".urdf", ".xacro")
-"""What the name of a model file ends in."""
+"""Suffixes of model files."""
 
 _WORLD_SUFFIXES = (".sdf", ".world")
 _SKIPPED_FOLDERS = {"build", "install", "devel", "log", "node_modules", "__pycache__", "test", "tests"}
@@ -26,20 +26,20 @@ _LISTED = 8
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _ROOT = re.compile(r"""<robot\b((?:"[^"]*"|'[^']*'|[^>"'])*)>""")
 _NAME = re.compile(r"""(?<![\w:])name\s*=\s*(?:"([^"]*)"|'([^']*)')""")
-# A file of colours or properties is no robot, whatever it is called: that has a link, or something that may bring one.
+# A file of colours or properties is not a robot, whatever its name: a robot has a link, or an element that may add one.
 _SUBSTANCE = re.compile(r"<link\b|<xacro:(?!macro\b|property\b|arg\b)")
 _INCLUDED = re.compile(r"""<xacro:include\b[^>]*?filename\s*=\s*["'][^"']*?([^/"'\\]+)["']""")
 
 
 @record
 class ModelArgument:
-    """What MODEL and the words after it mean.
+    """Resolved robot argument of a command, with the xacro arguments after it.
 
     Attributes:
         path: the file to load, absolute.
         arguments: xacro arguments, from ``key:=value`` words.
-        package_path: folders to look for packages in first.
-        name: what to call the robot before it is loaded: its name if it is written out, else the file's stem.
+        package_path: folders to search for packages first.
+        name: name of the robot before it is loaded: the one in the file if it is literal, else the file's stem.
     """
 
     path: Path
@@ -49,7 +49,7 @@ class ModelArgument:
 
 
 def robots_dir() -> Path:
-    """Return the folder of the robots we ship.
+    """Return the folder of the bundled robots.
 
     Raises:
         ResourceError: the installation is incomplete.
@@ -67,7 +67,7 @@ def templates_dir() -> Path:
 
 
 def robot_names() -> list[str]:
-    """Return the names of the robots we ship and of their variants, sorted.
+    """Return the names of the bundled robots and of their variants, sorted.
 
     Raises:
         ResourceError: the installation is incomplete.
@@ -76,7 +76,7 @@ def robot_names() -> list[str]:
 
 
 def _shipped_robots() -> dict[str, Path]:
-    """Return name → folder of every robot, and name → file of every model beside one that has its folder's name."""
+    """Return name → folder of every robot, and name → file of every further model in such a folder."""
     home = robots_dir()
     folders = {path.name: path for path in home.iterdir() if path.is_dir() and not path.name.startswith(".")}
     variants = {_stem(path): path for path in home.glob("*/*_description/urdf/*.urdf.xacro")}
@@ -84,7 +84,7 @@ def _shipped_robots() -> dict[str, Path]:
 
 
 def _shipped_model(name: str) -> Path:
-    """Return the model of a robot we ship: of several in its folder the one that has the folder's name."""
+    """Return the model of a bundled robot; of several in its folder, the one named like the folder."""
     path = _shipped_robots()[name]
     if path.is_file():
         return path
@@ -97,13 +97,13 @@ def find_model(words: Sequence[str], *, package_path: Iterable[str | Path] = ())
     """Turn the words of a MODEL argument into a file.
 
     Args:
-        words: MODEL (a path to a file or package folder, or the name of a robot we ship), if given, and ``key:=value``
-            xacro arguments. Without MODEL it is the one robot of the package or workspace the process stands in.
-        package_path: folders to look for packages in.
+        words: MODEL (a path to a file or package folder, or the name of a bundled robot), if given, and ``key:=value``
+            xacro arguments. Without MODEL it is the only robot of the package or workspace of the working directory.
+        package_path: folders to search for packages.
 
     Raises:
         UsageError: more than one MODEL, or an argument without a key.
-        ResourceError: nothing is meant, or several things are.
+        ResourceError: no robot is found, or several are.
     """
     models = [word for word in words if ":=" not in word]
     if len(models) > 1:
@@ -123,7 +123,7 @@ def find_model(words: Sequence[str], *, package_path: Iterable[str | Path] = ())
 def _shipped(kind: str) -> Path:
     package = Path(__file__).resolve().parent
     for folder in (package.parent / kind, package / "_data" / kind):
-        # A checkout has pyproject.toml beside it; a folder of that name in site-packages is somebody else's.
+        # A checkout has pyproject.toml next to it; a folder of that name in site-packages belongs to another package.
         if folder.is_dir() and (folder.parent.name == "_data" or (package.parent / "pyproject.toml").is_file()):
             return folder
     raise ResourceError(
@@ -168,7 +168,7 @@ def _looks_like_a_path(word: str) -> bool:
 
 
 def _near(path: Path) -> str:
-    """Return a did-you-mean for the first part of `path` that is not there."""
+    """Return a did-you-mean hint for the first part of `path` that does not exist."""
     missing, parent = path, path.parent
     while not parent.is_dir() and parent != parent.parent:
         missing, parent = parent, parent.parent
@@ -185,9 +185,9 @@ def _find_here(start: Path) -> Path:
         if folder != start and (folder in (home, folder.parent) or not _is_package_or_workspace(folder)):
             continue
         if entries := models_in(folder):
-            return _the_one(entries, "the folder you stand in" if folder == start else str(folder))
+            return _the_one(entries, "the current folder" if folder == start else str(folder))
     raise ResourceError(
-        f"no MODEL given and no robot description in or above {start}; robots we ship: {', '.join(robot_names())}"
+        f"no MODEL given and no robot description in or above {start}; bundled robots: {', '.join(robot_names())}"
     )
 
 
@@ -199,10 +199,10 @@ def models_in(folder: Path) -> list[Path]:
     """Return the model files of a package, of a folder of packages, or of a bare folder.
 
     A model is a file whose root is ``<robot name=…>``, which has links or includes, and which no other file includes.
-    A ``.urdf`` beside the ``.xacro`` it was made from is left out.
+    A ``.urdf`` generated from a ``.xacro`` in the same folder is skipped.
 
     Args:
-        folder: where to look.
+        folder: the folder to search.
 
     Raises:
         ResourceError: a file cannot be read.

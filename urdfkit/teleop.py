@@ -11,7 +11,7 @@ from math import isfinite
 from typing import Any, NamedTuple
 
 Direction = tuple[float, float, float, float]
-"""x, y, z and turn, each -1, 0 or 1: what to multiply with speed, speed, speed and turn."""
+"""x, y, z and turn, each -1, 0 or 1: the factors of speed, speed, speed and turn."""
 
 MOVES: dict[str, Direction] = {
     "i": (1, 0, 0, 0),
@@ -54,13 +54,13 @@ ARROWS: dict[str, Direction] = {
 """Arrow keys, by the names browsers give them (``KeyboardEvent.key``)."""
 
 WASD: dict[str, Direction] = {"w": (1, 0, 0, 0), "s": (-1, 0, 0, 0), "a": (0, 0, 0, 1), "d": (0, 0, 0, -1)}
-"""The keys of games. `w` hides the speed key of teleop_twist_keyboard, and with it goes `x`."""
+"""WASD keys. `w` replaces the speed key of teleop_twist_keyboard, therefore `x` is not a speed key either."""
 
 KEYBOARD_LAYOUT = MOVES
 """The terminal's keys: exactly those of teleop_twist_keyboard."""
 
 HELD_LAYOUT: dict[str, Direction] = {**MOVES, **ARROWS, **WASD}
-"""The browser's keys: everything that can be held down."""
+"""The browser's motion keys, which can be held down."""
 
 HELD_SPEEDS = {key: factors for key, factors in SPEEDS.items() if key not in ("w", "x")}
 """The browser's speed keys: those whose letters do not drive."""
@@ -84,15 +84,15 @@ class Motion(NamedTuple):
 
 
 STOP = Motion((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-"""Stand still."""
+"""Zero velocity."""
 
 
 @dataclass(slots=True)
 class Teleop:
     """Speed settings and the motion of the last key.
 
-    `key` is the terminal's way (one key at a time, the motion stays until another key); `held` is the browser's (a set
-    of keys that are down, whose directions add up); `axes` is the pad's and the joystick's.
+    `key` is for the terminal (one key at a time, the motion continues until another key); `held` is for the browser (a
+    set of pressed keys, whose directions add up); `axes` is for touch pads and joysticks.
 
     Attributes:
         speed: [m/s] at full linear motion.

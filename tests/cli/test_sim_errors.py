@@ -83,7 +83,7 @@ REFUSED = {
         robot(*map(link, "abc"), joint("ab", "a", "b"), joint("bc", "b", "c"), joint("ac", "a", "c")),
         ": link `c` is the child of two joints",
     ),
-    "two roots": (robot(*map(link, "abc"), joint("ab", "a", "b")), ": 2 root links: `c` is joined to nothing"),
+    "two roots": (robot(*map(link, "abc"), joint("ab", "a", "b")), ": 2 root links: `c` has no parent joint"),
     "no collision left, for want of its mesh": (
         robot(link("base", body(), '<collision><geometry><mesh filename="arm.stl"/></geometry></collision>')),
         ": no file arm.stl",
@@ -96,7 +96,7 @@ REFUSED = {
             link("a"),
             link("b"),
         ),
-        ": joints mimic each other in a circle: `one` → `two` → `one`",
+        ": mimic joints form a cycle: `one` → `two` → `one`",
     ),
     "limits the wrong way round": (
         arm(limit='<limit lower="1.5" upper="-1" effort="1" velocity="1"/>'),
@@ -186,7 +186,7 @@ def test_plugins_without_a_file_name_are_noted(tmp_path: Path, capsys: Capture) 
     path = tmp_path / "probe.urdf"
     path.write_text(robot(link("base"), '<gazebo><plugin name="lost"/></gazebo>'))
     assert main(["sim", "run", str(path), "--for", "0.1"]) == 0
-    assert "plugin `lost` has no filename, so nothing runs it" in capsys.readouterr().err
+    assert "plugin `lost` has no filename and is ignored" in capsys.readouterr().err
 
 
 def test_unknown_plugins_of_models_are_told_once(tmp_path: Path, capsys: Capture) -> None:

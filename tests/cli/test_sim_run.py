@@ -256,7 +256,7 @@ def test_commands_that_are_not_finite_are_dropped_with_a_warning(capsys: Capture
         (["simpleton", "--for", "1", "--topic-pub", "/x geometry_msgs/Twist {linear"], "is not YAML"),
         (
             ["simpleton", "--for", "1", "--topic-pub", "/simpleton/cmd_vel std_msgs/Bool {}"],
-            "topic `/simpleton/cmd_vel` carries geometry_msgs/msg/Twist, not std_msgs/msg/Bool",
+            "topic `/simpleton/cmd_vel` has type geometry_msgs/msg/Twist, not std_msgs/msg/Bool",
         ),
     ],
 )

@@ -14,7 +14,7 @@ SCRIPT = """
 import numba, numpy as np
 from numba.core import event
 from urdfkit.compilation import compile_or_load
-from urdfkit.compilation.whole_program import Program
+from urdfkit.compilation.whole_program import EntryLibrary
 
 @numba.njit
 def half(value):

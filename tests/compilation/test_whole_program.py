@@ -11,7 +11,7 @@ import pytest
 from numba.core.registry import cpu_target
 
 from urdfkit.compilation import compile_or_load
-from urdfkit.compilation.whole_program import Part, Program, whole_program
+from urdfkit.compilation.whole_program import EntryLibrary, LinkedFunction, whole_program
 
 OPTIONS = {"fastmath": False, "error_model": "numpy", "nogil": True, "_nrt": False}
 FLOATS = (numba.float64[::1],)
@@ -67,7 +67,7 @@ def plain(function):
 
 def test_a_program_computes_what_numba_makes_of_its_functions():
     one, other = whole(work), plain(work)
-    assert isinstance(one.overloads[FLOATS].library, Program)
+    assert isinstance(one.overloads[FLOATS].library, EntryLibrary)
     rng = np.random.default_rng(1)
     for _ in range(50):
         values = rng.normal(size=rng.integers(1, 9))
@@ -84,7 +84,7 @@ def test_only_the_outermost_function_is_emitted():
 def test_what_it_calls_can_be_called_and_compiled_alone_afterwards():
     whole(work)
     left = [*farthest.overloads.values(), *hypotenuse.overloads.values()]
-    assert not [each for each in left if isinstance(each.library, Part)]
+    assert not [each for each in left if isinstance(each.library, LinkedFunction)]
     assert hypotenuse(3.0, 4.0) == 5.0
     assert plain(other)(np.array([3.0, 4.0])) == 5.0 + math.sqrt(10.0)
 
@@ -117,8 +117,8 @@ def test_where_numba_is_made_otherwise_it_compiles_as_it_does(monkeypatch, tmp_p
     def fail(*arguments):
         raise AttributeError("no such thing in this numba")
 
-    monkeypatch.setattr(Program, broken, fail)
+    monkeypatch.setattr(EntryLibrary, broken, fail)
     monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
     compiled = compile_or_load(other, FLOATS, digest=f"broken {broken}", options=OPTIONS)
     assert compiled(np.array([3.0, 4.0])) == 5.0 + math.sqrt(10.0)
-    assert not isinstance(compiled.overloads[FLOATS].library, Program)
+    assert not isinstance(compiled.overloads[FLOATS].library, EntryLibrary)

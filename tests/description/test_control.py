@@ -174,7 +174,7 @@ def test_a_broken_file_of_the_robots_own_is_an_error(tmp_path: Path) -> None:
     where = package(tmp_path, "bot_control")
     path = write(where / "config" / "a.yaml", "bot: {")
     write(where / "launch" / "a.launch", LOAD.format(package="bot_control", file="a.yaml", more=""))
-    with pytest.raises(DescriptionError, match=r"a\.yaml:\d+:\d+: no YAML"):
+    with pytest.raises(DescriptionError, match=r"a\.yaml:\d+:\d+: invalid YAML"):
         find_configuration(found, "/bot")
     path.write_text("")
     assert read_settings(path).children == {}

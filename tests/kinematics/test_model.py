@@ -137,7 +137,7 @@ def test_a_mimic_of_a_fixed_joint_stays_at_its_offset(robot_of: Callable[[str], 
 @pytest.mark.parametrize(
     ("mimics", "message"),
     [
-        ({"b": '<mimic joint="arm"/>'}, r"`b` mimics `arm`, which is no joint"),
+        ({"b": '<mimic joint="arm"/>'}, r"`b` mimics the unknown joint `arm`"),
         ({"b": '<mimic joint="c"/>', "c": '<mimic joint="b"/>'}, r"circle: `b` → `c` → `b`"),
         ({"b": '<mimic joint="b"/>'}, r"circle: `b` → `b`"),
     ],

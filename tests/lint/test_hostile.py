@@ -33,13 +33,13 @@ def computed(expression: str) -> str:
 
 
 HOSTILE = {
-    "power.xacro": (computed("9**9**9"), "X126 `${9**9**9}` is too large: it makes an integer of more than 10,000"),
+    "power.xacro": (computed("9**9**9"), "X126 `${9**9**9}` is too large: it creates an integer of more than 10,000"),
     "text.xacro": (computed("'x' * 3 * 10**9"), "a text of more than 100,000 characters"),
     "list.xacro": (computed("[0] * 10**10"), "lists of more than 100,000 elements in all"),
     "range.xacro": (computed("list(range(10**9))"), "lists of more than 100,000 elements in all"),
     "loops.xacro": (computed("[i for i in range(9999) for j in range(9999)]"), "more than 1,000,000 steps"),
     "format.xacro": (computed("'%099999999d' % 1"), "a text of more than 100,000 characters"),
-    "factorial.xacro": (computed("factorial(10**7)"), "it asks for factorial() of more than 1,000"),
+    "factorial.xacro": (computed("factorial(10**7)"), "it calls factorial() with more than 1,000"),
     "sum.xacro": (computed("python.sum(python.range(10**12))"), "lists of more than 100,000 elements in all"),
     "deep.xacro": (computed("1+" * 4000 + "1"), "nested"),
     "macros.xacro": (
@@ -65,11 +65,11 @@ HOSTILE = {
     "attributes.xacro": (f"<robot {MANY}/>", "has 20000 attributes"),
     "cycle.xacro": (
         f"<robot {XACRO}><xacro:include filename='cycle.xacro'/></robot>",
-        "without end: cycle.xacro → cycle",
+        "in a cycle: cycle.xacro → cycle",
     ),
     "macro.xacro": (
         f"<robot {XACRO}><xacro:macro name='m'><xacro:m/><xacro:m/></xacro:macro><xacro:m/></robot>",
-        "macro `m` calls itself without end",
+        "macro `m` calls itself in an infinite recursion",
     ),
     "quotes.urdf": ("<robot name='r'><link name=\"a" + '" x="' * 300_000, "E001"),
     "comments.urdf": ("<robot name='r'><!--" + "<!-- " * 300_000, "E001"),

@@ -60,11 +60,11 @@ def test_times_as_in_ros_1_and_in_seconds(written: object, sec: int, nanosec: in
 @pytest.mark.parametrize(
     ("written", "said"),
     [
-        ({"secs": 2, "sec": 3}, "says the same twice"),
-        ({"sec": 2.5, "nanosec": 3}, "has parts of a second twice"),
+        ({"secs": 2, "sec": 3}, "sets the same field twice"),
+        ({"sec": 2.5, "nanosec": 3}, "sets the fraction of a second twice"),
         ({"scs": 2}, "did you mean `sec`?"),
         (-1, "`-1` is no builtin_interfaces/msg/Time"),
-        (1e10, "is no builtin_interfaces/msg/Time that can be: seconds, at most 2147483647"),
+        (1e10, "is out of range for builtin_interfaces/msg/Time: seconds, at most 2147483647"),
         (True, "write its fields, sec, nanosec"),
         ("2", "write its fields, sec, nanosec"),
     ],

@@ -1,6 +1,6 @@
-"""Recorder: everything that is published, written to one MCAP file that ``ros2 bag`` and its relatives read.
+"""Recorder: write all published messages to one MCAP file, readable by ``ros2 bag`` and other MCAP tools.
 
-The same simulation gives the same bytes: times are simulated, and nothing of the machine is in the file.
+The same simulation gives the same bytes: times are simulated, and the file has no data about the machine.
 """
 
 from __future__ import annotations
@@ -21,34 +21,34 @@ if TYPE_CHECKING:
 
 SUFFIX = ".mcap"
 STEM = "recording"
-"""What a recording is called until it is moved into place."""
+"""File stem of a recording until it is moved into place."""
 
 
 def check_name(path: Path) -> None:
-    """Refuse a file that is called anything else than a recording.
+    """Raise unless a file has the suffix of a recording.
 
     Args:
         path: the file.
 
     Raises:
-        UsageError: it is not called ``.mcap``.
+        UsageError: its suffix is not ``.mcap``.
     """
     if path.suffix != SUFFIX:
         raise UsageError(f"cannot record to {path}: recordings are MCAP; call it {path.stem}{SUFFIX}")
 
 
 class Recorder:
-    """Listens to every topic that carries messages, from `look` on, until `close`.
+    """Subscriber to every topic with messages; records until `close`.
 
-    Requests of services, which travel on topics here, are left out: a recording holds messages.
+    Service requests, which the bus also transports as topics, are not recorded.
 
     Args:
-        bus: whose topics.
-        path: the file, replaced when it is there already; written beside it until it is complete.
-        clock: returns the time [s]; where it goes back, as after a reset, the recording goes on from where it was.
+        bus: the bus whose topics are recorded.
+        path: the file, replaced if it exists; written to a temporary folder next to it until it is complete.
+        clock: returns the time [s]; after a jump back, as on a reset, recorded times continue from the last one.
 
     Raises:
-        UsageError: the file is not called ``.mcap``.
+        UsageError: the suffix of the file is not ``.mcap``.
         ResourceError: it cannot be written.
         MissingDependencyError: rosbags is missing, or too old to write MCAP.
 
@@ -65,7 +65,7 @@ class Recorder:
         self._bus, self._clock = bus, clock
         self._offset = self._last = 0.0
         self._subscriptions: list[Subscription] = []
-        self._known: set[str] = set()
+        self._seen: set[str] = set()
         self._files = ExitStack()
         try:
             from rosbags.rosbag2 import StoragePlugin, Writer
@@ -74,8 +74,8 @@ class Recorder:
         except ImportError as error:
             raise MissingDependencyError("recording needs rosbags, 0.11 or newer: pip install -U rosbags") from error
         self._types = typestore()
-        # rosbags writes a folder with the file in it; only the file is kept. Its name is written into it, too: always
-        # the same one, so that what a recording is called changes nothing in it.
+        # rosbags writes a folder that contains the file; only the file is kept. The file contains its own name, so a
+        # fixed name is used: the bytes do not depend on the name of the recording.
         folder = self._files.enter_context(staging(self.path.absolute().parent)) / STEM
         self._written = folder / f"{STEM}{SUFFIX}"
         try:
@@ -87,18 +87,18 @@ class Recorder:
             raise
 
     def look(self) -> None:
-        """Listen to topics that have come up since the last look; what they published last is recorded now."""
-        if len(self._bus.topics) == len(self._known):
+        """Subscribe to topics advertised since the last call, and record the last message of each."""
+        if len(self._bus.topics) == len(self._seen):
             return
         for topic in self._bus.topics:
-            if topic.name not in self._known:
-                self._known.add(topic.name)
+            if topic.name not in self._seen:
+                self._seen.add(topic.name)
                 if "/msg/" in topic.type:
                     self._listen(topic)
 
     @property
     def topics(self) -> int:
-        """How many topics are listened to."""
+        """Number of subscribed topics."""
         return len(self._subscriptions)
 
     def close(self) -> None:
@@ -124,7 +124,7 @@ class Recorder:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
-        """Keep what was recorded, whatever ended it."""
+        """Complete the recording, also after an error."""
         self.close()
 
     def _listen(self, topic: Topic) -> None:
@@ -141,6 +141,6 @@ class Recorder:
             t = self._last
         self._last = t
         data = self._types.serialize_cdr(message, kind)
-        with undisturbed():  # half a message would spoil the whole recording
+        with undisturbed():  # a partial message would corrupt the recording
             self._writer.write(connection, round(t * 1e9), data)
         self.count += 1

@@ -1,4 +1,4 @@
-"""A compiled function: found in numba's cache, or compiled and put there."""
+"""Load a compiled function from numba's cache, or compile and cache it."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ import numba
 from urdfkit.compilation.level import LEVELS, NATIVE, level
 
 BROKEN_CACHE = (RuntimeError, OSError, EOFError, ValueError, TypeError, AttributeError)
-"""What numba raises where it has no writable place for its cache, or finds a broken one."""
+"""Errors that numba raises when its cache is not writable or broken."""
 
 
 def compile_or_load(
     function: Callable[..., Any], arguments: tuple[Any, ...], *, digest: str, options: Mapping[str, Any]
 ) -> Any:
-    """Compile a function for these types of arguments, or load what was compiled before.
+    """Compile a function for these argument types, or load it from the cache.
 
-    numba finds a function's cache by its name and checks the file it is in, not those of the functions it calls. So the
-    name carries a digest of them all: no change of a source can meet a stale kernel. It carries the level, too, that
-    the function is compiled for (see `level`): processors that share a folder keep one kernel for each level.
+    numba finds a function's cache by its name and checks only the function's own source file. Therefore the name has
+    a digest of all sources, so that no stale kernel is used after a change, and the level that the function is compiled
+    for (see `level`), so that processors that share a folder keep one kernel per level.
 
     Args:
         function: plain Python, written for numba.
         arguments: their numba types.
-        digest: of the sources of all that the function calls.
-        options: numba's.
+        digest: digest of the sources of all functions it calls.
+        options: options of ``numba.njit``.
     """
     named = FunctionType(function.__code__, function.__globals__, function.__name__)
     named.__qualname__ = f"{function.__name__}_{level().replace('-', '_')}_{digest[:16]}"
@@ -46,7 +46,7 @@ def compile_or_load(
 
 
 def _compile(named: FunctionType, arguments: tuple[Any, ...], **options: Any) -> Any:
-    """Compile as one program for a fixed level; where this numba is not made as we take it to be, as numba does."""
+    """Compile as one program for a fixed level; in numba's standard way if this version of numba is incompatible."""
     try:
         from urdfkit.compilation.target import fixed_level
         from urdfkit.compilation.whole_program import whole_program
@@ -55,15 +55,15 @@ def _compile(named: FunctionType, arguments: tuple[Any, ...], **options: Any) ->
         with fixed_level(), whole_program(named.__qualname__):
             dispatcher.compile(arguments)
     except OSError:
-        raise  # the cache could not be written: nothing is wrong with what was to be there
-    except Exception:  # anything: it reaches into numba's inner parts, and a mistake in `named` is met again below
+        raise  # the cache could not be written; the compilation itself is valid
+    except Exception:  # any error of numba's internals; an error in `named` is raised again below
         dispatcher = numba.njit(named, **options)
         dispatcher.compile(arguments)
     return dispatcher
 
 
 def _forget_stale(folder: Path, function: Callable[..., Any], digest: str) -> None:
-    """Remove what earlier sources of a function were compiled to by this version of Python."""
+    """Remove cached compilations of earlier sources of a function for this version of Python."""
     stem = re.escape(f"{Path(function.__code__.co_filename).stem}.{function.__name__}")
     version = f"py{sys.version_info[0]}{sys.version_info[1]}{getattr(sys, 'abiflags', '')}"
     levels = "|".join(name.replace("-", "_") for name in (*LEVELS, NATIVE))
@@ -76,5 +76,5 @@ def _forget_stale(folder: Path, function: Callable[..., Any], digest: str) -> No
 
 
 def own_sources() -> bytes:
-    """Return what a digest holds besides the sources of the kernels: how they are compiled."""
+    """Return the sources of this package, which digests include besides the sources of the kernels."""
     return b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))

@@ -2,14 +2,14 @@
 
 numba optimises a function and turns it into machine code as soon as it has been typed, then links it into each of its
 callers, which are optimised with it once more: what lies five calls deep is optimised five times, and emitted as often.
-Here the functions that are called wait, and only the outermost is optimised and emitted, with all of them in it.
+Here the functions that are called wait, and only the outermost is optimised and emitted, together with all of them.
 
-Besides, what an operator or a function of numba's own takes and returns is asked once for the same types, not at each
-of its thousands of places, and no garbage is collected: most objects live as long as the compilation.
+In addition, the signature of an operator or a numba function is resolved once per types instead of at each of its
+thousands of calls, and garbage collection is off: most objects live as long as the compilation.
 
-This changes nothing in numba itself, but three objects of one process while it lasts: the code generator, the target
-and the typing context that make a function of Python into one of the machine. The versions of numba that it was
-checked with are in `CHECKED`; where one is made otherwise, `load` compiles as numba does.
+numba itself is unchanged; only three objects of the process are modified during the compilation: the code generator,
+the target context and the typing context. `TESTED_VERSIONS` lists the versions of numba this was tested with; with an
+incompatible version, `load` compiles in numba's standard way.
 """
 
 from __future__ import annotations
@@ -25,38 +25,38 @@ from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import cpu_target
 
-CHECKED = ("0.68.1",)
-"""Versions of numba whose inner parts are known to be as this module takes them; with others they are likely to be."""
+TESTED_VERSIONS = ("0.68.1",)
+"""Versions of numba this module was tested with; it depends on numba's internals."""
 
 
-class Part(JITCodeLibrary):  # type: ignore[misc]
-    """The code of a function that others call: simplified alone, it waits for the program that it is part of."""
+class LinkedFunction(JITCodeLibrary):  # type: ignore[misc]
+    """Unoptimised code of a function that other functions call, to be linked into an `EntryLibrary`."""
 
     def finalize(self) -> None:
-        """Be ready to be linked; nothing is optimised or emitted."""
+        """Mark as ready for linking, without optimising or emitting code."""
         self._raise_if_finalized()
         self._finalized = True
 
     def get_pointer_to_function(self, name: str) -> int:
-        """Return no address: a part cannot be called from Python."""
+        """Return no address: a linked function cannot be called from Python."""
         self._ensure_finalized()
         return 0
 
 
-class Program(JITCodeLibrary):  # type: ignore[misc]
-    """The code of the function that is called from Python, and of all that it calls."""
+class EntryLibrary(JITCodeLibrary):  # type: ignore[misc]
+    """Code of the function that Python calls and of every function it calls."""
 
     def finalize(self) -> None:
-        """Link every part once, then optimise and emit them all.
+        """Link every called function once, then optimise and emit all code.
 
-        What is not called from outside is internal to the program: the optimiser need not keep it.
+        Functions that are not called from outside get internal linkage, so the optimiser may remove them.
         """
         self._raise_if_finalized()
         self._codegen._check_llvm_bugs()
         outside = {function.name for function in self.get_defined_functions()}
-        for library in parts(self):
+        for library in linked_libraries(self):
             self._reload_init.update(library._reload_init)
-            module = library._final_module if isinstance(library, Part) else library._get_module_for_linking()
+            module = library._final_module if isinstance(library, LinkedFunction) else library._get_module_for_linking()
             self._final_module.link_in(module, preserve=True)
         for function in self.get_defined_functions():
             if function.name not in outside:
@@ -66,10 +66,10 @@ class Program(JITCodeLibrary):  # type: ignore[misc]
         self._finalize_final_module()
 
 
-def parts(library: Any) -> list[Any]:
-    """Return the libraries that one calls, and those that they call, each once.
+def linked_libraries(library: Any) -> list[Any]:
+    """Return the libraries that a library links directly and indirectly, each once.
 
-    A library that is no part of a program has in it whatever it calls.
+    Libraries of other types already contain the functions they call.
     """
     found: dict[Any, None] = {}
     waiting = list(library._linking_libraries)
@@ -77,17 +77,17 @@ def parts(library: Any) -> list[Any]:
         part = waiting.pop()
         if part not in found:
             found[part] = None
-            if isinstance(part, Part):
+            if isinstance(part, LinkedFunction):
                 waiting += part._linking_libraries
     return list(found)
 
 
 @contextmanager
 def whole_program(entry: str) -> Iterator[None]:
-    """Compile, while this lasts, functions as parts of one program.
+    """Compile the functions of the ``with`` block as one program.
 
-    Nobody else in the process compiles meanwhile, and nothing that was compiled here other than the entry is left for
-    others to find: it could not be called.
+    Other threads of the process wait to compile, and only the compiled entry stays in numba's registries: the other
+    functions cannot be called.
 
     Args:
         entry: the qualified name of the function that is called from Python.
@@ -98,7 +98,7 @@ def whole_program(entry: str) -> Iterator[None]:
         typing = cpu_target.typing_context
         collecting = gc.isenabled()
         subroutines = target.cached_internal_func
-        known = set(subroutines)
+        subroutines_before = set(subroutines)
         environments: list[tuple[str, Any]] = []
         compiled: list[Any] = []
         resolved: dict[tuple[Any, ...], Any] = {}
@@ -112,16 +112,16 @@ def whole_program(entry: str) -> Iterator[None]:
             return resolved[key]
 
         def create_library(name: str, **options: Any) -> Any:
-            return (Program if name == entry else Part)(codegen, name, **options)
+            return (EntryLibrary if name == entry else LinkedFunction)(codegen, name, **options)
 
         def create_cpython_wrapper(library: Any, *arguments: Any, **options: Any) -> None:
-            if isinstance(library, Program):
+            if isinstance(library, EntryLibrary):
                 type(target).create_cpython_wrapper(target, library, *arguments, **options)
 
         def create_cfunc_wrapper(*arguments: Any, **options: Any) -> None:
             pass
 
-        class Listener(event.Listener):  # type: ignore[misc]
+        class CompilationListener(event.Listener):  # type: ignore[misc]
             def on_start(self, event: Any) -> None:
                 compiled.append(event.data["dispatcher"])
 
@@ -135,14 +135,14 @@ def whole_program(entry: str) -> Iterator[None]:
         typing.resolve_function_type = resolve_function_type
         gc.disable()
         try:
-            with event.install_listener("numba:compile", Listener()):
+            with event.install_listener("numba:compile", CompilationListener()):
                 yield
         finally:
             del codegen.create_library, codegen.set_env
             del target.create_cpython_wrapper, target.create_cfunc_wrapper, typing.resolve_function_type
             if collecting:
                 gc.enable()
-            for key in set(subroutines) - known:
+            for key in set(subroutines) - subroutines_before:
                 del subroutines[key]
             for dispatcher in compiled:
                 if dispatcher.py_func.__qualname__ != entry:

@@ -1,4 +1,4 @@
-"""load: the strict reader; the first error by importance, in one line, with its place."""
+"""load: the strict reader, which raises the most important error of a description with its position."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from urdfkit.errors import ModelError, did_you_mean
 _HARMLESS = frozenset({"unknown-value", "missing"})
 _NEEDED = {("joint", "type"), ("parent", "link"), ("child", "link"), ("mimic", "joint")}
 _UNREAD = frozenset({"mechanicalReduction"})
-"""Elements whose text nothing here computes with and urdfdom does not read: the linter's business alone."""
+"""Elements whose text neither urdfkit computes with nor urdfdom reads; only the linter checks them."""
 _OTHER_ROOTS = {
     "sdf": "an SDF file",
     "gazebo": "an SDF file",
@@ -40,7 +40,7 @@ def load(
     Args:
         path: a ``.urdf`` or ``.xacro`` file.
         arguments: xacro arguments.
-        package_path: folders to look for packages in first.
+        package_path: folders to search for packages first.
 
     Raises:
         ResourceError: no such file.
@@ -55,7 +55,7 @@ def load(
     except ModelError as error:
         if is_xacro(path) or not _holds_xacro(expanded):
             raise
-        hint = "; it holds xacro, which is not run on .urdf files: call it .urdf.xacro"
+        hint = "; xacro is not run on .urdf files: rename it to .urdf.xacro"
         raise ModelError(error.message + hint, position=error.position) from None
 
 
@@ -82,13 +82,13 @@ def _holds_xacro(expanded: Expanded) -> bool:
 
 
 def check_is_robot(root: Element) -> None:
-    """Refuse what is not a ``<robot>``.
+    """Raise unless the document element is ``<robot>``.
 
     Args:
         root: the document element.
 
     Raises:
-        ModelError: it is something else; says what.
+        ModelError: it is another element; the message names it.
     """
     if root.tag == "robot":
         return
@@ -135,7 +135,7 @@ def _reasons(robot: Robot) -> Iterator[ModelError]:
         if joint.mimic is not None and joint.mimic.joint not in robot.joint_by_name:
             hint = did_you_mean(joint.mimic.joint, robot.joint_by_name)
             yield _error(
-                f"joint `{joint.name}` mimics `{joint.mimic.joint}`, which is no joint{hint}", joint.mimic.element
+                f"joint `{joint.name}` mimics the unknown joint `{joint.mimic.joint}`{hint}", joint.mimic.element
             )
 
 
@@ -148,7 +148,7 @@ def _unusable_values(robot: Robot) -> Iterator[ModelError]:
 
 
 def _is_needed(problem: Problem) -> bool:
-    """Whether nothing sensible can take the place of what is missing (urdfdom refuses these too)."""
+    """Whether no sensible default exists for the missing value (urdfdom refuses these problems too)."""
     tag = problem.element.tag
     if problem.kind == "unknown-value":
         return tag == "joint"
@@ -161,13 +161,13 @@ def _nameless(robot: Robot) -> Iterator[ModelError]:
             yield _error(f"a <{element.tag}> has no name", element)
 
 
-def _duplicates(kind: str, things: tuple[Link, ...] | tuple[Joint, ...]) -> Iterator[ModelError]:
+def _duplicates(kind: str, parts: tuple[Link, ...] | tuple[Joint, ...]) -> Iterator[ModelError]:
     first: dict[str, Element] = {}
-    for thing in things:
-        if thing.name in first:
-            at = first[thing.name].origin.position
-            yield _error(f"two {kind}s are called `{thing.name}`; the first is at {at}", thing.element)
-        first.setdefault(thing.name, thing.element)
+    for part in parts:
+        if part.name in first:
+            at = first[part.name].origin.position
+            yield _error(f"two {kind}s are called `{part.name}`; the first is at {at}", part.element)
+        first.setdefault(part.name, part.element)
 
 
 def _ill_defined(robot: Robot, joint: Joint) -> Iterator[ModelError]:
@@ -197,9 +197,9 @@ def _two_roots(robot: Robot, roots: list[Link]) -> ModelError:
     others = [link for link in roots if link is not main]
     more = f" and {len(others) - 3} more" if len(others) > 3 else ""
     names = ", ".join(f"`{link.name}`" for link in others[:3]) + more
-    verb = "is" if len(others) == 1 else "are"
+    verb = "has" if len(others) == 1 else "have"
     return _error(
-        f"{len(roots)} root links: {names} {verb} joined to nothing; a joint to the tree of `{main.name}` "
+        f"{len(roots)} root links: {names} {verb} no parent joint; a joint to the tree of `{main.name}` "
         f"({main.element.origin.position}) is missing",
         others[0].element,
     )

@@ -1,4 +1,4 @@
-"""The frame tree as text, as Graphviz DOT, and as an SVG of our own layout."""
+"""The frame tree as text, as Graphviz DOT, and as an SVG drawing."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from urdfkit.kinematics.tf import Edge, TransformTree
 _CHAR, _FONT = 7.3, 12  # [px] a monospaced character at that font size; rather too wide than too narrow
 _BOX, _ROW, _MARGIN, _ELBOW = 26, 46, 16, 14  # [px] heights of a box and a row, outer margin, width of a bend
 
-# Lines and their labels are of middle brightness, boxes bring their own ground: readable on light and dark pages.
+# Lines and their labels are of middle brightness, boxes have their own background: readable on light and dark pages.
 _STYLE = """
   text { font: 12px ui-monospace, 'DejaVu Sans Mono', Menlo, Consolas, monospace; }
   .frame { fill: #1f2933; }
@@ -68,7 +68,7 @@ class _Box:
 def as_svg(tree: TransformTree) -> str:
     """Return the tree as an SVG drawing, root at the left, that suits light and dark pages.
 
-    Leaves take one row each and a frame is in the middle of those below it; the columns are as wide as their widest
+    Each leaf has its own row, and a frame is centred on the frames below it; the columns are as wide as their widest
     frame and the widest joint name before it. Joints that move are blue, mimic joints dashed.
     """
     boxes = _layout(tree)
@@ -156,7 +156,7 @@ def _kind(edge: Edge) -> str:
 
 
 def _length(text: str) -> float:
-    """Return the width of a text [px]; wide characters (CJK) take two places."""
+    """Return the width of a text [px]; wide characters (CJK) count twice."""
     return sum(2 if east_asian_width(character) in "WF" else 1 for character in text) * _CHAR
 
 

@@ -1,4 +1,4 @@
-"""Joint limits: what a joint may do, and the error that says it went further."""
+"""Position limits of joints, and the error for a position outside them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ class JointLimitError(KinematicsError):
 
     Attributes:
         joint: name of the joint.
-        value: the position asked for [rad] or [m].
+        value: the requested position [rad] or [m].
         lower: the lower limit [rad] or [m].
         upper: the upper limit [rad] or [m].
     """
@@ -31,10 +31,10 @@ class JointLimitError(KinematicsError):
 
 
 def position_limits(joint: Joint) -> tuple[float, float]:
-    """Return the lower and upper position of a joint [rad] or [m]; infinite where the joint is free to go on.
+    """Return the lower and upper position of a joint [rad] or [m]; infinite where the joint is unlimited.
 
-    URDF's defaults hold for what is not written inside ``<limit>``: 0 (http://wiki.ros.org/urdf/XML/joint). A revolute
-    or prismatic joint without any ``<limit>`` is taken as unbounded.
+    Attributes missing in ``<limit>`` have URDF's default, 0 (http://wiki.ros.org/urdf/XML/joint). A revolute
+    or prismatic joint without any ``<limit>`` counts as unbounded.
     """
     if joint.type not in ("revolute", "prismatic") or joint.limit is None:
         return float("-inf"), float("inf")

@@ -1,4 +1,4 @@
-"""Variables: the numbers of a configuration by name, and where each is in q."""
+"""Variables: the numbers of a configuration by name, and the index of each in q."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ class Variable:
 
     Attributes:
         joint: the joint it belongs to.
-        index: where it is in q.
-        is_angle: it is in q as cosine (at `index`) and sine (after it).
+        index: its index in q.
+        is_angle: whether q holds its cosine (at `index`) and sine (at `index` + 1).
         zero: its value in the neutral configuration.
     """
 
@@ -57,8 +57,8 @@ def index_variables(robot: Robot, model: Any, joint_ids: Mapping[str, int]) -> d
     """Return the variables of all movable joints, by name in the order of q.
 
     Args:
-        robot: says the types.
-        model: ``pin.Model``, says the places.
+        robot: provides the joint types.
+        model: ``pin.Model``, provides the indices.
         joint_ids: joint name → index in the model.
     """
     found: dict[str, Variable] = {}
@@ -74,7 +74,7 @@ def index_variables(robot: Robot, model: Any, joint_ids: Mapping[str, int]) -> d
 
 
 def rates(joint_type: str, q: Array, along: Mapping[str, float]) -> Array:
-    """Return a planar or floating joint's part of v, in the child's axes, of what its variables change by.
+    """Return a planar or floating joint's part of v, in the child's axes, from the rates of its variables.
 
     Args:
         joint_type: ``planar`` or ``floating``.

@@ -1,4 +1,4 @@
-"""Mimic joints: which joint leads them, and by which law."""
+"""Mimic joints: the master joint of each, and the linear law that couples them."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def couplings(robot: Robot) -> dict[str, Coupling]:
     """Return the coupling of every movable mimic joint, by name in document order.
 
     Raises:
-        KinematicsError: a master does not exist, masters form a circle, or a joint that takes part has more than one
+        KinematicsError: a master does not exist, masters form a cycle, or a joint that takes part has more than one
             degree of freedom.
     """
     found: dict[str, Coupling] = {}
@@ -58,14 +58,14 @@ def _follow(robot: Robot, joint: Joint) -> Coupling:
         passed.append(at.name)
         if at.mimic.joint in passed:
             circle = " → ".join(f"`{name}`" for name in [*passed, at.mimic.joint])
-            raise KinematicsError(f"joints mimic each other in a circle: {circle}", position=place)
+            raise KinematicsError(f"mimic joints form a cycle: {circle}", position=place)
         offset += multiplier * at.mimic.offset
         multiplier *= at.mimic.multiplier
         master = robot.joint_by_name.get(at.mimic.joint)
         if master is None:
             hint = did_you_mean(at.mimic.joint, robot.joint_by_name)
             raise KinematicsError(
-                f"joint `{at.name}` mimics `{at.mimic.joint}`, which is no joint{hint}", position=place
+                f"joint `{at.name}` mimics the unknown joint `{at.mimic.joint}`{hint}", position=place
             )
         at = master
     return Coupling(joint.name, None, 0.0, offset)

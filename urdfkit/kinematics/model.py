@@ -1,4 +1,4 @@
-"""Kinematics: a robot's model, its configurations by name, and where its links are.
+"""Kinematics: a robot's model, its configurations by name, and the poses of its links.
 
 ``q`` and ``v`` are those of `Kinematics.model`: every movable joint has its place in them, in Pinocchio's order, mimic
 joints included. A continuous joint takes two numbers in ``q`` (cosine and sine), a planar joint four (x, y, cosine,
@@ -26,7 +26,7 @@ from urdfkit.linear_algebra import matmul
 
 
 class Kinematics:
-    """A robot that can be placed.
+    """Kinematic model of a robot: configurations by joint name, link poses and limits.
 
     Args:
         robot: a robot that `urdfkit.description.load` found to be one tree.
@@ -42,10 +42,10 @@ class Kinematics:
         root: name of the root link.
         floating_base: whether q starts with the pose of the root link.
         couplings: mimic joint → its `Coupling`.
-        joint_names: joints that move on their own in one degree of freedom, in the order of q.
+        joint_names: independent joints of one degree of freedom, in the order of q.
         mimic_names: joints that follow another one, in the order of q.
         several_names: planar and floating joints, in the order of q.
-        variable_names: what `configuration` takes: `joint_names` and the variables of planar and floating joints.
+        variable_names: names for `configuration`: `joint_names` and the variables of planar and floating joints.
         link_names: all links in document order.
     """
 
@@ -70,7 +70,7 @@ class Kinematics:
     # Configurations and velocities by name
 
     def neutral(self) -> Array:
-        """Return the configuration with every joint at zero and mimic joints where they follow; shape (nq,)."""
+        """Return the configuration with every joint at zero and mimic joints as coupled; shape (nq,)."""
         return self.configuration()
 
     def configuration(
@@ -105,7 +105,7 @@ class Kinematics:
     def followed(self, positions: Mapping[str, float]) -> dict[str, float]:
         """Return all joint and variable positions, mimic joints included, when these are set and the others at zero.
 
-        Unlike `positions` of a configuration, continuous joints keep the turns they were given.
+        Unlike `positions` of a configuration, continuous joints keep full turns.
 
         Raises:
             KinematicsError: an unknown name, a mimic joint, a position that is no finite number.
@@ -135,7 +135,7 @@ class Kinematics:
         Args:
             velocities: joint or variable name → velocity [rad/s] or [m/s]; the numbers of a quaternion have none.
             base: twist of a floating root link in its own axes, linear first; zero when None.
-            q: says how planar and floating joints are turned; as in `neutral` when None.
+            q: configuration that gives the orientation of planar and floating joints; `neutral` when None.
 
         Raises:
             KinematicsError: an unknown name, a mimic joint, a velocity that is no finite number or none at all.
@@ -183,7 +183,7 @@ class Kinematics:
 
     @cached_property
     def independent(self) -> NDArray[np.int64]:
-        """Indices in v of what moves on its own, i.e. all but mimic joints; shape (nv - number of mimics,)."""
+        """Indices in v of the independent velocities, i.e. all but mimic joints; shape (nv - number of mimics,)."""
         follows = {self.velocity_index(name) for name in self.mimic_names}
         return np.array([i for i in range(self.model.nv) if i not in follows], dtype=np.int64)
 
@@ -206,7 +206,7 @@ class Kinematics:
     # Limits
 
     def limits(self, joint: str) -> tuple[float, float]:
-        """Return the lower and upper position of a joint [rad] or [m]; infinite where there is none.
+        """Return the lower and upper position of a joint [rad] or [m]; infinite without a limit.
 
         Raises:
             KinematicsError: no such movable joint.
@@ -249,7 +249,7 @@ class Kinematics:
             poses[row] = pin.SE3ToXYZQUAT(oMf[frame])
         return poses
 
-    # What is asked for by name and is not there
+    # Errors for unknown names
 
     def _joint_id(self, joint: str) -> int:
         if joint not in self._joint_ids:

@@ -1,10 +1,10 @@
 """Robot → pin.Model, joint by joint.
 
 The model has the joints, frames, inertias and order of ``pinocchio.buildModelFromURDF`` (children sorted by joint
-name), so a configuration of one is a configuration of the other. Two things differ on purpose:
+name), so a configuration of one is a configuration of the other. Two differences are intended:
 
-- a planar joint moves in the plane perpendicular to its ``<axis>``, as http://wiki.ros.org/urdf/XML/joint says;
-  Pinocchio always takes the x-y plane;
+- a planar joint moves in the plane perpendicular to its ``<axis>``, as http://wiki.ros.org/urdf/XML/joint defines it;
+  Pinocchio always uses the x-y plane;
 - a mimic joint stays a joint of its own in ``q`` and ``v`` (`urdfkit.kinematics.mimic` couples them): Pinocchio's own
   mimic joints have no forward dynamics (``aba``), and must be of the same kind as their master.
 """
@@ -81,9 +81,9 @@ def placement_of(pose: Pose) -> Any:
 
 
 def spatial_inertia(link: Link) -> Any:
-    """Return a link's inertia in its own frame; zero for what is not written, or what Pinocchio takes for no inertia.
+    """Return a link's inertia in its own frame; zero where it is missing or Pinocchio refuses it.
 
-    Who only wants to see a robot needs none of it; the simulator refuses such links by name.
+    Viewing a robot needs no inertia; the simulator refuses such links by name.
     """
     inertial = link.inertial
     if inertial is None:
@@ -100,7 +100,7 @@ def spatial_inertia(link: Link) -> Any:
 
 
 def joint_model(joint: Joint) -> tuple[Any, Any]:
-    """Return Pinocchio's joint model and the turn from the joint's written frame to the one it moves in.
+    """Return Pinocchio's joint model and the rotation from the joint's frame as written to the one it moves in.
 
     Raises:
         KinematicsError: the type is unknown or the axis is zero.
@@ -112,7 +112,7 @@ def joint_model(joint: Joint) -> tuple[Any, Any]:
     length = vector_norm(axis)
     if not np.isfinite(length) or length == 0.0:
         raise KinematicsError(
-            f"joint `{joint.name}` has the axis {axis[0]:g} {axis[1]:g} {axis[2]:g}; it must point somewhere",
+            f"joint `{joint.name}` has the axis {axis[0]:g} {axis[1]:g} {axis[2]:g}; it must not be zero",
             position=joint.element.origin.position,
         )
     axis /= length
@@ -138,8 +138,8 @@ def joint_model(joint: Joint) -> tuple[Any, Any]:
 def _unbounded_unaligned(axis: Any) -> Any:
     """Return a continuous joint about any axis.
 
-    Pinocchio's Python binding of JointModelRevoluteUnboundedUnaligned has no constructor that takes the axis (seen in
-    4.1), its URDF reader has one: a robot of one joint is read and the joint taken out of it.
+    Pinocchio's Python binding of JointModelRevoluteUnboundedUnaligned has no constructor with an axis (as of
+    4.1), but its URDF reader has one: read a robot of one joint and return that joint.
     """
     x, y, z = (repr(float(number)) for number in axis)
     return pin.buildModelFromXML(
@@ -165,7 +165,7 @@ def _bounds(joint: Joint, kind: Any) -> tuple[Any, ...]:
     lower, upper = position_limits(joint)
     effort = velocity = infinite
     if joint.limit is not None:
-        # Pinocchio refuses what is negative; so does the simulator, with its place.
+        # Pinocchio refuses negative values; so does the simulator, with their position.
         effort = infinite if joint.limit.effort is None else max(0.0, joint.limit.effort)
         velocity = infinite if joint.limit.velocity is None else max(0.0, joint.limit.velocity)
     friction = damping = 0.0

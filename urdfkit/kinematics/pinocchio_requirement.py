@@ -1,4 +1,4 @@
-"""Pinocchio, or the one line that says how to get it."""
+"""Import Pinocchio, or raise an error with the command that installs it."""
 
 from __future__ import annotations
 

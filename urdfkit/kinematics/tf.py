@@ -1,4 +1,4 @@
-"""TransformTree: where one frame is in another."""
+"""TransformTree: the transform from any frame to any other."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Edge:
 
 @dataclass(frozen=True, slots=True)
 class Transform:
-    """Where one frame is in another, in plain numbers (no negative zeros).
+    """Pose of one frame in another, in plain numbers (no negative zeros).
 
     Attributes:
         parent: the frame it is expressed in.
@@ -80,10 +80,10 @@ class TransformTree:
     def placement(
         self, frame: str, relative_to: str | None = None, q: Array | Mapping[str, float] | None = None
     ) -> Any:
-        """Return where `frame` is in `relative_to`, as ``pin.SE3``.
+        """Return the pose of `frame` in `relative_to`, as ``pin.SE3``.
 
         Args:
-            frame: the frame looked for (tf's *child* or *source*).
+            frame: the frame to locate (tf's *child* or *source*).
             relative_to: the frame to express it in (tf's *parent* or *target*); the root when None.
             q: configuration, shape (nq,), or joint positions by name; all at zero when None.
 

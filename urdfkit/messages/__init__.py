@@ -1,6 +1,6 @@
 """The ROS messages that urdfkit publishes and reads, without ROS: a type name and values in, a message out.
 
-Definitions that rosbags lacks are beside `types`, one module per ROS package family.
+Definitions that rosbags lacks are in the other modules, one per family of ROS packages.
 """
 
 from urdfkit.messages.types import (

@@ -87,7 +87,7 @@ CONTROL_MESSAGES = {
         builtin_interfaces/Duration timeout
     """,
     **_action("GripperCommand", goal="control_msgs/GripperCommand command", feedback=_GRIPPED, result=_GRIPPED),
-    **_action(  # of Jazzy; Humble has not got it
+    **_action(  # of Jazzy; missing in Humble
         "ParallelGripperCommand",
         goal="sensor_msgs/JointState command",
         feedback="sensor_msgs/JointState state",

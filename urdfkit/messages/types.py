@@ -1,4 +1,4 @@
-"""The ROS message types in use, taken from rosbags' typestore (ROS 2 definitions), and short constructors.
+"""The ROS message types in use, from rosbags' typestore (ROS 2 definitions), and short constructors.
 
 rosbags and numpy are imported on first use, not with this module. Twists are linear first; quaternions x, y, z, w.
 """
@@ -82,7 +82,7 @@ def typestore() -> Any:
 
 
 def full_type_name(name: str) -> str:
-    """Turn ``geometry_msgs/Twist`` into ``geometry_msgs/msg/Twist``; leave full names alone."""
+    """Turn ``geometry_msgs/Twist`` into ``geometry_msgs/msg/Twist``; keep full names."""
     parts = name.split("/")
     return f"{parts[0]}/msg/{parts[1]}" if len(parts) == 2 else name
 
@@ -120,8 +120,8 @@ def from_fields(type: str, fields: Any) -> Any:
 
     Args:
         type: its type.
-        fields: field → value, nested as the message is; None for none. A message may also be the list of its fields,
-            a time or duration seconds, and both may have ``secs`` and ``nsecs``, and a header ``seq``, as in ROS 1.
+        fields: field → value, nested like the message; None for no fields. A message may also be the list of its
+            fields, a time or duration a number of seconds; ROS 1's ``secs``, ``nsecs`` and ``seq`` are accepted too.
 
     Raises:
         UsageError: no such type or field, or a value of the wrong kind.
@@ -138,7 +138,7 @@ def from_fields(type: str, fields: Any) -> Any:
     if isinstance(fields, list) and len(fields) == len(layout):
         fields = dict(zip(layout, fields, strict=True))
     if fields is not None and not isinstance(fields, dict):
-        raise UsageError(f"`{fields}` is no {full}: write its fields, {', '.join(layout)}")
+        raise UsageError(f"`{fields}` is not a {full}: write its fields, {', '.join(layout)}")
     for name in fields or {}:
         if name not in layout:
             raise UsageError(
@@ -155,7 +155,7 @@ def _moment(type: str, fields: Any) -> Any:
     """Return the fields of a time or duration that may be seconds, or be written as in ROS 1.
 
     Raises:
-        UsageError: a field is there twice, is no number, or more than the message can hold.
+        UsageError: a field is set twice, is not a number, or is out of range.
     """
     import math
 
@@ -164,7 +164,7 @@ def _moment(type: str, fields: Any) -> Any:
     named = {"secs": "sec", "nsecs": "nanosec"}
     if isinstance(fields, dict):
         if len({named.get(name, name) for name in fields}) < len(fields):
-            raise UsageError(f"`{fields}` says the same twice: {type} has sec and nanosec")
+            raise UsageError(f"`{fields}` sets the same field twice: {type} has sec and nanosec")
         fields = {named.get(name, name): value for name, value in fields.items()}
         if not isinstance(fields.get("sec"), float):
             return fields
@@ -172,12 +172,12 @@ def _moment(type: str, fields: Any) -> Any:
     if isinstance(seconds, bool) or not isinstance(seconds, int | float):
         return fields
     if not (-(2**31) if type.endswith("Duration") else 0) <= seconds < 2**31:
-        raise UsageError(f"`{seconds}` is no {type} that can be: seconds, at most {2**31 - 1}")
+        raise UsageError(f"`{seconds}` is out of range for {type}: seconds, at most {2**31 - 1}")
     whole = math.floor(seconds)
     rest = round((seconds - whole) * 1e9)
     more = fields if isinstance(fields, dict) else {}
     if rest and "nanosec" in more:
-        raise UsageError(f"`{fields}` has parts of a second twice: {type} has sec, a whole number, and nanosec")
+        raise UsageError(f"`{fields}` sets the fraction of a second twice: {type} has sec, an integer, and nanosec")
     return {**more, "sec": whole + rest // 10**9, **({"nanosec": rest % 10**9} if rest else {})}
 
 

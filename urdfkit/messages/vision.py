@@ -1,4 +1,4 @@
-"""Definitions of vision_msgs as of Humble, which rosbags lacks: what detectors say they saw."""
+"""Definitions of vision_msgs as of Humble, which rosbags lacks: the results of object detectors."""
 
 from __future__ import annotations
 

@@ -112,7 +112,7 @@ def test_a_frame_of_a_frame(tmp_path: Path) -> None:
         ),
         (
             '<model name="m"><link name="a"><pose relative_to="f"/></link><frame name="f" attached_to="a"/></model>',
-            "frames are given in each other in a circle: a → f → a",
+            "frame poses form a cycle: a → f → a",
         ),
         (
             '<model name="m"><link name="a"/><link name="a"/></model>',
@@ -124,7 +124,7 @@ def test_a_frame_of_a_frame(tmp_path: Path) -> None:
         (
             """<model name="m"><link name="l"/><frame name="f" attached_to="g"/><frame name="g" attached_to="f"/>
             <joint name="j" type="fixed"><parent>f</parent><child>l</child></joint></model>""",
-            "frames are attached to each other in a circle: f → g → f",
+            "frames are attached to each other in a cycle: f → g → f",
         ),
         (
             '<model name="m" canonical_link="lnik"><link name="link"/></model>',

@@ -94,7 +94,7 @@ def test_a_joint_that_follows_another(tmp_path: Path) -> None:
     [
         (
             mimic("k", "jj"),
-            "follows `jj`, which is no joint that moves with it; did you mean `j`?",
+            "follows `jj`, which is not a moving joint of the same tree; did you mean `j`?",
         ),
         (mimic("k", "fix") + joint("fix", "world", "a", kind="fixed"), "`k` of model `m` follows `fix`, which is no"),
         (mimic("k", "l") + mimic("l", "k"), "joint `k` of model `m` follows itself, by `k`, `l`"),
@@ -109,7 +109,7 @@ def test_a_joint_that_follows_what_cannot_be(tmp_path: Path, inside: str, says: 
 
 @pytest.mark.parametrize(
     ("element", "says"),
-    [("<mimic/>", "does not say which joint it follows"), ('<mimic joint="j" axis="axis2"/>', "only <axis> can be")],
+    [("<mimic/>", "names no joint to follow"), ('<mimic joint="j" axis="axis2"/>', "only <axis> can be")],
 )
 def test_a_mimic_that_cannot_be_read(tmp_path: Path, element: str, says: str) -> None:
     with pytest.raises(DescriptionError, match=says):

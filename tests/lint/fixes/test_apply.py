@@ -183,7 +183,7 @@ def test_a_change_for_the_worse_is_rolled_back(write, monkeypatch):
     fixed = mend(path)
     (note,) = fixed.notes
     assert note.startswith(
-        "T203 at r.xacro:8 was not fixed: that would have caused E001 at r.xacro:8, `<` where it must not be: "
+        "T203 at r.xacro:8 was not fixed: that would have caused E001 at r.xacro:8, unexpected `<`: "
     )
     assert [change.after.decode() for change in fixed.changes] == [
         GOOD.replace("</robot>", '<link name="a"/><link name="b"/></robot>')

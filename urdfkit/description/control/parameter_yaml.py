@@ -203,17 +203,17 @@ def parse_settings(source: Source, *, separator: str = "/") -> Settings:
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         position = Position(source.file, mark.line + 1, mark.column + 1) if mark else None
-        raise DescriptionError(f"no YAML: {error.problem or error.context}", position=position) from None
+        raise DescriptionError(f"invalid YAML: {error.problem or error.context}", position=position) from None
     except yaml.YAMLError as error:
         raise DescriptionError(
-            f"no YAML: {' '.join(str(error).split())}", position=Position(source.file, 1, 1)
+            f"invalid YAML: {' '.join(str(error).split())}", position=Position(source.file, 1, 1)
         ) from None
     start = Position(source.file, 1, 1)
     if node is None:
         return Settings("", start)
     read = _Reader(source.file, separator).read("", node, None, 0)
     if not read.children:
-        raise DescriptionError("no parameters: names and values are wanted, as `name: value`", position=start)
+        raise DescriptionError("no parameters: write names and values as `name: value`", position=start)
     return read
 
 

@@ -225,7 +225,7 @@ class Packages:
         elif self.near is not None:
             places.append(f"the folders around {self.near}")
         places += [v for v in ("ROS_PACKAGE_PATH", *_PREFIX_VARIABLES, *_MODEL_VARIABLES) if self._listed(v)]
-        return ", ".join([*places, "the robots we ship"])
+        return ", ".join([*places, "the bundled robots"])
 
     def _enclosing_package(self) -> Path | None:
         if self.near is None:

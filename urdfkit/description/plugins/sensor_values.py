@@ -45,9 +45,9 @@ def senseless_numbers(sensor: Element) -> Senseless:
             continue
         value = _value(child.text)
         if child.text and isnan(value) and child.text.lower() != "nan":
-            yield child, f"<{child.tag}> is `{child.text}`, which is no number"
+            yield child, f"<{child.tag}> is `{child.text}`, not a number"
         elif child.tag == "update_rate" and value < 0.0:
-            yield child, f"<update_rate> is {value:g} Hz; it must be zero or greater, and zero is as often as possible"
+            yield child, f"<update_rate> is {value:g} Hz; it must not be negative; zero updates at every step"
         elif child.tag in ("min_angle", "max_angle") and abs(value) > _MAX_ANGLE:
             yield child, f"<{child.tag}> is {value:g} rad, more than a full turn: angles are in radians"
 
@@ -62,13 +62,13 @@ def senseless_scan(lidar: Element) -> Senseless:
     if near < 0.0:
         yield (reach and reach.find("min")) or lidar, f"<min> is {near:g} m; it must be zero or greater"
     elif not isnan(near + far) and not near < far:
-        yield reach or lidar, f"a lidar that sees from {near:g} m to {far:g} m sees nothing"
+        yield reach or lidar, f"the range of the lidar, {near:g} m to {far:g} m, is empty"
 
 
 def _senseless_fan(fan: Element) -> Senseless:
     samples, resolution = _number(fan, "samples", 640.0), _number(fan, "resolution", 1.0)
     if samples < 1:
-        yield fan, f"<{fan.tag}> asks for {samples:g} samples; it must be one or more"
+        yield fan, f"<{fan.tag}> has {samples:g} samples; it must be one or more"
     elif isfinite(samples) and samples != int(samples):
         yield fan.find("samples") or fan, f"<samples> is {samples:g}; it must be a whole number"
     elif resolution <= 0:
@@ -77,7 +77,7 @@ def _senseless_fan(fan: Element) -> Senseless:
             f"<resolution> is {resolution:g}; it must be greater than zero: it is multiplied with <samples>",
         )
     elif isfinite(samples * resolution) and round(samples * resolution) < 1:
-        yield fan, f"<{fan.tag}> asks for {samples:g} samples at a resolution of {resolution:g}, which is less than one"
+        yield fan, f"<{fan.tag}> has {samples:g} samples at a resolution of {resolution:g}, which is less than one"
     low, high = _number(fan, "min_angle", 0.0), _number(fan, "max_angle", 0.0)
     if low > high:
         yield fan, f"<{fan.tag}> goes from {low:g} to {high:g} rad: the smaller angle is <min_angle>"
@@ -103,7 +103,7 @@ def senseless_camera(camera: Element, *, is_wide: bool = False) -> Senseless:
             yield image.find(tag) or image, f"<{tag}> is {pixels:g}; it must be a whole number, one or greater"
     near, far = _number(clip, "near", 0.1), _number(clip, "far", 100.0)
     if not isnan(near + far) and not near < far:
-        yield clip or camera, f"a camera that sees from {near:g} m to {far:g} m sees nothing"
+        yield clip or camera, f"the range of the camera, {near:g} m to {far:g} m, is empty"
 
 
 def senseless_parameters(plugin: Plugin, spec: PluginSpec) -> Senseless:
@@ -122,7 +122,7 @@ def senseless_parameters(plugin: Plugin, spec: PluginSpec) -> Senseless:
             place = places[0] or places[1]
             if place is not None and numbers[0] >= numbers[1]:
                 low, high = (f"<{tag}> {value:g} m" for tag, value in zip(tags, numbers, strict=True))
-                yield place, f"what lies between {low} and {high} is nothing: the smaller is <{tags[0]}>"
+                yield place, f"the range from {low} to {high} is empty: <{tags[0]}> must be the smaller"
 
 
 def _number(parent: Element | None, tag: str, default: float) -> float:

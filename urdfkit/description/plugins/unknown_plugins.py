@@ -26,7 +26,7 @@ def unknown(plugin: Plugin, sensor: str | None = None, others: Iterable[str] = (
     place = plugin.element.origin.position
     left_out = "" if sensor is None else f"; sensor `{sensor or 'sensor'}` is left out"
     if plugin.filename is None:
-        return f"{place}: plugin `{plugin.name or ''}` has no filename, so nothing runs it{left_out}"
+        return f"{place}: plugin `{plugin.name or ''}` has no filename and is ignored{left_out}"
     name = stem(plugin.filename)
     if near := nearest(name, others):
         return (
@@ -34,7 +34,7 @@ def unknown(plugin: Plugin, sensor: str | None = None, others: Iterable[str] = (
         )
     if _GAZEBO.search(name):
         return f"plugin {plugin.filename}: not simulated yet{left_out}"
-    return f"{place}: unknown plugin `{plugin.filename}`: nothing here runs it{left_out}"
+    return f"{place}: unknown plugin `{plugin.filename}`: urdfkit does not simulate it{left_out}"
 
 
 def nearest(name: str, others: Iterable[str] = ()) -> str:

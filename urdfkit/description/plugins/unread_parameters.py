@@ -84,5 +84,5 @@ def unread(plugin: Plugin, spec: PluginSpec) -> Iterator[Unread]:
         meant = _KNOWN.get(key) or nearest(tag, known, likeness=0.8)
         if meant is not None and plugin.element.find(meant) is not None:
             meant = None
-        message = f"<{tag}> is read by no {spec.kind.replace('_', ' ')} of {GENERATIONS[spec.generation]}"
+        message = f"<{tag}> is not a parameter of {spec.kind.replace('_', ' ')} of {GENERATIONS[spec.generation]}"
         yield Unread(child, message, meant, False)

@@ -121,7 +121,7 @@ class Scope:
             position: where it is asked for.
 
         Raises:
-            DescriptionError: there is no such frame, or frames are given in each other in a circle.
+            DescriptionError: there is no such frame, or frame poses form a cycle.
         """
         if name == self.root:
             return IDENTITY
@@ -135,7 +135,7 @@ class Scope:
             raise self._unknown(name, position)
         if name in self._open:
             circle = " → ".join([*self._open[self._open.index(name) :], name])
-            raise DescriptionError(f"frames are given in each other in a circle: {circle}", position=frame.raw.position)
+            raise DescriptionError(f"frame poses form a cycle: {circle}", position=frame.raw.position)
         self._open.append(name)
         try:
             found = compose(self.pose(frame.base, frame.raw.position), frame.raw.pose)
@@ -174,7 +174,7 @@ class Scope:
                 return name
             if name in seen:
                 circle = " → ".join([*seen, name])
-                raise DescriptionError(f"frames are attached to each other in a circle: {circle}", position=position)
+                raise DescriptionError(f"frames are attached to each other in a cycle: {circle}", position=position)
             seen.append(name)
             if name == self.root:
                 name = self._canonical_link(position)

@@ -247,7 +247,7 @@ class _Builder:
             found = known.get(leader)
             if found is None or found.type == "fixed" or not found.axes:
                 hint = did_you_mean(leader, [name for name, each in known.items() if each.type != "fixed"])
-                raise self._cannot(joint, f"follows `{leader}`, which is no joint that moves with it{hint}")
+                raise self._cannot(joint, f"follows `{leader}`, which is not a moving joint of the same tree{hint}")
             if found.axes[0].mimic is None:
                 break
             met.append(leader)

@@ -16,7 +16,7 @@ from urdfkit.description.xml.element import Element
 
 
 def transmission(reader: Reader, element: Element) -> Transmission:
-    """Read a ``<transmission>``, in today's form (``<type>``) or the old one (``type=…``)."""
+    """Read a ``<transmission>``, in its current form (``<type>``) or the old one (``type=…``)."""
     kind = element.find("type")
     return Transmission(
         element.get("name"),
@@ -33,7 +33,7 @@ def transmission(reader: Reader, element: Element) -> Transmission:
 
 
 def gazebo_block(element: Element) -> GazeboBlock:
-    """Read a ``<gazebo>``; what is neither plugin nor sensor stays in its element."""
+    """Read a ``<gazebo>``; other children stay in its element."""
     sensors = [SensorTag(e.get("name"), e.get("type"), _plugins(e), e) for e in element.find_all("sensor")]
     return GazeboBlock(element.get("reference"), _plugins(element), tuple(sensors), element)
 

@@ -1,4 +1,4 @@
-"""Which links must move but have nothing that could be moved: asked by rules and by the simulator alike."""
+"""Links that move without mass or inertia; used by rules and by the simulator."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ def massless(robot: Robot, *, floating: bool) -> list[tuple[Link, Joint | None]]
         floating: whether the root link is free to move; its joint is None then.
 
     Returns:
-        The topmost link of each body without mass or inertia, in document order of the tree. Links that joints name
-        and that are not there are left out.
+        The topmost link of each body without mass or inertia, in document order of the tree. Unknown links
+        that joints name are left out.
     """
     body_of: dict[str, str] = {}
     tops: dict[str, Joint | None] = {}

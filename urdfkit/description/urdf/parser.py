@@ -1,4 +1,4 @@
-"""Element → Robot, leniently: whatever cannot be used is noted in `Robot.problems`, and nothing raises.
+"""Element → Robot, leniently: an unusable value becomes an entry of `Robot.problems` and raises no error.
 
 The elements and defaults are those of http://wiki.ros.org/urdf/XML and of urdfdom's parser, with its tolerance: white
 space around numbers, the first of repeated elements.
@@ -59,8 +59,7 @@ def parse(
         root: the ``<robot>`` element after expansion. Any other element gives a robot without links.
         files: what was read, for `Robot.files`.
         packages: for `Robot.packages`.
-        known: the parts that were read before from the same elements, by these, with the problems in them; brought up
-            to date.
+        known: element → the part read from it before, with its problems; updated.
     """
     reader = Reader(known)
     name = reader.text(root, "name") if root.tag == "robot" else root.get("name")
@@ -155,7 +154,7 @@ def _geometry(reader: Reader, parent: Element) -> Geometry | None:
     if shape is None:
         if element.children:
             tag = element.children[0].tag
-            message = f"<geometry> holds <{tag}>, which is no shape{did_you_mean(tag, SHAPES)}"
+            message = f"unknown shape <{tag}> in <geometry>{did_you_mean(tag, SHAPES)}"
             reader.note("unknown-value", message, element.children[0])
         else:
             reader.note("missing", f"<geometry> is empty; it holds one of {', '.join(SHAPES)}", element)
@@ -199,9 +198,9 @@ def _joint(reader: Reader, element: Element) -> Joint:
     name = _name(reader, element)
     kind = element.get("type")
     if kind is None:
-        reader.note("missing", f"no type; types are {', '.join(JOINT_TYPES)}", element, "type")
+        reader.note("missing", f"missing attribute `type`; joint types are {', '.join(JOINT_TYPES)}", element, "type")
     elif kind not in JOINT_TYPES:
-        hint = did_you_mean(kind, JOINT_TYPES) or f"; types are {', '.join(JOINT_TYPES)}"
+        hint = did_you_mean(kind, JOINT_TYPES) or f"; joint types are {', '.join(JOINT_TYPES)}"
         reader.note("unknown-value", f"unknown type `{kind}`{hint}", element, "type")
     parent, child = (_linked(reader, element, end) for end in ("parent", "child"))
     axis = element.find("axis")
@@ -223,7 +222,7 @@ def _joint(reader: Reader, element: Element) -> Joint:
 
 
 def _name(reader: Reader, element: Element) -> str:
-    """Return the name of a link or joint, empty when it has none, and speak of it from here on."""
+    """Return the name of a link or joint, empty when it has none, and name it in later messages."""
     reader.subject = ""
     name = reader.text(element, "name") or ""
     reader.subject = f"{element.tag} `{name}`" if name else ""
@@ -233,7 +232,7 @@ def _name(reader: Reader, element: Element) -> str:
 def _linked(reader: Reader, joint: Element, end: str) -> str | None:
     element = joint.find(end)
     if element is None:
-        reader.note("missing", f"no <{end} link=…>", joint)
+        reader.note("missing", f"missing <{end} link=…>", joint)
         return None
     return reader.text(element, "link")
 

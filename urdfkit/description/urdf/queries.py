@@ -1,4 +1,4 @@
-"""Questions to a robot that rules, `load`, the model builder and the simulator ask alike."""
+"""Queries on a robot, shared by rules, `load`, the model builder and the simulator."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def mass(robot: Robot, link: str) -> float:
 
 
 def repeated(parts: tuple[Named, ...]) -> Iterator[tuple[Named, Named]]:
-    """Yield each link, or joint, whose name is taken, with the first of that name; nameless ones are left out."""
+    """Yield each link or joint with a duplicate name, and the first of that name; nameless ones are left out."""
     first: dict[str, Named] = {}
     for part in parts:
         if part.name and first.setdefault(part.name, part) is not part:
@@ -67,7 +67,7 @@ def repeated(parts: tuple[Named, ...]) -> Iterator[tuple[Named, Named]]:
 
 
 def dangling(robot: Robot, end: Literal["parent", "child"]) -> Iterator[tuple[Joint, str, Element]]:
-    """Yield each joint whose parent, or child, is no link, with the name it gives and the element that gives it."""
+    """Yield each joint whose parent or child link is unknown, with the name and the element that holds it."""
     for joint in robot.joints:
         name = joint.parent if end == "parent" else joint.child
         if name is not None and name not in robot.link_by_name:

@@ -1,7 +1,7 @@
-"""The robot as written: links, joints and what hangs on them, before any mathematics.
+"""The robot as written: links, joints and their properties, before any computation.
 
-Everything is as lenient as `parse` made it: a value that is missing or could not be read is ``None`` (the reader
-remembers it in `Robot.problems`). SI units: [m] [rad] [kg] [kg·m²] [N] [N·m] [m/s] [rad/s].
+The records are lenient: a value that is missing or could not be read is ``None`` (and listed in
+`Robot.problems`). SI units: [m] [rad] [kg] [kg·m²] [N] [N·m] [m/s] [rad/s].
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ class Material:
 
 @record(eq=False)
 class Visual:
-    """What a link looks like. `geometry` is None when it is missing or unreadable."""
+    """Appearance of a link. `geometry` is None when it is missing or unreadable."""
 
     name: str | None
     origin: Pose
@@ -99,7 +99,7 @@ class Visual:
 
 @record(eq=False)
 class Collision:
-    """What a link collides with. `geometry` is None when it is missing or unreadable."""
+    """Collision shape of a link. `geometry` is None when it is missing or unreadable."""
 
     name: str | None
     origin: Pose
@@ -284,13 +284,13 @@ class Ros2Control:
 
 @record(eq=False)
 class Problem:
-    """Something the lenient reader could not use and went on without.
+    """Defect that the lenient reader skipped.
 
     Attributes:
-        kind: what sort of problem.
+        kind: category of the problem.
         message: one line for the user.
-        element: the element it is about.
-        attribute: the attribute it is about; None for the element as a whole or its text.
+        element: the element that has the problem.
+        attribute: its attribute; None for the element as a whole or its text.
     """
 
     kind: ProblemKind
@@ -353,7 +353,7 @@ class Robot:
         return found
 
     def roots(self) -> list[Link]:
-        """Return the links that are nobody's child, in document order. A loadable robot has exactly one."""
+        """Return the links that are the child of no joint, in document order. A loadable robot has exactly one."""
         return [link for link in self.link_by_name_in_order() if link.name not in self.parents_of]
 
     def link_by_name_in_order(self) -> list[Link]:

@@ -1,4 +1,4 @@
-"""Reading attribute values leniently: what cannot be used is noted as a `Problem`, and a default takes its place."""
+"""Read attribute values leniently: an unusable value becomes a `Problem` and is replaced by a default."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ if TYPE_CHECKING:
     from urdfkit.description.urdf.robot import ProblemKind
 
     Part = tuple[str, Any, list[Problem]]
-    """Of what the messages spoke when an element was read, what was made of it, and the problems in it."""
+    """Subject of the messages when an element was read, the part read from it, and the problems in it."""
 
 ZERO: Vector = (0.0, 0.0, 0.0)
 
 LARGEST = 1e30
-"""A thousand times as many metres as the universe has across: what is more counts as infinite, as its powers would."""
+"""Largest finite value accepted; larger values count as infinite, because their powers would overflow."""
 
 
 class Reader:
     """Reads values and notes problems, in document order.
 
     Args:
-        known: what was made of elements before; None where nobody remembers.
+        known: element → the part read from it before; None to read every element.
 
     Attributes:
-        parts: what is made of elements now.
+        parts: element → the part read from it.
     """
 
     def __init__(self, known: Mapping[Element, Part] | None = None) -> None:
@@ -42,7 +42,7 @@ class Reader:
         """The link or joint being read, for the messages."""
 
     def part(self, read: Callable[[Reader, Element], Any], element: Element) -> Any:
-        """Return what is made of an element; what was made of it before, where that is known."""
+        """Return the part read from an element; the earlier one if it is known."""
         if self._known is None:
             return read(self, element)
         found = self._known.get(element)
@@ -59,16 +59,16 @@ class Reader:
         """Note a problem.
 
         Args:
-            kind: what sort of problem.
+            kind: category of the problem.
             message: one line for the user.
-            element: what it is about.
+            element: the element that has the problem.
             attribute: which of its attributes.
         """
         subject = f"{self.subject}: " if self.subject else ""
         self.problems.append(Problem(kind, subject + message, element, attribute))
 
     def text(self, element: Element, attribute: str) -> str | None:
-        """Return an attribute that has to be there; note it when missing."""
+        """Return a required attribute; note a problem when it is missing."""
         value = element.attributes.get(attribute)
         if value is None:
             self.note("missing", f"<{element.tag}> lacks its attribute `{attribute}`", element, attribute)
@@ -107,7 +107,7 @@ class Reader:
         return default if value is None else value
 
     def numbers(self, element: Element, attribute: str, count: int) -> tuple[float, ...] | None:
-        """Return so many numbers, None when they are missing or unusable."""
+        """Return `count` numbers, None when they are missing or unusable."""
         text = element.attributes.get(attribute)
         if text is None:
             return None
@@ -137,7 +137,7 @@ class Reader:
         return Pose(xyz or ZERO, rpy or ZERO)
 
     def inner_number(self, element: Element | None) -> float | None:
-        """Return the number that an element's text is, None when there is none."""
+        """Return the number in an element's text; None when it is missing or unusable."""
         if element is None:
             return None
         value = number(element.text)
@@ -151,12 +151,12 @@ class Reader:
 
     def _note_infinite(self, element: Element, attribute: str, text: str) -> None:
         values = numbers(text) or ()
-        why = "beyond all measure" if all(map(math.isfinite, values)) else "not finite"
+        why = "too large" if all(map(math.isfinite, values)) else "not finite"
         self.note("not-finite", f'{attribute}="{_short(text)}" of <{element.tag}> is {why}', element, attribute)
 
     def _note_arity(self, element: Element, attribute: str, text: str, count: int) -> None:
         given = len(text.split())
-        message = f'{attribute}="{_short(text)}" of <{element.tag}>: {count} wanted, {given} given'
+        message = f'{attribute}="{_short(text)}" of <{element.tag}>: expected {count}, found {given}'
         self.note("wrong-arity", message, element, attribute)
 
 

@@ -68,7 +68,7 @@ def error_of(error: BaseException, run: Run) -> UrdfkitError:
     if fault.kind in ("undefined-property", "undefined-macro") and fault.name is not None:
         later = defined_in(run, fault.kind, fault.name)
         if later is not None:
-            message = f"{message.split('; did you mean')[0]} yet: it comes later, at {later}"
+            message = f"{message.split('; did you mean')[0]} yet: its definition follows at {later}"
     chain = "" if fault.kind == "recursion" else chain_words(fault.expansions)
     return XacroError(message + chain, position=fault.position)
 
@@ -146,7 +146,7 @@ def _facts(error: BaseException, place: Place, run: Run) -> dict[str, Any]:
     if name == "Endless":
         return _endless(root)
     if isinstance(root, RecursionError):
-        return {"kind": "recursion", "message": "macros, files or properties call each other too deep"}
+        return {"kind": "recursion", "message": "calls of macros, includes and properties are nested too deeply"}
     if isinstance(root, ResourceError):
         return {"kind": "package-not-found", "message": root.message, "name": run.missing_package}
     if isinstance(root, OSError):
@@ -178,9 +178,9 @@ def _too_large(text: str, place: Place) -> str:
 
 def _endless(root: Any) -> dict[str, Any]:
     if root.what == "file":
-        message = f"files include each other without end: {' → '.join(root.cycle)}"
+        message = f"files include each other in a cycle: {' → '.join(root.cycle)}"
     else:
-        message = f"macro `{root.cycle[-1]}` calls itself without end: {' → '.join(root.cycle)}"
+        message = f"macro `{root.cycle[-1]}` calls itself in an infinite recursion: {' → '.join(root.cycle)}"
     return {"kind": "recursion", "message": message, "details": {"cycle": root.cycle}}
 
 
@@ -194,7 +194,7 @@ def _unreadable(root: OSError, place: Place) -> dict[str, Any]:
     elif path.is_dir():
         why = "is a folder"
     else:
-        why = f"{'cannot be read' if path.is_file() else 'is not there'}{near_path(path)}"
+        why = f"{'cannot be read' if path.is_file() else 'does not exist'}{near_path(path)}"
     is_include = place.node is not None and place.node.tagName == "xacro:include"
     return {
         "kind": "include-not-found" if is_include else "other",
@@ -230,7 +230,7 @@ def _unused_block(found: re.Match[str], place: Place, root: Any) -> dict[str, An
     macro = root.macros[0].body.getAttribute("name")
     return {
         "kind": "macro-arguments",
-        "message": f"macro `{macro}` takes no further block `<{found[1]}>`",
+        "message": f"macro `{macro}` accepts no further block `<{found[1]}>`",
         "name": macro,
     }
 
@@ -247,7 +247,7 @@ def _not_boolean(found: re.Match[str], place: Place, _: Any) -> dict[str, Any]:
 
 def _circular(found: re.Match[str], place: Place, _: Any) -> dict[str, Any]:
     cycle = tuple(found[1].split(" -> "))
-    message = f"property `{cycle[-1]}` is defined by itself: {' → '.join(cycle)}"
+    message = f"property `{cycle[-1]}` is defined in terms of itself: {' → '.join(cycle)}"
     return {"kind": "recursion", "message": message, "name": cycle[-1], "details": {"cycle": cycle}}
 
 

@@ -49,7 +49,7 @@ def mend_spelling(document: minidom.Document, position_of: PositionOf) -> Iterat
         position_of: returns where an element was written, and its chain of calls.
     """
     for element, tag, meant in misspelt(document):
-        what = f"macro `{tag[6:]}` is not defined" if tag.startswith("xacro:") else f"<{tag}> is nothing to xacro"
+        what = f"macro `{tag[6:]}` is not defined" if tag.startswith("xacro:") else f"<{tag}> is not an xacro element"
         message = f"{what}; did you mean `{'' if tag.startswith('xacro:') else 'xacro:'}{meant}`?"
         yield Fault("misspelt-directive", message, *position_of(element), name=meant)
         rename(element, meant)
@@ -70,7 +70,7 @@ def _mend_attributes(element: Any, directive: str, position_of: PositionOf) -> I
     written = element.getAttribute("params") if directive == "macro" else ""
     separated = _separated(written)
     if separated != written:
-        message = f"parameters of a macro are separated by blanks: `{written[:80]}`"
+        message = f"parameters of a macro are separated by spaces: `{written[:80]}`"
         details = {"value": separated}
         yield Fault("directive-attribute", message, *position_of(element), attribute="params", details=details)
         element.setAttribute("params", separated)

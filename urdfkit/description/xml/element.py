@@ -1,4 +1,4 @@
-"""Element: one expanded XML element that knows where it was written."""
+"""Element: one expanded XML element with its source position."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Element:
         attributes: name → value after expansion, in document order.
         children: child elements in document order (comments and processing instructions left out).
         text: the character data directly inside, concatenated and stripped.
-        origin: where a person wrote the start tag, and through which macro calls it came.
+        origin: source position of the start tag, and the macro calls that produced the element.
     """
 
     tag: str

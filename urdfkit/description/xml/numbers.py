@@ -6,9 +6,9 @@ import re
 
 
 def number(text: str) -> float | None:
-    """Return the number that `text` is, white space around it allowed; None when it is none.
+    """Return `text` as a number, white space around it allowed; None if it is not a number.
 
-    Unlike `float`, underscores and digits of other scripts are no numbers.
+    Unlike `float`, underscores and digits of other scripts are refused.
     """
     if not text.isascii() or "_" in text:
         return None
@@ -19,7 +19,7 @@ def number(text: str) -> float | None:
 
 
 def numbers(text: str) -> list[float] | None:
-    """Return the numbers that `text` lists, separated by white space; None when one of them is none."""
+    """Return the numbers that `text` lists, separated by white space; None if one of them is not a number."""
     found: list[float] = []
     for word in text.split():
         value = number(word)
@@ -30,17 +30,17 @@ def numbers(text: str) -> list[float] | None:
 
 
 def why_not(text: str) -> str:
-    """Return what is probably wrong with a text that should be numbers, in a few words; empty when unclear."""
+    """Return the probable reason why a text is not numeric, in a few words; empty when unclear."""
     if "${" in text or "$(" in text or "{$" in text:
         return "an expression that was not evaluated"
     if re.search(r"\d,\d", text) and not re.search(r",\s", text):
-        return "a decimal comma: write a point"
+        return "a decimal comma: write a decimal point"
     if "," in text:
-        return "separate numbers by blanks, not commas"
+        return "separate numbers with spaces, not commas"
     if not text.strip():
         return "empty"
     if re.fullmatch(r"\s*[+-]?[\d.]+\s*[a-zA-Z°]+\s*", text):
-        return "units are not written: SI is meant"
+        return "write numbers in SI units, without the unit"
     if "\u2212" in text or "\u2013" in text:
         return "a dash instead of a minus sign"
     return ""

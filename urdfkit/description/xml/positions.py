@@ -1,4 +1,4 @@
-"""minidom's own builder, which also stamps each element with the place of its start tag."""
+"""minidom's builder, extended to stamp each element with the position of its start tag."""
 
 from __future__ import annotations
 
@@ -69,4 +69,4 @@ class StampingBuilder(_Stamping, ExpatBuilderNS):
 
 
 class PrefixBlindBuilder(_Stamping):
-    """Takes prefixes for a part of the name, declared or not."""
+    """Treats prefixes as part of the name, declared or not."""

@@ -14,7 +14,7 @@ def printed(document: Any, path: str) -> str:
     """Return a document as stock xacro prints it, under its banner.
 
     Args:
-        document: of minidom; it is given the banner.
+        document: a minidom document; the banner is inserted into it.
         path: of the file, as the user named it.
     """
     rule = f" {'=' * 83} "

@@ -1,7 +1,7 @@
-"""XML from strangers, read safely: into `Element`, or into a minidom whose elements are stamped with their place.
+"""Read untrusted XML safely, into `Element` or into a minidom whose elements carry their source position.
 
 A file may come from anywhere, so document types that declare entities or name external files are refused (they can
-grow without end or read other files), and size and nesting are bounded.
+grow without bound or read other files), and size and nesting are bounded.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ MAX_BYTES = 64 * 2**20
 """A description is refused when it is larger [bytes]."""
 
 MAX_MADE_DEPTH = 400
-"""What macros and blocks make is refused when it is nested deeper: Python, and what looks through it, allow 1,000."""
+"""Expanded elements are refused when they are nested deeper: Python's recursion limit is 1,000."""
 
 MAX_VALUE = 100_000
-"""A description is refused when an attribute has more characters; people's have some hundreds."""
+"""A description is refused when an attribute has more characters; real ones have some hundreds."""
 
 MAX_ATTRIBUTES = 1_000
-"""A description is refused when an element has more attributes; people's have less than 20."""
+"""A description is refused when an element has more attributes; real ones have less than 20."""
 
 MAX_TAGS = 100_000
 """A description is refused when it has more tags and comments; a robot of 1,200 links has 30,000."""
@@ -45,8 +45,8 @@ def read_source(path: Path, *, shown_as: str | None = None, texts: Mapping[str, 
 
     Args:
         path: the file.
-        shown_as: what messages call it.
-        texts: contents to take instead of those on disk, by absolute path.
+        shown_as: its name in messages.
+        texts: absolute path → content to use instead of the file on disk.
 
     Raises:
         ResourceError: it cannot be read or is too large.
@@ -59,12 +59,12 @@ def read_source(path: Path, *, shown_as: str | None = None, texts: Mapping[str, 
     except OSError as error:
         raise ResourceError(f"cannot read {shown}: {error.strerror or error}") from error
     if len(content) > MAX_BYTES:
-        raise ResourceError(f"{shown} is larger than {MAX_BYTES // 2**20} MiB; that is no robot description")
+        raise ResourceError(f"{shown} is larger than {MAX_BYTES // 2**20} MiB, the limit for a robot description")
     return Source.decode(shown, content)
 
 
 def shown_path(path: str | Path) -> str:
-    """Return what messages call a file: relative to the working folder when inside it."""
+    """Return the name of a file in messages: relative to the working folder when inside it."""
     whole, here = str(absolute(path)), str(Path.cwd())
     return whole[len(here) + 1 :] if whole.startswith(here + os.sep) else whole
 
@@ -175,7 +175,7 @@ def element_of(node: Any, depth: int = 0) -> Element:
 
 
 def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[str, int]]]) -> None:
-    """Parse a text; `open_tags` tells the tag and line of the elements that are open, outermost first.
+    """Parse a text; `open_tags` returns tag and line of the open elements, outermost first.
 
     Raises:
         XmlError: it is not well-formed, or has too many tags.
@@ -191,7 +191,7 @@ def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[s
         position = Position(source.file, error.lineno, error.offset + 1)
         raise XmlError(_explain(error, source, position, open_tags()), position=position) from None
     except UnicodeEncodeError as error:
-        raise XmlError("the text holds half a character", position=source.position(error.start)) from None
+        raise XmlError("the text contains an unpaired surrogate", position=source.position(error.start)) from None
 
 
 def _explain(error: expat.ExpatError, source: Source, position: Position, opened: list[tuple[str, int]]) -> str:
@@ -214,9 +214,9 @@ def _explain(error: expat.ExpatError, source: Source, position: Position, opened
     if text == "syntax error" and tag is None:
         return "this is not XML: it does not start with `<`"
     if text == "junk after document element":
-        return "there is more after the root element is closed"
+        return "there is content after the end of the root element"
     if text == "XML or text declaration not at start of entity":
-        return "`<?xml …?>` has to be the very first thing in the file"
+        return "`<?xml …?>` must be at the very start of the file"
     if text == "undefined entity":
         return "undefined entity: write `&amp;` for an ampersand"
     if text == "duplicate attribute":
@@ -224,9 +224,9 @@ def _explain(error: expat.ExpatError, source: Source, position: Position, opened
     if text == "not well-formed (invalid token)":
         near = source.text[offset : offset + 1]
         if near == "<":
-            return f"`<` where it must not be: a quote or `>` is missing before it{', or write `&lt;`' if tag else ''}"
+            return f"unexpected `<`: a quote or `>` is missing before it{', or write `&lt;`' if tag else ''}"
         if near == "&":
-            return "a bare `&`: write `&amp;`"
+            return "unescaped `&`: write `&amp;`"
         return f"not well-formed near {source.text[offset : offset + 12].splitlines()[0]!r}" if near.strip() else text
     return text
 
@@ -245,7 +245,7 @@ def too_deep(source: Source, parser: Any) -> NoReturn:
 
 
 def check_depth(depth: int, position: Position) -> None:
-    """Refuse what macros and blocks have nested too deep: what looks through it does so level by level.
+    """Refuse expanded elements that are nested too deep: later passes recurse level by level.
 
     Raises:
         XmlError: it is.
@@ -272,7 +272,7 @@ def refuse_excess(source: Source, parser: Any, tag: str, values: Collection[str]
 
 def _refuse_entity(source: Source, parser: Any, name: str) -> NoReturn:
     raise XmlError(
-        f"declares the entity `{name}`: entity declarations are refused, they can grow without end or read other files",
+        f"declares the entity `{name}`: entity declarations are refused: they can grow without bound or read files",
         position=_here(source, parser),
     )
 

@@ -1,4 +1,4 @@
-"""Where a person wrote something: positions, spans, and the chain of macro calls that led there."""
+"""Source text of a file: positions, spans, and the macro calls an element came from."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from urdfkit.record import field, record
 
 
 def content_of(path: Path, most: int = -1) -> bytes:
-    """Return the bytes of a file; what says it is one and has nothing to give yet, as /proc/kmsg, is not waited for.
+    """Return the bytes of a file, without waiting for files such as /proc/kmsg that have no data yet.
 
     Args:
         path: a file, or a pipe, which is waited for.
-        most: so many bytes at most; all of them when negative.
+        most: maximum number of bytes; no limit when negative.
 
     Raises:
         OSError: it cannot be read.
@@ -24,7 +24,7 @@ def content_of(path: Path, most: int = -1) -> bytes:
     with open(path, "rb", opener=lambda name, flags: os.open(name, flags | without_waiting)) as file:
         content: bytes | None = file.read(most)
     if content is None:
-        raise BlockingIOError(11, "it is no file on disk", str(path))
+        raise BlockingIOError(11, "not a regular file", str(path))
     return content
 
 
@@ -57,9 +57,9 @@ class Origin:
     """Where an expanded element comes from.
 
     Attributes:
-        position: the start tag a person wrote.
+        position: the start tag in the source file.
         expansions: the macro calls that produced it, innermost first (the call nearest to the element);
-            empty for what is not written inside a macro.
+            empty for elements written outside macros.
     """
 
     position: Position
@@ -73,7 +73,7 @@ class Source:
     Attributes:
         file: the path as shown to the user.
         text: the decoded content, with its line ends as they are.
-        flaw: what of the bytes is no UTF-8, and its offset in the text; None where all of them are.
+        flaw: offset in the text and description of the first byte that is not UTF-8; None if all are.
     """
 
     file: str
@@ -109,7 +109,7 @@ class Source:
 
     @cached_property
     def line_starts(self) -> list[int]:
-        """Offset of the first character of each line; a line ends as XML has it, also by a carriage return alone."""
+        """Offset of the first character of each line; line ends are those of XML, a single carriage return included."""
         starts = [0]
         if "\r" in self.text:
             import re
@@ -133,12 +133,12 @@ class Source:
 
     @cached_property
     def line_end(self) -> str:
-        """How the first line ends, as those that are put in have to."""
+        """Line end of the first line, used for inserted lines."""
         first = self.text[: self.line_starts[1]] if len(self.line_starts) > 1 else "\n"
         return "\r\n" if first.endswith("\r\n") else first[-1]
 
     def line_before(self, offset: int) -> str:
-        """Return what stands on the line of an offset before it."""
+        """Return the text of the line before an offset."""
         return self.text[self.line_starts[self.position(offset).line - 1] : offset]
 
     def offset(self, line: int, column: int) -> int:
@@ -161,6 +161,6 @@ class Source:
 
 
 class Overlay(str):
-    """A text to take instead of that on disk, which is to be written with the same flaw; see `Source`."""
+    """A text that replaces the one on disk and is written with the same flaw; see `Source`."""
 
     flaw: tuple[int, str] | None = None

@@ -1,4 +1,4 @@
-"""The parts of a start tag in the source text: what a fix edits and a caret points at."""
+"""The parts of a start tag in the source text, for fixes and for the caret of a message."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ class AttributeText:
     """One attribute as written.
 
     Attributes:
-        name: where its name is.
-        value: what is between the quotes.
-        whole: from the white space before the name to the closing quote: what to cut to take the attribute away.
+        name: span of its name.
+        value: span between the quotes.
+        whole: span from the white space before the name to the closing quote; cut it to remove the attribute.
         quote: ``"`` or ``'``.
         raw: the value as written, entities unresolved.
     """
@@ -40,7 +40,7 @@ class StartTag:
 
     Attributes:
         span: from ``<`` to after ``>``.
-        name: where the tag's name is.
+        name: span of the tag's name.
         attributes: by name, in order.
         end_of_attributes: where another attribute (with a blank before it) can be inserted.
         is_empty: whether it ends in ``/>``.
@@ -54,7 +54,7 @@ class StartTag:
 
 
 def start_tag(source: Source, position: Position) -> StartTag | None:
-    """Return the parts of the start tag at `position`, or None when there is none."""
+    """Return the parts of the start tag at `position`, or None if no tag starts there."""
     text = source.text
     start = source.offset(position.line, position.column)
     named = _NAME.match(text, start)

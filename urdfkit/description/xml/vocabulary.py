@@ -1,5 +1,5 @@
 # ruff: noqa: SIM905 - a list in words is easier to read and extend
-"""The elements of URDF and SDF: tags that are never meant as a call of a macro of the same name."""
+"""The elements of URDF and SDF: tags that never call a macro of the same name."""
 
 from __future__ import annotations
 

@@ -302,9 +302,9 @@ def test_what_stands_in_is_noted(tmp_path: Path) -> None:
     )
     assert [model.name for model in world.models] == ["tree", "c", "coke_can", "box"]
     assert [note.partition(": ")[2] for note in world.notes] == [
-        "model://pine_tree: `tree`, which we ship, stands in for it",
-        "model://Coke: `coke_can`, which we ship, stands in for it",
-        "model://coke_can/: the one we ship stands in for it",
+        "model://pine_tree: the bundled model `tree` is used instead",
+        "model://Coke: the bundled model `coke_can` is used instead",
+        "model://coke_can/: the bundled model is used instead",
     ]
     assert world.notes[0].startswith(f"{tmp_path}/test.world:3:10: ")
 
@@ -396,7 +396,7 @@ def test_state(tmp_path: Path) -> None:
     assert cart.links[0].pose == Pose()
     assert cart.links[1].pose.xyz == pytest.approx((1.0, 0.0, 1.0), abs=1e-6)  # the state lifts it
     assert world.lights[0].pose.xyz == (0.0, 0.0, 7.0)
-    assert "<state> places model `nwe`, which is not there; did you mean `new`?" in world.notes[0]
+    assert "<state> places the unknown model `nwe`; did you mean `new`?" in world.notes[0]
 
 
 def test_state_of_nested_models(tmp_path: Path) -> None:
@@ -483,15 +483,15 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         ("<gravity>0,0,-9.8</gravity>", "<gravity> is `0,0,-9.8`; it must be 3 finite numbers (a decimal comma"),
         ("<physics><max_step_size>0</max_step_size></physics>", "<max_step_size> is 0 s; it must be more than zero"),
         ("<include/>", "<include> lacks its <uri>"),
-        ("<include><uri>model://taable</uri></include>", "nor among those we ship; did you mean `table`?"),
+        ("<include><uri>model://taable</uri></include>", "or among the bundled models; did you mean `table`?"),
         ("<include><uri>http://x.org/a.sdf</uri></include>", "nothing is fetched from the network; download it"),
         (
             "<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Coke</uri></include>",
-            "nothing is fetched from the network; we ship model://coke_can",
+            "nothing is fetched from the network; use the bundled model://coke_can",
         ),
-        ("<include><uri>model://box</uri><placement_frame>l</placement_frame></include>", "needs a <pose> beside it"),
+        ("<include><uri>model://box</uri><placement_frame>l</placement_frame></include>", "requires a <pose>"),
         ('<include merge="true"><uri>model://box</uri></include>', 'merge="true" is for models in models'),
-        ('<light name="l" type="sopt"/>', "light `l` is of the type `sopt`; did you mean `spot`?"),
+        ('<light name="l" type="sopt"/>', "unknown type `sopt` of light `l`; did you mean `spot`?"),
         ("<model/>", "<model> lacks its name"),
         ('<model name="m"/>', "model `m` has no link; give it one or make it <static>"),
         ('<model name="m"><static>yes</static></model>', "<static> is `yes`; it must be true or false"),
@@ -507,7 +507,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         ),
         (
             '<model name="m"><link name="l"><inertial><inertia><ixy>2</ixy></inertia></inertial></link></model>',
-            "no body has its inertia",
+            "its inertia tensor is not positive definite",
         ),
         (
             '<model name="m"><link name="l"><inertial auto="true"/></link></model>',
@@ -515,7 +515,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         ),
         (
             '<model name="m"><link name="l"/><joint name="j" type="revolut"><parent>l</parent></joint></model>',
-            "joint `j` is of the type `revolut`; did you mean `revolute`?",
+            "unknown type `revolut` of joint `j`; did you mean `revolute`?",
         ),
         (
             '<model name="m"><link name="l"/><joint name="j" type="fixed"><parent>world</parent></joint></model>',
@@ -622,8 +622,8 @@ def test_hostile_and_broken_files(tmp_path: Path, text: str, said: str) -> None:
         ("<robot/>", "an SDF world starts with <sdf>"),
         ('<sdf version="1.6"/>', "an SDF world starts with <sdf>"),
         ('<sdf><world name="w"/></sdf>', "<sdf> lacks its version"),
-        ('<sdf version="1.3"><world name="w"/></sdf>', "SDF 1.3 is not read: versions 1.4 to 1.11 are"),
-        ('<sdf version="new"><world name="w"/></sdf>', "version `new` is no version of SDF"),
+        ('<sdf version="1.3"><world name="w"/></sdf>', "SDF 1.3 is not supported; supported versions are 1.4 to 1.11"),
+        ('<sdf version="new"><world name="w"/></sdf>', "version `new` is not a version of SDF"),
     ],
 )
 def test_wrong_files(tmp_path: Path, text: str, said: str) -> None:
@@ -691,7 +691,7 @@ def test_two_buildings_and_ten_objects() -> None:
 @pytest.mark.parametrize(
     ("name", "text", "said"),
     [
-        ("house.world", None, "No such file or directory; did you mean `house`, which we ship?"),
+        ("house.world", None, "No such file or directory; did you mean the bundled world `house`?"),
         ("cart.urdf", "<robot/>", "is a robot, not a world; give it as MODEL"),
         ("cart.sdf", "<robot/>", "cart.sdf:1:1: this is a robot; an SDF world starts with <sdf>"),
         ("", None, "is a folder; a world is a .world or .sdf file"),

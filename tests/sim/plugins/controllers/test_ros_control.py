@@ -572,7 +572,7 @@ def test_without_any_file_it_says_so(tmp_path: Path, arm_package: ModuleType) ->
          "arm.yaml:2:83", "`p` is `x`; it must be a finite number"),
         ("arm:\n  a: {type: effort_controllers/JointPositionController, joint: shoulder, pid: {p: -1}}\n",
          "arm.yaml:2:83", "a negative gain drives the joint away"),
-        ("arm:\n  a: {type: effort_controllers/JointEffortController\n", "arm.yaml:3:1", "no YAML"),
+        ("arm:\n  a: {type: effort_controllers/JointEffortController\n", "arm.yaml:3:1", "invalid YAML"),
     ],
 )  # fmt: skip
 def test_wrong_parameters_are_refused_at_their_place(make: Make, yaml: str, place: str, message: str) -> None:

@@ -50,7 +50,7 @@ WRONG = [
     (BLOCK.format(sensor(LASER, type="")), "a sensor has no type"),
     (
         BLOCK.format(sensor(type="thermal", inside="")),
-        'sensors of type `thermal` are not simulated: type="camera" tells colours',
+        'sensors of type `thermal` are not simulated: use type="camera"',
     ),
     (
         BLOCK.format(sensor(type="dvl", inside="")),
@@ -58,7 +58,7 @@ WRONG = [
     ),
     (
         BLOCK.format(sensor(type="sonar", inside="")),
-        '`sonar` are not simulated: write type="ray" and a plugin that tells the nearest of its rays',
+        '`sonar` are not simulated: write type="ray" and a plugin that publishes the nearest range',
     ),
     (
         BLOCK.format(sensor(type="infrared", inside="")),
@@ -82,7 +82,7 @@ WRONG = [
     (f'<gazebo reference="eyes">{GOOD}</gazebo>', "`eyes` is none; did you mean `eye`?"),
     (f'<gazebo reference="top">{sensor(type="imu", inside="")}</gazebo>', "of a link; `top` is none"),
     (BLOCK.format(sensor(LASER, rate=-1.0)), "<update_rate> is `-1.0`; it must be a finite number, 0 or greater"),
-    (BLOCK.format(sensor(LASER, inside=scan(0))), "<horizontal> asks for 0 samples; it must be one or more"),
+    (BLOCK.format(sensor(LASER, inside=scan(0))), "<horizontal> has 0 samples; it must be one or more"),
     (BLOCK.format(sensor(LASER, inside=scan(9, 1, -1))), "<horizontal> goes from 1 to -1 rad"),
     (BLOCK.format(sensor(LASER, inside=scan(far=0.01))), "sees from 0.1 m to 0.01 m sees nothing"),
     (
@@ -95,7 +95,7 @@ WRONG = [
     ),
     (
         BLOCK.format(sensor(LASER.replace("ros_laser", "ros_block_laser"))),
-        "topic `/scan` carries sensor_msgs/msg/LaserScan, not sensor_msgs/msg/PointCloud; sensor `lidar` is left out",
+        "topic `/scan` has type sensor_msgs/msg/LaserScan, not sensor_msgs/msg/PointCloud; sensor `lidar` is left out",
     ),
     (
         BLOCK.format(sensor(LASER.replace("ros_laser", "ros_lazer"))),

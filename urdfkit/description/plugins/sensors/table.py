@@ -64,7 +64,7 @@ SENSOR_TYPES = tuple(
 """What the ``type`` of a ``<sensor>`` may be (sdformat main, src/Sensor.cc), simulated here or not."""
 
 _NEAREST_OF_RAYS = (
-    'write type="ray" and a plugin that tells the nearest of its rays, libgazebo_ros_range.so in ROS 1 or '
+    'write type="ray" and a plugin that publishes the nearest range, libgazebo_ros_range.so in ROS 1 or '
     "libgazebo_ros_ray_sensor.so in ROS 2, with {} as the kind of radiation"
 )
 _TWO = 'write a sensor of type="camera" for each, or libgazebo_ros_camera.so into this one'
@@ -72,11 +72,11 @@ _TWO = 'write a sensor of type="camera" for each, or libgazebo_ros_camera.so int
 INSTEAD: dict[str, str] = {
     **dict.fromkeys(("sonar", "ultrasonic", "ultrasound"), _NEAREST_OF_RAYS.format("ultrasound")),
     **dict.fromkeys(("infrared", "ir", "range"), _NEAREST_OF_RAYS.format("infrared")),
-    **dict.fromkeys(("thermal", "thermal_camera"), 'type="camera" tells colours, temperatures are not known here'),
+    **dict.fromkeys(("thermal", "thermal_camera"), 'use type="camera"; temperatures are not simulated'),
     **dict.fromkeys(("wideanglecamera", "wide_angle_camera"), 'write type="camera", with <distortion> if need be'),
     **dict.fromkeys(("multicamera", "stereo", "stereo_camera"), _TWO),
     **dict.fromkeys(
-        ("openni", "openni_kinect", "kinect"), 'write type="depth"; ROS 1 wants libgazebo_ros_openni_kinect.so'
+        ("openni", "openni_kinect", "kinect"), 'write type="depth"; ROS 1 needs libgazebo_ros_openni_kinect.so'
     ),
     "laser": 'write type="ray"',
 }

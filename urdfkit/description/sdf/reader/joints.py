@@ -38,10 +38,10 @@ def read_joint(context: Context, element: Element, scope: Scope) -> WorldJoint:
     remark_unknown(context, element)
     name, kind = name_of(element), element.get("type") or ""
     if kind not in TYPES:
-        raise wrong(element, f"joint `{name}` is of the type `{kind}`{did_you_mean(kind, TYPES)}")
+        raise wrong(element, f"unknown type `{kind}` of joint `{name}`{did_you_mean(kind, TYPES)}")
     parent, child = (_link(element, tag, scope) for tag in ("parent", "child"))
     if child == "world":
-        raise wrong(element, f"the child of joint `{name}` is the world; let it be the parent")
+        raise wrong(element, f"the child of joint `{name}` is the world; make the world the parent")
     if parent == child:
         raise wrong(element, f"joint `{name}` joins link `{child}` to itself")
     pose = scope.place(raw_pose(element), text(element, "child"), child)
@@ -93,7 +93,7 @@ def _mimic(element: Element) -> WorldMimic:
     """Read a ``<mimic>``; the equation is sdformat's (1.11/joint.sdf)."""
     leader = element.get("joint") or ""
     if not leader:
-        raise wrong(element, 'a <mimic> does not say which joint it follows; write joint="NAME"')
+        raise wrong(element, 'a <mimic> names no joint to follow; write joint="NAME"')
     if (axis := element.get("axis") or "axis") != "axis":
         raise wrong(element, f"a <mimic> follows `{axis}` of joint `{leader}`; only <axis> can be followed")
     return WorldMimic(

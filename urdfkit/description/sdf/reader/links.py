@@ -120,7 +120,7 @@ def read_light(context: Context, element: Element, pose: Pose) -> Light:
     remark_unknown(context, element)
     name, kind = name_of(element), element.get("type") or "point"
     if kind not in _LIGHTS:
-        raise wrong(element, f"light `{name}` is of the type `{kind}`{did_you_mean(kind, _LIGHTS)}")
+        raise wrong(element, f"unknown type `{kind}` of light `{name}`{did_you_mean(kind, _LIGHTS)}")
     default = Light(name)
     fading, spot = element.find("attenuation"), element.find("spot")
     far, constant, linear, quadratic = default.attenuation

@@ -35,7 +35,7 @@ _READ = {"frame", "gravity", "include", "joint", "light", "magnetic_field", "mod
 _PHYSICS_READ = {"max_step_size", "real_time_factor", "real_time_update_rate", "gravity", "magnetic_field"}
 _NOT_SIMULATED = {
     "actor": "actors are not simulated",
-    "population": "populations are not simulated: write their models",
+    "population": "populations are not simulated: write out their models",
     "road": "roads are not shown",
 }
 
@@ -60,8 +60,8 @@ def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) ->
     if path.is_dir():
         raise ResourceError(f"`{world}` is a folder; a world is a .world or .sdf file (worlds: {', '.join(names)})")
     if path.suffix in _SUFFIXES and not path.exists():
-        hint = f"; did you mean `{path.stem}`, which we ship?" if path.stem in names else near_path(path)
-        hint = hint or did_you_mean(path.stem, names) or f" (worlds that we ship: {', '.join(names)})"
+        hint = f"; did you mean the bundled world `{path.stem}`?" if path.stem in names else near_path(path)
+        hint = hint or did_you_mean(path.stem, names) or f" (bundled worlds: {', '.join(names)})"
         raise ResourceError(f"cannot read {shown_path(path)}: No such file or directory{hint}")
     if path.suffix not in _SUFFIXES:
         raise ResourceError(
@@ -114,7 +114,7 @@ def load_model(
         raise wrong(root, "an SDF model starts with <sdf> and has a <model> in it")
     found = read_model(context, written)
     if not isinstance(found.thing, WorldModel):
-        raise wrong(written, "this is no model")
+        raise wrong(written, "this is not a model")
     loaded = _alone(found).models[0]
     _require_masses(loaded, static=False)
     return replace(loaded, name=name or loaded.name, pose=loaded.pose if pose is None else pose)
@@ -159,7 +159,7 @@ def _world(context: Context, element: Element) -> World:
         elif child.tag in _NOT_SIMULATED:
             context.note(child, _NOT_SIMULATED[child.tag])
         elif child.tag == "wind" and any(vector(child, "linear_velocity", (0.0, 0.0, 0.0))):
-            context.note(child, "the wind does not blow here: <wind> is kept, but moves nothing")
+            context.note(child, "wind is not simulated: <wind> is kept but has no effect")
     placed = [thing.placed(scope) for thing in found]
     models = [each for each in placed if isinstance(each, WorldModel)]
     lights = [each for each in placed if isinstance(each, Light)]
@@ -235,10 +235,10 @@ def _require_masses(model: WorldModel, *, static: bool) -> None:
         if body.mass <= 0:
             fault = f"its mass is {body.mass:g} kg"
         elif not _is_positive_definite(body.ixx, body.ixy, body.ixz, body.iyy, body.iyz, body.izz):
-            fault = "no body has its inertia: the tensor is not positive definite"
+            fault = "its inertia tensor is not positive definite"
         if fault:
             raise DescriptionError(
-                f"link `{link.name}` of model `{model.name}` cannot move: {fault}; make the model <static> or mend it",
+                f"link `{link.name}` of model `{model.name}` cannot move: {fault}; make the model <static> or fix it",
                 position=link.position,
             )
     for nested in model.models:

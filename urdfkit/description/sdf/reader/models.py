@@ -126,7 +126,7 @@ def _canonical(element: Element, scope: Scope) -> str:
     if written:
         link = scope.link_of(written, element.origin.position)
         if link != written:
-            raise wrong(element, f"canonical_link `{written}` is no link")
+            raise wrong(element, f"canonical_link `{written}` does not exist")
     return written
 
 
@@ -172,7 +172,7 @@ def read_include(context: Context, element: Element) -> Found | None:
     if element.find("pose") is not None:
         found.raw, found.placement = raw_pose(element), text(element, "placement_frame")
     elif text(element, "placement_frame"):
-        raise wrong(element, "<placement_frame> needs a <pose> beside it")
+        raise wrong(element, "<placement_frame> requires a <pose>")
     if isinstance(found.thing, WorldModel):
         plugins = tuple([keep(child) for child in element.find_all("plugin")])
         static = boolean(element, "static", found.thing.static)
@@ -182,7 +182,7 @@ def read_include(context: Context, element: Element) -> Found | None:
 
 def _first(context: Context, root: Element) -> Found | None:
     if root.tag != "sdf":
-        raise wrong(root, f"<{root.tag}> is no model: an SDF model starts with <sdf> and has a <model> in it")
+        raise wrong(root, f"<{root.tag}> is not a model: an SDF model starts with <sdf> and has a <model> in it")
     for child in root.children:
         if child.tag == "model":
             return read_model(context, child)
@@ -190,4 +190,4 @@ def _first(context: Context, root: Element) -> Found | None:
             return Found(read_light(context, child, Pose()), raw_pose(child))
         if child.tag == "actor":
             return None
-    raise wrong(root, "there is neither a <model> nor a <light> in this file")
+    raise wrong(root, "this file has neither a <model> nor a <light>")

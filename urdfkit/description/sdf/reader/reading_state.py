@@ -82,11 +82,11 @@ class Context:
             raise wrong(root, f'<sdf> lacks its version: write <sdf version="1.{min(NEWEST[1], 9)}">')
         found = _VERSION.match(written.strip())
         if found is None:
-            raise wrong(root, f"version `{written}` is no version of SDF{did_you_mean(written, ['1.6', '1.9'])}")
+            raise wrong(root, f"version `{written}` is not a version of SDF{did_you_mean(written, ['1.6', '1.9'])}")
         version = int(found[1]), int(found[2])
         if version < OLDEST or version[0] > NEWEST[0]:
             oldest, newest = (".".join(map(str, each)) for each in (OLDEST, NEWEST))
-            raise wrong(root, f"SDF {written} is not read: versions {oldest} to {newest} are")
+            raise wrong(root, f"SDF {written} is not supported; supported versions are {oldest} to {newest}")
         if version > NEWEST:
             self.note(root, f"SDF {written} is newer than 1.{NEWEST[1]}; what is new in it is ignored")
         return version

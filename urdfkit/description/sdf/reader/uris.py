@@ -64,12 +64,12 @@ def find_model(context: Context, uri: Element) -> Path:
         return _entry(path, uri)
     if name and not inside.strip("/") and (found := stand_in(name)) is not None:
         if found[0] != name or name in ALIKE:
-            which = "the one we ship" if found[0] == name else f"`{found[0]}`, which we ship,"
-            context.note(uri, f"{text}: {which} stands in for it")
+            which = "model" if found[0] == name else f"model `{found[0]}`"
+            context.note(uri, f"{text}: the bundled {which} is used instead")
         return found[1]
     if name:
         hint = did_you_mean(name, model_names())
-        where = "on GAZEBO_MODEL_PATH, GZ_SIM_RESOURCE_PATH or around this file, nor among those we ship"
+        where = "on GAZEBO_MODEL_PATH, GZ_SIM_RESOURCE_PATH, around this file or among the bundled models"
         raise ResourceError(f"no model `{name}` {where}{hint}", position=uri.origin.position)
     raise ResourceError(f"no model {text}{near_path(context.path.parent / text)}", position=uri.origin.position)
 
@@ -127,5 +127,5 @@ def _refuse_remote(uri: Element) -> None:
     if _REMOTE.match(uri.text.strip()):
         words = [word for word in uri.text.strip().lower().split("/") if word and not word.isdigit()]
         near = stand_in(words[-1])
-        hint = f"; we ship model://{near[0]}" if near else "; download it and name its folder: model://…"
+        hint = f"; use the bundled model://{near[0]}" if near else "; download it and name its folder: model://…"
         raise ResourceError(f"{uri.text}: nothing is fetched from the network{hint}", position=uri.origin.position)

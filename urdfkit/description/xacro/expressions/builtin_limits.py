@@ -57,7 +57,7 @@ def check_method(bounds: Bounds, owner: Any, name: str, args: tuple[Any, ...], n
     if name in _KEEPING:
         for argument in args:
             if isinstance(argument, GeneratorType):
-                raise TooLarge("generators cannot be kept")
+                raise TooLarge("generators cannot be stored")
     if not isinstance(owner, (str, bytes, int)):
         return args
     numbers = [x for x in (*args, *named.values()) if isinstance(x, int)]
@@ -128,7 +128,7 @@ def replaced(bounds: Bounds, function: Callable[..., Any], args: tuple[Any, ...]
     if name == "lcm" and sum(x.bit_length() for x in whole) > MAX_BITS:
         raise excess("an integer", MAX_BITS, "bits")
     if name in ("factorial", "comb", "perm") and max(whole, default=0) > _MAX_FACTORIAL:
-        raise TooLarge(f"it asks for {name}() of more than {_MAX_FACTORIAL:,}")
+        raise TooLarge(f"it calls {name}() with more than {_MAX_FACTORIAL:,}")
     if name == "round" and len(args) > 1 and isinstance(args[0], int) and whole and whole[-1] > _MAX_DIGITS:
         raise TooLarge(f"it rounds to more than {_MAX_DIGITS:,} digits")
     return function

@@ -171,7 +171,7 @@ class Evaluator:
         """
         self._evaluated += expressions
         if self._evaluated > MAX_EXPRESSIONS:
-            raise TooLarge(f"it is one of more than {MAX_EXPRESSIONS:,} expressions")
+            raise TooLarge(f"the file has more than {MAX_EXPRESSIONS:,} expressions")
 
     def eval_command(self, expression: str, names: Any) -> str:
         """Evaluate ``$(eval expression)``, with harmless builtins only.

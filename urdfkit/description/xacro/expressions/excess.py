@@ -54,12 +54,12 @@ class TooMany(TooLarge):
 
 def excess(what: str, limit: int, unit: str) -> TooLarge:
     """Return the exception for something that has more than it may."""
-    return TooLarge(f"it makes {what} of more than {limit:,} {unit}")
+    return TooLarge(f"it creates {what} of more than {limit:,} {unit}")
 
 
 def endless() -> TooLarge:
     """Return the exception for expressions that take too long."""
-    return TooLarge(f"with it, the expressions of this file take more than {MAX_STEPS:,} steps")
+    return TooLarge(f"with it, the expressions of this file exceed {MAX_STEPS:,} steps")
 
 
 def check_length(path: str) -> None:
@@ -70,6 +70,6 @@ def check_length(path: str) -> None:
     """
     file = Path(path)
     if file.exists() and not file.is_file() and not file.is_dir():
-        raise TooLarge(f"{path} is no file")
+        raise TooLarge(f"{path} is not a regular file")
     if file.suffix.lower() in (".yaml", ".yml") and file.is_file() and file.stat().st_size > MAX_YAML:
         raise TooLarge(f"{path} is larger than {MAX_YAML // 1000:,} kB")

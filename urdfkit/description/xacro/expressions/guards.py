@@ -74,7 +74,7 @@ class Guarding(ast.NodeTransformer):
     def generic_visit(self, node: ast.AST) -> ast.AST:
         """Visit what is below; inside loops, what copies on being read is counted."""
         if isinstance(node, (ast.Yield, ast.YieldFrom, ast.Await)):
-            raise TooLarge("it yields, which no description needs")
+            raise TooLarge("it uses `yield`, which is not supported")
         super().generic_visit(node)
         if isinstance(node, ast.Attribute) and self._loops:
             return _guarded("__whole__", node)

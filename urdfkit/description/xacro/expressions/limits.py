@@ -83,7 +83,7 @@ class Bounds:
         elif isinstance(value, (*TEXTS, *CONTAINERS, range)):
             self.spend(steps_of(value))
         elif kind is GenericAlias:
-            raise TooLarge("types of types are not for descriptions")
+            raise TooLarge("types of types are not supported")
         return value
 
     def sized(self, value: Any) -> Any:
@@ -101,7 +101,7 @@ class Bounds:
             TooLarge: it is a generator: chains of them overflow the stack.
         """
         if isinstance(value, GeneratorType):
-            raise TooLarge("generators cannot be kept")
+            raise TooLarge("generators cannot be stored")
         return self.checked(value)
 
     def each(self, items: Iterable[Any]) -> Iterator[Any]:
@@ -214,9 +214,9 @@ class Bounds:
 
     def _make(self, kind: Any, args: Any, named: Any) -> Any:
         if kind is type and len(args) != 1:
-            raise TooLarge("classes are not for descriptions")
+            raise TooLarge("classes are not supported")
         if kind is slice and not all(x is None or type(x) is int for x in args):
-            raise TooLarge("a slice is of integers")
+            raise TooLarge("slice indices must be integers")
         if kind in (bytes, bytearray) and args and isinstance(args[0], int):
             check_characters(args[0])
         if kind in _CALLING:

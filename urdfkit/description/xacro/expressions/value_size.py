@@ -42,7 +42,7 @@ def steps_of(value: Any) -> int:
         if not below:
             return total
         level = below
-    raise TooLarge(f"it makes lists nested more than {MAX_NESTING} deep")
+    raise TooLarge(f"it creates lists nested more than {MAX_NESTING} deep")
 
 
 def items_of(container: Any) -> list[Any]:

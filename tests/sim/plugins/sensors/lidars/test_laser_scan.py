@@ -151,10 +151,10 @@ def test_a_reset_starts_the_count_again(post) -> None:
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
-        (sensor(LASER, inside=scan(0)), "<horizontal> asks for 0 samples; it must be one or more"),
+        (sensor(LASER, inside=scan(0)), "<horizontal> has 0 samples; it must be one or more"),
         (sensor(LASER, inside=scan(9, 1.0, -1.0)), "<horizontal> goes from 1 to -1 rad"),
         (sensor(LASER, inside=scan().replace("<min>0.1", "<min>-0.1")), "<min> is -0.1 m; it must be zero or greater"),
-        (sensor(LASER, inside=scan(far=0.05)), "a lidar that sees from 0.1 m to 0.05 m sees nothing"),
+        (sensor(LASER, inside=scan(far=0.05)), "the range of the lidar, 0.1 m to 0.05 m, is empty"),
         (sensor(LASER, inside=""), "a lidar lacks its <ray>"),
         (sensor(type="gpu_lidar", inside=""), "a lidar lacks its <lidar>"),
         (sensor(LASER, inside=scan("many")), "<samples> is `many`; it must be a finite number"),
