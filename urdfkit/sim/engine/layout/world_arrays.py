@@ -15,7 +15,7 @@ from urdfkit.sim.engine.collision.geometry_arrays import Geometry
 from urdfkit.sim.engine.collision.support_points import HULL, MESH
 from urdfkit.sim.engine.contact_surface import Ground, Touching
 from urdfkit.sim.engine.contacts import ground_contacts
-from urdfkit.sim.engine.island_solver.gauss_seidel import KEPT
+from urdfkit.sim.engine.island_solver.conjugate_gradient import KEPT
 from urdfkit.sim.engine.layout.collision_shapes import (
     box_of,
     still_box,
