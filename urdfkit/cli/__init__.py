@@ -59,7 +59,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if "_ARGCOMPLETE" in os.environ:  # a shell requests completions
             from urdfkit.cli.completion import complete
 
-            complete()
+            complete(parser_of)
         return _run(arguments)
     except UrdfkitError as error:
         print(f"urdfkit: {error}", file=sys.stderr)

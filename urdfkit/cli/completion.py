@@ -28,11 +28,14 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def complete() -> None:
-    """Print the completions that the shell requests (``_ARGCOMPLETE``), then exit."""
+def complete(parser_of: Callable[[str | None], argparse.ArgumentParser]) -> None:
+    """Print the completions to the shell that requests them (``_ARGCOMPLETE``), then exit.
+
+    Args:
+        parser_of: returns the parser of the command line, with the arguments of one command.
+    """
     import argcomplete
 
-    from urdfkit.cli import parser_of
     from urdfkit.cli.parser import Parser
 
     words = os.environ.get("COMP_LINE", "")[: int(os.environ.get("COMP_POINT") or 0) or None].split()

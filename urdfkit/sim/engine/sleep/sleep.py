@@ -13,10 +13,10 @@ from typing import Any
 from urdfkit.sim.engine.arrays import CONTACTS, DT, LAST_PAIRS, SLEEPING, TREES, At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.contacts.broadphase import bound
-from urdfkit.sim.engine.contacts.rolling_resistance import rolls
 from urdfkit.sim.engine.contacts.warm_start import copy_contact
 from urdfkit.sim.engine.dynamics.mass_matrix import place
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, store_spatial, store_vector
+from urdfkit.sim.engine.sleep.rolling_resistance import rolls
 from urdfkit.sim.engine.sleep.sleep_criteria import ASKED, PATIENCE, asked_of, grow_calm
 
 

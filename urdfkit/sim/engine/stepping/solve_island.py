@@ -23,11 +23,11 @@ from urdfkit.sim.engine.constraints.constraint_rows import joint_rows
 from urdfkit.sim.engine.constraints.contact_rows import contact_rows
 from urdfkit.sim.engine.constraints.joint_limits import passes_limits, whirls
 from urdfkit.sim.engine.constraints.joint_servos import SERVO_ATTEMPTS, limited, overloaded, smooth_motion
-from urdfkit.sim.engine.contacts.rolling_resistance import resist_rolling
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_forward
 from urdfkit.sim.engine.dynamics.tree_motion import evaluate
 from urdfkit.sim.engine.island_solver.gauss_seidel import sweep
 from urdfkit.sim.engine.island_solver.velocity_blocks import hold
+from urdfkit.sim.engine.sleep.rolling_resistance import resist_rolling
 from urdfkit.sim.engine.solver.active_set_newton import solve
 from urdfkit.sim.engine.solver.delassus import push, whiten
 from urdfkit.sim.engine.stepping.ballistic import flies, fly
