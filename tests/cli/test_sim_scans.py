@@ -65,7 +65,7 @@ def test_the_only_cloud_needs_no_topic(tmp_path: Path) -> None:
     [
         (LASER, "/scn=x.json", "0.1", "--save-scan: no scans come on /scn; did you mean `/scan`?"),
         (LASER, "/scan=x.png", "0.1", "`/scan=x.png` is not TOPIC=FILE.json or .csv"),
-        (LASER, "x.json", "0", "--save-scan: no scan came on /scan in 0 s; run for longer"),
+        (LASER, "x.json", "0", "--save-scan: no scan was published on /scan in 0 s; increase --for"),
         (
             "simpleton",
             "simpleton/camera1/image_raw=x.json",
@@ -119,7 +119,7 @@ def test_a_ride_looks_at_the_place_of_its_recording_first(tmp_path: Path, capsys
 def test_nothing_is_written_where_one_has_not_come(tmp_path: Path, capsys: Capture) -> None:
     arguments = ["--world", "void", "--for", "0.07", f"--save-image={tmp_path / 'a.png'}"]  # scans come at 10 Hz
     assert main(["sim", "run", "gem_e2", *arguments, f"--save-scan={tmp_path / 'b.json'}"]) == 2
-    assert "--save-scan: no scan came on /velodyne_points" in capsys.readouterr().err
+    assert "--save-scan: no scan was published on /velodyne_points" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
 
 

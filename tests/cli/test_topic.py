@@ -73,7 +73,7 @@ def topic(ride, capsys):
     return run
 
 
-def listeners(ride: Ride, name: str) -> int:
+def subscribers(ride: Ride, name: str) -> int:
     return next(len(each.subscribers) for each in ride.simulator.bus.topics if each.name == name)
 
 
@@ -84,11 +84,11 @@ def test_the_topics_are_listed(ride, topic) -> None:
     assert f"{ODOM} [nav_msgs/msg/Odometry]" in topic("list", "-t").splitlines()
     command = next(line for line in topic("list", "-v").splitlines() if line.startswith(COMMAND))
     assert command.startswith(f"{COMMAND} [geometry_msgs/msg/Twist] ")
-    assert command.endswith(" messages, 1 listeners")
+    assert command.endswith(" messages, 1 subscribers")
     rows = json.loads(topic("list", "--json"))
     assert [row["name"] for row in rows] == names
     assert topic("info", ODOM).splitlines()[0] == "Type: nav_msgs/msg/Odometry"
-    assert json.loads(topic("info", COMMAND, "--json"))["listeners"] == 1
+    assert json.loads(topic("info", COMMAND, "--json"))["subscribers"] == 1
 
 
 def test_echo_prints_messages_as_rostopic_does(topic) -> None:
@@ -113,13 +113,13 @@ def test_what_was_published_once_for_all_who_come_is_echoed(topic) -> None:
 
 def test_a_camera_is_looked_through_while_somebody_listens(ride, topic, until) -> None:
     name = "/simpleton/camera1/image_raw"
-    before = listeners(ride, name)
+    before = subscribers(ride, name)
     cut = json.loads(topic("echo", name, "--once", "--json"))
     assert cut["data"] == f"{cut['height'] * cut['step']} bytes"
-    until(lambda: listeners(ride, name) == before)
+    until(lambda: subscribers(ride, name) == before)
     whole = json.loads(topic("echo", name, "--once", "--json", "--full-length"))
     assert len(whole["data"]) == cut["height"] * cut["step"]
-    until(lambda: listeners(ride, name) == before)
+    until(lambda: subscribers(ride, name) == before)
 
 
 def test_rates_are_of_simulated_time(topic) -> None:
@@ -146,16 +146,16 @@ def test_what_is_published_moves_the_robot(ride, topic, until) -> None:
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
-        (["echo", "/odm"], f"no topic `/odm`; did you mean `{ODOM}`?"),
-        (["hz", "/clok"], "no topic `/clok`; did you mean `/clock`?"),
-        (["pub", "/simpleton/cmd_vl", "--once"], f"no topic `/simpleton/cmd_vl`; did you mean `{COMMAND}`?"),
+        (["echo", "/odm"], f"unknown topic `/odm`; did you mean `{ODOM}`?"),
+        (["hz", "/clok"], "unknown topic `/clok`; did you mean `/clock`?"),
+        (["pub", "/simpleton/cmd_vl", "--once"], f"unknown topic `/simpleton/cmd_vl`; did you mean `{COMMAND}`?"),
         (["pub", COMMAND, "geometry_msgs/Twst"], "did you mean `geometry_msgs/msg/Twist`?"),
         (["pub", COMMAND, "geometry_msgs/Twist", "{linaer: {x: 1}}"], "no field `linaer` in geometry_msgs/msg/Twist"),
         (["pub", COMMAND, "geometry_msgs/Twist", "{linear: {x: fast}}"], "field `x` of geometry_msgs/msg/Vector3"),
-        (["pub", COMMAND, "geometry_msgs/Twist", "{linear: {x: .inf}}"], "holds what no message can"),
-        (["pub", COMMAND, "geometry_msgs/Twist", "{linear: [}"], "the message is no YAML"),
-        (["pub", COMMAND, "-r", "0"], "`0` is no rate"),
-        (["echo", ODOM, "-n", "0"], "`0` is no whole number from 1 on"),
+        (["pub", COMMAND, "geometry_msgs/Twist", "{linear: {x: .inf}}"], "holds a value that no message supports"),
+        (["pub", COMMAND, "geometry_msgs/Twist", "{linear: [}"], "the message is not YAML"),
+        (["pub", COMMAND, "-r", "0"], "`0` is not a rate"),
+        (["echo", ODOM, "-n", "0"], "`0` is not a whole number of at least 1"),
         (["echo", ODOM, "--field", "pose.pos"], "no field `pos` in pose; did you mean `pose`?"),
         (["echo", ODOM, "--field", "pose.covariance[36]"], "no entry 36 in pose.covariance: it has 36 entries"),
         (["list", "--url", "http://127.0.0.1:1/?token=x"], "http://127.0.0.1:1: no simulation answers"),
@@ -168,7 +168,7 @@ def test_what_is_wrong_is_one_line_and_exit_2(topic, words: list[str], expected:
 
 def test_a_topic_that_nobody_knows_is_published_to_with_a_note(ride, capsys) -> None:
     assert main(["topic", "pub", "/simpleton/cmd_vl", "geometry_msgs/Twist", "--once"]) == 0
-    assert capsys.readouterr().err == f"urdfkit: nobody listens to /simpleton/cmd_vl; did you mean `{COMMAND}`?\n"
+    assert capsys.readouterr().err == f"urdfkit: /simpleton/cmd_vl has no subscribers; did you mean `{COMMAND}`?\n"
 
 
 def test_without_a_simulation_it_says_how_to_start_one(tmp_path: Path, monkeypatch, capsys) -> None:
@@ -192,7 +192,7 @@ def test_a_simulation_that_is_starting_is_found_and_says_what_it_does(tmp_path: 
         server.declare("progress", label=None)
         server.declare("fault", message="no such wheel")
         assert main(["topic", "list"]) == 2
-        assert capsys.readouterr().err == "urdfkit: the simulation says: no such wheel\n"
+        assert capsys.readouterr().err == "urdfkit: the simulation reports: no such wheel\n"
 
 
 def start(*words: str) -> AbstractContextManager[subprocess.Popen[str]]:
@@ -207,7 +207,7 @@ def test_ctrl_c_ends_it_quietly(ride, until) -> None:
         echo.send_signal(signal.SIGINT)
         assert echo.communicate(timeout=PATIENCE)[1] == ""
         assert echo.returncode == 0
-    until(lambda: listeners(ride, "/clock") == 0)
+    until(lambda: subscribers(ride, "/clock") == 0)
 
 
 def test_a_closed_pipe_ends_it_quietly(ride, until) -> None:
@@ -218,7 +218,7 @@ def test_a_closed_pipe_ends_it_quietly(ride, until) -> None:
         assert echo.wait(timeout=PATIENCE) == 141
         assert echo.stderr is not None
         assert echo.stderr.read() == ""
-    until(lambda: listeners(ride, "/clock") == 0)
+    until(lambda: subscribers(ride, "/clock") == 0)
 
 
 def test_nothing_heavy_is_imported_for_the_help() -> None:
@@ -264,9 +264,9 @@ def test_yaml_of_a_message() -> None:
     ]
     assert as_yaml(0.5) == "0.5\n"
     assert part(message, "e[1].f") == "nan"
-    with pytest.raises(UsageError, match="it is no array"):
+    with pytest.raises(UsageError, match="it is not an array"):
         part(message, "a[0]")
-    with pytest.raises(UsageError, match="a path is as"):
+    with pytest.raises(UsageError, match="write a path such as"):
         part(message, "a b")
 
 
@@ -275,5 +275,5 @@ def test_messages_on_the_command_line() -> None:
     assert message_of(["{data: 1}"]) == {"data": 1}
     assert message_of(["0.5"]) == [0.5]
     assert message_of(["[1, 2]", "[3]"]) == [[1, 2], [3]]
-    with pytest.raises(UsageError, match="holds what no message can"):
+    with pytest.raises(UsageError, match="holds a value that no message supports"):
         message_of(["2024-01-01"])

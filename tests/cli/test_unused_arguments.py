@@ -18,7 +18,7 @@ TEXT = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="pr
         ("use_arm", []),
         ("side", []),
         ("prefx", ["no file uses the argument `prefx`; did you mean `prefix`?"]),
-        ("foo", ["no file uses the argument `foo` (there are prefix)"]),
+        ("foo", ["no file uses the argument `foo` (declared: prefix)"]),
     ],
 )
 def test_what_is_used(name: str, said: list[str]) -> None:
@@ -26,7 +26,7 @@ def test_what_is_used(name: str, said: list[str]) -> None:
 
 
 def test_a_file_without_arguments() -> None:
-    assert unused({"a": "1"}, ["<robot/>"]) == ["no file uses the argument `a`; it has none"]
+    assert unused({"a": "1"}, ["<robot/>"]) == ["no file uses the argument `a`; the robot declares none"]
 
 
 @pytest.mark.parametrize("command", [["info"], ["tf", "--tree"], ["sim", "run", "--for", "0"]])

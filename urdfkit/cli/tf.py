@@ -1,4 +1,4 @@
-"""``urdfkit tf``: one transform, all of them, or the frame tree."""
+"""``urdfkit tf``: print one transform, all transforms, or the frame tree."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "words",
         nargs="*",
         metavar="MODEL [PARENT CHILD]",
-        help="a .urdf or .xacro file, a package folder or a robot name; key:=value xacro arguments; then the frame to "
-        "express the transform in and the frame looked for (all frames in the root frame when left out)",
+        help="a .urdf or .xacro file, a package folder or a robot name; key:=value xacro arguments; then the parent "
+        "and child frame of the transform (default: all frames relative to the root frame)",
     )
     parser.add_argument(
         "--joint",
@@ -45,30 +45,36 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="extend",
         default=[],
         metavar="name=value",
-        help="joint positions in rad or m; joints left out are at zero (a planar or floating joint has several: "
+        help="joint positions in rad or m; the default is zero (planar and floating joints have several: "
         "name/x, name/y, name/theta, ...)",
     )
     parser.add_argument("--json", action="store_true", help="print one JSON value")
     parser.add_argument("--tree", action="store_true", help="print or draw the frame tree")
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="with --tree: draw into a .svg, .dot or .pdf")
     parser.add_argument(
-        "--package-path", action="append", default=[], metavar="DIR", help="look for packages here too (repeatable)"
+        "-o", "--output", type=Path, metavar="FILE", help="with --tree: write a drawing to a .svg, .dot or .pdf file"
+    )
+    parser.add_argument(
+        "--package-path",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="search this folder for packages too (repeatable)",
     )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print what was asked for."""
+    """Print the requested transforms or the frame tree."""
     model, frames = _split(arguments.words)
     if len(frames) == 1:
-        raise UsageError(f"tf: a transform needs PARENT and CHILD; after `{frames[0]}` the CHILD is missing")
+        raise UsageError(f"tf: a transform needs PARENT and CHILD; add the CHILD frame after `{frames[0]}`")
     if len(frames) > 2:
-        raise UsageError(f"tf: one PARENT and one CHILD, not {len(frames)} frames: {' '.join(frames)}")
+        raise UsageError(f"tf: expected one PARENT and one CHILD, got {len(frames)} frames: {' '.join(frames)}")
     if arguments.output is not None:
         if not arguments.tree:
-            raise UsageError("tf: -o draws the frame tree and needs --tree")
+            raise UsageError("tf: -o requires --tree")
         if arguments.output.suffix.lower() not in _DRAWINGS:
             hint = did_you_mean(arguments.output.suffix, _DRAWINGS)
-            raise UsageError(f"tf: -o {arguments.output}: draws {', '.join(_DRAWINGS)} files{hint}")
+            raise UsageError(f"tf: -o {arguments.output}: unsupported file type; use {', '.join(_DRAWINGS)}{hint}")
     positions = _positions(arguments.joint)
 
     from urdfkit.kinematics.pinocchio_requirement import require_pinocchio
@@ -85,7 +91,7 @@ def run(arguments: argparse.Namespace) -> int:
     _warn_of_limits(tree, positions)
     if arguments.tree:
         if frames:
-            raise UsageError("tf: either PARENT and CHILD or --tree")
+            raise UsageError("tf: PARENT and CHILD cannot be combined with --tree")
         _show_tree(tree, output=arguments.output, as_json=arguments.json)
         if arguments.output is not None and not arguments.quiet:
             print(f"wrote {arguments.output}", file=sys.stderr)
@@ -101,35 +107,35 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _split(words: list[str]) -> tuple[list[str], list[str]]:
-    """Return the words that mean the model and the frames after it."""
+    """Split the words into the model with its arguments and the frames."""
     plain = [word for word in words if ":=" not in word]
     return [*plain[:1], *(word for word in words if ":=" in word)], plain[1:]
 
 
 def _positions(words: Iterable[str]) -> dict[str, float]:
-    """Read ``name=value`` words, several in one when separated by commas.
+    """Parse ``name=value`` words; one word may hold several, separated by commas.
 
     Raises:
-        UsageError: a word of another form, a name twice, a value that is no finite number.
+        UsageError: a word has another form, a name occurs twice, or a value is not a finite number.
     """
-    found: dict[str, float] = {}
+    values: dict[str, float] = {}
     for word in (part for words_of_one in words for part in words_of_one.split(",") if part):
         name, separator, text = word.partition("=")
         if not separator or not name:
-            raise UsageError(f"tf: --joint takes name=value, not `{word}`")
-        if name in found:
-            raise UsageError(f"tf: --joint {name} is given twice")
+            raise UsageError(f"tf: --joint expects name=value, got `{word}`")
+        if name in values:
+            raise UsageError(f"tf: --joint {name} occurs twice")
         try:
-            found[name] = float(text)
+            values[name] = float(text)
         except ValueError:
             raise UsageError(f"tf: --joint {name}: `{text}` is not a number [rad or m]") from None
-        if found[name] - found[name] != 0.0:  # NaN or infinite
+        if values[name] - values[name] != 0.0:  # NaN or infinite
             raise UsageError(f"tf: --joint {name}: {text} is not a finite number")
-    return found
+    return values
 
 
 def _warn_of_limits(tree: TransformTree, positions: dict[str, float]) -> None:
-    """Say which joints that were set, or follow one that was, are outside their limits; they are placed all the same.
+    """Warn of positions outside the limits, including mimic joints of the set joints; the positions are used anyway.
 
     Raises:
         KinematicsError: an unknown joint, or a mimic joint.
@@ -157,7 +163,7 @@ def _echo(transform: Transform) -> str:
 
 
 def _table(root: str, transforms: list[Transform]) -> str:
-    """Return the transforms as a table, a frame in a row."""
+    """Return the transforms as a table with one row per frame."""
     widest = max(len(transform.child) for transform in transforms)
     heads = ("x [m]", "y [m]", "z [m]", "roll [rad]", "pitch [rad]", "yaw [rad]")
     lines = [f"frames in `{root}`", " ".join([" " * widest, *(f"{head:>11}" for head in heads)])]
@@ -203,13 +209,13 @@ def _pdf(dot: str) -> bytes:
 
     Raises:
         MissingDependencyError: Graphviz is not installed.
-        ResourceError: it failed.
+        ResourceError: Graphviz failed.
     """
     program = shutil.which("dot")
     if program is None:
         raise MissingDependencyError(
-            "tf: a .pdf is drawn by Graphviz, which is not installed (apt install graphviz); -o frames.svg or "
-            "frames.dot need nothing"
+            "tf: a .pdf is drawn by Graphviz, which is not installed (apt install graphviz); use -o frames.svg "
+            "or frames.dot instead"
         )
     drawn = subprocess.run([program, "-Tpdf"], input=dot.encode(), capture_output=True, check=False)
     if drawn.returncode != 0:
@@ -219,7 +225,7 @@ def _pdf(dot: str) -> bytes:
 
 
 def _write(text: str) -> None:
-    """Write to standard output, whatever its encoding can show."""
+    """Write to standard output; replace characters that its encoding does not support."""
     encoding = sys.stdout.encoding or "utf-8"
     try:
         text.encode(encoding)

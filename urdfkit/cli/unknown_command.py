@@ -1,4 +1,4 @@
-"""The error for a first word that is no command: names the command that was probably meant."""
+"""The error for an unknown command, with the nearest command."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ OTHER_NAMES = {
     **dict.fromkeys(("transform", "frames", "tf_echo", "view_frames"), "tf"),
     **dict.fromkeys(("rules", "explain"), "rule"),
 }
-"""A subcommand, or the word of another tool → the command of urdfkit."""
+"""Subcommand or command of another tool → command of urdfkit."""
 
 
 def refuse(word: str, commands: Iterable[str]) -> NoReturn:
-    """Raise for a first word that is no command.
+    """Raise for an unknown command.
 
     Args:
         word: the word typed.
-        commands: the commands there are.
+        commands: names of all commands.
 
     Raises:
         UsageError: always.

@@ -1,4 +1,4 @@
-"""Xacro arguments that no file uses: xacro takes them in silence, and a typing error with them."""
+"""Warnings for xacro arguments that no file uses; xacro ignores them, and with them misspelt names."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ _DECLARED = re.compile(r"""<\s*(?:\w+:)?arg\b[^>]*?\bname\s*=\s*["']([^"']+)["']
 
 
 def note_unused(arguments: Mapping[str, str], files: Iterable[Path], *, quiet: bool = False) -> None:
-    """Warn of arguments that no file uses, on standard error.
+    """Warn of unused arguments on standard error.
 
     Args:
-        arguments: as given.
-        files: those that were read.
-        quiet: say nothing.
+        arguments: arguments of the command line.
+        files: the files of the robot.
+        quiet: print nothing.
     """
     if quiet or not arguments:
         return
@@ -30,19 +30,21 @@ def note_unused(arguments: Mapping[str, str], files: Iterable[Path], *, quiet: b
 
 
 def unused(arguments: Mapping[str, str], texts: Iterable[str]) -> list[str]:
-    """Return a line for each argument that is neither declared nor used, with the nearest that is.
+    """Return one line per argument that is neither declared nor used, with the nearest declared name.
 
     Args:
-        arguments: as given.
-        texts: of all files.
+        arguments: arguments of the command line.
+        texts: texts of all files.
     """
     texts = list(texts)
     declared = [name for text in texts for name in _DECLARED.findall(text)]
-    found = []
+    lines = []
     for name in arguments:
         own = re.escape(name)
         use = re.compile(rf"\$\(arg\s+{own}\s*\)|\$\(eval\b[^<\"]*?\b{own}\b|\bxacro\.arg\(.{own}.\)")
         if name not in declared and not any(use.search(text) for text in texts):
-            known = f" (there are {', '.join(dict.fromkeys(declared))})" if declared else "; it has none"
-            found.append(f"no file uses the argument `{name}`{did_you_mean(name, declared) or known}")
-    return found
+            available = (
+                f" (declared: {', '.join(dict.fromkeys(declared))})" if declared else "; the robot declares none"
+            )
+            lines.append(f"no file uses the argument `{name}`{did_you_mean(name, declared) or available}")
+    return lines

@@ -1,4 +1,4 @@
-"""How the values of ``sim run``'s options are written."""
+"""Parsers of the values of ``sim run``'s options."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def number(text: str) -> float:
     """Return a finite number.
 
     Raises:
-        argparse.ArgumentTypeError: it is not one.
+        argparse.ArgumentTypeError: the text is not a finite number.
     """
     try:
         value = float(text)
@@ -34,7 +34,7 @@ def seed(text: str) -> int:
     except ValueError:
         value = -1
     if value < 0:
-        raise argparse.ArgumentTypeError(f"`{text}` is no seed; it must be a whole number, zero or more")
+        raise argparse.ArgumentTypeError(f"`{text}` is not a seed; it must be a whole number, zero or more")
     return value
 
 
@@ -55,18 +55,18 @@ def positive(text: str) -> float:
 
 
 def vector(names: str, *, finite: bool = True) -> Callable[[str], tuple[float, ...]]:
-    """Return a reader of comma-separated numbers.
+    """Return a parser of comma-separated numbers.
 
     Args:
-        names: what they are, comma-separated, e.g. ``VX,VY,WZ``.
-        finite: refuse NaN and infinity.
+        names: names of the numbers, comma-separated, e.g. ``VX,VY,WZ``.
+        finite: reject NaN and infinity.
     """
     count = names.count(",") + 1
 
     def read(text: str) -> tuple[float, ...]:
         parts = text.split(",")
         if len(parts) != count:
-            raise argparse.ArgumentTypeError(f"`{text}` has {_counted(len(parts))}, it takes {count}: {names}")
+            raise argparse.ArgumentTypeError(f"`{text}` has {_counted(len(parts))}, expected {count}: {names}")
         return tuple(number(part) if finite else _any_number(part) for part in parts)
 
     return read
@@ -84,7 +84,7 @@ def _counted(count: int) -> str:
 
 
 class Pose(NamedTuple):
-    """``X,Y,Z,YAW`` or ``X,Y,Z,ROLL,PITCH,YAW``; `z` is None where it was left empty."""
+    """``X,Y,Z,YAW`` or ``X,Y,Z,ROLL,PITCH,YAW``; `z` is None where it is empty."""
 
     x: float
     y: float
@@ -98,12 +98,12 @@ def pose(text: str) -> Pose:
     """Return the pose of ``--spawn``.
 
     Raises:
-        argparse.ArgumentTypeError: wrong count, or not numbers.
+        argparse.ArgumentTypeError: the number of values is wrong, or a value is not a number.
     """
     parts = text.split(",")
     if len(parts) not in (4, 6):
         raise argparse.ArgumentTypeError(
-            f"`{text}` has {_counted(len(parts))}, it takes X,Y,Z,YAW or X,Y,Z,ROLL,PITCH,YAW (Z may be empty)"
+            f"`{text}` has {_counted(len(parts))}, expected X,Y,Z,YAW or X,Y,Z,ROLL,PITCH,YAW (Z may be empty)"
         )
     z = number(parts[2]) if parts[2].strip() else None
     angles = [number(part) for part in parts[3:]]
@@ -113,10 +113,10 @@ def pose(text: str) -> Pose:
 
 def targets(text: str) -> dict[str, float]:
     """Return joint → value of ``name=value,…``."""
-    found = {}
+    values = {}
     for name, value in _assignments(text):
-        found[name] = number(value)
-    return found
+        values[name] = number(value)
+    return values
 
 
 def joint_starts(text: str) -> tuple[dict[str, float], dict[str, float]]:
@@ -131,19 +131,19 @@ def joint_starts(text: str) -> tuple[dict[str, float], dict[str, float]]:
 
 
 def _assignments(text: str) -> list[tuple[str, str]]:
-    found: dict[str, str] = {}
+    values: dict[str, str] = {}
     for word in text.split(","):
         name, equals, value = word.partition("=")
         if not equals or not name.strip():
             raise argparse.ArgumentTypeError(f"`{word}` is not NAME=VALUE")
-        if name.strip() in found:
+        if name.strip() in values:
             raise argparse.ArgumentTypeError(f"`{text}` names `{name.strip()}` twice")
-        found[name.strip()] = value.strip()
-    return list(found.items())
+        values[name.strip()] = value.strip()
+    return list(values.items())
 
 
 class TopicMessage(NamedTuple):
-    """``TOPIC TYPE YAML@T``: what to publish where, and when [s]."""
+    """``TOPIC TYPE YAML@T``: the message, its topic, and the time to publish it [s]."""
 
     topic: str
     type: str
@@ -158,7 +158,7 @@ def topic_message(text: str) -> TopicMessage:
     """Return the parts of ``--topic-pub``; without ``@T`` the time is 0.
 
     Raises:
-        argparse.ArgumentTypeError: topic or type is missing, or the time makes no sense.
+        argparse.ArgumentTypeError: topic or type is missing, or the time is invalid.
     """
     t = 0.0
     if at := _AT.match(text):
@@ -170,10 +170,10 @@ def topic_message(text: str) -> TopicMessage:
 
 
 def topic_file(*suffixes: str) -> Callable[[str], TopicFile]:
-    """Return a reader of ``TOPIC=FILE`` or ``FILE``.
+    """Return a parser of ``TOPIC=FILE`` or ``FILE``.
 
     Args:
-        suffixes: that the file may have, such as ``.png``.
+        suffixes: accepted suffixes of the file, such as ``.png``.
     """
 
     def read(text: str) -> TopicFile:

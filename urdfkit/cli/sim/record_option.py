@@ -1,4 +1,4 @@
-"""``--record FILE.mcap``: every message of a simulation in one file."""
+"""``--record FILE.mcap``: record every message of a simulation in one file."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ if TYPE_CHECKING:
 
     from urdfkit.sim.simulator import Simulator
 
-LOOK = 0.1
-"""Simulated seconds between looks for topics that have come up."""
+NEW_TOPIC_PERIOD = 0.1
+"""Simulated seconds between two checks for new topics."""
 
 
 def add_record(parser: argparse.ArgumentParser) -> None:
     """Add ``--record``."""
     parser.add_argument(
-        "--record", metavar="FILE.mcap", help="record every topic, pictures too, for ros2 bag and its relatives"
+        "--record", metavar="FILE.mcap", help="record every topic, including images, as MCAP for ros2 bag and Foxglove"
     )
 
 
 def check_record(file: str | None) -> None:
-    """Refuse a recording that cannot be written, before anything is loaded.
+    """Reject a recording that cannot be written, before a robot is loaded.
 
     Args:
-        file: of ``--record``; None for none.
+        file: value of ``--record``; None without the option.
 
     Raises:
-        UsageError: it is not called ``.mcap``, or cannot be written where it is.
+        UsageError: the suffix is not ``.mcap``, or the file cannot be written.
     """
     if file is None:
         return
@@ -45,12 +45,12 @@ def check_record(file: str | None) -> None:
 
 @contextmanager
 def recording(simulator: Simulator, file: str | None, *, quiet: bool = False) -> Iterator[Callable[[], None]]:
-    """Record while inside; what is yielded looks for topics that have come up.
+    """Record inside the context; yield a function that subscribes to new topics.
 
     Args:
-        simulator: whose messages.
-        file: where to; None records nothing.
-        quiet: do not say what was recorded.
+        simulator: the source of the messages.
+        file: the file to write; None to record nothing.
+        quiet: do not print a summary.
 
     Raises:
         UrdfkitError: the file cannot be written.
@@ -63,7 +63,7 @@ def recording(simulator: Simulator, file: str | None, *, quiet: bool = False) ->
     recorder = Recorder(simulator.bus, file, lambda: simulator.t)
     try:
         yield recorder.look
-    finally:  # what was recorded is kept, whatever ended it
+    finally:  # keep the recording after an error too
         recorder.look()
         recorder.close()
         if not quiet:

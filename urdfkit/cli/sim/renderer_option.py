@@ -1,15 +1,15 @@
-"""The option `--renderer`, of every command that simulates."""
+"""The option `--renderer` of every command that simulates."""
 
 from __future__ import annotations
 
 import argparse
 
 SYNONYMS = {"gl": ("opengl", "egl", "gpu", "moderngl"), "ray": ("rays", "raycast", "raycaster", "raytracer", "cpu")}
-"""What else the renderers are called."""
+"""Other names of the renderers."""
 
 
 def _renderer(word: str) -> str:
-    """Return the renderer that a word means."""
+    """Return the renderer with a name or synonym."""
     plain = word.lower()
     return next((name for name, others in SYNONYMS.items() if plain in others), plain)
 
@@ -21,6 +21,6 @@ def add_renderer(parser: argparse.ArgumentParser) -> None:
         type=_renderer,
         choices=("auto", "ray", "gl"),
         default="auto",
-        help="who takes the cameras' pictures: ray casts rays (also rays, cpu), gl draws by OpenGL (also opengl, egl, "
-        "gpu), auto whichever is quicker (default: auto)",
+        help="renderer of camera images: ray casts rays (also rays, cpu), gl uses OpenGL (also opengl, egl, "
+        "gpu), auto selects the faster one (default: auto)",
     )

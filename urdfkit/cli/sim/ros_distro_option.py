@@ -1,4 +1,4 @@
-"""The option `--ros-distro`, of every command that simulates."""
+"""The option `--ros-distro` of every command that simulates."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import argparse
 
 
 def add_distro(parser: argparse.ArgumentParser) -> None:
-    """Add the option; its value is checked by who needs it."""
+    """Add the option; the simulator checks its value."""
     parser.add_argument(
         "--ros-distro",
         metavar="NAME",
-        help="behave as this ROS distribution did, e.g. kinetic (default: the newest)",
+        help="reproduce the behaviour of this ROS distribution, e.g. kinetic (default: the newest)",
     )

@@ -1,4 +1,4 @@
-"""`urdfkit sim run`: simulate headless, as fast as it can, and report."""
+"""`urdfkit sim run`: simulate headless, faster than real time, and report the final state."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from urdfkit.app.termination import ended_by_signals
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim import option_values
 from urdfkit.cli.sim.controllers_option import add_controllers
-from urdfkit.cli.sim.record_option import LOOK, add_record, check_record, recording
+from urdfkit.cli.sim.record_option import NEW_TOPIC_PERIOD, add_record, check_record, recording
 from urdfkit.cli.sim.renderer_option import add_renderer
 from urdfkit.cli.sim.ros_distro_option import add_distro
 from urdfkit.cli.unused_arguments import note_unused
@@ -28,10 +28,10 @@ if TYPE_CHECKING:
     from urdfkit.sim.simulator import Simulator
 
 CHUNK = 1.0
-"""Simulated seconds between looks at the clock."""
+"""Simulated seconds between two readings of the clock."""
 
-AGAIN = 0.1
-"""Simulated seconds between velocity commands to controllers, which forget them."""
+COMMAND_PERIOD = 0.1
+"""Simulated seconds between velocity commands to controllers, whose commands time out."""
 
 PROGRESS = 0.5
 """Wall seconds between lines of progress."""
@@ -39,7 +39,7 @@ PROGRESS = 0.5
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments."""
-    # argparse takes `-1,0,0` for an option unless told that it looks like a number.
+    # argparse parses `-1,0,0` as an option unless this pattern matches it.
     parser._negative_number_matcher = re.compile(r"^-\.?\d|^-(inf|nan)", re.IGNORECASE)
     add_model(parser)
     add = parser.add_argument
@@ -48,26 +48,49 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--world",
         default="empty",
         metavar="WORLD",
-        help="a world we ship (empty, void, house, …) or an SDF file (default: empty)",
+        help="bundled world (empty, void, house, …) or an SDF file (default: empty)",
     )
     add(
-        "--dt", type=option_values.positive, metavar="S", help="step [s] (default: what the world asks for, else 0.001)"
+        "--dt",
+        type=option_values.positive,
+        metavar="S",
+        help="time step [s] (default: the step of the world, else 0.001)",
     )
-    add("--seed", type=option_values.seed, default=0, metavar="N", help="of everything random (default: 0)")
+    add("--seed", type=option_values.seed, default=0, metavar="N", help="seed of all random numbers (default: 0)")
     add(
         "--spawn",
         type=option_values.pose,
         metavar="X,Y,Z,YAW",
-        help="pose of the root link, or X,Y,Z,ROLL,PITCH,YAW [m, rad]; an empty Z sets it on the ground",
+        help="pose of the root link, or X,Y,Z,ROLL,PITCH,YAW [m, rad]; an empty Z places the robot on the ground",
     )
-    add("--gravity", type=option_values.vector("GX,GY,GZ"), metavar="GX,GY,GZ", help="[m/s²] (default: the world's)")
+    add(
+        "--gravity",
+        type=option_values.vector("GX,GY,GZ"),
+        metavar="GX,GY,GZ",
+        help="gravity [m/s²] (default: the world's)",
+    )
     twist = "VX,VY,VZ,WX,WY,WZ"
-    add("--initial-twist", type=option_values.vector(twist), metavar=twist, help="root link, world axes [m/s, rad/s]")
+    add(
+        "--initial-twist",
+        type=option_values.vector(twist),
+        metavar=twist,
+        help="velocity of the root link in world axes [m/s, rad/s]",
+    )
     joints = "NAME=POSITION[:VELOCITY],…"
-    add("--initial-joints", type=option_values.joint_starts, metavar=joints, help="[rad or m, rad/s or m/s]")
+    add(
+        "--initial-joints",
+        type=option_values.joint_starts,
+        metavar=joints,
+        help="initial state of joints [rad or m, rad/s or m/s]",
+    )
     velocity = option_values.vector("VX,VY,WZ", finite=False)
-    add("--cmd-vel", type=velocity, metavar="VX,VY,WZ", help="command held from the start [m/s, m/s, rad/s]")
-    add("--cmd-ramp", type=option_values.duration, metavar="S", help="reach the command in S seconds, evenly")
+    add(
+        "--cmd-vel",
+        type=velocity,
+        metavar="VX,VY,WZ",
+        help="velocity command, constant from the start [m/s, m/s, rad/s]",
+    )
+    add("--cmd-ramp", type=option_values.duration, metavar="S", help="increase the command linearly over S seconds")
     add(
         "--topic-pub",
         type=option_values.topic_message,
@@ -80,17 +103,17 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--joint-target",
         type=option_values.targets,
         metavar="NAME=VALUE,…",
-        help="bring joints there and hold them [rad or m]",
+        help="move joints to these positions and hold them [rad or m]",
     )
-    add("--fixed-base", action="store_true", help="bolt the root link to the world")
-    add("--until", metavar='"EXPR"', help='stop as soon as it is true, e.g. "x > 1 or t > 3"')
+    add("--fixed-base", action="store_true", help="fix the root link to the world")
+    add("--until", metavar='"EXPR"', help='stop when the expression is true, e.g. "x > 1 or t > 3"')
     add(
         "--save-image",
         type=option_values.topic_file(".png"),
         action="append",
         default=[],
         metavar="TOPIC=FILE.png",
-        help="write the last picture of a topic (repeatable; TOPIC may be left out where there is only one)",
+        help="write the last image of a topic (repeatable; TOPIC is optional if there is only one)",
     )
     add(
         "--save-scan",
@@ -98,15 +121,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="TOPIC=FILE.json",
-        help="write the last scan or cloud of a topic, as JSON or .csv (repeatable; as --save-image)",
+        help="write the last scan or point cloud of a topic as JSON or .csv (repeatable; TOPIC as in --save-image)",
     )
     add_record(parser)
-    add("--save-world", metavar="FILE", help="write the world as it is in the end, without the robot, as SDF")
+    add("--save-world", metavar="FILE", help="write the final world without the robot as SDF")
     add(
         "--engine",
         choices=("compiled", "pinocchio"),
         default="compiled",
-        help="who computes the dynamics (pinocchio: the reference, slow)",
+        help="dynamics engine (pinocchio: slow reference implementation)",
     )
     add_distro(parser)
     add_controllers(parser)
@@ -123,7 +146,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Simulate and report."""
     if arguments.cmd_ramp is not None and arguments.cmd_vel is None:
-        raise UsageError("sim run: --cmd-ramp ramps up --cmd-vel, which is missing")
+        raise UsageError("sim run: --cmd-ramp requires --cmd-vel")
     from urdfkit.app.simulation import image_files, saved_topics
     from urdfkit.atomic import write_bytes
     from urdfkit.cli.sim import scan_files
@@ -137,9 +160,9 @@ def run(arguments: argparse.Namespace) -> int:
     command(simulator, arguments)
     images = image_files.find_topics(simulator, arguments.save_image)
     ranges = scan_files.find_topics(simulator, arguments.save_scan)
-    with recording(simulator, arguments.record, quiet=arguments.quiet) as look:
+    with recording(simulator, arguments.record, quiet=arguments.quiet) as subscribe_to_new:
         if arguments.record is not None:
-            simulator.every(LOOK, look)
+            simulator.every(NEW_TOPIC_PERIOD, subscribe_to_new)
         spent = advance(simulator, arguments.duration, arguments.until)
     for file, content in [*image_files.contents(simulator, images), *scan_files.contents(simulator, ranges)]:
         write_bytes(file, content)
@@ -150,7 +173,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def load(arguments: argparse.Namespace) -> Simulator:
-    """Return the simulator, with the robot where it starts; its kernel is compiled once robot and world are read.
+    """Return the simulator with the robot in its initial state; compile the kernel after robot and world are read.
 
     Raises:
         UrdfkitError: robot or world cannot be loaded or simulated.
@@ -190,10 +213,10 @@ def load(arguments: argparse.Namespace) -> Simulator:
 
 
 def command(simulator: Simulator, arguments: argparse.Namespace) -> None:
-    """Schedule what the options want published and set.
+    """Schedule the messages and targets of the options.
 
     Raises:
-        UrdfkitError: no such topic, type, field or joint.
+        UrdfkitError: a topic, type, field or joint is unknown.
     """
     if arguments.cmd_vel is not None:
         ramp(simulator, arguments.cmd_vel, arguments.cmd_ramp or 0.0)
@@ -205,10 +228,10 @@ def command(simulator: Simulator, arguments: argparse.Namespace) -> None:
 
 
 def _require_free(simulator: Simulator, joint: str) -> None:
-    """Refuse to hold a joint that a controller commands in every step.
+    """Reject a target for a joint that a controller commands in every step.
 
     Raises:
-        SimulationError: a running controller claims it.
+        SimulationError: a running controller claims the joint.
     """
     for one in simulator.controllers.list():
         if one.state in ("running", "active") and any(claim.split("/")[0] == joint for claim in one.claims):
@@ -218,16 +241,16 @@ def _require_free(simulator: Simulator, joint: str) -> None:
 
 
 def ramp(simulator: Simulator, command: tuple[float, float, float], seconds: float) -> None:
-    """Publish a velocity command that rises evenly from zero.
+    """Publish a velocity command that increases linearly from zero.
 
-    It is published as often as the drives look at it, each time with the mean of the ramp until the next time: what the
-    drives hold in between adds up to exactly the ramp. Controllers hold a command for half a second or so, and hear it
-    ten times a second from then on.
+    The command is published once per update of the drives, each time with the mean of the ramp until the next update:
+    the commands that the drives hold add up to exactly the ramp. Controllers time out after about half a second, so
+    they receive the final command ten times a second.
 
     Args:
         simulator: not yet advanced.
         command: VX, VY [m/s], WZ [rad/s].
-        seconds: how long it rises.
+        seconds: duration of the ramp.
 
     Raises:
         SimulationError: the robot has no drive.
@@ -243,7 +266,9 @@ def ramp(simulator: Simulator, command: tuple[float, float, float], seconds: flo
         linear, angular = (part * vx, part * vy, 0.0), (0.0, 0.0, part * wz)
         simulator.at(begin, lambda linear=linear, angular=angular: simulator.command(linear, angular))  # type: ignore[misc]
     if simulator.controllers.command_topics:
-        simulator.every(AGAIN, lambda: simulator.command((vx, vy, 0.0), (0.0, 0.0, wz)), start=seconds + AGAIN)
+        simulator.every(
+            COMMAND_PERIOD, lambda: simulator.command((vx, vy, 0.0), (0.0, 0.0, wz)), start=seconds + COMMAND_PERIOD
+        )
     if not simulator.command_topics:
         simulator.command((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))  # raises
 
@@ -252,7 +277,7 @@ def publish_at(simulator: Simulator, wanted: option_values.TopicMessage) -> None
     """Schedule one message.
 
     Raises:
-        UsageError: no such type or field, or the topic carries another type.
+        UsageError: the type or a field is unknown, or the topic has another type.
     """
     import yaml
 
@@ -265,26 +290,28 @@ def publish_at(simulator: Simulator, wanted: option_values.TopicMessage) -> None
         raise UsageError(f"--topic-pub {wanted.topic}: `{wanted.text}` is not YAML ({_first_line(error)})") from None
     kind = full_type_name(wanted.type)
     message = from_fields(kind, fields)
-    heard = [topic.name for topic in simulator.bus.topics if topic.subscribers]
+    subscribed = [topic.name for topic in simulator.bus.topics if topic.subscribers]
     simulator.bus.advertise(wanted.topic, kind)
-    if absolute(wanted.topic) not in heard:
-        simulator.note(f"nobody listens to {absolute(wanted.topic)}{nearest_topic(absolute(wanted.topic), heard)}")
+    if absolute(wanted.topic) not in subscribed:
+        simulator.note(
+            f"{absolute(wanted.topic)} has no subscribers{nearest_topic(absolute(wanted.topic), subscribed)}"
+        )
     simulator.at(wanted.t, lambda: simulator.bus.publish(wanted.topic, kind, message))
 
 
-def nearest_topic(name: str, heard: Sequence[str]) -> str:
-    """Return ``; did you mean …`` for the topic that is nearest to a name, as a whole or by its last part."""
-    if hint := did_you_mean(name, heard):
+def nearest_topic(name: str, subscribed: Sequence[str]) -> str:
+    """Return ``; did you mean …`` for the topic with the nearest name, or with the nearest last part of the name."""
+    if hint := did_you_mean(name, subscribed):
         return hint
-    by_end = {topic.rpartition("/")[2]: topic for topic in reversed(heard)}
+    by_end = {topic.rpartition("/")[2]: topic for topic in reversed(subscribed)}
     if end := did_you_mean(name.rpartition("/")[2], by_end):
         return f"; did you mean `{by_end[end.split('`')[1]]}`?"
-    own = sorted(topic for topic in heard if not topic.startswith(("/gazebo/", "/world/")))
-    return f" (heard are {', '.join(own)})" if own else ""
+    own = sorted(topic for topic in subscribed if not topic.startswith(("/gazebo/", "/world/")))
+    return f" (topics with subscribers: {', '.join(own)})" if own else ""
 
 
 def advance(simulator: Simulator, seconds: float, until: str | None) -> Effort:
-    """Advance, with progress on a terminal, and return what it took.
+    """Advance, with progress on a terminal; return the time spent.
 
     Raises:
         UrdfkitError: the simulation diverged, or the condition cannot be evaluated.

@@ -1,4 +1,4 @@
-"""What ``sim run`` reports: the JSON of the command line's contract, and a summary for people."""
+"""Reports of ``sim run``: the JSON object, and a summary as text."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from urdfkit.sim.state.quaternion import to_rpy
 if TYPE_CHECKING:
     from urdfkit.sim.simulator import Simulator
 
-SHOWN = 8
-"""How many joints people are shown."""
+MAX_JOINTS = 8
+"""Number of joints in the summary."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class Effort:
 def as_json(simulator: Simulator, spent: Effort) -> dict[str, Any]:
     """Return the report as JSON values.
 
-    Planar and floating joints tell what the base tells, in the frame that they have in their parent; ``odometry`` is
+    Planar and floating joints have the same fields as the base, relative to their parent frame; ``odometry`` is
     keyed by odometry frame; ``real_time_factor`` is simulated seconds per CPU second.
     """
     state = simulator.state
@@ -82,7 +82,7 @@ def as_json(simulator: Simulator, spent: Effort) -> dict[str, Any]:
 
 
 def as_text(simulator: Simulator, spent: Effort) -> str:
-    """Return the report for people."""
+    """Return the summary as text."""
     state = simulator.state
     pose = state.base_pose
     rate = f", {state.t / spent.cpu:.0f} × real time" if spent.cpu > 0 else ""
@@ -94,11 +94,11 @@ def as_text(simulator: Simulator, spent: Effort) -> str:
         off = hypot(position[0] - pose[0], position[1] - pose[1])
         lines.append(_line(f"odometry {frame}", position, quaternion) + f"  ({1000 * off:.1f} mm from the base)")
     joints = (*simulator.kinematics.joint_names, *simulator.kinematics.mimic_names)
-    for name in joints[:SHOWN]:
+    for name in joints[:MAX_JOINTS]:
         unit = "m" if simulator.robot.joint_by_name[name].type == "prismatic" else "rad"
         lines.append(f"joint {name}: {state.position(name):.4f} {unit}, {state.velocity(name):.4f} {unit}/s")
-    if len(joints) > SHOWN:
-        lines.append(f"and {len(joints) - SHOWN} more joints (--json shows all)")
+    if len(joints) > MAX_JOINTS:
+        lines.append(f"and {len(joints) - MAX_JOINTS} more joints (--json shows all)")
     for name in simulator.kinematics.several_names:
         pose, twist = state.several(name)
         speed, turning = (" ".join(f"{number + 0.0:.4f}" for number in part) for part in (twist[:3], twist[3:]))
@@ -118,7 +118,7 @@ def _several(simulator: Simulator, joint: str) -> dict[str, Any]:
     }
 
 
-def _line(what: str, position: tuple[float, ...], quaternion: tuple[float, ...]) -> str:
+def _line(label: str, position: tuple[float, ...], quaternion: tuple[float, ...]) -> str:
     # Adding zero turns -0.0000 into 0.0000.
     x, y, z, roll, pitch, yaw = (round(number, 4) + 0.0 for number in (*position, *to_rpy(quaternion)))
-    return f"{what}: x {x:.4f} y {y:.4f} z {z:.4f} m, roll {roll:.4f} pitch {pitch:.4f} yaw {yaw:.4f} rad"
+    return f"{label}: x {x:.4f} y {y:.4f} z {z:.4f} m, roll {roll:.4f} pitch {pitch:.4f} yaw {yaw:.4f} rad"

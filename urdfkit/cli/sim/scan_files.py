@@ -1,4 +1,4 @@
-"""``sim run --save-scan``: the last scan or cloud of a topic, as JSON or as a table."""
+"""``sim run --save-scan``: write the last scan or point cloud of a topic as JSON or CSV."""
 
 from __future__ import annotations
 
@@ -19,31 +19,31 @@ CLOUD = "sensor_msgs/msg/PointCloud2"
 
 
 def find_topics(simulator: Simulator, wanted: Sequence[TopicFile]) -> list[tuple[str, Path]]:
-    """Return the topic and the file of each ``--save-scan``; without a topic it is a scan, a cloud where there is none.
+    """Return topic and file of each ``--save-scan``; the default topic is the only scan, else the only point cloud.
 
     Raises:
-        UsageError: there is no such topic, it carries no scans, or none is named and there are several.
+        UsageError: the topic is unknown or has another type, or the default is ambiguous.
     """
     has_scan = any(topic.type == SCAN for topic in simulator.bus.topics)
-    found = []
+    topics = []
     for each in wanted:
         types = (SCAN,) if has_scan and not each.topic else (SCAN, CLOUD)
-        found += saved_topics.find_topics(
+        topics += saved_topics.find_topics(
             simulator, [each], option="--save-scan", types=types, what="scans", suffix=".json"
         )
-    return found
+    return topics
 
 
 def contents(simulator: Simulator, wanted: Sequence[tuple[str, Path]]) -> Iterator[tuple[Path, bytes]]:
-    """Yield each file and what is to be in it, the last scan of its topic; what is not finite is null in JSON.
+    """Yield each file and its content, the last scan of its topic; numbers that are not finite are null in JSON.
 
     Raises:
-        UsageError: none has been taken so far.
+        UsageError: no scan has been published.
     """
     for topic, file in wanted:
         message = simulator.bus.latest(topic)
         if message is None:
-            raise UsageError(f"--save-scan: no scan came on {topic} in {simulator.t:g} s; run for longer")
+            raise UsageError(f"--save-scan: no scan was published on {topic} in {simulator.t:g} s; increase --for")
         numbers, columns = _scan(message) if hasattr(message, "ranges") else _cloud(message)
         stamp = message.header.stamp
         time = stamp.sec + 1e-9 * stamp.nanosec
@@ -53,7 +53,7 @@ def contents(simulator: Simulator, wanted: Sequence[tuple[str, Path]]) -> Iterat
 
 
 def _scan(message: Any) -> tuple[dict[str, float], dict[str, Any]]:
-    """Return what a LaserScan is, and its columns."""
+    """Return the header fields of a LaserScan, and its columns."""
     import numpy as np
 
     names = ("angle_min", "angle_max", "angle_increment", "range_min", "range_max")
@@ -63,7 +63,7 @@ def _scan(message: Any) -> tuple[dict[str, float], dict[str, Any]]:
 
 
 def _cloud(message: Any) -> tuple[dict[str, float], dict[str, Any]]:
-    """Return what a PointCloud2 is, and its columns."""
+    """Return the size of a PointCloud2, and its columns."""
     import numpy as np
 
     kinds = {1: "i1", 2: "u1", 3: "<i2", 4: "<u2", 5: "<i4", 6: "<u4", 7: "<f4", 8: "<f8"}
@@ -86,7 +86,7 @@ def _cloud(message: Any) -> tuple[dict[str, float], dict[str, Any]]:
 
 
 def _colors(packed: Any, names: str) -> dict[str, Any]:
-    """Return a column of 0 to 255 for each of the colours that PCL packs into 32 bits, blue lowest."""
+    """Return a column of 0 to 255 for each colour of PCL's packed 32-bit colours (blue in the lowest byte)."""
     import numpy as np
 
     bits = np.ascontiguousarray(packed).view("<u4")
@@ -102,17 +102,17 @@ def _json(about: Mapping[str, Any], columns: Mapping[str, Any]) -> str:
 
 
 def _table(columns: Mapping[str, Any]) -> str:
-    """Return comma-separated values with a line of names."""
+    """Return comma-separated values with a header line."""
     rows = zip(*(_plain(values) for values in columns.values()), strict=True)
     lines = [",".join(name.removesuffix("s") if name != "intensities" else "intensity" for name in columns)]
     return "\n".join([*lines, *(",".join(map(repr, row)) for row in rows)]) + "\n"
 
 
 def _plain(values: Any) -> list[float]:
-    """Return numbers of 32 bits by as many digits as they have."""
+    """Return numbers as floats; 32-bit numbers with their shortest decimal representation."""
     import numpy as np
 
-    found: list[float] = values.tolist()
+    numbers: list[float] = values.tolist()
     if values.dtype == np.float32:
-        found = [float(str(each)) for each in values]
-    return found
+        numbers = [float(str(each)) for each in values]
+    return numbers

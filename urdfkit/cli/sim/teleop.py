@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
 
 KEYS = """\
-Drive with W A S D, the arrows, i j k l u o m , . or the pad; let go and the robot stops.
-Shift strafes; q/z change both speeds by 10 %, e/c the turning speed. Ctrl-C ends."""
+Drive with W A S D, the arrow keys, i j k l u o m , . or the pad; the robot stops when you release them.
+Shift strafes; q/z change both speeds by 10 %, e/c the turning speed. Ctrl-C exits."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -33,7 +33,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--world",
         default="empty",
         metavar="WORLD",
-        help="a world we ship (empty, void, house, …) or an SDF file (default: empty)",
+        help="bundled world (empty, void, house, …) or an SDF file (default: empty)",
     )
     add_distro(parser)
     add_controllers(parser)
@@ -59,16 +59,18 @@ def run(arguments: argparse.Namespace) -> int:
         robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
         note_unused(model.arguments, robot.files, quiet=arguments.quiet)
         world = load_world(arguments.world)
-        likeness = Likeness(robot, world)
+        placeholder = Likeness(robot, world)
         server = Server("sim", host=arguments.host, port=arguments.port)
         page = Page(server, host=arguments.host, browser=not arguments.no_browser)
         try:
-            page.open()  # the browser starts, and shows the robot, while the engine is made ready
-            with noted(server.port, server.url, robot.name or "robot"):  # `urdfkit topic` waits with us
+            page.open()  # the browser starts and shows the robot while the engine is compiled
+            with noted(
+                server.port, server.url, robot.name or "robot"
+            ):  # `urdfkit topic` finds the simulation from here on
                 with told_of_faults(server):
-                    likeness.show(server)
-                    server.declare("progress", label="making the engine ready …")
-                    ride = _ride(arguments, robot, world, likeness, server)
+                    placeholder.show(server)
+                    server.declare("progress", label="preparing the engine …")
+                    ride = _ride(arguments, robot, world, placeholder, server)
                 simulator = ride.simulator
                 with recording(simulator, arguments.record) as ride.look:
                     note(KEYS if simulator.command_topics else "this robot has no drive that takes velocity commands")
@@ -78,8 +80,8 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _ride(arguments: argparse.Namespace, robot: Robot, world: World, likeness: Likeness, server: Server) -> Ride:
-    """Compile what has to be, build the world and put all of it on the page."""
+def _ride(arguments: argparse.Namespace, robot: Robot, world: World, placeholder: Likeness, server: Server) -> Ride:
+    """Compile the kernels, build the world and show it on the page."""
     from urdfkit.app.simulation.loop import Ride
     from urdfkit.sim import Simulator
 
@@ -88,7 +90,7 @@ def _ride(arguments: argparse.Namespace, robot: Robot, world: World, likeness: L
         simulator = Simulator(
             robot,
             world=world,
-            scene=likeness.scene,
+            scene=placeholder.scene,
             ros_distro=arguments.ros_distro,
             controllers=arguments.controllers,
             renderer=arguments.renderer,
@@ -99,6 +101,6 @@ def _ride(arguments: argparse.Namespace, robot: Robot, world: World, likeness: L
         ride.show()
     if ride.sights.find():
         compile_rays(server)
-        with progress(server, "building the trees that sensors look through …"):
+        with progress(server, "building the ray-casting trees of sensors …"):
             ride.sights.prepare()
     return ride

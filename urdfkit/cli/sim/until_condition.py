@@ -1,4 +1,4 @@
-"""``--until "EXPR"``: an expression about the robot's state; numbers, comparisons and a few functions, nothing else."""
+"""``--until "EXPR"``: an expression of the robot's state with numbers, comparisons and a few functions."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ FUNCTIONS: dict[str, Callable[..., float]] = {
     "sin": math.sin,
     "cos": math.cos,
 }
-"""Besides these: ``position('joint')``, ``velocity('joint')`` and ``effort('joint')``."""
+"""In addition: ``position('joint')``, ``velocity('joint')`` and ``effort('joint')``."""
 
 JOINT_FUNCTIONS = ("position", "velocity", "effort")
 
@@ -48,10 +48,10 @@ class Condition:
 
     Args:
         text: e.g. ``x > 1 and abs(yaw) < 0.1``.
-        joints: the joints that may be named.
+        joints: joints that the expression may name.
 
     Raises:
-        UsageError: it is not such an expression; says what is wrong.
+        UsageError: the expression is invalid.
     """
 
     def __init__(self, text: str, joints: tuple[str, ...]) -> None:
@@ -64,7 +64,7 @@ class Condition:
         self._check(self._tree, depth=0)
 
     def __call__(self, state: State) -> bool:
-        """Whether it is true now."""
+        """Whether the expression is true in a state."""
         from urdfkit.sim.state.quaternion import to_rpy
 
         pose, velocity = state.base_pose, state.base_velocity
@@ -104,20 +104,20 @@ class Condition:
         raise AssertionError(f"unchecked node {node!r}")
 
     def _check(self, node: ast.expr, *, depth: int) -> None:
-        """Refuse everything that `_value` does not know.
+        """Reject every node that `_value` does not support.
 
         Raises:
-            UsageError: says what is not allowed.
+            UsageError: a node is not allowed.
         """
         if depth > 50:
-            self._refuse("it is nested too deeply")
+            self._refuse("the expression is nested too deeply")
         below: list[ast.expr] = []
         match node:
             case ast.Constant(value=bool() | int() | float()):
                 pass
             case ast.Name(id=name):
                 if name not in NAMES:
-                    self._refuse(f"there is no `{name}`{did_you_mean(name, NAMES)} (known: {', '.join(NAMES)})")
+                    self._refuse(f"unknown name `{name}`{did_you_mean(name, NAMES)} (available: {', '.join(NAMES)})")
             case ast.UnaryOp(op=ast.Not() | ast.USub() | ast.UAdd(), operand=operand):
                 below = [operand]
             case ast.BinOp(left=left, op=op, right=right) if type(op) in _BINARY:
@@ -130,13 +130,13 @@ class Condition:
                 name in JOINT_FUNCTIONS
             ):
                 if joint not in self._joints:
-                    self._refuse(f"there is no joint `{joint}`{did_you_mean(joint, self._joints)}")
+                    self._refuse(f"unknown joint `{joint}`{did_you_mean(joint, self._joints)}")
             case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]) if name in FUNCTIONS and arguments:
                 below = arguments
             case _:
-                self._refuse(f"`{ast.unparse(node)}` is not allowed in it")
+                self._refuse(f"`{ast.unparse(node)}` is not allowed")
         for inner in below:
             self._check(inner, depth=depth + 1)
 
-    def _refuse(self, why: str) -> None:
-        raise UsageError(f"--until: `{self.text}` cannot be evaluated: {why}")
+    def _refuse(self, reason: str) -> None:
+        raise UsageError(f"--until: `{self.text}` cannot be evaluated: {reason}")

@@ -1,4 +1,4 @@
-"""`urdfkit sim warmup`: compile the physics kernels ahead of their first use."""
+"""`urdfkit sim warmup`: compile the physics kernels before their first use."""
 
 from __future__ import annotations
 
@@ -19,6 +19,6 @@ def run(arguments: argparse.Namespace) -> int:
     begin = time.perf_counter()
     compiled = [prepare_kernel(sys.stderr), prepare_kernel(sys.stderr, world=True), prepare_rays(sys.stderr)]
     spent = time.perf_counter() - begin
-    ready = "the physics kernels were ready"
+    ready = "the physics kernels were compiled already"
     print(f"the physics kernels are compiled and cached ({spent:.1f} s)" if any(compiled) else ready)
     return 0

@@ -1,4 +1,4 @@
-"""`urdfkit topic`: talk to a running simulation, as ``rostopic`` and ``ros2 topic`` do. One module per kind of work."""
+"""`urdfkit topic`: inspect and publish topics of a running simulation, as ``rostopic`` and ``ros2 topic`` do."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from importlib import import_module
 from urdfkit.cli.parser import HelpFormatter
 
 SUBCOMMANDS = {
-    "list": ("list_topics", "print the topics there are"),
-    "info": ("list_topics", "print type, number of messages and listeners of a topic"),
-    "echo": ("echo", "print messages as they come"),
-    "hz": ("rates", "print how often messages come, in simulated time"),
-    "bw": ("rates", "print how many bytes the messages of a topic take"),
+    "list": ("list_topics", "list the topics"),
+    "info": ("list_topics", "print type, number of messages and subscribers of a topic"),
+    "echo": ("echo", "print the messages of a topic"),
+    "hz": ("rates", "print the message rate of a topic in simulated time"),
+    "bw": ("rates", "print the bandwidth of a topic"),
     "pub": ("pub", "publish messages"),
 }
-"""Subcommand → module here that implements it, and what it does."""
+"""Subcommand → module that implements it, and its description."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -27,14 +27,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
         sub.add_argument(
             "--url",
             metavar="ADDRESS",
-            help="of the simulation, as `sim teleop` prints it (default: the one that is running)",
+            help="address of the simulation that `sim teleop` prints (default: the running simulation)",
         )
         import_module(f"urdfkit.cli.topic.{module}").configure(sub, name)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run one subcommand; Ctrl-C is its way to be done."""
-    from urdfkit.cli.topic.connection import talk
+    """Run one subcommand until it is done or interrupted by Ctrl-C."""
+    from urdfkit.cli.topic.connection import run_with_client
 
     module, _ = SUBCOMMANDS[arguments.subcommand]
-    return talk(import_module(f"urdfkit.cli.topic.{module}").run, arguments)
+    return run_with_client(import_module(f"urdfkit.cli.topic.{module}").run, arguments)

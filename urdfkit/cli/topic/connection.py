@@ -1,4 +1,4 @@
-"""A talk with a running simulation: find it, connect, ask for its topics, take their messages as they come."""
+"""Connection to a running simulation: find it, connect, request its topics, receive their messages."""
 
 from __future__ import annotations
 
@@ -20,27 +20,27 @@ READY = 30.0
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A topic in the list.
+    """One topic of a simulation.
 
     Attributes:
-        name: absolute.
+        name: absolute name.
         type: e.g. ``nav_msgs/msg/Odometry``.
         count: messages published so far.
-        listeners: in the simulation, and those that this command's like have there.
+        subscribers: subscribers in the simulation and in connected programs.
     """
 
     name: str
     type: str
     count: int
-    listeners: int
+    subscribers: int
 
 
-def talk(work: Callable[[Client, argparse.Namespace], Awaitable[int]], arguments: argparse.Namespace) -> int:
-    """Do some work with a running simulation and return the exit code.
+def run_with_client(work: Callable[[Client, argparse.Namespace], Awaitable[int]], arguments: argparse.Namespace) -> int:
+    """Run a coroutine with a connection to the running simulation; return its exit code.
 
     Raises:
         MissingDependencyError: tornado is not installed.
-        ResourceError: no simulation is running, or it does not answer.
+        ResourceError: no simulation is running, or it does not respond.
     """
     from importlib.util import find_spec
 
@@ -51,53 +51,53 @@ def talk(work: Callable[[Client, argparse.Namespace], Awaitable[int]], arguments
 
     url = find(arguments.url)
 
-    async def all_of_it() -> int:
+    async def connected() -> int:
         async with await connect(url) as client:
             return await work(client, arguments)
 
     try:
-        return asyncio.run(all_of_it())
+        return asyncio.run(connected())
     except KeyboardInterrupt:
         return 0
 
 
 def positive(text: str) -> int:
-    """Return a whole number from one on, for an option."""
+    """Parse a whole number of at least 1, for an option."""
     if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"`{text}` is no whole number from 1 on")
+        raise argparse.ArgumentTypeError(f"`{text}` is not a whole number of at least 1")
     return int(text)
 
 
 async def topics(client: Client) -> list[Row]:
-    """Return the topics there are, sorted by name; wait for a simulation that is starting, and say so.
+    """Return the topics, sorted by name; wait for a simulation that is starting, and report that once.
 
     Raises:
-        ResourceError: the page has none, the list does not come, or the simulation cannot go on.
+        ResourceError: the page is not a simulation, the list does not arrive, or the simulation has failed.
     """
     await client.watch("topics")
-    said = False
+    reported = False
     while (text := await client.text(READY)) is not None:
         if text["type"] == "hello" and text["mode"] != "sim":
-            raise ResourceError("that page is a viewer; topics are in a simulation: urdfkit sim teleop MODEL")
-        if text["type"] == "progress" and text["label"] and not said:
+            raise ResourceError("that page is a viewer without topics; start a simulation: urdfkit sim teleop MODEL")
+        if text["type"] == "progress" and text["label"] and not reported:
             note(f"urdfkit: the simulation is starting: {text['label']}")
-            said = True
+            reported = True
         if text["type"] == "fault" and text["message"]:
-            raise ResourceError(f"the simulation says: {text['message']}")
+            raise ResourceError(f"the simulation reports: {text['message']}")
         if text["type"] == "topics":
             await client.watch()
             return sorted(
-                (Row(name, kind, count, listeners) for name, kind, count, _, listeners in text["rows"]),
+                (Row(name, kind, count, subscribers) for name, kind, count, _, subscribers in text["rows"]),
                 key=lambda row: row.name,
             )
-    raise ResourceError(f"the simulation has not told its topics for {READY:g} s; is it still starting?")
+    raise ResourceError(f"the simulation has not sent its topics for {READY:g} s; try again when it has started")
 
 
-def named(rows: Sequence[Row], name: str) -> Row:
-    """Return the topic of this name.
+def find_topic(rows: Sequence[Row], name: str) -> Row:
+    """Return the topic with a name.
 
     Raises:
-        UsageError: there is none, with the nearest.
+        UsageError: the topic is unknown; names the nearest.
     """
     from urdfkit.bus import absolute
 
@@ -106,22 +106,22 @@ def named(rows: Sequence[Row], name: str) -> Row:
         if row.name == full:
             return row
     hint = did_you_mean(full, [row.name for row in rows])
-    last = {row.name.rpartition("/")[2]: row.name for row in rows}  # perhaps the robot's name was left out
+    last = {row.name.rpartition("/")[2]: row.name for row in rows}  # for a name without the robot's name
     if not hint and (near := did_you_mean(full.rpartition("/")[2], last)):
         hint = f"; did you mean `{last[near.split('`')[1]]}`?"
-    raise UsageError(f"no topic `{full}`{hint}")
+    raise UsageError(f"unknown topic `{full}`{hint}")
 
 
 async def messages(
     client: Client, kind: str, topic: str, *, every: float | None = None
 ) -> AsyncGenerator[list[Any], None]:
-    """Yield the messages of a topic as they come, as the protocol has them; ends never.
+    """Yield the messages of a topic in the form of the protocol, without end.
 
     Args:
         client: the connection.
         kind: the first part of the key: ``times``, ``sizes``, ``every`` or ``whole``.
-        topic: its name.
-        every: yield an empty list whenever so many seconds have passed; None for never.
+        topic: name of the topic.
+        every: yield an empty list after every such period [s]; None for never.
     """
     key = f"{kind}:{topic}"
     await client.watch(key)
@@ -133,7 +133,7 @@ async def messages(
             for row in text["rows"]:
                 yield row
             if text["missed"]:
-                note(f"urdfkit: {text['missed']} messages of {topic} missed: there was no time for them")
+                note(f"urdfkit: dropped {text['missed']} messages of {topic}: the simulation had no time to send them")
         if due is not None and every is not None and loop.time() >= due:
             due = loop.time() + every
             yield []

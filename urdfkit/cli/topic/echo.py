@@ -1,4 +1,4 @@
-"""``urdfkit topic echo``: messages as they come, as YAML with ``---`` after each, or as JSON, one a line."""
+"""``urdfkit topic echo``: print messages as YAML with ``---`` after each, or as one JSON value per line."""
 
 from __future__ import annotations
 
@@ -9,25 +9,27 @@ import re
 from contextlib import aclosing
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.cli.topic.connection import messages, named, positive, topics
+from urdfkit.cli.topic.connection import find_topic, messages, positive, topics
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
     from urdfkit.view.protocol.client import Client
 
 NOT_FINITE = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
-"""How the protocol writes numbers that JSON has no words for."""
+"""Strings by which the protocol represents numbers that JSON does not support."""
 _STEP = re.compile(r"\.?([A-Za-z_]\w*)|\[(\d+)\]")
 
 
 def configure(parser: argparse.ArgumentParser, _name: str) -> None:
     """Add the arguments."""
     parser.add_argument("topic", metavar="TOPIC", help="name of the topic")
-    parser.add_argument("-n", "--number", type=positive, metavar="N", help="end after N messages")
-    parser.add_argument("--once", action="store_true", help="end after one message")
-    parser.add_argument("--field", metavar="PATH", help="print a part only, such as pose.pose.position or ranges[0]")
+    parser.add_argument("-n", "--number", type=positive, metavar="N", help="exit after N messages")
+    parser.add_argument("--once", action="store_true", help="exit after one message")
+    parser.add_argument(
+        "--field", metavar="PATH", help="print only this field, such as pose.pose.position or ranges[0]"
+    )
     parser.add_argument("-f", "--full-length", action="store_true", help="print long arrays in full")
-    parser.add_argument("--json", action="store_true", help="print one JSON value a line for each message")
+    parser.add_argument("--json", action="store_true", help="print each message as JSON on one line")
     parser.epilog = (
         "examples:\n"
         "  urdfkit topic echo /odom --once\n"
@@ -37,13 +39,13 @@ def configure(parser: argparse.ArgumentParser, _name: str) -> None:
 
 async def run(client: Client, arguments: argparse.Namespace) -> int:
     """Print messages."""
-    row = named(await topics(client), arguments.topic)
+    row = find_topic(await topics(client), arguments.topic)
     number = 1 if arguments.once else arguments.number
-    # An entry of an array may lie behind where the page cuts it.
+    # An entry of an array may be beyond the length at which the page cuts arrays.
     whole = arguments.full_length or "[" in (arguments.field or "")
     printed = 0
-    async with aclosing(messages(client, "whole" if whole else "every", row.name)) as heard:
-        async for _, _, message in heard:
+    async with aclosing(messages(client, "whole" if whole else "every", row.name)) as received:
+        async for _, _, message in received:
             shown = message if arguments.field is None else part(message, arguments.field)
             print(json.dumps(shown, ensure_ascii=False) if arguments.json else f"{as_yaml(shown)}---", flush=True)
             printed += 1
@@ -53,16 +55,16 @@ async def run(client: Client, arguments: argparse.Namespace) -> int:
 
 
 def part(message: Any, path: str) -> Any:
-    """Return what is at a path in a message.
+    """Return the value at a path in a message.
 
     Raises:
-        UsageError: there is nothing; with the nearest field.
+        UsageError: the path does not exist; names the nearest field.
     """
     at, value = 0, message
     while at < len(path):
         step = _STEP.match(path, at)
         if step is None:
-            raise UsageError(f"--field {path}: a path is as pose.position.x or ranges[0]")
+            raise UsageError(f"--field {path}: write a path such as pose.position.x or ranges[0]")
         name, index = step[1], step[2]
         place = path[:at] or "the message"
         if name is not None:
@@ -72,7 +74,7 @@ def part(message: Any, path: str) -> Any:
             value = value[name]
         else:
             if not isinstance(value, list) or int(index) >= len(value):
-                count = f"it has {len(value)} entries" if isinstance(value, list) else "it is no array"
+                count = f"it has {len(value)} entries" if isinstance(value, list) else "it is not an array"
                 raise UsageError(f"--field {path}: no entry {index} in {place}: {count}")
             value = value[int(index)]
         at = step.end()
@@ -80,11 +82,11 @@ def part(message: Any, path: str) -> Any:
 
 
 def as_yaml(value: Any) -> str:
-    """Return a message as ``rostopic echo`` prints it: fields on lines of their own, arrays of numbers on one."""
+    """Return a message as ``rostopic echo`` prints it: one line per field, arrays of numbers on one line."""
     import yaml
 
     class Dumper(yaml.SafeDumper):
-        """Writes lists of plain values on one line."""
+        """Dumper that writes lists of plain values on one line."""
 
     def represent(dumper: yaml.SafeDumper, entries: list[Any]) -> yaml.Node:
         plain = not any(isinstance(entry, dict | list) for entry in entries)

@@ -7,7 +7,7 @@ import json
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
-from urdfkit.cli.topic.connection import named, topics
+from urdfkit.cli.topic.connection import find_topic, topics
 
 if TYPE_CHECKING:
     from urdfkit.view.protocol.client import Client
@@ -18,7 +18,7 @@ def configure(parser: argparse.ArgumentParser, name: str) -> None:
     if name == "list":
         parser.add_argument("-t", "--types", action="store_true", help="print the types too")
         parser.add_argument(
-            "-v", "--verbose", action="store_true", help="print types, numbers of messages and of listeners"
+            "-v", "--verbose", action="store_true", help="print types, numbers of messages and of subscribers"
         )
         parser.epilog = "examples:\n  urdfkit topic list\n  urdfkit topic list -v"
     else:
@@ -28,18 +28,18 @@ def configure(parser: argparse.ArgumentParser, name: str) -> None:
 
 
 async def run(client: Client, arguments: argparse.Namespace) -> int:
-    """Print what was asked for."""
+    """Print the list, or one topic."""
     rows = await topics(client)
     if arguments.subcommand == "info":
-        row = named(rows, arguments.topic)
+        row = find_topic(rows, arguments.topic)
         if arguments.json:
             print(json.dumps(asdict(row)))
         else:
-            print(f"Type: {row.type}\nMessages: {row.count}\nListeners: {row.listeners}")
+            print(f"Type: {row.type}\nMessages: {row.count}\nSubscribers: {row.subscribers}")
     elif arguments.json:
         print(json.dumps([asdict(row) for row in rows]))
     else:
         for row in rows:
-            counts = f" {row.count} messages, {row.listeners} listeners" if arguments.verbose else ""
+            counts = f" {row.count} messages, {row.subscribers} subscribers" if arguments.verbose else ""
             print(f"{row.name} [{row.type}]{counts}" if arguments.types or arguments.verbose else row.name)
     return 0

@@ -1,4 +1,4 @@
-"""``urdfkit topic pub``: publish a message written as YAML, once or again and again."""
+"""``urdfkit topic pub``: publish a message written as YAML, once or periodically."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import note
-from urdfkit.cli.topic.connection import named, positive, topics
+from urdfkit.cli.topic.connection import find_topic, positive, topics
 from urdfkit.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
@@ -17,23 +17,23 @@ if TYPE_CHECKING:
 RATE = 1.0
 """Messages per second of wall time; the default of ros2 topic pub."""
 FASTEST = 1000.0
-"""Highest rate taken [Hz]."""
+"""Highest rate [Hz]."""
 
 
 def configure(parser: argparse.ArgumentParser, _name: str) -> None:
     """Add the arguments."""
     parser.add_argument("topic", metavar="TOPIC", help="name of the topic")
-    parser.add_argument("type", nargs="?", metavar="TYPE", help="of the message (default: the topic's)")
+    parser.add_argument("type", nargs="?", metavar="TYPE", help="type of the message (default: the topic's)")
     parser.add_argument(
         "message",
         nargs="*",
         metavar="YAML",
-        help="the message, or its fields in their order; what is left out is zero or empty",
+        help="the message, or its fields in order; missing fields are zero or empty",
     )
     often = parser.add_mutually_exclusive_group()
     often.add_argument("-r", "--rate", type=_rate, metavar="RATE", help=f"messages per second (default: {RATE:g})")
-    often.add_argument("--once", action="store_true", help="publish one message and end")
-    parser.add_argument("-n", "--number", type=positive, metavar="N", help="end after N messages")
+    often.add_argument("--once", action="store_true", help="publish one message and exit")
+    parser.add_argument("-n", "--number", type=positive, metavar="N", help="exit after N messages")
     parser.epilog = (
         "examples:\n"
         "  urdfkit topic pub /cmd_vel geometry_msgs/Twist '{linear: {x: 0.5}}' -r 10\n"
@@ -43,30 +43,30 @@ def configure(parser: argparse.ArgumentParser, _name: str) -> None:
 
 def _rate(text: str) -> float:
     try:
-        found = float(text)
+        rate = float(text)
     except ValueError:
-        found = 0.0
-    if not 0.0 < found <= FASTEST:
-        raise argparse.ArgumentTypeError(f"`{text}` is no rate above 0 and up to {FASTEST:g} Hz")
-    return found
+        rate = 0.0
+    if not 0.0 < rate <= FASTEST:
+        raise argparse.ArgumentTypeError(f"`{text}` is not a rate of more than 0 and at most {FASTEST:g} Hz")
+    return rate
 
 
 async def run(client: Client, arguments: argparse.Namespace) -> int:
-    """Publish; that a message was taken is waited for, so that whatever is wrong with it is said."""
+    """Publish messages; wait for each response, so that an error is reported."""
     from urdfkit.bus import absolute
 
     rows = await topics(client)
     name = absolute(arguments.topic)
-    known = {row.name: row for row in rows}
+    row_by_name = {row.name: row for row in rows}
     kind, words = arguments.type, arguments.message
-    if kind is not None and kind.startswith(("{", "[")):  # the type was left out
+    if kind is not None and kind.startswith(("{", "[")):  # no type, only a message
         kind, words = None, [kind, *words]
     values = message_of(words)
-    kind = kind or named(rows, name).type
+    kind = kind or find_topic(rows, name).type
     number = 1 if arguments.once else arguments.number
-    if not arguments.quiet and (name not in known or not known[name].listeners):
-        heard = [row.name for row in rows if row.listeners and row.name != name]
-        note(f"urdfkit: nobody listens to {name}{did_you_mean(name, heard)}")
+    if not arguments.quiet and (name not in row_by_name or not row_by_name[name].subscribers):
+        subscribed = [row.name for row in rows if row.subscribers and row.name != name]
+        note(f"urdfkit: {name} has no subscribers{did_you_mean(name, subscribed)}")
     loop = asyncio.get_running_loop()
     due, sent = loop.time(), 0
     while True:
@@ -75,18 +75,18 @@ async def run(client: Client, arguments: argparse.Namespace) -> int:
         if sent == number:
             return 0
         due = max(due + 1.0 / (arguments.rate or RATE), loop.time())
-        while (left := due - loop.time()) > 0:
-            await client.text(left)  # what comes meanwhile is nothing to this command, but has to be taken
+        while (remaining := due - loop.time()) > 0:
+            await client.text(remaining)  # receive and discard other messages
 
 
 def message_of(words: list[str]) -> Any:
     """Return the fields of a message from the YAML on a command line.
 
     Args:
-        words: one for the whole message, or one for each of its fields; none for an empty message.
+        words: one word with the whole message, or one word per field; none for an empty message.
 
     Raises:
-        UsageError: it is no YAML, or nothing that a message can hold.
+        UsageError: the words are not YAML, or hold a value that no message supports.
     """
     import yaml
 
@@ -94,9 +94,9 @@ def message_of(words: list[str]) -> Any:
         read = [yaml.safe_load(word) for word in words]
         json.dumps(read, allow_nan=False)
     except yaml.YAMLError as error:
-        raise UsageError(f"the message is no YAML: {' '.join(str(error).split())}") from error
+        raise UsageError(f"the message is not YAML: {' '.join(str(error).split())}") from error
     except (TypeError, ValueError) as error:
-        raise UsageError(f"`{' '.join(words)}` holds what no message can: {error}") from error
+        raise UsageError(f"`{' '.join(words)}` holds a value that no message supports: {error}") from error
     if len(read) == 1:
         # The one field of a std_msgs/Float64 may be written alone.
         return read if not isinstance(read[0], dict | list | None) else read[0]

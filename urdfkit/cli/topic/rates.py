@@ -1,7 +1,7 @@
-"""``urdfkit topic hz`` and ``urdfkit topic bw``: how often messages come and how long they are.
+"""``urdfkit topic hz`` and ``urdfkit topic bw``: measure rate and size of messages.
 
-Time is simulated time, so that what is printed is the robot's and not the machine's; ``--wall-time`` takes the clock of
-the machine on which the simulation runs.
+Rates are per second of simulated time, which does not depend on the speed of the machine; ``--wall-time`` uses the
+clock of the machine that runs the simulation.
 """
 
 from __future__ import annotations
@@ -15,26 +15,26 @@ from dataclasses import asdict, dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from urdfkit.cli.topic.connection import messages, named, positive, topics
+from urdfkit.cli.topic.connection import find_topic, messages, positive, topics
 
 if TYPE_CHECKING:
     from urdfkit.view.protocol.client import Client
 
 PERIOD = 1.0
-"""Seconds between two lines."""
+"""Seconds between two reports."""
 WINDOWS = {"hz": 10_000, "bw": 100}
-"""Messages looked at, at most; the defaults of ros2 topic."""
+"""Maximum number of messages in a measurement; the defaults of ros2 topic."""
 
 
 @dataclass(frozen=True, slots=True)
-class Figures:
-    """What is known of some numbers.
+class Statistics:
+    """Statistics of periods or sizes.
 
     Attributes:
         rate: messages per second, or bytes per second.
-        mean: of the periods [s], or of the lengths [byte]; so are the others.
-        std: standard deviation of all of them, not an estimate of what they are samples of.
-        window: messages looked at.
+        mean: mean of the periods [s] or of the sizes [byte]; `min`, `max` and `std` likewise.
+        std: standard deviation of the population, not of a sample.
+        window: number of messages.
     """
 
     rate: float
@@ -49,42 +49,42 @@ class Window:
     """The last messages of a topic.
 
     Args:
-        size: how many.
+        size: maximum number of messages.
     """
 
     def __init__(self, size: int) -> None:
-        self._seen: deque[tuple[float, int]] = deque(maxlen=size)
-        self.came = 0
+        self._messages: deque[tuple[float, int]] = deque(maxlen=size)
+        self.new = 0
 
     def add(self, t: float, size: int = 0) -> None:
-        """Take note of a message; time that goes back, as at a reset, begins anew."""
-        if self._seen and t < self._seen[-1][0]:
-            self._seen.clear()
-        self._seen.append((t, size))
-        self.came += 1
+        """Add a message; start again when time decreases, as after a reset."""
+        if self._messages and t < self._messages[-1][0]:
+            self._messages.clear()
+        self._messages.append((t, size))
+        self.new += 1
 
-    def periods(self) -> Figures | None:
+    def periods(self) -> Statistics | None:
         """Return rate [Hz] and periods [s]; None before the second message."""
-        times = [t for t, _ in self._seen]
+        times = [t for t, _ in self._messages]
         spans = [later - earlier for earlier, later in pairwise(times)]
         if not spans or times[-1] == times[0]:
             return None
-        return _figures(len(spans) / (times[-1] - times[0]), spans, len(times))
+        return _statistics(len(spans) / (times[-1] - times[0]), spans, len(times))
 
-    def sizes(self) -> Figures | None:
-        """Return bytes per second and lengths [byte]; None before the second message."""
-        if len(self._seen) < 2 or self._seen[-1][0] == self._seen[0][0]:
+    def sizes(self) -> Statistics | None:
+        """Return bytes per second and sizes [byte]; None before the second message."""
+        if len(self._messages) < 2 or self._messages[-1][0] == self._messages[0][0]:
             return None
-        sizes = [float(size) for _, size in self._seen]
-        # So many messages began so many periods less one; the first one's bytes belong to the period before it.
-        rate = sum(sizes[1:]) / (self._seen[-1][0] - self._seen[0][0])
-        return _figures(rate, sizes, len(sizes))
+        sizes = [float(size) for _, size in self._messages]
+        # N messages span N - 1 periods; the bytes of the first message belong to the period before it.
+        rate = sum(sizes[1:]) / (self._messages[-1][0] - self._messages[0][0])
+        return _statistics(rate, sizes, len(sizes))
 
 
-def _figures(rate: float, values: list[float], window: int) -> Figures:
+def _statistics(rate: float, values: list[float], window: int) -> Statistics:
     mean = math.fsum(values) / len(values)
     std = math.sqrt(math.fsum((value - mean) ** 2 for value in values) / len(values))
-    return Figures(rate, mean, min(values), max(values), std, window)
+    return Statistics(rate, mean, min(values), max(values), std, window)
 
 
 def configure(parser: argparse.ArgumentParser, name: str) -> None:
@@ -96,50 +96,52 @@ def configure(parser: argparse.ArgumentParser, name: str) -> None:
         type=positive,
         default=WINDOWS[name],
         metavar="N",
-        help=f"look at the last N messages (default: {WINDOWS[name]})",
+        help=f"measure the last N messages (default: {WINDOWS[name]})",
     )
-    parser.add_argument("--wall-time", action="store_true", help="measure by the machine's clock")
-    parser.add_argument("-n", "--number", type=positive, metavar="N", help="end after N reports, one a second")
-    parser.add_argument("--once", action="store_true", help="end after one report")
-    parser.add_argument("--json", action="store_true", help="print one JSON value a line for each report")
+    parser.add_argument("--wall-time", action="store_true", help="use wall-clock time instead of simulated time")
+    parser.add_argument("-n", "--number", type=positive, metavar="N", help="exit after N reports, one per second")
+    parser.add_argument("--once", action="store_true", help="exit after one report")
+    parser.add_argument("--json", action="store_true", help="print each report as JSON on one line")
     parser.epilog = f"examples:\n  urdfkit topic {name} /odom\n  urdfkit topic {name} /scan --window 50 --once"
 
 
 async def run(client: Client, arguments: argparse.Namespace) -> int:
-    """Print a report every second; a second without a message is no report."""
+    """Print a report every second in which a message arrives."""
     is_hz = arguments.subcommand == "hz"
-    row = named(await topics(client), arguments.topic)
+    row = find_topic(await topics(client), arguments.topic)
     number = 1 if arguments.once else arguments.number
     window = Window(max(2, arguments.window))
     printed = 0
-    async with aclosing(messages(client, "times" if is_hz else "sizes", row.name, every=PERIOD)) as heard:
-        async for each in heard:
+    async with aclosing(messages(client, "times" if is_hz else "sizes", row.name, every=PERIOD)) as received:
+        async for each in received:
             if each:
                 window.add(each[1 if arguments.wall_time else 0], 0 if is_hz else each[2])
                 continue
-            found = (window.periods() if is_hz else window.sizes()) if window.came else None
-            window.came = 0
-            if found is None:
+            measured = (window.periods() if is_hz else window.sizes()) if window.new else None
+            window.new = 0
+            if measured is None:
                 if not arguments.json:
                     print("no new messages", flush=True)
                 continue
-            print(json.dumps(asdict(found)) if arguments.json else report(found, is_hz=is_hz), flush=True)
+            print(json.dumps(asdict(measured)) if arguments.json else report(measured, is_hz=is_hz), flush=True)
             printed += 1
             if printed == number:
                 break
     return 0
 
 
-def report(found: Figures, *, is_hz: bool) -> str:
+def report(values: Statistics, *, is_hz: bool) -> str:
     """Return a report as ``rostopic hz`` or ``rostopic bw`` prints it."""
     if is_hz:
         return (
-            f"average rate: {found.rate:.3f}\n\tmin: {found.min:.3f}s max: {found.max:.3f}s "
-            f"std dev: {found.std:.5f}s window: {found.window}"
+            f"average rate: {values.rate:.3f}\n\tmin: {values.min:.3f}s max: {values.max:.3f}s "
+            f"std dev: {values.std:.5f}s window: {values.window}"
         )
-    unit, name = next(((unit, name) for unit, name in ((1e6, "MB"), (1e3, "KB")) if found.rate >= unit), (1.0, "B"))
-    mean, least, most, std = (f"{value / unit:.2f}{name}" for value in (found.mean, found.min, found.max, found.std))
+    unit, name = next(((unit, name) for unit, name in ((1e6, "MB"), (1e3, "KB")) if values.rate >= unit), (1.0, "B"))
+    mean, least, most, std = (
+        f"{number / unit:.2f}{name}" for number in (values.mean, values.min, values.max, values.std)
+    )
     return (
-        f"average: {found.rate / unit:.2f}{name}/s\n\tmean: {mean} min: {least} max: {most} "
-        f"std dev: {std} window: {found.window}"
+        f"average: {values.rate / unit:.2f}{name}/s\n\tmean: {mean} min: {least} max: {most} "
+        f"std dev: {std} window: {values.window}"
     )
