@@ -1,4 +1,4 @@
-"""The robot as written: xacro and URDF in, links and joints out, every element with its place. No mathematics."""
+"""Read robots and worlds: xacro, URDF and SDF in; links, joints and models with source positions out."""
 
 from __future__ import annotations
 

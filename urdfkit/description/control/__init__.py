@@ -1,6 +1,6 @@
-"""How controllers are configured: parameters in YAML, launch files that load them, and where both are found.
+"""Configuration of controllers: YAML parameters, the launch files that load them, and the search for both.
 
-A robot and its packages go in; settings that know their place come out.
+A robot and its packages go in; settings with their source positions come out.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Parameters from YAML that know where they were written, in the layouts of ROS 1 and ROS 2."""
+"""Parameters from YAML with their source positions, in the layouts of ROS 1 and ROS 2."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ class Settings:
 
     Attributes:
         name: the last part of its name.
-        position: where it is written.
-        value: its text, None where it is a list or a group.
-        items: what the list holds; None where it is none.
+        position: position of its value.
+        value: its text; None for a list or a group.
+        items: the entries of a list; None for other parameters.
         children: name → parameter, of a group.
-        key: where its name is written.
+        key: position of its name.
     """
 
     name: str
@@ -42,11 +42,11 @@ class Settings:
 
     @property
     def place(self) -> Position:
-        """Where its name is written, or else its value."""
+        """Position of its name, or of its value if it has no name."""
         return self.key or self.position
 
     def find(self, path: str) -> Settings | None:
-        """Return a parameter by path such as ``pid/p``; None where there is none."""
+        """Return a parameter by path such as ``pid/p``; None if it is missing."""
         found: Settings | None = self
         for part in path.split("/"):
             if part and found is not None:
@@ -54,14 +54,14 @@ class Settings:
         return found
 
     def group(self, path: str) -> Settings:
-        """Return a group by path; an empty one, here, where there is none."""
+        """Return a group by path; an empty group at this position if it is missing."""
         return self.find(path) or Settings(path.rpartition("/")[2], self.position, key=self.key)
 
     def text(self, path: str, default: str | None = None) -> str:
         """Return a parameter's text.
 
         Raises:
-            DescriptionError: it is a list or group, or missing and there is no default.
+            DescriptionError: it is a list or group, or is missing without a default.
         """
         found = self._scalar(path)
         if found is None or found.value is None:
@@ -75,11 +75,11 @@ class Settings:
 
         Args:
             path: its name.
-            default: where it is left out; None where it must not be.
-            unset: ``nan`` is as good as left out (ROS 2).
+            default: used if it is missing; None for a required parameter.
+            unset: treat ``nan`` as missing (ROS 2).
 
         Raises:
-            DescriptionError: it is no finite number, or missing and there is no default.
+            DescriptionError: it is not a finite number, or is missing without a default.
         """
         found = self._scalar(path)
         if found is None or (unset and default is not None and (found.value or "").lower().strip(".") == "nan"):
@@ -92,7 +92,7 @@ class Settings:
         """Return a list of numbers.
 
         Raises:
-            DescriptionError: it is something else.
+            DescriptionError: it is not a list of numbers.
         """
         found = self.find(path)
         if found is None:
@@ -115,7 +115,7 @@ class Settings:
         return _TRUTHS[found.value.lower()]
 
     def texts(self, path: str) -> tuple[Settings, ...]:
-        """Return the entries of a list of texts; one text alone is a list of it, and none an empty one.
+        """Return the entries of a list of texts; a single text is a list of one, a missing parameter an empty list.
 
         Raises:
             DescriptionError: it is a group, or an entry is.
@@ -130,7 +130,7 @@ class Settings:
         return entries
 
     def merged(self, other: Settings) -> Settings:
-        """Return these with those of another laid over them, as ``rosparam load`` does."""
+        """Return these parameters overridden by others, as ``rosparam load`` does."""
         if not self.children or not other.children:
             return other
         children = dict(self.children)
@@ -139,7 +139,7 @@ class Settings:
         return Settings(self.name, self.position, None, None, children, self.key)
 
     def below(self, namespace: str) -> Settings:
-        """Return a tree that has these under a namespace."""
+        """Return a tree with these parameters under a namespace."""
         found = self
         for part in reversed([part for part in namespace.split("/") if part]):
             found = Settings("", self.position, None, None, {part: found}, self.key)
@@ -181,11 +181,11 @@ def read_settings(path: Path, *, separator: str = "/") -> Settings:
 
     Args:
         path: the file.
-        separator: what stands between the parts of a name written as one: ``/`` in ROS 1, ``.`` in ROS 2.
+        separator: separator of the parts of a name: ``/`` in ROS 1, ``.`` in ROS 2.
 
     Raises:
         ResourceError: it cannot be read.
-        DescriptionError: it is no YAML, or no parameters; says where.
+        DescriptionError: it is not YAML, or not parameters; with the position.
     """
     return parse_settings(Source.read(path, shown_as=shown_path(path)), separator=separator)
 
@@ -194,7 +194,7 @@ def parse_settings(source: Source, *, separator: str = "/") -> Settings:
     """Read the YAML text of parameters; see `read_settings`.
 
     Raises:
-        DescriptionError: it is no YAML, or no parameters; says where.
+        DescriptionError: it is not YAML, or not parameters; with the position.
     """
     import yaml
 
@@ -218,7 +218,7 @@ def parse_settings(source: Source, *, separator: str = "/") -> Settings:
 
 
 class _Reader:
-    """From YAML nodes to settings. Aliases are followed, so their number is bounded."""
+    """Convert YAML nodes to settings; the number of nodes is bounded, because aliases are followed."""
 
     def __init__(self, file: str, separator: str) -> None:
         self._file = file
@@ -231,7 +231,7 @@ class _Reader:
         position = self._at(node)
         self._nodes += 1
         if depth > _MAX_DEPTH or self._nodes > _MAX_NODES:
-            raise DescriptionError("nested too deeply, or aliases grow without end", position=position)
+            raise DescriptionError("nested too deeply, or too many aliases", position=position)
         if isinstance(node, yaml.ScalarNode):
             null = node.tag == "tag:yaml.org,2002:null"
             return Settings(name, position, None if null else str(node.value), key=key)
@@ -250,7 +250,7 @@ class _Reader:
                     )
                 continue
             if not isinstance(key_node, yaml.ScalarNode):
-                raise DescriptionError("a name must be a text", position=self._at(key_node))
+                raise DescriptionError("a name must be text", position=self._at(key_node))
             parts = [part for part in str(key_node.value).split(self._separator) if part] or [""]
             child = self.read(parts[-1], value_node, self._at(key_node), depth + 1)
             laid = Settings(name, position, None, None, {parts[-1]: child}, key)

@@ -1,11 +1,11 @@
-"""Where the controllers of a ROS 1 robot are configured.
+"""Find the controller configuration of a ROS 1 robot.
 
-A model does not say: a launch file loads the parameters and starts the controllers. So we look where a person would:
+The model does not name it: a launch file loads the parameters and starts the controllers. The search order is:
 
-1. files that were named take the place of everything else; a file that lacks the robot's namespace is taken as if it
-   had been loaded into it;
-2. launch files in the robot's package and the packages beside it, those whose name begins like the robot's first: the
-   first that loads controllers into the robot's namespace is taken, one that starts some before one that only loads;
+1. explicitly named files replace all others; a file without the robot's namespace is treated as if it had been
+   loaded into it;
+2. launch files in the robot's package and in neighbouring packages, similarly named packages first: the first file
+   that loads controllers into the robot's namespace, preferably one that also starts controllers;
 3. without one, the YAML files in the ``config`` folders of the same packages that configure controllers there.
 """
 
@@ -31,10 +31,10 @@ class Configuration:
     """The parameters of the controllers in one namespace.
 
     Attributes:
-        settings: what stands in the namespace.
+        settings: the parameters of the namespace.
         files: the files they were read from.
         started: the controllers that are started, by their names in the namespace; None for all.
-        launch: the launch file that says so; None for none.
+        launch: the launch file that loads them; None without one.
         root: all parameters of those files, in their namespaces.
     """
 
@@ -46,21 +46,21 @@ class Configuration:
 
     @property
     def source(self) -> str:
-        """What to tell the user."""
+        """Description of the source for messages."""
         files = ", ".join(shown_path(file) for file in self.files) or "no file"
         return f"{files} (loaded by {shown_path(self.launch)})" if self.launch else files
 
 
 def find_configuration(robot: Robot, namespace: str, named: tuple[Path, ...] = ()) -> Configuration | None:
-    """Return what configures the controllers of a namespace; None where nothing does.
+    """Return the controller configuration of a namespace; None if there is none.
 
     Args:
         robot: the robot.
-        namespace: where its controller manager lives, e.g. ``/rrbot``.
-        named: parameter files to take instead of looking for some.
+        namespace: namespace of its controller manager, e.g. ``/rrbot``.
+        named: parameter files to use instead of a search.
 
     Raises:
-        UrdfkitError: a file that was named or chosen cannot be read; says where.
+        UrdfkitError: a named or chosen file cannot be read; with the position.
     """
     if named:
         found: Settings | None = None
@@ -76,7 +76,7 @@ def find_configuration(robot: Robot, namespace: str, named: tuple[Path, ...] = (
     packages = robot.packages or Packages(near=folders[0] if folders else None)
     launched = [launch for folder in near for launch in _launches(folder, packages, namespace)]
     for folder in others:
-        with suppress(UrdfkitError):  # another robot's broken files are none of ours
+        with suppress(UrdfkitError):  # broken files of other robots do not matter
             launched += _launches(folder, packages, namespace)
     starting = [launch for launch in launched if _spawned(launch, namespace)]
     for launch in starting or launched:
@@ -84,7 +84,7 @@ def find_configuration(robot: Robot, namespace: str, named: tuple[Path, ...] = (
             started = _spawned(launch, namespace) or None
             inside = launch.settings.group(namespace)
             return Configuration(inside, launch.files, started, launch.path, launch.settings)
-    return _loose(folders, namespace)
+    return _unlaunched_yaml(folders, namespace)
 
 
 def _launches(folder: Path, packages: Packages, namespace: str) -> list[Launch]:
@@ -103,7 +103,7 @@ def _spawned(launch: Launch, namespace: str) -> tuple[str, ...]:
     return tuple(name[len(prefix) :] for name in names if name.startswith(prefix))
 
 
-def _loose(folders: list[Path], namespace: str) -> Configuration | None:
+def _unlaunched_yaml(folders: list[Path], namespace: str) -> Configuration | None:
     for folder in folders:
         found: Settings | None = None
         files = []
@@ -111,7 +111,7 @@ def _loose(folders: list[Path], namespace: str) -> Configuration | None:
             try:
                 read = read_settings(path)
             except UrdfkitError:
-                continue  # it need not be about controllers at all
+                continue  # the file may have no controllers
             if read.group(namespace).children:
                 files.append(path)
                 found = read if found is None else found.merged(read)
@@ -121,10 +121,10 @@ def _loose(folders: list[Path], namespace: str) -> Configuration | None:
 
 
 def controllers(settings: Settings) -> dict[str, Settings]:
-    """Return the controllers in a namespace: what has a ``type`` such as ``pkg/Controller``.
+    """Return the controllers in a namespace: the groups with a ``type`` such as ``pkg/Controller``.
 
     Args:
-        settings: what stands in the namespace.
+        settings: the parameters of the namespace.
     """
     found = {}
     for name, child in settings.children.items():
@@ -135,7 +135,7 @@ def controllers(settings: Settings) -> dict[str, Settings]:
 
 
 def _packages_around(robot: Robot) -> tuple[list[Path], list[Path]]:
-    """Return the robot's package with those beside it whose name begins like the robot's, and the others beside it."""
+    """Return the robot's package with similarly named neighbours, and the other neighbouring packages."""
     if not robot.files:
         return [], []
     file = Path(robot.files[0]).resolve()

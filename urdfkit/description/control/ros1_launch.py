@@ -1,4 +1,4 @@
-"""What a ROS 1 launch file loads and spawns, read simply: no conditions, no includes."""
+"""Parameters and controllers that a ROS 1 launch file loads and spawns; conditions and includes are not evaluated."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ _STARTING = ("spawner", "controller_manager")
 
 @record(eq=False)
 class Launch:
-    """What one launch file does to controllers.
+    """Parameters and spawned controllers of one launch file.
 
     Attributes:
         path: the file.
         files: the parameter files it loads.
-        settings: all parameters it loads, in their namespaces; None for none.
+        settings: all parameters it loads, in their namespaces; None if it loads none.
         spawned: full name of every controller that it starts, in order.
     """
 
@@ -35,7 +35,7 @@ class Launch:
 
 
 def read_launch(path: Path, packages: Packages) -> Launch | None:
-    """Read a launch file; None where it is no XML that we can read."""
+    """Read a launch file; None if it is not readable XML."""
     try:
         root = document_of(read_source(path, shown_as=shown_path(path)))
     except UrdfkitError:
@@ -55,7 +55,7 @@ class _Launch:
         self.spawned: list[str] = []
 
     def enter(self, element: Element, namespace: str) -> None:
-        """Read what stands in an element; namespaces add up."""
+        """Read the children of an element; namespaces accumulate."""
         for child in element.children:
             inside = _join(namespace, self._text(child.get("ns") or "") or "")
             if child.tag == "arg":
@@ -103,7 +103,7 @@ class _Launch:
                 self.spawned.append(_join(namespace, word))
 
     def _text(self, text: str) -> str | None:
-        """Fill in ``$(find …)`` and ``$(arg …)``; None where one is not known."""
+        """Substitute ``$(find …)`` and ``$(arg …)``; None if one is unknown."""
         for _ in range(10):
             match = _SUBSTITUTION.search(text)
             if match is None:

@@ -1,4 +1,4 @@
-"""Packages in folders: those below one, of a workspace, of an install prefix."""
+"""Find the packages below a folder, of a workspace and of an install prefix."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _MAX_FOLDERS = 5_000
 
 
 def packages_below(top: Path) -> dict[str, Path]:
-    """Return the packages in and below a folder, by name; does not look inside packages, as catkin and colcon."""
+    """Return the packages in and below a folder, by name; does not search inside packages, like catkin and colcon."""
     found: dict[str, Path] = {}
     budget = _MAX_FOLDERS
     level = [top]
@@ -43,7 +43,7 @@ def workspace(package: Path) -> Path | None:
 
 
 def _enter(folder: Path, found: dict[str, Path]) -> list[Path]:
-    """Note the package a folder is, or return the folders in it that are worth a look."""
+    """Add a folder that is a package, or return its subfolders to search."""
     try:
         with os.scandir(folder) as entries:
             children = sorted(entries, key=lambda entry: entry.name)
@@ -66,7 +66,7 @@ def _enter(folder: Path, found: dict[str, Path]) -> list[Path]:
 
 
 def package_name(folder: Path) -> str | None:
-    """Return the name in the package.xml of a folder, that of the folder where none is written; None without one."""
+    """Return the name in a folder's package.xml, the folder's name if it has none; None without a package.xml."""
     try:
         manifest = (folder / "package.xml").read_text(encoding="utf-8", errors="replace")
     except OSError:

@@ -1,4 +1,4 @@
-"""What lies around a description: launch files and settings in YAML, of its package and of those that depend on it."""
+"""Files related to a description: launch files and YAML of its package and of the packages that depend on it."""
 
 from __future__ import annotations
 
@@ -11,26 +11,26 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 LAUNCH = (".launch", ".launch.xml", ".launch.py", ".launch.yaml")
-"""Endings of launch files."""
+"""Suffixes of launch files."""
 
 YAML = (".yaml", ".yml")
 
 _SKIPPED = frozenset(("build", "install", "devel", "log", "node_modules", "__pycache__", "test", "tests"))
 _MAX_DEPTH = 4
 _MAX_FILES = 200
-"""Files of one package that are looked at."""
+"""Maximum number of files read per package."""
 
 _MAX_NEIGHBOURS = 100
 _MAX_BYTES = 100_000
 
 
 def package_of(path: Path) -> Path | None:
-    """Return the folder with the package.xml around a file."""
+    """Return the enclosing folder of a file that has a package.xml."""
     return next((folder for folder in path.absolute().parents if (folder / "package.xml").is_file()), None)
 
 
 def manifest(package: Path) -> str:
-    """Return the package.xml of a package, comments left out; empty where it cannot be read."""
+    """Return the package.xml of a package, without comments; empty if it cannot be read."""
     try:
         text = (package / "package.xml").read_text("utf-8", "replace")
     except OSError:
@@ -44,7 +44,7 @@ def uncommented(text: str) -> str:
 
 
 def name_in(text: str, fallback: str = "") -> str:
-    """Return the name that the text of a package.xml gives."""
+    """Return the name in the text of a package.xml."""
     written = re.search(r"<name>\s*([\w.-]+)\s*</name>", text)
     return written[1] if written else fallback
 
@@ -68,7 +68,7 @@ def neighbours(package: Path) -> dict[str, Path]:
 
 
 def around(package: Path) -> list[Path]:
-    """Return the launch files and YAML of a package, and of the packages beside it that depend on it."""
+    """Return the launch files and YAML of a package, and of neighbouring packages that depend on it."""
     name = name_in(manifest(package), package.name)
     near = neighbours(package)
     own = [other for key, other in near.items() if other == package or name in dependencies_in(manifest(near[key]))]

@@ -14,15 +14,15 @@ _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "GAZEBO_
 
 
 class Packages:
-    """Finds packages by name; looks only when asked, and remembers.
+    """Search for packages by name, lazy and cached.
 
     The order is: `search`, the package around `near`, its workspace, ``ROS_PACKAGE_PATH``, ``AMENT_PREFIX_PATH``,
-    ``CMAKE_PREFIX_PATH``, the model paths of Gazebo, the robots we ship, and last a folder of that name around `near`
+    ``CMAKE_PREFIX_PATH``, the model paths of Gazebo, the bundled robots, and last a folder of that name around `near`
     although it has no package.xml.
 
     Args:
-        search: folders to look in first: packages, folders of packages, or install prefixes.
-        near: a file or folder of the workspace to look in.
+        search: folders to search first: packages, folders of packages, or install prefixes.
+        near: a file or folder of the workspace to search.
         environment: the variables to use; those of the process when None.
     """
 
@@ -38,12 +38,12 @@ class Packages:
         self._environment = os.environ if environment is None else environment
         self._found: dict[str, Path] = {}
         self._seen: dict[str, Path] = {}
-        self._crawled: dict[Path, dict[str, Path]] = {}
+        self._scanned: dict[Path, dict[str, Path]] = {}
         self.answers: dict[tuple[str, ...], str] = {}
-        """What was asked so far, and the answers: what holds as long as `ask` gives the same."""
+        """Question → answer of each query so far; a cached result is valid as long as `answer` returns the same."""
 
-    def ask(self, question: tuple[str, ...]) -> str:
-        """Return the answer to a question of `answers`, asked again: a path, or what was said instead."""
+    def answer(self, question: tuple[str, ...]) -> str:
+        """Return the current answer to a question of `answers`: a path, or the error message after ``!``."""
         kind, *words = question
         try:
             if kind == "find":
@@ -56,10 +56,10 @@ class Packages:
         except ResourceError as error:
             return f"!{error.message}"
 
-    def beside(self, near: str | Path) -> Packages:
-        """Return one that looks near another file, and shares what was learnt of folders."""
+    def near_file(self, near: str | Path) -> Packages:
+        """Return a resolver that searches near another file and shares the cache of folders."""
         other = Packages(self.search, near, environment=self._environment)
-        other._crawled = self._crawled
+        other._scanned = self._scanned
         return other
 
     def find(self, name: str) -> Path:
@@ -69,7 +69,7 @@ class Packages:
             name: as in ``$(find name)``.
 
         Raises:
-            ResourceError: there is no such package; says where it looked and the nearest name.
+            ResourceError: unknown package; names the searched places and the nearest name.
         """
         if name not in self._found:
             found = self._look_up(name) if _is_plain(name) else None
@@ -119,9 +119,9 @@ class Packages:
         raise ResourceError(f"no file {uri}{near_path(path)}")
 
     def relocate(self, path: str | Path) -> Path | None:
-        """Return where a path that an installed package would have lies in its source folder.
+        """Return the path in the source folder for a path that exists only in an installed package.
 
-        Packages whose CMake installs ``description/*`` into the share folder are read from source all the same:
+        Packages whose CMake installs ``description/*`` into the share folder can be read from source too:
         ``$(find pkg)/urdf/x`` is ``<source>/description/urdf/x`` there.
 
         Args:
@@ -135,7 +135,7 @@ class Packages:
         return moved
 
     def whereabouts(self, path: str | Path) -> str:
-        """Return the path itself where it exists, else where `relocate` finds it; empty where there is no such file."""
+        """Return the path if it exists, else the result of `relocate`; empty if neither exists."""
         answer = self.answers[("relocate", str(path))] = self._moved(str(path))
         return answer
 
@@ -148,7 +148,7 @@ class Packages:
         return found
 
     def _moved(self, path: str) -> str:
-        """Return the path itself where it exists by now, else where it was moved to."""
+        """Return the path if it exists now, else its relocated path."""
         return path if Path(path).exists() else str(self._relocated(path) or "")
 
     def _relocated(self, path: str | Path) -> Path | None:
@@ -181,7 +181,7 @@ class Packages:
             direct = folder / name
             if package_name(direct) == name or (direct / "model.config").is_file():
                 return direct
-            if (found := self._crawl(folder).get(name)) is not None:
+            if (found := self._scan(folder).get(name)) is not None:
                 return found
         if self.near is not None:
             for around in (self.near, *self.near.parents):
@@ -192,7 +192,7 @@ class Packages:
         return None
 
     def _places(self) -> Iterator[Path | None]:
-        """Yield the folders to look in, best first; each is scanned only when the ones before did not do."""
+        """Yield the folders to search, best first; each is scanned only after the previous ones had no result."""
         from urdfkit.description.packages.discovery import package_name, share_folders, workspace
 
         for folder in self.search:
@@ -232,27 +232,27 @@ class Packages:
             return None
         return next((f for f in (self.near, *self.near.parents) if (f / "package.xml").is_file()), None)
 
-    def _crawl(self, top: Path) -> dict[str, Path]:
+    def _scan(self, top: Path) -> dict[str, Path]:
         from urdfkit.description.packages.discovery import packages_below
 
-        if top not in self._crawled:
-            self._crawled[top] = found = packages_below(top)
+        if top not in self._scanned:
+            self._scanned[top] = found = packages_below(top)
             for name, folder in found.items():
                 self._seen.setdefault(name, folder)
-        return self._crawled[top]
+        return self._scanned[top]
 
 
-def near_package(name: str, known: Iterable[str]) -> str:
-    """Return a did-you-mean for a package; a last word in common (``_description``) makes no two names near."""
+def near_package(name: str, packages: Iterable[str]) -> str:
+    """Return a did-you-mean hint for a package; a common last word (``_description``) does not count."""
     stem, _, last = name.rpartition("_")
-    parts = ((other, *other.rpartition("_")[::2]) for other in known)
+    parts = ((other, *other.rpartition("_")[::2]) for other in packages)
     return did_you_mean(name, [other for other, own, end in parts if end != last or did_you_mean(stem, [own])])
 
 
 def near_path(path: Path) -> str:
-    """Return a did-you-mean for the first part of `path` that is not there; cases are compared loosely.
+    """Return a did-you-mean hint for the first part of `path` that does not exist, ignoring case.
 
-    What two names have in common beyond the first dot makes neither near to the other.
+    A common suffix from the first dot on does not make two names similar.
     """
     missing, parent = path, path.parent
     while not parent.is_dir() and parent != parent.parent:

@@ -1,4 +1,4 @@
-"""PluginSpec tables: what each Gazebo plugin answers to and reads. Pure data, shared by linter, simulator and docs.
+"""PluginSpec tables: the names and parameters of each Gazebo plugin. Pure data for linter, simulator and docs.
 
 ``match(plugin)`` finds the table, ``read(plugin, spec)`` gives meaning → text (``read_all`` for repeated parameters).
 """

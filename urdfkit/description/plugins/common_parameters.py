@@ -1,4 +1,4 @@
-"""What several plugins read alike: the ROS blocks of Gazebo Classic, limits and odometry of the new Gazebo's drives."""
+"""Parameters common to several plugins: ROS blocks of Gazebo Classic, limits and odometry of gz drives."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ GAZEBO_ROS_1 = (
     Parameter("namespace", "robotNamespace"),
     Parameter("ros_debug_level", "rosDebugLevel"),
 )
-"""What ``gazebo_ros_utils`` reads for every ROS 1 plugin."""
+"""Parameters that ``gazebo_ros_utils`` reads for every ROS 1 plugin."""
 
 GAZEBO_ROS_2 = (Parameter("ros", "ros"),)
 """The ``<ros>`` block (namespace, remapping, argument, parameter, qos) that ``gazebo_ros::Node`` reads in ROS 2."""

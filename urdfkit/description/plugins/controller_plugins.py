@@ -1,6 +1,6 @@
 """Control: joint state publishers, single-joint controllers, ros_control and ros2_control.
 
-Defaults in braces are filled in by whoever knows the model: ``{world}``, ``{model}`` and ``{joint}`` are names.
+Placeholders in defaults are replaced per model: ``{world}``, ``{model}`` and ``{joint}`` are names.
 """
 
 from __future__ import annotations
@@ -157,4 +157,4 @@ CONTROL = (
     GAZEBO_ROS2_CONTROL,
     GZ_ROS2_CONTROL,
 )
-"""Every joint state publisher, joint controller and host of controllers."""
+"""Every joint state publisher, joint controller and controller manager."""

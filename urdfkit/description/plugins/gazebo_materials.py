@@ -1,4 +1,4 @@
-"""Gazebo classic's materials: their colours, and which names there are.
+"""Gazebo classic's materials: their names and colours.
 
 Source: gazebo-classic, media/materials/scripts/gazebo.material and grid.material.
 """
@@ -69,7 +69,7 @@ PLAIN = (
     *("Lane_1", "Lanes_2", "Lanes_4", "Lanes_6", "Motorway", "Pedestrian", "PointCloud", "Primary"),
     *("RedTransparentOverlay", "Secondary", "Steps", "Tertiary", "Trunk", "TurquoiseGlowOutline", "WindowFrame"),
 )
-"""The others that Gazebo has for looks; here they have the colour of what has none."""
+"""Gazebo's other materials; they get the colour of shapes without a material."""
 
 
 def script_of(material: Element) -> tuple[Element, str]:
@@ -80,7 +80,7 @@ def script_of(material: Element) -> tuple[Element, str]:
 
 
 def unknown_materials(robot: Robot) -> Iterator[tuple[Element, str, str | None]]:
-    """Yield where a ``<gazebo>`` block names a material ``Gazebo/…`` that there is not, the name, and the nearest."""
+    """Yield where a ``<gazebo>`` block names an unknown material ``Gazebo/…``, the name, and the nearest."""
     for block in robot.gazebo:
         for parent in (block.element, *block.element.find_all("visual")):
             for material in parent.find_all("material"):
@@ -89,11 +89,11 @@ def unknown_materials(robot: Robot) -> Iterator[tuple[Element, str, str | None]]
 
 
 def unknown_material(material: Element) -> tuple[Element, str, str | None] | None:
-    """Return where a ``<material>`` names one ``Gazebo/…`` that there is not, the name, and the nearest; else None."""
-    known = (*GAZEBO, *PLAIN)
+    """Return where a ``<material>`` names an unknown ``Gazebo/…``, the name, and the nearest; else None."""
+    names = (*GAZEBO, *PLAIN)
     place, name = script_of(material)
     short = name.removeprefix("Gazebo/")
-    if short == name or short in known:
+    if short == name or short in names:
         return None
-    near = nearest(short, known, likeness=0.7)
+    near = nearest(short, names, likeness=0.7)
     return place, name, None if near is None else f"Gazebo/{near}"

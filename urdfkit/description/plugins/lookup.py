@@ -13,7 +13,7 @@ from urdfkit.description.urdf.robot import Plugin
 from urdfkit.description.xml.element import Element
 
 ALL_SPECS: tuple[PluginSpec, ...] = (*DRIVES, *CONTROL, *SENSORS)
-"""Every plugin we have a table of."""
+"""Every plugin with a table."""
 
 _VERSIONED = re.compile(r"^(gz-sim|ignition-gazebo)\d+-(.+-system)$")
 
@@ -28,12 +28,12 @@ def stem(filename: str) -> str:
 
 
 def match(plugin: Plugin) -> PluginSpec | None:
-    """Return the table of a plugin, by file name; None where we know none.
+    """Return the table of a plugin, by file name; None for an unknown plugin.
 
-    ROS 1 and ROS 2 plugins of Gazebo Classic share file names and are told apart by spelling: a ``<ros>`` block means
-    ROS 2, else the table that knows more of what is written counts, else more snake_case than camelCase means ROS 2. In
-    the new Gazebo one library may hold several classes, so the plugin's ``name`` decides where the class is known and
-    the file name where it is not.
+    ROS 1 and ROS 2 plugins of Gazebo Classic share file names and differ in spelling: a ``<ros>`` block means ROS 2,
+    else the table with more of the written parameters is used, else more snake_case than camelCase means ROS 2. In the
+    new Gazebo one library may hold several classes, so the plugin's ``name`` decides for a known class and
+    the file name otherwise.
     """
     if plugin.filename is None:
         return None

@@ -1,7 +1,7 @@
-"""Which elements a ``<sensor>`` may hold, so that a misspelt one is remarked on and not lost in silence.
+"""Elements allowed in a ``<sensor>``, so that a misspelt one is reported.
 
-Source: sdformat, sdf/1.9 to 1.12: sensor.sdf, camera.sdf, lidar.sdf, noise.sdf and the files beside them; with what the
-older versions had, which is converted, and what gz-sensors reads besides.
+Source: sdformat, sdf/1.9 to 1.12: sensor.sdf, camera.sdf, lidar.sdf, noise.sdf and related files; also elements of older
+versions, which are converted, and elements that only gz-sensors reads.
 """
 
 from __future__ import annotations
@@ -13,17 +13,17 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    Known = dict[str, "Known"]
+    Allowed = dict[str, "Allowed"]
 
 
 @record
-class Stranger:
-    """An element that nobody reads where it stands.
+class UnknownElement:
+    """Element that is not read at its place.
 
     Attributes:
-        element: which.
-        inside: the tag of the one it stands in.
-        meant: the nearest that would be read there; None where none is near.
+        element: the element.
+        inside: the tag of its parent.
+        meant: the nearest element that is read there; None if none is similar.
     """
 
     element: Element
@@ -31,7 +31,7 @@ class Stranger:
     meant: str | None
 
 
-def _of(words: str = "", **deeper: Known) -> Known:
+def _of(words: str = "", **deeper: Allowed) -> Allowed:
     return {**{word: {} for word in words.split()}, **deeper}
 
 
@@ -97,25 +97,25 @@ _SENSOR = _of(
     transceiver=_RADIO,
 )
 _FREE = frozenset(("plugin", "origin", "pose", "frame", "rfid", "rfidtag"))
-"""What is in these is not SDF's to say."""
+"""Elements whose content SDF does not define."""
 
 
-def strangers(sensor: Element) -> Iterator[Stranger]:
-    """Yield the elements in a ``<sensor>`` that SDF does not know there; those with a prefix are somebody else's."""
-    return _strangers(sensor, _SENSOR)
+def unknown_elements(sensor: Element) -> Iterator[UnknownElement]:
+    """Yield the elements in a ``<sensor>`` that are unknown to SDF; elements with a prefix are ignored."""
+    return _unknown_elements(sensor, _SENSOR)
 
 
-def _strangers(element: Element, known: Known) -> Iterator[Stranger]:
+def _unknown_elements(element: Element, allowed: Allowed) -> Iterator[UnknownElement]:
     for child in element.children:
-        if child.tag in known:
+        if child.tag in allowed:
             if child.tag not in _FREE:
-                yield from _strangers(child, known[child.tag])
-        elif ":" not in child.tag and known:
-            yield Stranger(child, element.tag, nearest(child.tag, known))
+                yield from _unknown_elements(child, allowed[child.tag])
+        elif ":" not in child.tag and allowed:
+            yield UnknownElement(child, element.tag, nearest(child.tag, allowed))
 
 
-def nearest(name: str, candidates: Iterator[str] | Known | tuple[str, ...], likeness: float = 0.6) -> str | None:
-    """Return the candidate nearest to a name, whatever its case; None where none is near."""
+def nearest(name: str, candidates: Iterator[str] | Allowed | tuple[str, ...], likeness: float = 0.6) -> str | None:
+    """Return the candidate most similar to a name, ignoring case; None if none is similar."""
     from difflib import get_close_matches
 
     pool = {candidate.lower(): candidate for candidate in candidates}

@@ -1,4 +1,4 @@
-"""Numbers of a ``<sensor>`` with which it would see nothing, or which mean nothing: for linter and simulator alike."""
+"""Invalid numbers of a ``<sensor>``, for linter and simulator."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     Senseless = Iterator[tuple[Element, str]]
-    """What is wrong and where: the element to point at, and one line."""
+    """Element and one-line message of each defect."""
 
 ORDERED = (("min_depth", "max_depth"), ("min_range", "max_range"))
-"""Meanings of plugins' parameters of which the first is the smaller."""
+"""Pairs of parameters of which the first must be the smaller."""
 
 
 NUMBERS = frozenset(
@@ -26,17 +26,17 @@ NUMBERS = frozenset(
         *("horizontal_fov", "width", "height", "near", "far", "mean", "stddev"),
     )
 )
-"""What holds a number wherever it stands in a ``<sensor>``, but for plugins (sdformat: sensor.sdf, noise.sdf …)."""
+"""Elements of a ``<sensor>`` outside plugins that hold a number (sdformat: sensor.sdf, noise.sdf …)."""
 
 _MAX_ANGLE = 6.3
 """A little more than a full turn [rad]: 6.2832 is written often."""
 
 WIDE = ("wideanglecamera", "wide_angle_camera")
-"""Types of the camera whose picture may go all the way round (sdformat, camera.sdf: ``horizontal_fov`` to 6.283186)."""
+"""Types of cameras with a field of view of up to a full turn (sdformat, camera.sdf: ``horizontal_fov`` to 6.283186)."""
 
 
 def senseless_numbers(sensor: Element) -> Senseless:
-    """Yield what should be a number and is none, rates below zero, and angles of more than a full turn."""
+    """Yield values that are not numbers, negative rates, and angles above a full turn."""
     for child in sensor.children:
         if child.tag == "plugin":
             continue
@@ -53,7 +53,7 @@ def senseless_numbers(sensor: Element) -> Senseless:
 
 
 def senseless_scan(lidar: Element) -> Senseless:
-    """Yield what makes no sense in a ``<ray>`` or ``<lidar>``; the defaults are sdformat's (lidar.sdf)."""
+    """Yield invalid values in a ``<ray>`` or ``<lidar>``; the defaults are sdformat's (lidar.sdf)."""
     pattern, reach = lidar.find("scan"), lidar.find("range")
     for fan in (None if pattern is None else pattern.find(tag) for tag in ("horizontal", "vertical")):
         if fan is not None:
@@ -84,7 +84,7 @@ def _senseless_fan(fan: Element) -> Senseless:
 
 
 def senseless_camera(camera: Element, *, is_wide: bool = False) -> Senseless:
-    """Yield what makes no sense in a ``<camera>``; the defaults are sdformat's (camera.sdf).
+    """Yield invalid values in a ``<camera>``; the defaults are sdformat's (camera.sdf).
 
     Args:
         camera: the element.
@@ -107,7 +107,7 @@ def senseless_camera(camera: Element, *, is_wide: bool = False) -> Senseless:
 
 
 def senseless_parameters(plugin: Plugin, spec: PluginSpec) -> Senseless:
-    """Yield pairs of a plugin's parameters that are the wrong way round."""
+    """Yield pairs of a plugin's parameters in the wrong order."""
     for pair in ORDERED:
         tags, numbers, places = [], [], []
         for meaning in pair:
@@ -126,7 +126,7 @@ def senseless_parameters(plugin: Plugin, spec: PluginSpec) -> Senseless:
 
 
 def _number(parent: Element | None, tag: str, default: float) -> float:
-    """Return the number in a child, the default where there is none, NaN where it is something else."""
+    """Return the number in a child, the default if it is missing, NaN if it is not a number."""
     child = None if parent is None else parent.find(tag)
     return default if child is None or not child.text else _value(child.text)
 

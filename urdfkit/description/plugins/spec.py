@@ -19,11 +19,11 @@ class Parameter:
     """One XML child a plugin reads.
 
     Attributes:
-        meaning: what the simulator calls it, the same across generations, e.g. ``wheel_separation``.
-        tag: how this generation spells it.
-        default: the value when it is left out, as text; None where it has to be written.
+        meaning: its name in the simulator, the same across generations, e.g. ``wheel_separation``.
+        tag: its tag in this generation.
+        default: the value if it is missing, as text; None for a required parameter.
         unit: SI unit in brackets, or empty.
-        names: what the value refers to, if to anything.
+        names: the kind of entity the value names; empty if it is not a name.
         repeats: may be given more than once.
         separator: splits one value into several, e.g. ``,``; empty where the text is one value.
     """
@@ -42,12 +42,12 @@ class PluginSpec:
     """One plugin in one generation.
 
     Attributes:
-        kind: what it is for the simulator, e.g. ``diff_drive``.
-        generation: whose spelling this is.
-        filenames: library stems it answers to (without directory, ``lib`` and ``.so``).
+        kind: its kind in the simulator, e.g. ``diff_drive``.
+        generation: the generation of Gazebo and ROS.
+        filenames: stems of its libraries (without directory, ``lib`` and ``.so``).
         class_names: C++ classes its ``name`` may be (new Gazebo only).
         parameters: every XML child it reads.
-        source: where this was read from.
+        source: the source file this table was read from.
     """
 
     kind: str

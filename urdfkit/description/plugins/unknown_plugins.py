@@ -1,4 +1,4 @@
-"""What to say of a plugin that nothing here runs: its place, and the nearest that something does."""
+"""Messages about plugins that are not simulated: the position, and the nearest simulated plugin."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ _END = re.compile(r"(-system|_plugin)$")
 
 
 def unknown(plugin: Plugin, sensor: str | None = None, others: Iterable[str] = ()) -> str:
-    """Return what to say of a plugin that nothing here runs.
+    """Return the message about a plugin that is not simulated.
 
     Args:
         plugin: as written.
         sensor: name of the ``<sensor>`` it stands in, if it does.
-        others: bare file names that are known beside those of our tables.
+        others: bare file names that are supported besides those of the tables.
     """
     place = plugin.element.origin.position
     left_out = "" if sensor is None else f"; sensor `{sensor or 'sensor'}` is left out"
@@ -42,14 +42,14 @@ def nearest(name: str, others: Iterable[str] = ()) -> str:
 
     Args:
         name: without directory, ``lib`` and ``.so``.
-        others: names that are known beside those of our tables.
+        others: names that are supported besides those of the tables.
     """
-    known = [other for spec in ALL_SPECS for other in spec.filenames] + list(others)
-    # What most of them share says nothing about which one was meant.
-    hint = did_you_mean(_essence(name), map(_essence, known))
+    candidates = [other for spec in ALL_SPECS for other in spec.filenames] + list(others)
+    # Parts common to most names do not make names similar.
+    hint = did_you_mean(_essence(name), map(_essence, candidates))
     if not hint:
         return ""
-    meant = [other for other in known if _essence(other) == hint.split("`")[1]]
+    meant = [other for other in candidates if _essence(other) == hint.split("`")[1]]
     return get_close_matches(name, meant, n=1, cutoff=0.0)[0]
 
 

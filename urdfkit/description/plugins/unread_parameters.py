@@ -1,4 +1,4 @@
-"""What is written into a plugin and not read by it."""
+"""Parameters written in a plugin that the plugin does not read."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ READ_TOO = {
     "gazebo_ros_depth_camera": ("reflectanceTopicName", "normalsTopicName", "reduceNormals"),
     "gazebo_ros_p3d": ("xyz_offsets", "rpy_offsets"),
 }
-"""Stem of a library → what it reads besides what our tables of parameters have: nothing here simulates it."""
+"""Stem of a library → parameters it reads that are not in the tables, because they are not simulated."""
 
 HARMLESS = frozenset(("alwaysOn", "always_on", "ros", "plugin", "xacro", "robotParam", "rosDebugLevel"))
-"""What is written into plugins by habit and read by none, or by all."""
+"""Parameters that are common in plugins and read by none, or by all."""
 
-_KNOWN = {("diff_drive", "ros1", "torque"): "wheelTorque", ("diff_drive", "ros1", "broadcastTF"): "publishOdomTF"}
-"""What is copied from another plugin, and what means it here."""
+_EQUIVALENT = {("diff_drive", "ros1", "torque"): "wheelTorque", ("diff_drive", "ros1", "broadcastTF"): "publishOdomTF"}
+"""Parameter of another plugin → its equivalent here."""
 
 _PROMISED = {
     ("diff_drive", "ros2", "odometry_topic"),
     ("diff_drive", "ros2", "command_topic"),
     ("openni_kinect", "ros1", "baseline"),
 }
-"""What the comment at the top of a plugin's header, or Gazebo's own tutorial, shows."""
+"""Parameters shown in the header comment of a plugin or in Gazebo's tutorials."""
 
 
 @record
@@ -41,9 +41,9 @@ class Unread:
     """A parameter that its plugin does not read, in no generation.
 
     Attributes:
-        element: which.
-        message: what is wrong, without the place.
-        meant: the nearest one that is read and not written; None where there is none.
+        element: the parameter.
+        message: the defect, without the position.
+        meant: the nearest parameter that is read and not written; None if none is similar.
         promised: whether examples of the plugin show it.
     """
 
@@ -64,7 +64,7 @@ def tables(plugin: Plugin) -> list[PluginSpec]:
 
 
 def unread(plugin: Plugin, spec: PluginSpec) -> Iterator[Unread]:
-    """Yield what is written into a plugin and read in no generation of it.
+    """Yield the parameters of a plugin that no generation of it reads.
 
     Args:
         plugin: as written.
@@ -72,7 +72,7 @@ def unread(plugin: Plugin, spec: PluginSpec) -> Iterator[Unread]:
     """
     every = {parameter.tag for other in (spec, *tables(plugin)) for parameter in other.parameters}
     also = READ_TOO.get(stem(plugin.filename or ""), ())
-    known = tuple(parameter.tag for parameter in spec.parameters)
+    names = tuple(parameter.tag for parameter in spec.parameters)
     for child in plugin.element.children:
         tag = child.tag
         if tag in every or tag in also or tag in HARMLESS or ":" in tag:
@@ -81,7 +81,7 @@ def unread(plugin: Plugin, spec: PluginSpec) -> Iterator[Unread]:
         if key in _PROMISED:
             yield Unread(child, f"<{tag}> is shown in examples of the plugin, but not read", None, True)
             continue
-        meant = _KNOWN.get(key) or nearest(tag, known, likeness=0.8)
+        meant = _EQUIVALENT.get(key) or nearest(tag, names, likeness=0.8)
         if meant is not None and plugin.element.find(meant) is not None:
             meant = None
         message = f"<{tag}> is not a parameter of {spec.kind.replace('_', ' ')} of {GENERATIONS[spec.generation]}"

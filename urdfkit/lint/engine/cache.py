@@ -95,8 +95,8 @@ class Cache:
                 return False
         if any(os.environ.get(name) != value for name, value in kept["environment"].items()):
             return False
-        packages = self.packages.beside(entry.path)
-        return all(packages.ask(tuple(question)) == answer for question, answer in kept["answers"])
+        packages = self.packages.near_file(entry.path)
+        return all(packages.answer(tuple(question)) == answer for question, answer in kept["answers"])
 
     def put(self, entry: Entry, found: Found, expanded: Expanded) -> None:
         """Keep what was found. Without a writable place, or where not all that was read is known, do not.

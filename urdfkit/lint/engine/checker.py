@@ -136,7 +136,7 @@ class Checker:
             if guessed.target is not None and guessed.manifest is not None:
                 options = Options(**{**options.__dict__, "target": guessed.target})
                 note = f"linted for {guessed.target}: {guessed.manifest.parent.name} {guessed.why}"
-        model = model_of(entry.path, options, packages=self.packages.beside(entry.path), memory=self.memory)
+        model = model_of(entry.path, options, packages=self.packages.near_file(entry.path), memory=self.memory)
         self.sources.update(model.expanded.sources)
         self._failures: list[str] = []
         findings = list(self._ask_source_rules(model))

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 from urdfkit.description.plugins import PluginSpec
 from urdfkit.description.plugins.gazebo_materials import unknown_materials
-from urdfkit.description.plugins.sensor_elements import strangers
+from urdfkit.description.plugins.sensor_elements import unknown_elements
 from urdfkit.description.plugins.sensors.table import INSTEAD, SENSOR_TYPES
 from urdfkit.description.plugins.unread_parameters import unread
 from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
@@ -20,7 +20,7 @@ def misspelt(robot: Robot) -> Iterator[str]:
         yield f"{element.origin.position}: no material `{name}`{_hint(meant)}; the link keeps its plain colour"
     for block in robot.gazebo:
         for sensor in block.sensors:
-            for each in strangers(sensor.element):
+            for each in unknown_elements(sensor.element):
                 meant = None if each.meant is None else f"<{each.meant}>"
                 yield _ignored(each.element, f"unknown element <{each.element.tag}> in <{each.inside}>", meant)
 

@@ -57,7 +57,7 @@ VELOCITY_CONTROL_GZ = PluginSpec(
     ),
     source="gz-sim main, src/systems/velocity_control/VelocityControl.cc",
 )
-"""Publishes no odometry; that is the odometry publisher's."""
+"""Publishes no odometry; use the odometry publisher for it."""
 
 PLANAR_MOVE = (PLANAR_MOVE_ROS_1, PLANAR_MOVE_ROS_2, VELOCITY_CONTROL_GZ)
-"""What moves the base itself."""
+"""Plugins that move the base itself."""

@@ -1,6 +1,6 @@
 """Drives: the plugins that turn a velocity command into motion, one module per family.
 
-Defaults in braces are filled in by whoever knows the model: ``{model}`` is its name, ``{root}`` its root link.
+Placeholders in defaults are replaced per model: ``{model}`` is its name, ``{root}`` its root link.
 """
 
 from __future__ import annotations

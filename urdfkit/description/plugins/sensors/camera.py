@@ -1,6 +1,6 @@
-"""Cameras: the plugins of Gazebo Classic's camera and depth sensors, and what the new Gazebo reads of its own.
+"""Cameras: the plugins of Gazebo Classic's camera and depth sensors, and the cameras of the new Gazebo.
 
-Defaults in braces are filled in by whoever knows the model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are
+Placeholders in defaults are replaced per model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are
 names.
 """
 
@@ -124,7 +124,7 @@ _GZ = (
 
 def _gz(kind: str, topic: str) -> PluginSpec:
     parameters = (Parameter("image_topic", "topic", f"{_SCOPED}{topic}", names="topic"), *_GZ)
-    return PluginSpec(kind, "gz", (), (), parameters, source="gz-sensors main, src/CameraSensor.cc and its kin")
+    return PluginSpec(kind, "gz", (), (), parameters, source="gz-sensors main, src/CameraSensor.cc and related files")
 
 
 CAMERA_GZ = _gz("gz_camera", "/image")

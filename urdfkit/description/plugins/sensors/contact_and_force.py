@@ -17,7 +17,7 @@ BUMPER_ROS_1 = PluginSpec(
     ),
     source="gazebo_ros_pkgs noetic-devel, gazebo_plugins/src/gazebo_ros_bumper.cpp",
 )
-"""Everything is told in the world's axes, whatever ``frameName`` is."""
+"""All values are in the world's axes, whatever ``frameName`` is."""
 
 BUMPER_ROS_2 = PluginSpec(
     kind="bumper",
@@ -71,7 +71,7 @@ FORCE_TORQUE_ROS_2 = PluginSpec(
     ),
     source="gazebo_ros_pkgs ros2, gazebo_plugins/src/gazebo_ros_ft_sensor.cpp",
 )
-"""Publishes on ``wrench``, changed by ``<ros><remapping>`` only; with ``body_name`` what acts on that link."""
+"""Publishes on ``wrench``, changed by ``<ros><remapping>`` only; with ``body_name`` the wrench on that link."""
 
 FORCE_TORQUE_GZ = PluginSpec(
     kind="gz_force_torque",
@@ -103,7 +103,7 @@ TOUCH_GZ = PluginSpec(
     ),
     source="gz-sim main, src/systems/touch_plugin/TouchPlugin.cc",
 )
-"""A plugin of the model; it goes by the model's contact sensors."""
+"""A plugin of the model; it uses the model's contact sensors."""
 
 TOUCH = (BUMPER_ROS_1, BUMPER_ROS_2, FORCE_TORQUE_ROS_1, FORCE_TORQUE_ROS_2, TOUCH_GZ)
 """Every plugin that senses touch or load."""

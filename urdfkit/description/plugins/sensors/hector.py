@@ -1,4 +1,4 @@
-"""Sensors of hector_gazebo_plugins and hector_quadrotor_gazebo_plugins, for ROS 1: they drift, and are noisy."""
+"""Sensors of hector_gazebo_plugins and hector_quadrotor_gazebo_plugins, for ROS 1, with drift and noise."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ HECTOR_GPS = PluginSpec(
     ),
     source=f"{_REPOSITORY}/gazebo_ros_gps.cpp",
 )
-"""What is not written of the reference is the world's ``<spherical_coordinates>``."""
+"""Missing reference values come from the world's ``<spherical_coordinates>``."""
 
 HECTOR_MAGNETIC = PluginSpec(
     kind="hector_magnetic",

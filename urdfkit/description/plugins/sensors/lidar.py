@@ -1,7 +1,7 @@
-"""Lidars and rangefinders: the plugins of Gazebo Classic's ray sensors, and what the new Gazebo reads of its own.
+"""Lidars and rangefinders: the plugins of Gazebo Classic's ray sensors, and the lidars of the new Gazebo.
 
-The scan itself (angles, samples, ranges, noise) is written in the ``<sensor>`` the plugin stands in. Defaults in braces
-are filled in by whoever knows the model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are names.
+The scan itself (angles, samples, ranges, noise) is written in the ``<sensor>`` the plugin stands in. Placeholders in
+defaults are replaced per model: ``{world}``, ``{model}``, ``{link}`` and ``{sensor}`` are names.
 """
 
 from __future__ import annotations
@@ -130,4 +130,4 @@ LIDARS = (LASER_ROS_1, BLOCK_LASER_ROS_1, RANGE_ROS_1, RAY_SENSOR_ROS_2, VELODYN
 """Every lidar plugin."""
 
 LIDAR_TYPES = ("ray", "gpu_ray", "lidar", "gpu_lidar")
-"""What the ``type`` of a lidar's ``<sensor>`` may be."""
+"""Types of a lidar's ``<sensor>``."""

@@ -61,7 +61,7 @@ SENSOR_TYPES = tuple(
         )
     )
 )
-"""What the ``type`` of a ``<sensor>`` may be (sdformat main, src/Sensor.cc), simulated here or not."""
+"""Types of a ``<sensor>`` (sdformat main, src/Sensor.cc), simulated here or not."""
 
 _NEAREST_OF_RAYS = (
     'write type="ray" and a plugin that publishes the nearest range, libgazebo_ros_range.so in ROS 1 or '

@@ -8,7 +8,7 @@ from urdfkit.description.sdf.frame_graph import Scope
 from urdfkit.description.sdf.model import WorldAxis, WorldJoint, WorldMimic
 from urdfkit.description.sdf.poses import compose, rotate, rotation_of, transpose
 from urdfkit.description.sdf.reader.reading_state import Context
-from urdfkit.description.sdf.reader.vocabulary import remark_unknown
+from urdfkit.description.sdf.reader.vocabulary import note_unknown_elements
 from urdfkit.description.sdf.shapes import keep
 from urdfkit.description.sdf.values import boolean, name_of, raw_pose, scalar, text, vector, wrong
 from urdfkit.description.urdf.robot import Pose, Vector
@@ -35,7 +35,7 @@ def read_joint(context: Context, element: Element, scope: Scope) -> WorldJoint:
     Raises:
         DescriptionError: it cannot be read, or joins what is not there.
     """
-    remark_unknown(context, element)
+    note_unknown_elements(context, element)
     name, kind = name_of(element), element.get("type") or ""
     if kind not in TYPES:
         raise wrong(element, f"unknown type `{kind}` of joint `{name}`{did_you_mean(kind, TYPES)}")
@@ -68,7 +68,7 @@ def _link(joint: Element, tag: str, scope: Scope) -> str:
 
 
 def _axis(context: Context, element: Element, scope: Scope, child: str, pose: Pose) -> WorldAxis:
-    remark_unknown(context, element)
+    note_unknown_elements(context, element)
     limit, dynamics = element.find("limit"), element.find("dynamics")
     lower, upper = (
         _limit(scalar(limit, tag, sign * inf, infinite=True)) for tag, sign in (("lower", -1), ("upper", 1))

@@ -7,7 +7,7 @@ from urdfkit.description.sdf.inertia import WATER, Solid, solid, together
 from urdfkit.description.sdf.model import WorldInertial, WorldLink
 from urdfkit.description.sdf.reader.reading_state import Context
 from urdfkit.description.sdf.reader.shapes import read_shape
-from urdfkit.description.sdf.reader.vocabulary import remark_unknown
+from urdfkit.description.sdf.reader.vocabulary import note_unknown_elements
 from urdfkit.description.sdf.shapes import Light, WorldShape, keep
 from urdfkit.description.sdf.values import boolean, color, name_of, raw_pose, scalar, vector, wrong
 from urdfkit.description.urdf.robot import Pose
@@ -30,7 +30,7 @@ def read_link(context: Context, element: Element, scope: Scope) -> WorldLink:
     Raises:
         DescriptionError: it cannot be read.
     """
-    remark_unknown(context, element)
+    note_unknown_elements(context, element)
     name = name_of(element)
     collisions = _shapes(context, element, "collision", scope, name)
     self_collide = element.find("self_collide")
@@ -67,7 +67,7 @@ def _inertial(context: Context, link: Element, scope: Scope, collisions: tuple[W
     element = link.find("inertial")
     if element is None:
         return WorldInertial()
-    remark_unknown(context, element)
+    note_unknown_elements(context, element)
     if element.get("auto", "false").lower() in ("true", "1"):  # type: ignore[union-attr]
         return _automatic(link, element, collisions)
     default = WorldInertial()
@@ -117,7 +117,7 @@ def read_light(context: Context, element: Element, pose: Pose) -> Light:
     Raises:
         DescriptionError: it cannot be read.
     """
-    remark_unknown(context, element)
+    note_unknown_elements(context, element)
     name, kind = name_of(element), element.get("type") or "point"
     if kind not in _LIGHTS:
         raise wrong(element, f"unknown type `{kind}` of light `{name}`{did_you_mean(kind, _LIGHTS)}")

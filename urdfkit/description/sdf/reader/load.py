@@ -19,8 +19,8 @@ from urdfkit.description.sdf.reader.links import read_light
 from urdfkit.description.sdf.reader.models import Found, add_frame, read_include, read_model
 from urdfkit.description.sdf.reader.reading_state import Context, root_error
 from urdfkit.description.sdf.reader.saved_state import State
-from urdfkit.description.sdf.reader.vocabulary import remark_unknown
-from urdfkit.description.sdf.reader.world_plugins import remark_plugins
+from urdfkit.description.sdf.reader.vocabulary import note_unknown_elements
+from urdfkit.description.sdf.reader.world_plugins import note_unknown_plugins
 from urdfkit.description.sdf.shapes import Light, keep
 from urdfkit.description.sdf.values import raw_pose, scalar, vector, wrong
 from urdfkit.description.sdf.world import GRAVITY, Physics, World, WorldRobot
@@ -72,7 +72,7 @@ def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) ->
     root = context.open()
     if root.tag != "sdf":
         raise root_error(root)
-    remark_unknown(context, root)
+    note_unknown_elements(context, root)
     written = root.find("world")
     if written is not None:
         found = _world(context, written)
@@ -82,7 +82,7 @@ def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) ->
         raise root_error(root)
     for each in found.models:
         _require_masses(each, static=False)
-    remark_plugins(context, found)
+    note_unknown_plugins(context, found)
     return replace(found, notes=tuple(context.notes), files=tuple(context.files))
 
 
@@ -142,7 +142,7 @@ def _alone(found: Found) -> World:
 
 
 def _world(context: Context, element: Element) -> World:
-    remark_unknown(context, element)
+    note_unknown_elements(context, element)
     scope = Scope("world", f"world `{element.get('name') or ''}`")
     strict = context.version >= (1, 7)
     states = element.find_all("state")
@@ -164,7 +164,7 @@ def _world(context: Context, element: Element) -> World:
     models = [each for each in placed if isinstance(each, WorldModel)]
     lights = [each for each in placed if isinstance(each, Light)]
     if state is not None:
-        state.remark_strangers([each.name for each in models])
+        state.note_unknown_models([each.name for each in models])
         models, lights = [state.model(each) for each in models], [state.light(each) for each in lights]
     physics = _physics_element(element)
     gravity = vector(physics, "gravity", GRAVITY)  # SDF 1.5 and older write it there

@@ -9,7 +9,7 @@ from urdfkit.description.sdf.model import WorldModel
 from urdfkit.description.sdf.reader.joints import read_joint
 from urdfkit.description.sdf.reader.links import read_light, read_link
 from urdfkit.description.sdf.reader.reading_state import Context
-from urdfkit.description.sdf.reader.vocabulary import remark_unknown
+from urdfkit.description.sdf.reader.vocabulary import note_unknown_elements
 from urdfkit.description.sdf.shapes import Light, keep
 from urdfkit.description.sdf.values import RawPose, boolean, name_of, raw_pose, text, wrong
 from urdfkit.description.sdf.world import WorldRobot
@@ -62,7 +62,7 @@ def read_model(context: Context, element: Element) -> Found:
         ResourceError: it includes, or shows, what is not there.
         DescriptionError: it cannot be read.
     """
-    remark_unknown(context, element)
+    note_unknown_elements(context, element)
     name = name_of(element)
     scope = Scope("__model__", f"model `{name}`")
     strict = context.version >= (1, 7)
@@ -142,7 +142,7 @@ def read_include(context: Context, element: Element) -> Found | None:
     """
     from urdfkit.description.sdf.reader.uris import find_model
 
-    remark_unknown(context, element)
+    note_unknown_elements(context, element)
     uri = element.find("uri")
     if uri is None:
         raise wrong(element, "<include> lacks its <uri>")

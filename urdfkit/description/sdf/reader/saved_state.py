@@ -35,7 +35,7 @@ class State:
         insertions = element.find("insertions")
         self.inserted = [] if insertions is None else insertions.children
 
-    def remark_strangers(self, models: list[str]) -> None:
+    def note_unknown_models(self, models: list[str]) -> None:
         """Note the models in the state that the world does not have."""
         for model in self._element.find_all("model"):
             if name_of(model) not in models:

@@ -7,7 +7,7 @@ from math import sqrt
 
 from urdfkit.description.plugins.gazebo_materials import unknown_material
 from urdfkit.description.sdf.reader.reading_state import Context
-from urdfkit.description.sdf.reader.vocabulary import remark_unknown
+from urdfkit.description.sdf.reader.vocabulary import note_unknown_elements
 from urdfkit.description.sdf.shapes import Cone, Ellipsoid, Kept, Plane, Rgba, Surface, WorldGeometry, WorldShape, keep
 from urdfkit.description.sdf.values import boolean, color, floats, name_of, positive, scalar, text, vector, wrong
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Pose, Sphere
@@ -49,7 +49,7 @@ def read_shape(context: Context, element: Element, pose: Pose) -> WorldShape | N
     Raises:
         DescriptionError: it cannot be read, or is of a kind that is refused.
     """
-    remark_unknown(context, element)
+    note_unknown_elements(context, element)
     name = name_of(element)
     found = _geometry(context, element)
     if found is None:
@@ -80,7 +80,7 @@ def _geometry(context: Context, shape: Element) -> tuple[WorldGeometry, str] | N
     element = shape.find("geometry")
     if element is None:
         raise wrong(shape, f"<{shape.tag}> lacks its <geometry>")
-    remark_unknown(context, element)
+    note_unknown_elements(context, element)
     for child in element.children:
         if child.tag in _REFUSED:
             raise wrong(child, f"<{child.tag}> cannot be simulated; {_REFUSED[child.tag]}")
@@ -177,7 +177,7 @@ def _mesh(context: Context, shape: Element, element: Element) -> tuple[WorldGeom
 def _surface(context: Context, element: Element | None) -> Surface:
     if element is None:
         return Surface()
-    remark_unknown(context, element)
+    note_unknown_elements(context, element)
     default = Surface()
     friction, contact, bounce = element.find("friction"), element.find("contact"), element.find("bounce")
     ode = None if friction is None else friction.find("ode")

@@ -32,7 +32,7 @@ _KNOWN = {
 _SETS = {tag: frozenset(known.split()) for tag, known in _KNOWN.items()}
 
 
-def remark_unknown(context: Context, element: Element) -> None:
+def note_unknown_elements(context: Context, element: Element) -> None:
     """Note the children that SDF does not know here; sdformat ignores them, too, and silently those with a prefix."""
     known = _SETS["axis" if element.tag == "axis2" else element.tag]
     for child in element.children:

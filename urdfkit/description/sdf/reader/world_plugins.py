@@ -40,7 +40,7 @@ NEEDLESS = frozenset(
 """File names, bare, of what the simulator does without being told."""
 
 
-def remark_plugins(context: Context, world: World) -> None:
+def note_unknown_plugins(context: Context, world: World) -> None:
     """Note the plugins of a world and of what is in it that are not known, each with the nearest known name.
 
     Args:

@@ -119,7 +119,7 @@ class GazeboUnknownTag(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each misspelt element of a block, and each unknown element of a sensor."""
-        from urdfkit.description.plugins.sensor_elements import strangers
+        from urdfkit.description.plugins.sensor_elements import unknown_elements
 
         for block in model.robot.gazebo:
             for child in block.element.children if block.reference else ():
@@ -135,7 +135,7 @@ class GazeboUnknownTag(RobotRule):
                         fix=new_tag(model, child, suggestion, "unsafe", f"Rename to <{suggestion}>"),
                     )
             for sensor in block.sensors:
-                for unknown in strangers(sensor.element):
+                for unknown in unknown_elements(sensor.element):
                     near, element = unknown.meant, unknown.element
                     yield self.at(
                         model,
