@@ -1,7 +1,7 @@
 """Elements allowed in a ``<sensor>``, so that a misspelt one is reported.
 
-Source: sdformat, sdf/1.9 to 1.12: sensor.sdf, camera.sdf, lidar.sdf, noise.sdf and related files; also elements of older
-versions, which are converted, and elements that only gz-sensors reads.
+Source: sdformat, sdf/1.9 to 1.12: sensor.sdf, camera.sdf, lidar.sdf, noise.sdf and related files; also elements of
+older versions, which are converted, and elements that only gz-sensors reads.
 """
 
 from __future__ import annotations

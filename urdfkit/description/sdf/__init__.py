@@ -1,4 +1,4 @@
-"""Worlds: SDF in, models and lights out, every pose resolved and everything with its place. No mathematics."""
+"""Read and write worlds: SDF in; models and lights with resolved poses and source positions out."""
 
 from urdfkit.description.sdf.edit import add_model, move_model, remove_model
 from urdfkit.description.sdf.model import WorldAxis, WorldInertial, WorldJoint, WorldLink, WorldMimic, WorldModel

@@ -1,4 +1,4 @@
-"""Worlds are edited by making new ones: a model added, removed or moved."""
+"""Edit worlds: return a copy with a model added, removed or moved."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ def add_model(world: World, model: WorldModel, *, name: str = "", pose: Pose | N
     """Return a world with one more model.
 
     Args:
-        world: as it is.
-        model: what to add.
-        name: what to call it; its own name when empty.
-        pose: where to put it; where it says when None.
+        world: the original world.
+        model: the model to add.
+        name: its name in the world; its own name when empty.
+        pose: its pose in the world; its own pose when None.
 
     Raises:
-        ResourceError: the name is taken; says one that is not.
+        ResourceError: the name exists already; suggests an unused one.
     """
     called = name or model.name
     taken = set(_names(world))
     if called in taken:
         free = next(f"{called}_{number}" for number in range(1, len(taken) + 2) if f"{called}_{number}" not in taken)
-        raise ResourceError(f"world `{world.name}` has a model `{called}` already; call it `{free}`")
+        raise ResourceError(f"world `{world.name}` already has a model `{called}`; name it `{free}`")
     added = replace(model, name=called, pose=model.pose if pose is None else pose)
     return replace(world, models=(*world.models, added))
 
@@ -35,14 +35,14 @@ def remove_model(world: World, name: str) -> World:
     """Return a world without one of its models, robots or lights.
 
     Raises:
-        ResourceError: there is none of that name; says the nearest.
+        ResourceError: no entity has that name; names the nearest.
     """
-    things = [*_names(world), *(light.name for light in world.lights)]
-    if name not in things:
-        raise _nothing(world, name, things)
+    names = [*_names(world), *(light.name for light in world.lights)]
+    if name not in names:
+        raise _unknown(world, name, names)
     if any(name == each for joint in world.joints for each in (_model(joint.parent), _model(joint.child))):
         joint = next(j for j in world.joints if name in (_model(j.parent), _model(j.child)))
-        raise ResourceError(f"model `{name}` hangs on joint `{joint.name}` of world `{world.name}`")
+        raise ResourceError(f"model `{name}` is connected by joint `{joint.name}` of world `{world.name}`")
     return replace(
         world,
         models=tuple([each for each in world.models if each.name != name]),
@@ -52,18 +52,18 @@ def remove_model(world: World, name: str) -> World:
 
 
 def move_model(world: World, name: str, pose: Pose) -> World:
-    """Return a world with one of its models or robots elsewhere.
+    """Return a world with one of its models or robots moved.
 
     Args:
-        world: as it is.
-        name: of the model.
-        pose: where to put it.
+        world: the original world.
+        name: name of the model.
+        pose: its new pose.
 
     Raises:
-        ResourceError: there is none of that name; says the nearest.
+        ResourceError: no entity has that name; names the nearest.
     """
     if name not in _names(world):
-        raise _nothing(world, name, _names(world))
+        raise _unknown(world, name, _names(world))
     return replace(
         world,
         models=tuple([replace(each, pose=pose) if each.name == name else each for each in world.models]),
@@ -79,5 +79,5 @@ def _model(link: str) -> str:
     return link.partition("::")[0]
 
 
-def _nothing(world: World, name: str, names: list[str]) -> ResourceError:
+def _unknown(world: World, name: str, names: list[str]) -> ResourceError:
     return ResourceError(f"no model `{name}` in world `{world.name}`{did_you_mean(name, names)}")

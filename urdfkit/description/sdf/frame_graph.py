@@ -1,4 +1,4 @@
-"""Frames of a world or a model: who is given in whose frame (SDF 1.7 and later), resolved to one pose each."""
+"""Frames of a world or a model: each is given relative to another (SDF 1.7 and later) and resolved to one pose."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Scope:
 
     Args:
         root: the frame of the scope itself: ``__model__`` or ``world``.
-        owner: what messages call it.
+        owner: its name in messages.
     """
 
     def __init__(self, root: str, owner: str) -> None:
@@ -61,24 +61,24 @@ class Scope:
         """Add a frame.
 
         Args:
-            name: what others call it.
-            kind: what it is.
+            name: its name.
+            kind: kind of the frame.
             raw: its pose.
-            default: the frame it is given in where the pose does not say, and what it is attached to.
+            default: the frame the pose is relative to by default, and that it is attached to.
             placement: the frame inside `nested` that the pose is of.
             nested: the frames of a model.
             strict: names are unique among all kinds (SDF 1.7), not only among their own.
 
         Raises:
-            DescriptionError: the name is taken or reserved.
+            DescriptionError: the name exists already or is reserved.
         """
         if name == "world" or (name.startswith("__") and name.endswith("__")):
-            raise DescriptionError(f"`{name}` is a reserved name; call the {kind} otherwise", position=raw.position)
+            raise DescriptionError(f"`{name}` is a reserved name; rename the {kind}", position=raw.position)
         taken = self._frames.get(name)
         if taken is not None:
             if taken.kind == kind or (strict and taken.strict):
                 raise DescriptionError(
-                    f"{self.owner} has a {taken.kind} called `{name}` already (line {taken.raw.position.line})",
+                    f"{self.owner} already has a {taken.kind} `{name}` (line {taken.raw.position.line})",
                     position=raw.position,
                 )
             return
@@ -97,7 +97,7 @@ class Scope:
             placement: the frame inside it that the pose is of.
 
         Raises:
-            DescriptionError: a name is taken.
+            DescriptionError: a name exists already.
         """
         whole = f"__merged__{name}__"
         link = inner._canonical_link(raw.position)
@@ -118,10 +118,10 @@ class Scope:
 
         Args:
             name: a frame of the scope, or ``nested::frame``.
-            position: where it is asked for.
+            position: position of the reference.
 
         Raises:
-            DescriptionError: there is no such frame, or frame poses form a cycle.
+            DescriptionError: unknown frame, or frame poses form a cycle.
         """
         if name == self.root:
             return IDENTITY
@@ -151,11 +151,11 @@ class Scope:
 
         Args:
             raw: the pose.
-            default: the frame it is given in where it does not say.
-            target: the frame to give it in.
+            default: the frame it is relative to by default.
+            target: the frame to express it in.
 
         Raises:
-            DescriptionError: there is no such frame.
+            DescriptionError: unknown frame.
         """
         base = raw.relative_to or default
         if base == target:
@@ -166,7 +166,7 @@ class Scope:
         """Return the link that a frame is fixed to, ``nested::link`` for one inside a model; the world for itself.
 
         Raises:
-            DescriptionError: there is no such frame, or no link.
+            DescriptionError: unknown frame, or no link.
         """
         seen: list[str] = []
         while True:
@@ -200,5 +200,5 @@ class Scope:
         return first
 
     def _unknown(self, name: str, position: Position | None) -> DescriptionError:
-        known = [self.root, *self._frames, *(f"{m}::{f}" for m, s in self._nested.items() for f in s._frames)]
-        return DescriptionError(f"no frame `{name}` in {self.owner}{did_you_mean(name, known)}", position=position)
+        frames = [self.root, *self._frames, *(f"{m}::{f}" for m, s in self._nested.items() for f in s._frames)]
+        return DescriptionError(f"no frame `{name}` in {self.owner}{did_you_mean(name, frames)}", position=position)

@@ -11,13 +11,13 @@ from urdfkit.description.sdf.shapes import Ellipsoid, WorldGeometry
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Sphere, Vector
 
 WATER = 1000.0
-"""Density where none is written [kg/m³] (sdformat, collision.sdf)."""
+"""Default density [kg/m³] (sdformat, collision.sdf)."""
 
 Solid = tuple[float, Vector]
 
 
 def solid(geometry: WorldGeometry, density: float) -> Solid | None:
-    """Return mass [kg] and principal moments of inertia [kg·m²] about the centre; None for what is no solid.
+    """Return mass [kg] and principal moments of inertia [kg·m²] about the centre; None if it is not a solid.
 
     The formulas are the textbook's; a capsule is a cylinder and two half spheres, each half with its centre of mass
     3/8·r from its base (parallel axes).
@@ -53,7 +53,7 @@ def solid(geometry: WorldGeometry, density: float) -> Solid | None:
 
 
 def together(parts: Iterable[tuple[Pose, Solid]]) -> WorldInertial:
-    """Return mass properties of solids that are one body, about their common centre of mass, axes those of the body.
+    """Return the mass properties of a body of several solids about its centre of mass, in the axes of the body.
 
     Args:
         parts: pose of each solid in the body, its mass and moments.
@@ -69,8 +69,8 @@ def together(parts: Iterable[tuple[Pose, Solid]]) -> WorldInertial:
         for row in range(3):
             for column in range(3):
                 turned = sum(turn[row][k] * moments[k] * turn[column][k] for k in range(3))
-                apart = (square if row == column else 0.0) - offset[row] * offset[column]
-                tensor[row][column] += turned + own * apart
+                offset_term = (square if row == column else 0.0) - offset[row] * offset[column]
+                tensor[row][column] += turned + own * offset_term
     x, y, z = center
     return WorldInertial(
         mass, Pose((x, y, z)), tensor[0][0], tensor[0][1], tensor[0][2], tensor[1][1], tensor[1][2], tensor[2][2]

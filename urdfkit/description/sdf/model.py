@@ -1,7 +1,7 @@
 """Models of a world: links, joints, and models inside models, every pose resolved.
 
-Poses are given in one frame each, whatever the file said: a model's in the world (a nested model's in its parent), a
-link's in its model, a shape's and a light's in what holds it, a joint's in its child link.
+Each pose is in a fixed frame, independent of the file: a model's in the world (a nested model's in its parent), a
+link's in its model, a shape's and a light's in its parent, a joint's in its child link.
 """
 
 from __future__ import annotations
@@ -42,15 +42,15 @@ class WorldLink(Written):
         name: unique in its model.
         pose: in the model.
         inertial: mass properties; sdformat's defaults where none are written.
-        collisions: what it touches with.
-        visuals: what it looks like.
-        gravity: whether gravity pulls at it.
-        self_collide: whether it touches other links of its model; None where the model decides.
+        collisions: its collision shapes.
+        visuals: its visual shapes.
+        gravity: whether gravity acts on it.
+        self_collide: whether it collides with other links of its model; None where the model decides.
         kinematic: moves by command only.
         damping: linear [1/s] and angular [1/s] velocity decay.
         lights: lights that move with it.
-        kept: sensors and what else was written.
-        position: where.
+        kept: sensors and other elements.
+        position: source position.
     """
 
     name: str
@@ -73,7 +73,7 @@ class WorldMimic:
 
     Attributes:
         joint: of the same model, or ``nested::joint``.
-        multiplier: of the other joint's way.
+        multiplier: factor of the other joint's position.
         offset: [rad] or [m].
         reference: position of the other joint [rad] or [m].
     """
@@ -86,7 +86,7 @@ class WorldMimic:
 
 @record
 class WorldAxis:
-    """An axis of a joint; `xyz` is of the joint's frame, not normalised. What is not limited is infinite.
+    """An axis of a joint; `xyz` is of the joint's frame, not normalised. Unlimited values are infinite.
 
     Attributes:
         xyz: direction.
@@ -97,7 +97,7 @@ class WorldAxis:
         damping: [N·m·s/rad] or [N·s/m].
         friction: dry friction [N·m] or [N].
         spring_stiffness: [N·m/rad] or [N/m].
-        spring_reference: where the spring rests [rad] or [m].
+        spring_reference: rest position of the spring [rad] or [m].
         mimic: the joint that it follows.
     """
 
@@ -125,8 +125,8 @@ class WorldJoint(Written):
         child: likewise; never ``world`` alone.
         pose: in the child link.
         axes: none, one or two of them.
-        kept: what else was written.
-        position: where.
+        kept: other elements.
+        position: source position.
     """
 
     name: str
@@ -141,19 +141,19 @@ class WorldJoint(Written):
 
 @record(eq=False)
 class WorldModel(Written):
-    """A thing in the world: links, joints, and models inside it.
+    """A model: links, joints, and nested models.
 
     Attributes:
-        name: unique among the models around it.
+        name: unique among its sibling models.
         pose: in the world, or in the model it is nested in.
-        static: does not move, whatever happens; holds for what is nested in it, too.
+        static: never moves; also applies to nested models.
         links: its own.
         joints: its own.
         models: nested ones.
-        self_collide: whether its links touch each other.
-        canonical_link: named as such; empty where the first is meant.
-        kept: plugins and what else was written.
-        position: where.
+        self_collide: whether its links collide with each other.
+        canonical_link: name of the canonical link; empty for the first link.
+        kept: plugins and other elements.
+        position: source position.
     """
 
     name: str
@@ -181,7 +181,7 @@ class WorldModel(Written):
                 yield f"{model.name}::{name}", compose(model.pose, pose), link
 
     def all_joints(self) -> Iterator[tuple[str, WorldJoint]]:
-        """Yield the prefix of the names in it (empty, or ``nested::``) and each joint, those of nested models too."""
+        """Yield name prefix (empty, or ``nested::``) and joint of each joint, those of nested models included."""
         for joint in self.joints:
             yield "", joint
         for model in self.models:

@@ -1,8 +1,8 @@
-"""Models of a world as robots: links and joints of SDF become one tree each, joints where URDF has them.
+"""Convert models of a world to robots: trees of links and joints with URDF's joint frames.
 
 In SDF a joint has a pose of its own in its child link; in URDF a child link's frame is its joint's. Where the two
-differ, a link without mass stands between joint and child link, called like the joint with ``_frame`` behind it, so
-that every link keeps the frame that its file gives it.
+differ, a massless link named after the joint with the suffix ``_frame`` is inserted between joint and child link, so
+that every link keeps its frame from the file.
 """
 
 from __future__ import annotations
@@ -34,26 +34,26 @@ from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.record import record
 
 MOVES = ("revolute", "continuous", "prismatic")
-"""The joint types of SDF that are simulated besides ``fixed``."""
+"""The movable joint types of SDF that are simulated."""
 
 ANCHOR = "anchor"
-"""The root link of a tree that hangs on the world; its frame is the model's."""
+"""The root link of a tree with a fixed base; its frame is the model's."""
 
 
 @record(eq=False)
 class Tree:
-    """Links of a model that joints hold together.
+    """Tree of a model's links, connected by joints.
 
     Attributes:
-        name: of the model, with ``::`` and the name of the first link where the model has several trees.
-        prefix: ``nested::`` where all of it is in a nested model: what names in `robot` lack.
+        name: of the model, with ``::`` and the name of the first link if the model has several trees.
+        prefix: ``nested::`` for a tree inside a nested model; omitted from names in `robot`.
         robot: its links without shapes, its joints and plugins; in a tree of a nested model names are those inside it.
         root: pose of the root link in the model.
-        bolted: whether it hangs on the world.
+        bolted: whether its base is fixed to the world.
         links: name in `robot` → link as written, with its shapes.
         poses: name in `robot` → pose in the model with every joint at zero.
-        self_collide: names in `robot` of the links that touch the others.
-        weightless: names in `robot` of the links that gravity does not pull.
+        self_collide: names in `robot` of the links that collide with the others.
+        weightless: names in `robot` of the links without gravity.
     """
 
     name: str
@@ -69,14 +69,14 @@ class Tree:
 
 @record(eq=False)
 class Group:
-    """Links of a model that joints hold together, as written.
+    """Connected links and joints of a model, as written.
 
     Attributes:
         name: see `Tree`.
-        links: name in the model, pose in the model, and link; the first carries the others.
+        links: name in the model, pose in the model, and link; the first is the root.
         joints: prefix of the names in it, and joint.
         bolted: whether a joint holds it to the world.
-        first: whether the model's canonical link is among them, so that its plugins are about them.
+        first: whether the model's canonical link is among them, so that the plugins of the model apply to them.
     """
 
     name: str
@@ -87,12 +87,12 @@ class Group:
 
     @property
     def moves(self) -> bool:
-        """Whether a joint in it moves."""
+        """Whether one of its joints is movable."""
         return any(joint.type != "fixed" for _, joint in self.joints)
 
 
 def groups_of(model: WorldModel) -> tuple[Group, ...]:
-    """Return the links of a model, those together that joints hold together, in the order of their first links."""
+    """Return the connected groups of a model's links, in the order of their first links."""
     links = {name: (name, pose, link) for name, pose, link in model.all_links()}
     joints = list(model.all_joints())
     leader = {name: name for name in links}
@@ -132,14 +132,14 @@ def groups_of(model: WorldModel) -> tuple[Group, ...]:
 
 
 def tree_of(model: WorldModel, group: Group) -> Tree:
-    """Return links that joints hold together as a robot.
+    """Return a group of links as a robot.
 
     Args:
         model: of a world.
         group: of its links.
 
     Raises:
-        SimulationError: a joint is of a kind that is not simulated, or joints form a loop; with its place.
+        SimulationError: a joint type is not simulated, or joints form a loop; with the position.
     """
     prefix = _common_prefix([name for name, _, _ in group.links])
     builder = _Builder(model, group, prefix)
@@ -172,7 +172,7 @@ def _named(group: Group, prefix: str, holds: Callable[[WorldLink], bool]) -> fro
 
 
 class _Builder:
-    """Walks from the root along the joints."""
+    """Builder of a tree, from the root along the joints."""
 
     def __init__(self, model: WorldModel, group: Group, prefix: str) -> None:
         self._model, self._group, self._prefix = model, group, prefix
@@ -238,7 +238,7 @@ class _Builder:
         self._add(beyond)
 
     def _mimic(self, prefix: str, joint: WorldJoint, axis: WorldAxis, element: Element) -> Mimic | None:
-        """Return the joint that a joint follows, as URDF has it."""
+        """Return the mimic relation of a joint in URDF's form."""
         if axis.mimic is None:
             return None
         known = {before + other.name: other for before, other in self._group.joints}
@@ -268,7 +268,7 @@ class _Builder:
 
 
 def inertial_of(link: WorldLink) -> Inertial:
-    """Return the mass properties of a link as URDF has them."""
+    """Return the mass properties of a link in URDF's form."""
     body, element = link.inertial, _element("inertial", link.position)
     tensor = Inertia(body.ixx, body.ixy, body.ixz, body.iyy, body.iyz, body.izz, element)
     return Inertial(body.pose, body.mass, tensor, element)
@@ -318,13 +318,13 @@ def _axis_of(model: WorldModel, joint: WorldJoint) -> WorldAxis:
 
 
 def _ends(prefix: str, joint: WorldJoint) -> tuple[str, str]:
-    """Return the names in the model of the links that a joint joins, parent first; or ``world``."""
+    """Return the names in the model of a joint's links, parent first; or ``world``."""
     parent = joint.parent if joint.parent == "world" else prefix + joint.parent
     return parent, prefix + joint.child
 
 
 def _common_prefix(names: Sequence[str]) -> str:
-    """Return the ``nested::`` that all names start with, empty where there is none."""
+    """Return the ``nested::`` that all names start with; empty without a common one."""
     prefix = ""
     while True:
         first, separator, _ = names[0][len(prefix) :].partition("::")
@@ -351,7 +351,7 @@ def _blocks(model: WorldModel, group: Group, prefix: str) -> list[GazeboBlock]:
 
 
 def all_kept(model: WorldModel) -> list[Kept]:
-    """Return what is kept of a model and of those nested in it."""
+    """Return the kept elements of a model and of its nested models."""
     return [*model.kept, *(kept for nested in model.models for kept in all_kept(nested))]
 
 

@@ -1,4 +1,4 @@
-"""The models and worlds we ship, found by name; and which of ours stand in for well-known ones of Gazebo."""
+"""Bundled models and worlds by name, and the bundled replacements of well-known Gazebo models."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ STANDS_IN = {
     "wooden_case_wo_top": "crate",
     "wooden_crate": "crate",
 }
-"""Name of a model in Gazebo's own collection → ours that is near it in size and use."""
+"""Name of a model in Gazebo's collection → the bundled model of similar size and use."""
 
 ALIKE = frozenset(
     {
@@ -72,33 +72,33 @@ ALIKE = frozenset(
         "table",
     }
 )
-"""Models of ours called as in Gazebo's own collection, near to those in size and use but of other shapes."""
+"""Bundled models with the name of a model in Gazebo's collection, of similar size and use but other shape."""
 
 
 def model_names() -> list[str]:
-    """Return the names of the models we ship, sorted."""
+    """Return the names of the bundled models, sorted."""
     return sorted(path.parent.name for path in FOLDER.glob("models/*/model.sdf"))
 
 
 def world_names() -> list[str]:
-    """Return the names of the worlds we ship, sorted."""
+    """Return the names of the bundled worlds, sorted."""
     return sorted(path.stem for path in FOLDER.glob("worlds/*.sdf"))
 
 
 def model_file(name: str) -> Path | None:
-    """Return the SDF file of a model we ship; None where there is none of that name."""
+    """Return the SDF file of a bundled model; None for an unknown name."""
     path = FOLDER / "models" / name / "model.sdf"
     return path if name and path.is_file() else None
 
 
 def world_file(name: str) -> Path | None:
-    """Return the SDF file of a world we ship; None where there is none of that name."""
+    """Return the SDF file of a bundled world; None for an unknown name."""
     path = FOLDER / "worlds" / f"{name}.sdf"
     return path if name and "/" not in name and path.is_file() else None
 
 
-def stand_in(name: str) -> tuple[str, Path] | None:
-    """Return the name and file of the model of ours that comes nearest to one of Gazebo's; None where none does."""
+def replacement_of(name: str) -> tuple[str, Path] | None:
+    """Return the name and file of the bundled replacement of a Gazebo model; None if there is none."""
     plain = name.lower().replace(" ", "_").replace("-", "_")
     ours = plain if model_file(plain) else STANDS_IN.get(plain, "")
     path = model_file(ours)

@@ -41,7 +41,7 @@ def transpose(rotation: Rotation) -> Rotation:
 
 
 def rpy_of(rotation: Rotation) -> Vector:
-    """Return fixed-axis roll, pitch, yaw [rad]; straight up or down all of the turn is yaw."""
+    """Return fixed-axis roll, pitch, yaw [rad]; in gimbal lock the whole rotation is yaw."""
     a, b, c = rotation
     flat = hypot(a[0], b[0])
     if flat < 1e-9:
@@ -63,7 +63,7 @@ def rpy_of_quaternion(x: float, y: float, z: float, w: float) -> Vector:
 
 
 def compose(outer: Pose, inner: Pose) -> Pose:
-    """Return outer · inner: `inner`, given in a frame whose own pose is `outer`. Exact where either is the identity."""
+    """Return outer · inner: `inner` is given in a frame with the pose `outer`. Exact where either is the identity."""
     if outer == IDENTITY:
         return inner
     if inner == IDENTITY:
@@ -92,7 +92,7 @@ def between(start: Pose, end: Pose) -> Pose:
 
 
 def difference(a: Pose, b: Pose) -> float:
-    """Return how far two poses are apart: the larger of the distance [m] and of the entries of their rotations."""
+    """Return the difference of two poses: the larger of the distance [m] and of the entries of their rotations."""
     apart = max(abs(x - y) for x, y in zip(a.xyz, b.xyz, strict=True))
     rows = zip(rotation_of(a), rotation_of(b), strict=True)
     return max(apart, *(abs(x - y) for row, other in rows for x, y in zip(row, other, strict=True)))

@@ -1,4 +1,4 @@
-"""Markup: SDF written line by line, numbers so that they read back equal."""
+"""Markup: write SDF line by line, with numbers that read back equal."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _ILLEGAL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
 def figure(value: float) -> str:
-    """Return a number, as short as reads back equal."""
+    """Return the shortest text of a number that reads back equal."""
     return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
 
 
@@ -30,7 +30,7 @@ class Markup:
         """Return the document.
 
         Raises:
-            DescriptionError: it holds a character that XML cannot hold.
+            DescriptionError: it has a character that XML does not allow.
         """
         whole = "\n".join(self._lines) + "\n"
         if (found := _ILLEGAL.search(whole)) is not None:
@@ -39,7 +39,7 @@ class Markup:
 
     @contextmanager
     def inside(self, tag: str, **attributes: str) -> Iterator[None]:
-        """Write an element whose content is written meanwhile; attributes that are empty are left out."""
+        """Write an element around the content of the ``with`` block; empty attributes are omitted."""
         words = [tag, *(f'{name}="{escaped(value, quoted=True)}"' for name, value in attributes.items() if value)]
         self._line(f"<{' '.join(words)}>")
         start = len(self._lines)
@@ -53,7 +53,7 @@ class Markup:
 
     @contextmanager
     def some(self, tag: str) -> Iterator[None]:
-        """Write an element whose content is written meanwhile, unless there is none."""
+        """Write an element around the content of the ``with`` block, unless it is empty."""
         start = len(self._lines)
         with self.inside(tag):
             yield
@@ -83,7 +83,7 @@ class Markup:
         self.numbers("pose", (*pose.xyz, *pose.rpy), (0.0,) * 6)
 
     def keep(self, kept: Sequence[Kept]) -> None:
-        """Write elements as they were."""
+        """Write kept elements unchanged."""
         for each in kept:
             self._element(each.element)
 

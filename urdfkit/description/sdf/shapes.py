@@ -1,6 +1,6 @@
-"""Shapes and lights of a world, and the records everything in a world is made of.
+"""Shapes and lights of a world, and the base of all records of a world.
 
-SI units throughout. Records compare by what they say, not by where it was written.
+SI units throughout. Records compare by content, not by source position.
 """
 
 from __future__ import annotations
@@ -20,22 +20,22 @@ _PLACES = frozenset(("position", "notes", "files", "element"))
 
 
 class Written:
-    """Compares by what is written, not by where."""
+    """Base of records that compare by content, not by source position."""
 
-    def _said(self) -> tuple[Any, ...]:
+    def _content(self) -> tuple[Any, ...]:
         names: tuple[str, ...] = type(self)._record_names  # type: ignore[attr-defined]
         return tuple([self.__dict__[name] for name in names if name not in _PLACES])
 
     def __eq__(self, other: object) -> bool:
-        return self._said() == other._said() if isinstance(other, type(self)) else NotImplemented
+        return self._content() == other._content() if isinstance(other, type(self)) else NotImplemented
 
     def __hash__(self) -> int:
-        return hash(self._said())
+        return hash(self._content())
 
 
 @record
 class Plane:
-    """An infinite plane through the origin of its frame; `size` [m] is what is drawn of it. `normal` is of length 1."""
+    """An infinite plane through the origin of its frame; `size` [m] is the visible part. `normal` is of length 1."""
 
     normal: Vector = (0.0, 0.0, 1.0)
     size: tuple[float, float] = (1.0, 1.0)
@@ -61,11 +61,11 @@ WorldGeometry = Box | Cylinder | Sphere | Capsule | Cone | Ellipsoid | Plane | M
 
 @record(eq=False)
 class Kept(Written):
-    """An element that is kept as it is: a plugin, a sensor, a setting nobody here reads.
+    """An element kept unchanged: a plugin, a sensor, or an unsupported setting.
 
     Attributes:
-        text: its XML, on one line, as `element` would be written out.
-        element: what was read.
+        text: its XML on one line.
+        element: the parsed element.
     """
 
     text: str
@@ -74,22 +74,22 @@ class Kept(Written):
 
 @record
 class Surface:
-    """How a collision touches others; the defaults are sdformat's (surface.sdf), for ODE.
+    """Contact parameters of a collision; the defaults are sdformat's (surface.sdf), for ODE.
 
     Attributes:
         mu: Coulomb friction coefficient along `fdir1`.
         mu2: across it.
-        fdir1: first friction direction in the collision's frame; zero where none is written.
+        fdir1: first friction direction in the collision's frame; zero if missing.
         slip1: slip along `fdir1` [m/(s·N)].
         slip2: across it.
         kp: contact stiffness [N/m].
         kd: contact damping [N·s/m].
         min_depth: penetration before a contact pushes back [m].
-        max_vel: fastest that a penetration is undone [m/s].
+        max_vel: maximum correction velocity of a penetration [m/s].
         restitution: coefficient of restitution.
-        bounce_threshold: slowest impact that bounces [m/s].
-        collide_bitmask: two collisions meet where their bits overlap.
-        collide_without_contact: contacts are felt by sensors only.
+        bounce_threshold: minimum impact velocity that bounces [m/s].
+        collide_bitmask: two shapes collide if their bits overlap.
+        collide_without_contact: only sensors detect the contacts.
     """
 
     mu: float = 1.0
@@ -113,16 +113,16 @@ class WorldShape(Written):
 
     Attributes:
         name: unique in its link among its kind.
-        geometry: what shape it is.
+        geometry: its geometry.
         pose: in the link.
-        surface: of a collision; that of a visual means nothing.
+        surface: of a collision; ignored for a visual.
         rgba: diffuse colour of a visual, each 0..1; None where not written.
-        transparency: of a visual: 0 is opaque, 1 is not seen.
-        material: name of the Gazebo material script, e.g. ``Gazebo/Grey``; empty where none is written.
-        laser_retro: what a lidar reads as intensity.
-        file: the mesh on this machine; empty for other shapes, and where the mesh is not there.
-        kept: what else was written.
-        position: where.
+        transparency: of a visual: 0 is opaque, 1 is invisible.
+        material: name of the Gazebo material script, e.g. ``Gazebo/Grey``; empty if missing.
+        laser_retro: intensity that a lidar measures.
+        file: the mesh on this machine; empty for other shapes and missing meshes.
+        kept: other elements.
+        position: source position.
     """
 
     name: str
@@ -143,18 +143,18 @@ class Light(Written):
     """A light.
 
     Attributes:
-        name: unique among the lights around it.
+        name: unique among its sibling lights.
         type: ``point``, ``directional`` or ``spot``.
         pose: in the world or the link.
-        direction: where directional and spot lights shine, in the light's frame.
+        direction: direction of directional and spot lights, in the light's frame.
         diffuse: colour, each 0..1.
         specular: colour, each 0..1.
         attenuation: range [m], constant, linear [1/m] and quadratic [1/m²] factor.
         spot: inner and outer angle [rad], falloff.
-        cast_shadows: whether it does.
+        cast_shadows: whether it casts shadows.
         intensity: factor on the colours.
-        kept: what else was written.
-        position: where.
+        kept: other elements.
+        position: source position.
     """
 
     name: str
@@ -172,13 +172,13 @@ class Light(Written):
 
 
 def plugins_of(kept: tuple[Kept, ...]) -> tuple[Plugin, ...]:
-    """Return those of the elements that are plugins."""
+    """Return the plugins among kept elements."""
     elements = [each.element for each in kept if each.element.tag == "plugin"]
     return tuple([Plugin(e.get("name"), e.get("filename"), e) for e in elements])
 
 
 def keep(element: Element) -> Kept:
-    """Return an element to be kept as it is."""
+    """Return an element as a `Kept` record."""
     return Kept(xml_of(element), element)
 
 
@@ -191,7 +191,7 @@ def xml_of(element: Element) -> str:
 
 
 def escaped(text: str, *, quoted: bool = False) -> str:
-    """Return text as it is written in XML, `quoted` for an attribute."""
+    """Return text escaped for XML, `quoted` for an attribute."""
     text = text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace("\r", "&#13;")
     if quoted:
         text = text.replace('"', "&quot;").replace("\n", "&#10;").replace("\t", "&#9;")

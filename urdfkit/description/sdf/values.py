@@ -1,4 +1,4 @@
-"""Reading values of SDF strictly: what cannot be used is an error with its place."""
+"""Read values of SDF strictly: an unusable value raises an error with its position."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
 
 @record
 class RawPose:
-    """A ``<pose>`` as written: in which frame is decided later.
+    """A ``<pose>`` as written, its frame not yet resolved.
 
     Attributes:
-        pose: the identity where nothing is written.
-        relative_to: the frame; empty where the default is meant.
-        position: where.
+        pose: the identity if it is missing.
+        relative_to: the frame; empty for the default.
+        position: source position.
     """
 
     pose: Pose
@@ -40,7 +40,7 @@ def floats(element: Element, count: int, *, infinite: bool = False) -> tuple[flo
     """Return the numbers that an element's text lists.
 
     Raises:
-        DescriptionError: they are not as many, or not finite.
+        DescriptionError: their number is wrong, or one is not finite.
     """
     found = numbers(element.text)
     if found is None or len(found) != count or not (infinite or all(map(isfinite, found))):
@@ -53,7 +53,7 @@ def floats(element: Element, count: int, *, infinite: bool = False) -> tuple[flo
 
 
 def scalar(parent: Element | None, tag: str, default: float, *, infinite: bool = False) -> float:
-    """Return the number in a child; a default where there is none."""
+    """Return the number in a child; a default if it is missing."""
     child = None if parent is None else parent.find(tag)
     if child is None:
         return default
@@ -64,7 +64,7 @@ def scalar(parent: Element | None, tag: str, default: float, *, infinite: bool =
 
 
 def positive(parent: Element, tag: str) -> float:
-    """Return the number greater than zero that has to be in a child.
+    """Return the number greater than zero in a required child.
 
     Raises:
         DescriptionError: it is missing, or not greater than zero.
@@ -79,7 +79,7 @@ def positive(parent: Element, tag: str) -> float:
 
 
 def vector(parent: Element | None, tag: str, default: Vector) -> Vector:
-    """Return the three numbers in a child; a default where there is none."""
+    """Return the three numbers in a child; a default if it is missing."""
     child = None if parent is None else parent.find(tag)
     if child is None:
         return default
@@ -98,7 +98,7 @@ def color(parent: Element, tag: str, default: Rgba | None) -> Rgba | None:
 
 
 def boolean(parent: Element | None, tag: str, default: bool) -> bool:
-    """Return the truth in a child; a default where there is none.
+    """Return the boolean in a child; a default if it is missing.
 
     Raises:
         DescriptionError: it is neither true nor false.
@@ -113,16 +113,16 @@ def boolean(parent: Element | None, tag: str, default: bool) -> bool:
 
 
 def text(parent: Element | None, tag: str, default: str = "") -> str:
-    """Return the text in a child; a default where there is none."""
+    """Return the text in a child; a default if it is missing."""
     child = None if parent is None else parent.find(tag)
     return default if child is None else child.text
 
 
 def name_of(element: Element) -> str:
-    """Return the name that an element has to have.
+    """Return the name of an element.
 
     Raises:
-        DescriptionError: it has none.
+        DescriptionError: it has no name.
     """
     name = element.get("name")
     if not name:
@@ -131,9 +131,9 @@ def name_of(element: Element) -> str:
 
 
 def raw_pose(parent: Element) -> RawPose:
-    """Return the ``<pose>`` in an element; the identity where there is none.
+    """Return the ``<pose>`` in an element; the identity if it is missing.
 
-    Angles are in radians, or in degrees where ``degrees="true"`` says so; with ``rotation_format="quat_xyzw"`` they are
+    Angles are in radians, or in degrees with ``degrees="true"``; with ``rotation_format="quat_xyzw"`` they are
     a quaternion (SDF 1.9).
 
     Raises:

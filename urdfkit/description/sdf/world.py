@@ -16,7 +16,7 @@ GROUND_MU = 100.0
 """Friction coefficient of Gazebo's ground plane (gazebo_models/ground_plane/model.sdf)."""
 
 GRAVITY: Vector = (0.0, 0.0, -9.8)
-"""Where an SDF world does not say (sdformat, world.sdf) [m/s²]."""
+"""Default gravity of an SDF world (sdformat, world.sdf) [m/s²]."""
 
 
 @record(eq=False)
@@ -24,13 +24,13 @@ class WorldRobot(Written):
     """A URDF that the world includes.
 
     Attributes:
-        name: what it is called here.
+        name: its name in the world.
         uri: as written.
         file: the URDF on this machine.
         pose: of its root link in the world.
         static: does not move.
-        kept: plugins and what else was written.
-        position: where.
+        kept: plugins and other elements.
+        position: source position.
     """
 
     name: str
@@ -44,15 +44,15 @@ class WorldRobot(Written):
 
 @record
 class Physics:
-    """How the world asks to be simulated; the defaults are sdformat's (physics.sdf).
+    """Requested simulation parameters; the defaults are sdformat's (physics.sdf).
 
     Attributes:
         max_step_size: [s].
-        real_time_factor: wanted; 0 is as fast as it goes.
-        real_time_update_rate: steps a second of real time [1/s].
+        real_time_factor: requested factor; 0 is unlimited.
+        real_time_update_rate: steps per second of real time [1/s].
         engine: ``ode``, ``bullet``, ``dart``, ``simbody`` or ``ignored``.
         name: of the profile.
-        kept: settings of one engine or another.
+        kept: engine-specific settings.
     """
 
     max_step_size: float = 0.001
@@ -68,9 +68,9 @@ class Ground:
     """A horizontal plane that does not move.
 
     Attributes:
-        name: of its model: what contacts call it.
+        name: name of its model, used in contacts.
         height: z of the surface [m].
-        mu: Coulomb friction coefficient; a pair of surfaces meets with the smaller one.
+        mu: Coulomb friction coefficient; a contact uses the smaller one of its two surfaces.
     """
 
     name: str = "ground_plane"
@@ -80,21 +80,21 @@ class Ground:
 
 @record(eq=False)
 class World(Written):
-    """Where robots are simulated.
+    """World of a simulation.
 
     Attributes:
         name: e.g. ``empty``.
         gravity: [m/s²].
-        models: everything in it that has a body, the ground too.
-        lights: what shines.
-        physics: how it asks to be simulated.
+        models: all models, the ground included.
+        lights: all lights.
+        physics: requested simulation parameters.
         robots: URDF files it includes.
         joints: between models (SDF 1.10).
         magnetic_field: [T].
-        kept: plugins, scene, gui and what else was written.
-        notes: remarks of the reader for the user, one line each.
+        kept: plugins, scene, gui and other elements.
+        notes: notes for the user, one line each.
         files: all files that were read, the world first.
-        position: where the world starts.
+        position: source position.
     """
 
     name: str
@@ -122,7 +122,7 @@ class World(Written):
 
     @cached_property
     def ground(self) -> Ground | None:
-        """The first level plane that does not move; None where there is nothing to stand on."""
+        """The first level plane that does not move; None without a ground."""
         for model in self.models:
             if model.static and (ground := ground_of(model)) is not None:
                 return ground
@@ -130,7 +130,7 @@ class World(Written):
 
 
 def ground_of(model: WorldModel) -> Ground | None:
-    """Return the first level plane among a model's collisions, facing up, as a ground; None where there is none."""
+    """Return the first level plane among a model's collisions, facing up, as a ground; None without one."""
     for _, pose, link in model.all_links():
         for shape in link.collisions:
             if isinstance(shape.geometry, Plane):

@@ -1,4 +1,4 @@
-"""to_sdf: a world as SDF that sdformat accepts and that reads back equal."""
+"""to_sdf: write a world as SDF that sdformat accepts and that reads back equal."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
 from urdfkit.errors import DescriptionError
 
 VERSION = "1.9"
-"""The version of SDF that is written, where nothing in the world is newer."""
+"""The SDF version written, unless the world has newer features."""
 
 
 def to_sdf(world: World) -> str:
-    """Return a world as SDF. `load_world` reads an equal world from it, as long as its meshes are where they were.
+    """Return a world as SDF. `load_world` reads an equal world from it, as long as its meshes are not moved.
 
     Raises:
         DescriptionError: a name, or a character in it, cannot be written in SDF.
@@ -59,7 +59,7 @@ def model_to_sdf(model: WorldModel) -> str:
 
 
 def save_world(world: World, path: str | Path) -> None:
-    """Write a world to a file, in one go.
+    """Write a world to a file, atomically.
 
     Raises:
         DescriptionError: it cannot be written in SDF.
@@ -71,7 +71,7 @@ def save_world(world: World, path: str | Path) -> None:
 
 
 def _version(models: Sequence[WorldModel], joints: Sequence[WorldJoint]) -> str:
-    """Return the oldest version from 1.9 on that knows all: joints of a world since 1.10, cones and mimic 1.11."""
+    """Return the oldest version from 1.9 on that supports all elements: world joints 1.10, cones and mimic 1.11."""
     shapes = (s for model in models for _, _, link in model.all_links() for s in (*link.collisions, *link.visuals))
     axes = (axis for model in models for _, joint in model.all_joints() for axis in joint.axes)
     if any(isinstance(shape.geometry, Cone) for shape in shapes) or any(axis.mimic is not None for axis in axes):
@@ -80,8 +80,8 @@ def _version(models: Sequence[WorldModel], joints: Sequence[WorldJoint]) -> str:
 
 
 def _name(name: str) -> str:
-    if " ".join(name.split()) != name:  # sdformat collapses it in texts, so that joints would miss their links
-        raise DescriptionError(f"the name {name!r} cannot be written in SDF: single blanks only")
+    if " ".join(name.split()) != name:  # sdformat collapses it in texts, so that joints would not find their links
+        raise DescriptionError(f"the name {name!r} cannot be written in SDF: use single spaces")
     if not name or "::" in name or name == "world" or (name.startswith("__") and name.endswith("__")):
         why = "it is empty" if not name else "`::` separates models" if "::" in name else "it is reserved"
         raise DescriptionError(f"the name `{name}` cannot be written in SDF: {why}")

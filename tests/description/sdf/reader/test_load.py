@@ -484,10 +484,10 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         ("<physics><max_step_size>0</max_step_size></physics>", "<max_step_size> is 0 s; it must be more than zero"),
         ("<include/>", "<include> lacks its <uri>"),
         ("<include><uri>model://taable</uri></include>", "or among the bundled models; did you mean `table`?"),
-        ("<include><uri>http://x.org/a.sdf</uri></include>", "nothing is fetched from the network; download it"),
+        ("<include><uri>http://x.org/a.sdf</uri></include>", "nothing is downloaded; download it"),
         (
             "<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Coke</uri></include>",
-            "nothing is fetched from the network; use the bundled model://coke_can",
+            "nothing is downloaded; use the bundled model://coke_can",
         ),
         ("<include><uri>model://box</uri><placement_frame>l</placement_frame></include>", "requires a <pose>"),
         ('<include merge="true"><uri>model://box</uri></include>', 'merge="true" is for models in models'),

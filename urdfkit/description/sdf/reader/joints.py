@@ -19,7 +19,7 @@ TYPES = ("revolute", "continuous", "prismatic", "fixed", "ball", "universal", "r
 """The joint types of SDF (joint.sdf)."""
 
 UNLIMITED = 1e16
-"""What sdformat writes for no limit."""
+"""sdformat's value for no limit."""
 
 _READ = {"axis", "axis2", "child", "parent", "pose"}
 
@@ -33,7 +33,7 @@ def read_joint(context: Context, element: Element, scope: Scope) -> WorldJoint:
         scope: the frames around it.
 
     Raises:
-        DescriptionError: it cannot be read, or joins what is not there.
+        DescriptionError: it cannot be read, or a link it names is unknown.
     """
     note_unknown_elements(context, element)
     name, kind = name_of(element), element.get("type") or ""
@@ -43,7 +43,7 @@ def read_joint(context: Context, element: Element, scope: Scope) -> WorldJoint:
     if child == "world":
         raise wrong(element, f"the child of joint `{name}` is the world; make the world the parent")
     if parent == child:
-        raise wrong(element, f"joint `{name}` joins link `{child}` to itself")
+        raise wrong(element, f"joint `{name}` connects link `{child}` to itself")
     pose = scope.place(raw_pose(element), text(element, "child"), child)
     axes = [_axis(context, axis, scope, child, pose) for axis in element.children if axis.tag in ("axis", "axis2")]
     if kind in ("revolute", "continuous", "prismatic", "screw", "universal", "revolute2") and not axes:
@@ -110,7 +110,7 @@ def _direction(context: Context, element: Element, scope: Scope, child: str, pos
     if not any(xyz):
         raise wrong(written or element, "the axis of a joint is zero")
     base = "" if written is None else written.get("expressed_in") or ""
-    # SDF 1.4 means the model's axes; 1.5 and 1.6 where <use_parent_model_frame> says so (1_4.convert, 1_6.convert).
+    # SDF 1.4 means the model's axes; 1.5 and 1.6 with <use_parent_model_frame> (1_4.convert, 1_6.convert).
     if context.version < (1, 7) and boolean(element, "use_parent_model_frame", context.version < (1, 5)):
         base = scope.root
     if not base:

@@ -57,7 +57,7 @@ def _shapes(context: Context, link: Element, tag: str, scope: Scope, name: str) 
     for element in link.find_all(tag):
         shape = read_shape(context, element, scope.place(raw_pose(element), name, name))
         if name_of(element) in found:
-            raise wrong(element, f"link `{name}` has a {tag} called `{element.get('name')}` already")
+            raise wrong(element, f"link `{name}` already has a {tag} `{element.get('name')}`")
         if shape is not None:
             found[shape.name] = shape
     return tuple(found.values())
@@ -86,7 +86,7 @@ def _inertial(context: Context, link: Element, scope: Scope, collisions: tuple[W
 
 
 def _automatic(link: Element, inertial: Element, collisions: tuple[WorldShape, ...]) -> WorldInertial:
-    """Return mass properties from the collisions: each of its own density, the link's, or water's (SDF 1.11)."""
+    """Return mass properties from the collisions: with its own density, the link's, or that of water (SDF 1.11)."""
     common = scalar(inertial, "density", WATER)
     densities = {name_of(each): scalar(each, "density", common) for each in link.find_all("collision")}
     parts: list[tuple[Pose, Solid]] = []
@@ -102,7 +102,7 @@ def _automatic(link: Element, inertial: Element, collisions: tuple[WorldShape, .
             )
         parts.append((shape.pose, body))
     if not parts:
-        raise wrong(inertial, f"link `{link.get('name')}` has no collision to take its inertia from")
+        raise wrong(inertial, f"link `{link.get('name')}` has no collision to compute its inertia from")
     return together(parts)
 
 
@@ -112,7 +112,7 @@ def read_light(context: Context, element: Element, pose: Pose) -> Light:
     Args:
         context: the file.
         element: the light.
-        pose: in what holds it.
+        pose: its pose in its parent.
 
     Raises:
         DescriptionError: it cannot be read.

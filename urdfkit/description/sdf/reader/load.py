@@ -1,7 +1,7 @@
-"""load_world, load_model: SDF 1.4 to 1.11 read strictly, into one pose for everything.
+"""load_world, load_model: read SDF 1.4 to 1.11 strictly and resolve all poses.
 
-What would be missing from the simulation is refused with its place (heightmaps, polylines, models that are not there);
-what is only lost to the eye, or to a plugin, is noted in `World.notes`.
+Elements whose absence changes the simulation raise an error with the position (heightmaps, polylines, missing models);
+ignored visual elements and plugins are listed in `World.notes`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from urdfkit.description.sdf.model import WorldModel
 from urdfkit.description.sdf.model_library import model_file, model_names, world_file, world_names
 from urdfkit.description.sdf.reader.joints import read_joint
 from urdfkit.description.sdf.reader.links import read_light
-from urdfkit.description.sdf.reader.models import Found, add_frame, read_include, read_model
+from urdfkit.description.sdf.reader.models import ReadEntity, add_frame, read_include, read_model
 from urdfkit.description.sdf.reader.reading_state import Context, root_error
 from urdfkit.description.sdf.reader.saved_state import State
 from urdfkit.description.sdf.reader.vocabulary import note_unknown_elements
@@ -41,17 +41,17 @@ _NOT_SIMULATED = {
 
 
 def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) -> World:
-    """Return the world of that name or in that file.
+    """Return the world of a name or file.
 
     Args:
-        world: the name of a world we ship, or a ``.world`` or ``.sdf`` file. A file with a model alone is a world with
-            nothing else in it.
-        package_path: folders to look for models and packages in first.
+        world: the name of a bundled world, or a ``.world`` or ``.sdf`` file. A file with a model alone is a world of
+            that model only.
+        package_path: folders to search for models and packages first.
 
     Raises:
-        ResourceError: there is none, or it includes what is not there.
+        ResourceError: the world, or a model it includes, does not exist.
         XmlError: a file is not well-formed XML, or hostile.
-        DescriptionError: it cannot be read, or holds what cannot be simulated; with its place.
+        DescriptionError: it cannot be read or simulated; with the position.
     """
     path = world_file(str(world)) or Path(world)
     names = world_names()
@@ -92,15 +92,15 @@ def load_model(
     """Return a model to be put into a world.
 
     Args:
-        model: the name of a model we ship, ``model://name``, or an ``.sdf`` file.
-        name: what to call it; its own name when empty.
-        pose: where to put it; where it says when None.
-        package_path: folders to look for models and packages in first.
+        model: the name of a bundled model, ``model://name``, or an ``.sdf`` file.
+        name: its name in the world; its own name when empty.
+        pose: its pose in the world; its own pose when None.
+        package_path: folders to search for models and packages first.
 
     Raises:
-        ResourceError: there is none.
+        ResourceError: unknown model.
         XmlError: a file is not well-formed XML, or hostile.
-        DescriptionError: it cannot be read, or is no model.
+        DescriptionError: it cannot be read, or is not a model.
     """
     path = model_file(str(model)) or Path(model)
     if str(model).startswith("model://") or (path.suffix != ".sdf" and "/" not in str(model)):
@@ -113,7 +113,7 @@ def load_model(
     if written is None:
         raise wrong(root, "an SDF model starts with <sdf> and has a <model> in it")
     found = read_model(context, written)
-    if not isinstance(found.thing, WorldModel):
+    if not isinstance(found.entity, WorldModel):
         raise wrong(written, "this is not a model")
     loaded = _alone(found).models[0]
     _require_masses(loaded, static=False)
@@ -133,7 +133,7 @@ def _named(name: str, package_path: Iterable[str | Path]) -> Path:
         raise ResourceError(error.message + ("" if "did you mean" in error.message else names)) from None
 
 
-def _alone(found: Found) -> World:
+def _alone(found: ReadEntity) -> World:
     scope = Scope("world", "the world")
     found.add_to(scope, strict=True)
     model = found.placed(scope)
@@ -147,12 +147,12 @@ def _world(context: Context, element: Element) -> World:
     strict = context.version >= (1, 7)
     states = element.find_all("state")
     state = State(context, states[-1]) if states else None
-    things = [_thing(context, child) for child in (*element.children, *(state.inserted if state else ()))]
-    found = [thing for thing in things if thing is not None]
+    read = [_entity(context, child) for child in (*element.children, *(state.inserted if state else ()))]
+    found = [each for each in read if each is not None]
     if state is not None:
-        found = [thing for thing in found if thing.thing.name not in state.deleted]
-    for thing in found:
-        thing.add_to(scope, strict=strict)
+        found = [each for each in found if each.entity.name not in state.deleted]
+    for each in found:
+        each.add_to(scope, strict=strict)
     for child in element.children:
         if child.tag in ("frame", "joint"):
             add_frame(scope, child, strict=strict)
@@ -160,14 +160,14 @@ def _world(context: Context, element: Element) -> World:
             context.note(child, _NOT_SIMULATED[child.tag])
         elif child.tag == "wind" and any(vector(child, "linear_velocity", (0.0, 0.0, 0.0))):
             context.note(child, "wind is not simulated: <wind> is kept but has no effect")
-    placed = [thing.placed(scope) for thing in found]
+    placed = [each.placed(scope) for each in found]
     models = [each for each in placed if isinstance(each, WorldModel)]
     lights = [each for each in placed if isinstance(each, Light)]
     if state is not None:
         state.note_unknown_models([each.name for each in models])
         models, lights = [state.model(each) for each in models], [state.light(each) for each in lights]
     physics = _physics_element(element)
-    gravity = vector(physics, "gravity", GRAVITY)  # SDF 1.5 and older write it there
+    gravity = vector(physics, "gravity", GRAVITY)  # its place in SDF 1.5 and older
     default = World("")
     return World(
         element.get("name") or context.path.stem,
@@ -183,11 +183,11 @@ def _world(context: Context, element: Element) -> World:
     )
 
 
-def _thing(context: Context, element: Element) -> Found | None:
+def _entity(context: Context, element: Element) -> ReadEntity | None:
     if element.tag == "model":
         return read_model(context, element)
     if element.tag == "light":
-        return Found(read_light(context, element, Pose()), raw_pose(element))
+        return ReadEntity(read_light(context, element, Pose()), raw_pose(element))
     if element.tag == "include" and element.get("merge", "false") in ("true", "1"):
         raise wrong(element, 'merge="true" is for models in models; leave it out')
     return read_include(context, element) if element.tag == "include" else None
@@ -204,13 +204,13 @@ def _physics(context: Context, element: Element) -> Physics:
     step = scalar(element, "max_step_size", default.max_step_size)
     if step <= 0:
         raise wrong(
-            element.find("max_step_size") or element, f"<max_step_size> is {step:g} s; it must be more than zero"
+            element.find("max_step_size") or element, f"<max_step_size> is {step:g} s; it must be greater than zero"
         )
     pace = scalar(element, "real_time_factor", default.real_time_factor)
     if pace not in (0, default.real_time_factor):
         context.note(
             element.find("real_time_factor") or element,
-            f"<real_time_factor> {pace:g} is kept, but not followed: teleop keeps pace with the clock",
+            f"<real_time_factor> {pace:g} is kept but ignored: teleop runs in real time",
         )
     return Physics(
         step,
@@ -223,9 +223,9 @@ def _physics(context: Context, element: Element) -> Physics:
 
 
 def _require_masses(model: WorldModel, *, static: bool) -> None:
-    """Refuse what moves without a body or a mass, or with an inertia that nothing has."""
+    """Refuse moving links without mass or with an invalid inertia."""
     static = static or model.static
-    if not (model.static or model.links or model.models):  # as sdformat has it
+    if not (model.static or model.links or model.models):  # like sdformat
         raise DescriptionError(
             f"model `{model.name}` has no link; give it one or make it <static>", position=model.position
         )
@@ -246,7 +246,7 @@ def _require_masses(model: WorldModel, *, static: bool) -> None:
 
 
 def _is_positive_definite(ixx: float, ixy: float, ixz: float, iyy: float, iyz: float, izz: float) -> bool:
-    """Say so by Sylvester's criterion."""
+    """Whether a tensor is positive definite, by Sylvester's criterion."""
     minor = ixx * iyy - ixy * ixy
     whole = ixx * (iyy * izz - iyz * iyz) - ixy * (ixy * izz - iyz * ixz) + ixz * (ixy * iyz - iyy * ixz)
     return ixx > 0 and minor > 0 and whole > 0

@@ -19,65 +19,65 @@ from urdfkit.description.xml.element import Element
 _READ = {"frame", "include", "joint", "link", "model", "pose", "self_collide", "static"}
 
 
-class Found:
-    """What a ``<model>`` or an ``<include>`` turned out to be, its pose yet to be resolved.
+class ReadEntity:
+    """Model, robot or light read from a ``<model>`` or ``<include>``, its pose not yet resolved.
 
     Attributes:
-        thing: the model, robot or light.
+        entity: the model, robot or light.
         raw: its pose as written.
         placement: the frame inside it that the pose is of.
         scope: the frames of a model.
     """
 
     def __init__(
-        self, thing: WorldModel | WorldRobot | Light, raw: RawPose, placement: str = "", scope: Scope | None = None
+        self, entity: WorldModel | WorldRobot | Light, raw: RawPose, placement: str = "", scope: Scope | None = None
     ) -> None:
-        self.thing, self.raw, self.placement, self.scope = thing, raw, placement, scope
+        self.entity, self.raw, self.placement, self.scope = entity, raw, placement, scope
 
     def add_to(self, scope: Scope, *, strict: bool) -> None:
-        """Add the frame of a model to those around it; lights have none.
+        """Add the frame of a model to the frames of its parent; lights have none.
 
         Raises:
-            DescriptionError: its name is taken.
+            DescriptionError: its name exists already.
         """
-        if not isinstance(self.thing, Light):
-            name = self.thing.name
+        if not isinstance(self.entity, Light):
+            name = self.entity.name
             scope.add(name, "model", self.raw, placement=self.placement, nested=self.scope, strict=strict)
 
     def placed(self, scope: Scope) -> WorldModel | WorldRobot | Light:
-        """Return the thing with its pose in the frames around it.
+        """Return the entity with its resolved pose.
 
         Raises:
-            DescriptionError: the pose is given in a frame that is not there.
+            DescriptionError: the pose is relative to an unknown frame.
         """
-        if isinstance(self.thing, Light):
-            return replace(self.thing, pose=scope.place(self.raw, scope.root, scope.root))
-        return replace(self.thing, pose=scope.pose(self.thing.name, self.raw.position))
+        if isinstance(self.entity, Light):
+            return replace(self.entity, pose=scope.place(self.raw, scope.root, scope.root))
+        return replace(self.entity, pose=scope.pose(self.entity.name, self.raw.position))
 
 
-def read_model(context: Context, element: Element) -> Found:
+def read_model(context: Context, element: Element) -> ReadEntity:
     """Read a ``<model>``.
 
     Raises:
-        ResourceError: it includes, or shows, what is not there.
+        ResourceError: an included model or a mesh does not exist.
         DescriptionError: it cannot be read.
     """
     note_unknown_elements(context, element)
     name = name_of(element)
     scope = Scope("__model__", f"model `{name}`")
     strict = context.version >= (1, 7)
-    inside: list[Found] = []
+    inside: list[ReadEntity] = []
     merged: list[WorldModel] = []
     for child in element.children:
         if child.tag in ("model", "include"):
             found = read_model(context, child) if child.tag == "model" else read_include(context, child)
             if found is None:
                 continue
-            if not isinstance(found.thing, WorldModel):
+            if not isinstance(found.entity, WorldModel):
                 raise wrong(child, "a model may include models only, neither lights nor URDF files")
             if child.get("merge", "false") in ("true", "1") and found.scope is not None:
-                scope.merge(found.thing.name, found.scope, found.raw, found.placement)
-                merged.append(found.thing)
+                scope.merge(found.entity.name, found.scope, found.raw, found.placement)
+                merged.append(found.entity)
                 continue
             found.add_to(scope, strict=strict)
             inside.append(found)
@@ -104,14 +104,14 @@ def read_model(context: Context, element: Element) -> Found:
         kept=tuple(kept),
         position=element.origin.position,
     )
-    return Found(model, raw_pose(element), element.get("placement_frame") or "", scope)
+    return ReadEntity(model, raw_pose(element), element.get("placement_frame") or "", scope)
 
 
 def add_frame(scope: Scope, element: Element, *, strict: bool) -> None:
-    """Add the frame that a link, joint or ``<frame>`` is; other elements are none.
+    """Add the frame of a link, joint or ``<frame>``; other elements have none.
 
     Raises:
-        DescriptionError: its name is missing or taken.
+        DescriptionError: its name is missing or exists already.
     """
     if element.tag == "link":
         scope.add(name_of(element), "link", raw_pose(element), strict=strict)
@@ -130,14 +130,14 @@ def _canonical(element: Element, scope: Scope) -> str:
     return written
 
 
-def read_include(context: Context, element: Element) -> Found | None:
+def read_include(context: Context, element: Element) -> ReadEntity | None:
     """Read an ``<include>``: a model, a light, or a URDF.
 
     Returns:
-        What is included; None where it is an actor, which is noted.
+        The included entity; None for an actor, with a note.
 
     Raises:
-        ResourceError: there is no such model.
+        ResourceError: unknown model.
         DescriptionError: it cannot be read.
     """
     from urdfkit.description.sdf.reader.uris import find_model
@@ -159,35 +159,35 @@ def read_include(context: Context, element: Element) -> Found | None:
             kept=tuple([keep(child) for child in element.find_all("plugin")]),
             position=element.origin.position,
         )
-        return Found(robot, raw_pose(element))
+        return ReadEntity(robot, raw_pose(element))
     inner = context.enter(path, uri)
     root = inner.open()
     found = _first(inner, root)
     if found is None:
         context.note(element, f"{uri.text} is an actor, which is not simulated")
         return None
-    found.thing = replace(found.thing, position=element.origin.position)
+    found.entity = replace(found.entity, position=element.origin.position)
     if called:
-        found.thing = replace(found.thing, name=called)
+        found.entity = replace(found.entity, name=called)
     if element.find("pose") is not None:
         found.raw, found.placement = raw_pose(element), text(element, "placement_frame")
     elif text(element, "placement_frame"):
         raise wrong(element, "<placement_frame> requires a <pose>")
-    if isinstance(found.thing, WorldModel):
+    if isinstance(found.entity, WorldModel):
         plugins = tuple([keep(child) for child in element.find_all("plugin")])
-        static = boolean(element, "static", found.thing.static)
-        found.thing = replace(found.thing, static=static, kept=found.thing.kept + plugins)
+        static = boolean(element, "static", found.entity.static)
+        found.entity = replace(found.entity, static=static, kept=found.entity.kept + plugins)
     return found
 
 
-def _first(context: Context, root: Element) -> Found | None:
+def _first(context: Context, root: Element) -> ReadEntity | None:
     if root.tag != "sdf":
         raise wrong(root, f"<{root.tag}> is not a model: an SDF model starts with <sdf> and has a <model> in it")
     for child in root.children:
         if child.tag == "model":
             return read_model(context, child)
         if child.tag == "light":
-            return Found(read_light(context, child, Pose()), raw_pose(child))
+            return ReadEntity(read_light(context, child, Pose()), raw_pose(child))
         if child.tag == "actor":
             return None
     raise wrong(root, "this file has neither a <model> nor a <light>")

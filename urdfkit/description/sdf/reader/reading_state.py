@@ -1,4 +1,4 @@
-"""What reading a world carries along: the version, where files are looked for, and the remarks so far."""
+"""Context of a reader: the SDF version, the search for files, and the notes so far."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from urdfkit.description.xml.reader import absolute, document_of, read_source, s
 from urdfkit.errors import DescriptionError, did_you_mean
 
 OLDEST, NEWEST = (1, 4), (1, 11)
-"""The versions of SDF that are read."""
+"""The supported versions of SDF."""
 
 _MAX_NESTING = 20
 _VERSION = re.compile(r"^(\d+)\.(\d+)$")
 
 
 class Context:
-    """Where the reader stands: in which file, of which version of SDF.
+    """State of the reader: the current file and its version of SDF.
 
     Args:
         packages: finds ``model://`` and ``package://``.
         path: the file.
 
     Attributes:
-        notes: remarks for the user, shared by all files of a world.
-        files: what was read, in order.
+        notes: notes for the user, shared by all files of a world.
+        files: the files read, in order.
         version: of SDF, in this file.
     """
 
@@ -46,7 +46,7 @@ class Context:
         Raises:
             ResourceError: it cannot be read.
             XmlError: it is not well-formed, or hostile.
-            DescriptionError: it is no SDF of a version that is read.
+            DescriptionError: it is not SDF of a supported version.
         """
         root = self._documents.get(self.path)
         if root is None:
@@ -61,7 +61,7 @@ class Context:
         """Return the context of a file that this one includes.
 
         Raises:
-            DescriptionError: files include each other in a circle.
+            DescriptionError: files include each other in a cycle.
         """
         inner = Context(self.packages, path)
         inner.notes, inner.files, inner._documents = self.notes, self.files, self._documents
@@ -71,7 +71,7 @@ class Context:
         return inner
 
     def note(self, element: Element, text: str) -> None:
-        """Remark something about an element, once."""
+        """Add a note about an element, once."""
         line = f"{element.origin.position}: {text}"
         if line not in self.notes:
             self.notes.append(line)
@@ -88,12 +88,12 @@ class Context:
             oldest, newest = (".".join(map(str, each)) for each in (OLDEST, NEWEST))
             raise wrong(root, f"SDF {written} is not supported; supported versions are {oldest} to {newest}")
         if version > NEWEST:
-            self.note(root, f"SDF {written} is newer than 1.{NEWEST[1]}; what is new in it is ignored")
+            self.note(root, f"SDF {written} is newer than 1.{NEWEST[1]}; newer elements are ignored")
         return version
 
 
 def root_error(root: Element) -> DescriptionError:
-    """Return the error for a file that is no SDF at all."""
+    """Return the error for a file that is not SDF."""
     if root.tag == "robot":
         return wrong(
             root, "this is a robot; an SDF world starts with <sdf>: give the robot as MODEL, or include it in a world"

@@ -1,4 +1,4 @@
-"""``<state>``: where things were when Gazebo classic saved the world."""
+"""``<state>``: the poses of a world that Gazebo classic saved."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from urdfkit.description.xml.element import Element
 from urdfkit.errors import did_you_mean
 
 _ROUNDED = 1e-4
-"""A saved pose nearer than this to the written one is the written one, rounded: [m] and entries of the rotation."""
+"""A saved pose closer than this to the written one is a rounded copy of it: [m] and entries of the rotation."""
 
 
 class State:
     """The state of a world: saved poses of models, links and lights.
 
-    Gazebo classic saves where every model and every link is in the world, nested ones too (gazebo, LinkState.cc).
-    Velocities are not taken over. A saved scale holds for the sizes as written, as when Gazebo loads the file.
+    Gazebo classic saves the world poses of all models and links, nested ones included (gazebo, LinkState.cc).
+    Velocities are ignored. A saved scale applies to the sizes as written, as in Gazebo.
 
     Args:
         context: the file.
@@ -36,14 +36,14 @@ class State:
         self.inserted = [] if insertions is None else insertions.children
 
     def note_unknown_models(self, models: list[str]) -> None:
-        """Note the models in the state that the world does not have."""
+        """Add a note for each model of the state that the world lacks."""
         for model in self._element.find_all("model"):
             if name_of(model) not in models:
                 hint = did_you_mean(name_of(model), models)
                 self._context.note(model, f"<state> places the unknown model `{model.get('name')}`{hint}")
 
     def model(self, model: WorldModel) -> WorldModel:
-        """Return a model of the world where it was.
+        """Return a model of the world at its saved pose.
 
         Raises:
             DescriptionError: a value cannot be used.
@@ -52,7 +52,7 @@ class State:
         return model if saved is None else _moved(model, saved, Pose())
 
     def light(self, light: Light) -> Light:
-        """Return a light where it was."""
+        """Return a light at its saved pose."""
         saved = self._saved("light", light.name)
         return light if saved is None or saved.find("pose") is None else replace(light, pose=raw_pose(saved).pose)
 
@@ -61,7 +61,7 @@ class State:
 
 
 def _moved(model: WorldModel, saved: Element, around: Pose) -> WorldModel:
-    """Return a model where it was; `around` is the pose of what it is in."""
+    """Return a model at its saved pose; `around` is the pose of its parent."""
     scale = vector(saved, "scale", (1.0, 1.0, 1.0))
     if min(scale) <= 0:
         raise wrong(saved.find("scale") or saved, f"<scale> of model `{model.name}` must be greater than zero")
@@ -95,7 +95,7 @@ def _scaled(link: WorldLink, scale: Vector) -> WorldLink:
 
 
 def scaled(geometry: WorldGeometry, scale: Vector) -> WorldGeometry:
-    """Return a shape that is `scale` times as large along x, y and z; round ones stay round, by the larger factor."""
+    """Return a shape that is `scale` times as large along x, y and z; round ones use the larger factor."""
     x, y, z = scale
     if isinstance(geometry, Box):
         return Box((geometry.size[0] * x, geometry.size[1] * y, geometry.size[2] * z))
@@ -116,7 +116,7 @@ def _link(link: WorldLink, saved: Element | None, model: Pose) -> WorldLink:
 
 
 def _unless_near(pose: Pose, saved: Element) -> Pose | None:
-    """Return the saved pose; None where there is none or it is as good as the written one."""
+    """Return the saved pose; None if it is missing or equal to the written one."""
     if saved.find("pose") is None:
         return None
     found = raw_pose(saved).pose

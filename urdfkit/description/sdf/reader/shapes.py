@@ -16,11 +16,11 @@ from urdfkit.errors import ResourceError, did_you_mean
 
 _REFUSED = {
     "heightmap": "model the ground as boxes or as a mesh",
-    "polyline": "extrude it to a mesh, or build it of boxes",
-    "image": "build it of boxes",
+    "polyline": "extrude it to a mesh, or build it from boxes",
+    "image": "build it from boxes",
 }
 LARGEST = 1e6
-"""What is larger is a slip: numbers of 16 digits hold 0.1 nm at that size [m]."""
+"""Larger values count as mistakes; at this size double precision resolves 0.1 nm [m]."""
 _READ = {
     "auto_inertia_params",
     "density",
@@ -43,11 +43,11 @@ def read_shape(context: Context, element: Element, pose: Pose) -> WorldShape | N
         pose: in its link.
 
     Returns:
-        The shape; None where its geometry is ``<empty/>``, or is a visual's mesh that is not there (noted). That of a
-        collision whose mesh is not there (noted) names no file.
+        The shape; None where its geometry is ``<empty/>``, or for a visual with a missing mesh (with a note). A
+        collision with a missing mesh (with a note) has no file.
 
     Raises:
-        DescriptionError: it cannot be read, or is of a kind that is refused.
+        DescriptionError: it cannot be read, or is of an unsupported kind.
     """
     note_unknown_elements(context, element)
     name = name_of(element)
@@ -108,7 +108,7 @@ def _lengths(solid: WorldGeometry) -> tuple[float, ...]:
 def _box(element: Element) -> Box:
     size = element.find("size")
     if size is None:
-        return Box((1.0, 1.0, 1.0))  # sdformat's default (box_shape.sdf), as are those below
+        return Box((1.0, 1.0, 1.0))  # sdformat's default (box_shape.sdf), like those below
     x, y, z = floats(size, 3)
     if min(x, y, z) <= 0:
         raise wrong(size, f"<size> is `{size.text}`; every edge must be longer than zero")
@@ -156,7 +156,7 @@ def _mesh(context: Context, shape: Element, element: Element) -> tuple[WorldGeom
         raise wrong(element, "<mesh> lacks its <uri>")
     if element.find("submesh") is not None:
         if shape.tag == "collision":
-            raise wrong(element, "<submesh> of a collision is not read; save the part as a mesh of its own")
+            raise wrong(element, "<submesh> of a collision is not read; save the part as a separate mesh")
         context.note(element, "<submesh> is not read: the whole mesh is shown")
     scale = vector(element, "scale", (1.0, 1.0, 1.0))
     if 0 in scale:
@@ -218,7 +218,7 @@ def _mask(contact: Element | None, default: int) -> int:
 
 
 def _material(context: Context, visual: Element) -> tuple[Rgba | None, str, tuple[Kept, ...]]:
-    """Return colour, name of the script, and the material itself where there is more to it."""
+    """Return colour, name of the script, and the material itself if it has further content."""
     element = visual.find("material")
     if element is None:
         return None, "", ()

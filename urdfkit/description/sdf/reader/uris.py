@@ -1,4 +1,4 @@
-"""Which file a URI in SDF means: models by name, meshes, and nothing from the network."""
+"""Resolve URIs in SDF to local files: models by name, and meshes; nothing is downloaded."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from urdfkit.description.packages.resolver import near_path
-from urdfkit.description.sdf.model_library import ALIKE, FOLDER, model_file, model_names, stand_in
+from urdfkit.description.sdf.model_library import ALIKE, FOLDER, model_file, model_names, replacement_of
 from urdfkit.description.sdf.reader.reading_state import NEWEST, Context
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import document_of, read_source, shown_path
@@ -17,20 +17,20 @@ _REMOTE = re.compile(r"^(https?|fuel)://", re.IGNORECASE)
 
 
 def find_file(context: Context, uri: Element) -> Path:
-    """Return the file that the URI of a mesh means.
+    """Return the file of a mesh URI.
 
     Args:
-        context: the file it is written in; a plain path starts from there.
-        uri: the element whose text it is.
+        context: the file it is written in; plain paths are relative to it.
+        uri: the element that contains it.
 
     Raises:
-        ResourceError: there is no such file, or it is on the network.
+        ResourceError: the file does not exist, or is on the network.
     """
     _refuse_remote(uri)
     scheme, _, rest = uri.text.partition("://")
     name, _, inside = rest.partition("/")
     if scheme == "model":
-        # A model is called what its folder is: its own files need no search.
+        # The name of a model is its folder's: its own files need no search.
         for folder in context.path.parents:
             if folder.name == name and (folder / inside).is_file():
                 return folder / inside
@@ -41,13 +41,13 @@ def find_file(context: Context, uri: Element) -> Path:
 
 
 def find_model(context: Context, uri: Element) -> Path:
-    """Return the SDF or URDF file of a model that is included.
+    """Return the SDF or URDF file of an included model.
 
-    Models of the user's come first (the folders around the file, GAZEBO_MODEL_PATH, GZ_SIM_RESOURCE_PATH, packages),
-    then those we ship; where we ship only one like it, that is noted.
+    User models come first (the folders around the file, GAZEBO_MODEL_PATH, GZ_SIM_RESOURCE_PATH, packages),
+    then bundled models; a similar bundled model is used with a note.
 
     Raises:
-        ResourceError: there is none; names the nearest.
+        ResourceError: unknown model; names the nearest.
     """
     _refuse_remote(uri)
     text = uri.text.strip()
@@ -62,7 +62,7 @@ def find_model(context: Context, uri: Element) -> Path:
     path = _users(context, text, name, inside)
     if path is not None:
         return _entry(path, uri)
-    if name and not inside.strip("/") and (found := stand_in(name)) is not None:
+    if name and not inside.strip("/") and (found := replacement_of(name)) is not None:
         if found[0] != name or name in ALIKE:
             which = "model" if found[0] == name else f"model `{found[0]}`"
             context.note(uri, f"{text}: the bundled {which} is used instead")
@@ -96,7 +96,7 @@ def _is_model(folder: Path) -> bool:
 
 
 def _entry(path: Path, uri: Element) -> Path:
-    """Return the model file itself: of a folder, the newest that its model.config names."""
+    """Return the model file; for a folder, the newest file in its model.config."""
     if path.is_file():
         return path
     manifest, plain = path / "model.config", path / "model.sdf"
@@ -126,6 +126,6 @@ def _refuse_remote(uri: Element) -> None:
         raise ResourceError(f"<{uri.tag}> is empty", position=uri.origin.position)
     if _REMOTE.match(uri.text.strip()):
         words = [word for word in uri.text.strip().lower().split("/") if word and not word.isdigit()]
-        near = stand_in(words[-1])
+        near = replacement_of(words[-1])
         hint = f"; use the bundled model://{near[0]}" if near else "; download it and name its folder: model://…"
-        raise ResourceError(f"{uri.text}: nothing is fetched from the network{hint}", position=uri.origin.position)
+        raise ResourceError(f"{uri.text}: nothing is downloaded{hint}", position=uri.origin.position)

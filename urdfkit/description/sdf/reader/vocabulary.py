@@ -1,4 +1,4 @@
-"""Which elements SDF knows where, so that a misspelt one is remarked on and not lost in silence."""
+"""Elements that SDF allows in each element, so that a misspelt one is reported."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _SETS = {tag: frozenset(known.split()) for tag, known in _KNOWN.items()}
 
 
 def note_unknown_elements(context: Context, element: Element) -> None:
-    """Note the children that SDF does not know here; sdformat ignores them, too, and silently those with a prefix."""
+    """Add a note for each child unknown to SDF; sdformat ignores these too, and elements with a prefix silently."""
     known = _SETS["axis" if element.tag == "axis2" else element.tag]
     for child in element.children:
         if child.tag not in known and ":" not in child.tag:

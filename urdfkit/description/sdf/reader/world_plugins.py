@@ -1,4 +1,4 @@
-"""Plugins of worlds: those that do for Gazebo what happens here anyway, and a remark on those nobody here runs."""
+"""Plugins of worlds: the ones whose function the simulator has built in, and notes about unknown ones."""
 
 from __future__ import annotations
 
@@ -37,15 +37,15 @@ NEEDLESS = frozenset(
         "gazebo_ros_properties",
     }
 )
-"""File names, bare, of what the simulator does without being told."""
+"""File stems of plugins whose function is built into the simulator."""
 
 
 def note_unknown_plugins(context: Context, world: World) -> None:
-    """Note the plugins of a world and of what is in it that are not known, each with the nearest known name.
+    """Add a note for each unknown plugin of a world and its entities, with the nearest known name.
 
     Args:
-        context: of the world's file.
-        world: what was read.
+        context: the context of the world's file.
+        world: the world.
     """
     for plugin, owner in _plugins(world):
         name = stem(plugin.filename or "").replace("ignition-gazebo", "gz-sim")
