@@ -147,8 +147,8 @@ def _refuse(cls: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
             raise TypeError(f"{cls.__name__}() got an unexpected keyword argument {name!r}")
         if name in names[: len(args)]:
             raise TypeError(f"{cls.__name__}() got multiple values for argument {name!r}")
-    given = {*names[: len(args)], *kwargs, *cls._record_defaults, *cls._record_factories}
-    missing = ", ".join(repr(name) for name in names if name not in given)
+    supplied = {*names[: len(args)], *kwargs, *cls._record_defaults, *cls._record_factories}
+    missing = ", ".join(repr(name) for name in names if name not in supplied)
     raise TypeError(f"{cls.__name__}() missing arguments: {missing}")
 
 

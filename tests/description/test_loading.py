@@ -39,7 +39,7 @@ def joint(name: str, parent: str, child: str, kind: str = "fixed", inside: str =
         (model(links("a", "b", "c"), joint("j", "a", "b"), joint("j", "a", "c")), "4:1", "two joints are called `j`"),
         (model(links("base_link", "b"), joint("j", "base_lnk", "b")), "3:30", "its parent link `base_lnk` does not exist; did you mean `base_link`?"),
         (model(links("a", "arm"), joint("j", "a", "amr")), "3:48", "its child link `amr` does not exist; did you mean `arm`?"),
-        (model(links("a", "b"), joint("j", "a", "b").replace('type="fixed"', "")), "3:1", "joint `j`: no type"),
+        (model(links("a", "b"), joint("j", "a", "b").replace('type="fixed"', "")), "3:1", "joint `j`: missing attribute `type`"),
         (model(links("a", "b"), joint("j", "a", "b", "Revolute")), "3:1", "joint `j`: unknown type `Revolute`; did you mean `revolute`?"),
         (model(links("a", "b"), joint("j", "a", "b", "revolute")), "3:1", "revolute joint `j` lacks <limit"),
         (model(links("a", "b"), joint("j", "a", "b", "prismatic")), "3:1", "prismatic joint `j` lacks <limit"),

@@ -138,8 +138,8 @@ def test_a_mimic_of_a_fixed_joint_stays_at_its_offset(robot_of: Callable[[str], 
     ("mimics", "message"),
     [
         ({"b": '<mimic joint="arm"/>'}, r"`b` mimics the unknown joint `arm`"),
-        ({"b": '<mimic joint="c"/>', "c": '<mimic joint="b"/>'}, r"circle: `b` → `c` → `b`"),
-        ({"b": '<mimic joint="b"/>'}, r"circle: `b` → `b`"),
+        ({"b": '<mimic joint="c"/>', "c": '<mimic joint="b"/>'}, r"cycle: `b` → `c` → `b`"),
+        ({"b": '<mimic joint="b"/>'}, r"cycle: `b` → `b`"),
     ],
 )
 def test_mimics_that_make_no_sense_are_refused_at_their_place(

@@ -63,7 +63,7 @@ def test_times_as_in_ros_1_and_in_seconds(written: object, sec: int, nanosec: in
         ({"secs": 2, "sec": 3}, "sets the same field twice"),
         ({"sec": 2.5, "nanosec": 3}, "sets the fraction of a second twice"),
         ({"scs": 2}, "did you mean `sec`?"),
-        (-1, "`-1` is no builtin_interfaces/msg/Time"),
+        (-1, "`-1` is out of range for builtin_interfaces/msg/Time"),
         (1e10, "is out of range for builtin_interfaces/msg/Time: seconds, at most 2147483647"),
         (True, "write its fields, sec, nanosec"),
         ("2", "write its fields, sec, nanosec"),

@@ -55,10 +55,10 @@ def _store() -> Any:
     except ImportError:
         return None
     store = get_typestore(Stores.ROS2_HUMBLE)
-    known: dict[str, Any] = {}
+    definitions: dict[str, Any] = {}
     for name, text in (CONTROL_MESSAGES | WORLD_MESSAGES | SENSOR_MESSAGES | VISION_MESSAGES).items():
-        (known[name],) = get_types_from_msg(text, name).values()  # whose own key has /msg/ in it for services too
-    store.register(known)
+        (definitions[name],) = get_types_from_msg(text, name).values()  # whose own key has /msg/ in it for services too
+    store.register(definitions)
     return store
 
 
@@ -144,8 +144,8 @@ def from_fields(type: str, fields: Any) -> Any:
             raise UsageError(
                 f"no field `{name}` in {full}{did_you_mean(str(name), layout)} (it has {', '.join(layout)})"
             )
-    given = fields or {}
-    return kind(**{name: _value(full, name, description, given.get(name)) for name, description in layout.items()})
+    supplied = fields or {}
+    return kind(**{name: _value(full, name, description, supplied.get(name)) for name, description in layout.items()})
 
 
 _MOMENTS = ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration")

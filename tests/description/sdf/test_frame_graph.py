@@ -116,10 +116,13 @@ def test_a_frame_of_a_frame(tmp_path: Path) -> None:
         ),
         (
             '<model name="m"><link name="a"/><link name="a"/></model>',
-            "model `m` has a link called `a` already (line 2)",
+            "model `m` already has a link `a` (line 2)",
         ),
-        ('<model name="m"><link name="l"/></model><model name="m"><link name="l"/></model>', "world `w` has a model"),
-        ('<model name="m"><link name="a"/><frame name="a"/></model>', "model `m` has a link called `a` already"),
+        (
+            '<model name="m"><link name="l"/></model><model name="m"><link name="l"/></model>',
+            "`w` already has a model `m`",
+        ),
+        ('<model name="m"><link name="a"/><frame name="a"/></model>', "model `m` already has a link `a`"),
         ('<model name="m"><link name="world"/></model>', "`world` is a reserved name"),
         (
             """<model name="m"><link name="l"/><frame name="f" attached_to="g"/><frame name="g" attached_to="f"/>

@@ -254,14 +254,14 @@ def test_editing_makes_new_worlds() -> None:
 
 def test_editing_what_is_not_there() -> None:
     world = load_world("empty")
-    with pytest.raises(ResourceError, match="has a model `ground_plane` already; call it `ground_plane_1`"):
+    with pytest.raises(ResourceError, match="already has a model `ground_plane`; name it `ground_plane_1`"):
         add_model(world, load_model("ground_plane"))
     with pytest.raises(ResourceError, match="no model `ground_plan` in world `empty`; did you mean `ground_plane`"):
         remove_model(world, "ground_plan")
     with pytest.raises(ResourceError, match="no model `x` in world `empty`"):
         move_model(world, "x", Pose())
     hung = World("w", models=(load_model("ball"),), joints=(WorldJoint("rope", "ball", "world", "ball::link"),))
-    with pytest.raises(ResourceError, match="model `ball` hangs on joint `rope`"):
+    with pytest.raises(ResourceError, match="model `ball` is connected by joint `rope`"):
         remove_model(hung, "ball")
 
 

@@ -155,7 +155,7 @@ def link(inside: str) -> str:
         (link('<inertial><mass value="nan"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'), "not-finite", "not finite", "value"),
         ('<robot name="r"><material name="m"><color rgba="1 1 1"/></material></robot>', "wrong-arity", "expected 4", "rgba"),
         ('<robot name="r"><joint name="j" type="Revolute"><parent link="a"/><child link="b"/></joint></robot>', "unknown-value", "did you mean `revolute`?", "type"),
-        ('<robot name="r"><joint name="j"><parent link="a"/><child link="b"/></joint></robot>', "missing", "no type", "type"),
+        ('<robot name="r"><joint name="j"><parent link="a"/><child link="b"/></joint></robot>', "missing", "missing attribute `type`", "type"),
         ('<robot name="r"><joint name="j" type="fixed"><child link="b"/></joint></robot>', "missing", "missing <parent link=…>", None),
         ('<robot name="r"><joint name="j" type="fixed"><parent/><child link="b"/></joint></robot>', "missing", "`link`", "link"),
         ('<robot name="r"><transmission><actuator><mechanicalReduction>x</mechanicalReduction></actuator></transmission></robot>', "bad-number", "`x` is not a number", None),

@@ -73,7 +73,7 @@ def test_a_file_of_any_size_is_not_read_whole() -> None:
         ('<robot>\n<link name="a/></robot>', "2:16", "a quote or `>` is missing before it"),
         ("<robot>\n<a b='<'/></robot>", "2:7", "unexpected `<`"),
         ("<robot>\na & b</robot>", "2:4", "not well-formed"),
-        ("<robot/>\n<robot/>", "2:1", "more after the root element"),
+        ("<robot/>\n<robot/>", "2:1", "content after the end of the root element"),
         ("\n<?xml version='1.0'?><robot/>", "2:1", "very start of the file"),
         ("<robot>&nbsp;</robot>", "1:8", "undefined entity"),
         ('<robot a="1" a="2"/>', "1:14", "duplicate attribute"),

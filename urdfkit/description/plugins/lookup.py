@@ -45,9 +45,9 @@ def match(plugin: Plugin) -> PluginSpec | None:
     if by_class:
         return by_class[0]
     if "ros" not in (tags := [child.tag for child in plugin.element.children]):
-        known = [sum(spec.parameter(tag) is not None for tag in tags) for spec in candidates]
-        if known.count(max(known)) == 1:
-            return candidates[known.index(max(known))]
+        matches = [sum(spec.parameter(tag) is not None for tag in tags) for spec in candidates]
+        if matches.count(max(matches)) == 1:
+            return candidates[matches.index(max(matches))]
     ros2 = _is_ros2(plugin.element)
     return next((spec for spec in candidates if (spec.generation == "ros2") is ros2), candidates[0])
 

@@ -241,12 +241,12 @@ class _Builder:
         """Return the mimic relation of a joint in URDF's form."""
         if axis.mimic is None:
             return None
-        known = {before + other.name: other for before, other in self._group.joints}
+        joints = {before + other.name: other for before, other in self._group.joints}
         met, leader = [prefix + joint.name], prefix + axis.mimic.joint
         while leader not in met:
-            found = known.get(leader)
+            found = joints.get(leader)
             if found is None or found.type == "fixed" or not found.axes:
-                hint = did_you_mean(leader, [name for name, each in known.items() if each.type != "fixed"])
+                hint = did_you_mean(leader, [name for name, each in joints.items() if each.type != "fixed"])
                 raise self._cannot(joint, f"follows `{leader}`, which is not a moving joint of the same tree{hint}")
             if found.axes[0].mimic is None:
                 break
@@ -289,8 +289,8 @@ def _moving(
     mimic: Mimic | None,
     element: Element,
 ) -> Joint:
-    endless = isinf(axis.lower) and isinf(axis.upper)
-    kind = "continuous" if joint.type != "prismatic" and endless else joint.type.replace("continuous", "revolute")
+    is_continuous = isinf(axis.lower) and isinf(axis.upper)
+    kind = "continuous" if joint.type != "prismatic" and is_continuous else joint.type.replace("continuous", "revolute")
     limit = Limit(axis.lower, axis.upper, _written(axis.effort), _written(axis.velocity), element)
     dynamics = Dynamics(axis.damping, axis.friction, element)
     return Joint(name, kind, parent, child, origin, direction, limit, dynamics, mimic, None, None, element)

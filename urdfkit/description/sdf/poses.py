@@ -93,6 +93,6 @@ def between(start: Pose, end: Pose) -> Pose:
 
 def difference(a: Pose, b: Pose) -> float:
     """Return the difference of two poses: the larger of the distance [m] and of the entries of their rotations."""
-    apart = max(abs(x - y) for x, y in zip(a.xyz, b.xyz, strict=True))
+    distance = max(abs(x - y) for x, y in zip(a.xyz, b.xyz, strict=True))
     rows = zip(rotation_of(a), rotation_of(b), strict=True)
-    return max(apart, *(abs(x - y) for row, other in rows for x, y in zip(row, other, strict=True)))
+    return max(distance, *(abs(x - y) for row, other in rows for x, y in zip(row, other, strict=True)))

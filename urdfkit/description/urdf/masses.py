@@ -44,5 +44,5 @@ def massless(robot: Robot, *, floating: bool) -> list[tuple[Link, Joint | None]]
         if tensor is not None and any((tensor.ixx, tensor.iyy, tensor.izz)):
             turning.add(body_of.get(link.name))
     fit = heavy & turning
-    known = robot.link_by_name
-    return [(known[top], joint) for top, joint in tops.items() if top not in fit and top in known]
+    links = robot.link_by_name
+    return [(links[top], joint) for top, joint in tops.items() if top not in fit and top in links]

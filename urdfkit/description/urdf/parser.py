@@ -123,10 +123,10 @@ def _inertial(reader: Reader, element: Element) -> Inertial:
 
 def _inertia(reader: Reader, element: Element) -> Inertia | None:
     values = [reader.number(element, name, required=True) for name in _TENSOR]
-    known = [value for value in values if value is not None]
-    if len(known) < len(_TENSOR):
+    present = [value for value in values if value is not None]
+    if len(present) < len(_TENSOR):
         return None
-    ixx, ixy, ixz, iyy, iyz, izz = known
+    ixx, ixy, ixz, iyy, iyz, izz = present
     return Inertia(ixx, ixy, ixz, iyy, iyz, izz, element)
 
 

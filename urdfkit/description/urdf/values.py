@@ -28,24 +28,24 @@ class Reader:
     """Reads values and notes problems, in document order.
 
     Args:
-        known: element → the part read from it before; None to read every element.
+        earlier: element → the part read from it before; None to read every element.
 
     Attributes:
         parts: element → the part read from it.
     """
 
-    def __init__(self, known: Mapping[Element, Part] | None = None) -> None:
+    def __init__(self, earlier: Mapping[Element, Part] | None = None) -> None:
         self.problems: list[Problem] = []
         self.parts: dict[Element, Part] = {}
-        self._known = known
+        self._earlier = earlier
         self.subject = ""
         """The link or joint being read, for the messages."""
 
     def part(self, read: Callable[[Reader, Element], Any], element: Element) -> Any:
         """Return the part read from an element; the earlier one if it is known."""
-        if self._known is None:
+        if self._earlier is None:
             return read(self, element)
-        found = self._known.get(element)
+        found = self._earlier.get(element)
         if found is None or (found[2] and found[0] != self.subject):
             subject, before = self.subject, len(self.problems)
             one = read(self, element)
@@ -155,8 +155,8 @@ class Reader:
         self.note("not-finite", f'{attribute}="{_short(text)}" of <{element.tag}> is {why}', element, attribute)
 
     def _note_arity(self, element: Element, attribute: str, text: str, count: int) -> None:
-        given = len(text.split())
-        message = f'{attribute}="{_short(text)}" of <{element.tag}>: expected {count}, found {given}'
+        count_found = len(text.split())
+        message = f'{attribute}="{_short(text)}" of <{element.tag}>: expected {count}, found {count_found}'
         self.note("wrong-arity", message, element, attribute)
 
 

@@ -481,7 +481,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         ("<gravity>0 0</gravity>", "<gravity> is `0 0`; it must be 3 finite numbers"),
         ("<gravity>0 0 nan</gravity>", "<gravity> is `0 0 nan`"),
         ("<gravity>0,0,-9.8</gravity>", "<gravity> is `0,0,-9.8`; it must be 3 finite numbers (a decimal comma"),
-        ("<physics><max_step_size>0</max_step_size></physics>", "<max_step_size> is 0 s; it must be more than zero"),
+        ("<physics><max_step_size>0</max_step_size></physics>", "<max_step_size> is 0 s; it must be greater than zero"),
         ("<include/>", "<include> lacks its <uri>"),
         ("<include><uri>model://taable</uri></include>", "or among the bundled models; did you mean `table`?"),
         ("<include><uri>http://x.org/a.sdf</uri></include>", "nothing is downloaded; download it"),
@@ -511,7 +511,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         ),
         (
             '<model name="m"><link name="l"><inertial auto="true"/></link></model>',
-            "has no collision to take its inertia",
+            "has no collision to compute its inertia",
         ),
         (
             '<model name="m"><link name="l"/><joint name="j" type="revolut"><parent>l</parent></joint></model>',
@@ -529,7 +529,7 @@ def test_a_newer_version_is_noted(tmp_path: Path) -> None:
         (
             """<model name="m"><link name="l"/>
             <joint name="j" type="fixed"><parent>l</parent><child>l</child></joint></model>""",
-            "joint `j` joins link `l` to itself",
+            "joint `j` connects link `l` to itself",
         ),
         (
             """<model name="m"><link name="l"/>
@@ -720,5 +720,5 @@ def test_wind_and_pace_are_kept_with_a_remark(tmp_path: Path) -> None:
     inside = "<wind><linear_velocity>1 0 0</linear_velocity></wind><physics><real_time_factor>0.5</real_time_factor>"
     path.write_text(f'<sdf version="1.9"><world name="w">{inside}</physics></world></sdf>')
     world = load_world(path)
-    assert [note.partition(": ")[2][:21] for note in world.notes] == ["the wind does not blo", "<real_time_factor> 0."]
+    assert [note.partition(": ")[2][:21] for note in world.notes] == ["wind is not simulated", "<real_time_factor> 0."]
     assert world.physics.real_time_factor == 0.5

@@ -10,7 +10,7 @@ _INCLUDE = "allow_auto_disable enable_wind name placement_frame plugin pose stat
 _LIGHT = "attenuation cast_shadows diffuse direction frame intensity light_on plugin pose specular spot visualize"
 _SHAPE = "frame geometry laser_retro pose"
 
-_KNOWN = {
+_ALLOWED = {
     "sdf": "actor light model world",
     "world": "actor atmosphere audio frame gravity gui include joint light magnetic_field model physics plugin"
     " population road scene spherical_coordinates state wind",
@@ -29,13 +29,13 @@ _KNOWN = {
     "inertial": "auto_inertia_params density fluid_added_mass frame inertia mass pose",
     "axis": "dynamics initial_position limit mimic use_parent_model_frame xyz",
 }
-_SETS = {tag: frozenset(known.split()) for tag, known in _KNOWN.items()}
+_SETS = {tag: frozenset(allowed.split()) for tag, allowed in _ALLOWED.items()}
 
 
 def note_unknown_elements(context: Context, element: Element) -> None:
     """Add a note for each child unknown to SDF; sdformat ignores these too, and elements with a prefix silently."""
-    known = _SETS["axis" if element.tag == "axis2" else element.tag]
+    allowed = _SETS["axis" if element.tag == "axis2" else element.tag]
     for child in element.children:
-        if child.tag not in known and ":" not in child.tag:
-            hint = did_you_mean(child.tag, known).replace("`", "<", 1).replace("`", ">", 1)
+        if child.tag not in allowed and ":" not in child.tag:
+            hint = did_you_mean(child.tag, allowed).replace("`", "<", 1).replace("`", ">", 1)
             context.note(child, f"unknown element <{child.tag}> in <{element.tag}> is ignored{hint}")
