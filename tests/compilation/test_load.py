@@ -41,12 +41,12 @@ except ValueError as error:
 """
 
 
-def run(folder: Path, digest: str) -> list[str]:
+def run(folder: Path, digest: str, **settings: str) -> list[str]:
     script = folder / "probe.py"
     if not script.exists() or digest not in script.read_text():
         script.write_text(SCRIPT.format(digest=digest))
     paths = [str(Path(urdfkit.__file__).parents[1]), os.environ.get("PYTHONPATH", "")]
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
+    environment = {**os.environ, **settings, "PYTHONPATH": os.pathsep.join(filter(None, paths))}
     environment["NUMBA_CACHE_DIR"] = str(folder / "cache")
     command = [sys.executable, "-W", "error", str(script)]
     done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
@@ -76,3 +76,11 @@ def test_what_earlier_sources_were_compiled_to_is_removed(tmp_path):
 def test_a_second_process_compiles_nothing(tmp_path):
     assert run(tmp_path, "one") == ["compiling work", "compiling half", "1.5", "below zero"]
     assert run(tmp_path, "one") == ["1.5", "below zero"]
+
+
+def test_what_was_compiled_for_more_than_the_processor_has_is_not_loaded(tmp_path):
+    digest = "0123456789abcdef"
+    assert run(tmp_path, digest)[0] == "compiling work"
+    assert run(tmp_path, digest, NUMBA_ENABLE_AVX="0")[0] == ("1.5" if level() == "x86-64-v2" else "compiling work")
+    # Both are kept.
+    assert run(tmp_path, digest) == run(tmp_path, digest, NUMBA_ENABLE_AVX="0") == ["1.5", "below zero"]
