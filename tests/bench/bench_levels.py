@@ -119,11 +119,11 @@ def digest(engine: Any) -> str:
 
 def heap() -> Any:
     """Return 80 boxes above a tray."""
-    from urdfkit.description.robot import Box
+    from urdfkit.description.urdf.robot import Box
     from urdfkit.kinematics import Kinematics
     from urdfkit.scene import Shape
-    from urdfkit.sim.bench.in_urdfkit import NOBODY
-    from urdfkit.sim.bench.written import read
+    from urdfkit.sim.bench.engine_scene import NOBODY
+    from urdfkit.sim.bench.parsed_urdf import read
     from urdfkit.sim.engine import Body, Engine, Ground, Piece
 
     def body(name: str, pose: tuple[float, ...], size: tuple[float, float, float], **options: Any) -> Any:

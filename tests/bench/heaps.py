@@ -19,13 +19,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from urdfkit.description.robot import Box, Cylinder, Geometry, Sphere
-from urdfkit.sim.engine.body import Body, Piece
 
 from urdfkit.description import load
+from urdfkit.description.urdf.robot import Box, Cylinder, Geometry, Sphere
 from urdfkit.kinematics import Kinematics
 from urdfkit.scene import Shape
 from urdfkit.sim.engine import Engine, Surface
+from urdfkit.sim.engine.bodies import Body, Piece
 
 IN_TIME = 6.0
 """How long a heap may take to fall asleep [s]."""

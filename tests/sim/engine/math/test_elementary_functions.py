@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from urdfkit.sim.engine.compilation import OPTIONS
-from urdfkit.sim.engine.elementary import FAR, exponential, sine_cosine
+from urdfkit.sim.engine.math.elementary_functions import FAR, exponential, sine_cosine
 
 
 @numba.njit(**OPTIONS)
