@@ -85,7 +85,7 @@ def test_write_changes_the_values_only_and_then_nothing_is_left(write, capsys):
 def test_a_link_without_inertial_gets_one(write, body, capsys):
     path = write(body)
     assert main(["inertia", str(path), "a"]) == 2
-    assert "no mass to go by: give --mass or --density" in capsys.readouterr().err
+    assert "no mass to compute with: pass --mass or --density" in capsys.readouterr().err
     assert main(["inertia", str(path), "a", "--density", "1000", "--write"]) == 0
     inertial = load(path).links[0].inertial
     assert inertial is not None

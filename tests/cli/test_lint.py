@@ -106,7 +106,7 @@ def test_xacro_arguments(package, capsys):
         (["urdf/claen.urdf"], "did you mean `urdf/clean.urdf`"),
         (["simpelton"], "did you mean `simpleton`"),
         (["/no/where"], "no such file"),
-        (["--select", "I53"], "--select I53: there is no such rule"),
+        (["--select", "I53"], "--select I53: unknown rule"),
         (["--target", "gzz"], "did you mean `gz`"),
         (["--unsafe-fixes"], "--unsafe-fixes requires --fix or --diff"),
         ([":=5"], "has no key"),
@@ -197,7 +197,7 @@ def test_of_several_files_the_broken_ones_do_not_hide_the_others(package, capsys
     assert main(["lint", "world.urdf", "cut.urdf", "urdf/clean.urdf", "--jobs", "1", "--no-cache"]) == 2
     said = capsys.readouterr()
     assert "cut.urdf:1:17: E001" in said.out
-    assert said.err == "urdfkit: world.urdf:1:1: <sdf> is no robot description\n"
+    assert said.err == "urdfkit: world.urdf:1:1: <sdf> is not a robot description\n"
     assert main(["lint", "world.urdf"]) == 2
 
 

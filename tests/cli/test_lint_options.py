@@ -113,7 +113,7 @@ def test_a_baseline_hides_what_is_known(package, capsys):
         (["--config", "x", "--no-config"], "--config cannot be combined with --no-config"),
         (["--jobs", "0"], "`0` is not a number of processes"),
         (["--format", "sarf"], "did you mean `sarif`?"),
-        (["--baseline", "none.json"], "--write-baseline makes one"),
+        (["--baseline", "none.json"], "create one with --write-baseline"),
     ],
 )
 def test_what_does_not_go_together(package, capsys, words, message):

@@ -14,12 +14,18 @@ LATIN = '<?xml version="1.0" encoding="ISO-8859-1"?>'
 @pytest.mark.parametrize(
     ("name", "content", "severity", "place", "message"),
     [
-        ("r.urdf.xacro", PLAIN.format("é").encode("latin-1"), "error", (2, 6), "byte 0xE9 is no UTF-8: xacro refuses"),
-        ("r.urdf", XACRO.format("é").encode("latin-1"), "error", (2, 6), "byte 0xE9 is no UTF-8: xacro refuses"),
-        ("r.xacro", (LATIN + XACRO.format("ö")).encode("latin-1"), "error", (2, 6), "byte 0xF6 is no UTF-8: xacro"),
-        ("r.urdf", PLAIN.format("éé").encode("latin-1"), "warning", (2, 6), "byte 0xE9 is no UTF-8: what reads it as"),
-        ("r.urdf", PLAIN.format("é").encode("utf-16"), "error", (1, 1), "the file is in UTF-16: urdfdom refuses"),
-        ("r.xacro", PLAIN.format("é").encode("utf-16"), "error", (1, 1), "the file is in UTF-16: xacro refuses"),
+        ("r.urdf.xacro", PLAIN.format("é").encode("latin-1"), "error", (2, 6), "byte 0xE9 is not UTF-8: xacro rejects"),
+        ("r.urdf", XACRO.format("é").encode("latin-1"), "error", (2, 6), "byte 0xE9 is not UTF-8: xacro rejects"),
+        ("r.xacro", (LATIN + XACRO.format("ö")).encode("latin-1"), "error", (2, 6), "byte 0xF6 is not UTF-8: xacro"),
+        (
+            "r.urdf",
+            PLAIN.format("éé").encode("latin-1"),
+            "warning",
+            (2, 6),
+            "byte 0xE9 is not UTF-8: programs that read it as",
+        ),
+        ("r.urdf", PLAIN.format("é").encode("utf-16"), "error", (1, 1), "the file is in UTF-16: urdfdom rejects"),
+        ("r.xacro", PLAIN.format("é").encode("utf-16"), "error", (1, 1), "the file is in UTF-16: xacro rejects"),
         ("r.xacro", b"\xef\xbb\xbf" + PLAIN.format("é\xe9").encode("latin-1"), "error", (2, 6), "byte 0xE9"),
     ],
 )

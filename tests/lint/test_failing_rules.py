@@ -32,7 +32,7 @@ def failing(monkeypatch, tmp_path):
 def told(text: str, file: str) -> bool:
     (line,) = text.splitlines()
     start = (
-        f"urdfkit: {file}: J411 axis-zero could not look at it: a bug in urdfkit, not in your files: OverflowError: too"
+        f"urdfkit: {file}: J411 axis-zero could not check this file: a bug in urdfkit, not in your files: OverflowError"
     )
     return line.startswith(start)
 
@@ -86,4 +86,4 @@ def test_an_editor_is_told(write):
     project = Project(Options())
     assert [finding.code for finding in project.findings(path)[path]].count("E009") == 1
     (line,) = project.failures(path)
-    assert line.startswith(f"{path}: J411 axis-zero could not look at it: a bug in urdfkit")
+    assert line.startswith(f"{path}: J411 axis-zero could not check this file: a bug in urdfkit")

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from urdfkit.description.urdf.robot import Inertial, Link
     from urdfkit.lint.finding import Finding
-    from urdfkit.lint.fixes.inertia_edits import Right
+    from urdfkit.lint.fixes.inertia_edits import ComputedInertial
     from urdfkit.lint.model.model import Model
     from urdfkit.lint.project.entry_files import Entry
     from urdfkit.lint.project.options import Options
@@ -154,9 +154,9 @@ def _wrong(path: Path, options: Options) -> dict[str, list[Finding]]:
 
 def _row(
     arguments: argparse.Namespace, model: Model, link: Link, findings: list[Finding], *, alone: bool
-) -> tuple[dict[str, Any], Right | None]:
+) -> tuple[dict[str, Any], ComputedInertial | None]:
     from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
-    from urdfkit.lint.fixes.inertia_edits import right
+    from urdfkit.lint.fixes.inertia_edits import compute_inertial
 
     at = (link.inertial.element if link.inertial is not None else link.element).origin.position
     row: dict[str, Any] = {
@@ -171,7 +171,7 @@ def _row(
         "written": [],
     }
     try:
-        value = right(model, link, mass=arguments.mass, density=arguments.density, kind=arguments.kind)
+        value = compute_inertial(model, link, mass=arguments.mass, density=arguments.density, kind=arguments.kind)
     except UrdfkitError as error:
         if alone:
             raise
@@ -218,12 +218,17 @@ def _present(inertial: Inertial | None) -> dict[str, Any] | None:
 
 
 def _write(
-    entry: Entry, options: Options, model: Model, writes: Sequence[tuple[Link, Right, dict[str, Any]]], *, alone: bool
+    entry: Entry,
+    options: Options,
+    model: Model,
+    writes: Sequence[tuple[Link, ComputedInertial, dict[str, Any]]],
+    *,
+    alone: bool,
 ) -> None:
     """Write the computed values: verified in memory first, then each file replaced atomically."""
     from urdfkit.lint.engine.checker import model_of
-    from urdfkit.lint.fixes.apply import changes, may_be_changed
-    from urdfkit.lint.fixes.inertia_edits import edits, right
+    from urdfkit.lint.fixes.apply import changes, editable_folders
+    from urdfkit.lint.fixes.inertia_edits import compute_inertial, edits
     from urdfkit.lint.project.options import Options
 
     wanted = []
@@ -239,7 +244,7 @@ def _write(
         if not made:
             row["notes"].append("not written: the file has these values already, to six digits")
         row["written"] = sorted({f"{edit.span.file}:{edit.span.line}" for edit in made})
-    changed = changes(wanted, model.expanded.sources, within=may_be_changed([entry.path]))
+    changed = changes(wanted, model.expanded.sources, within=editable_folders([entry.path]))
     texts = {str(change.path): change.text for change in changed}
     again = model_of(entry.path, Options(**{**options.__dict__, "texts": texts}))
     for link, value, row in writes:
@@ -247,7 +252,7 @@ def _write(
         if not row["written"]:
             continue
         if fixed_link is None or not _agree(
-            fixed_link.inertial, right(again, fixed_link, mass=value.mass, kind=value.kind)
+            fixed_link.inertial, compute_inertial(again, fixed_link, mass=value.mass, kind=value.kind)
         ):
             raise UrdfkitError(
                 f"the inertia of link `{link.name}` would differ from the computed values; nothing was written",
@@ -257,7 +262,7 @@ def _write(
         change.write()
 
 
-def _agree(inertial: Inertial | None, value: Right) -> bool:
+def _agree(inertial: Inertial | None, value: ComputedInertial) -> bool:
     from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
 
     if inertial is None or inertial.inertia is None or inertial.mass is None:

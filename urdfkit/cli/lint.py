@@ -207,10 +207,10 @@ class _Run:
         )
 
     def _fix(self, entries: Sequence[Entry]) -> tuple[int, Outcome]:
-        from urdfkit.lint.fixes.apply import fix, may_be_changed
+        from urdfkit.lint.fixes.apply import editable_folders, fix
 
         arguments = self.arguments
-        within = may_be_changed(Path(path) for path in self.paths)
+        within = editable_folders(Path(path) for path in self.paths)
         only = self._is_wanted if self.settings is not None else None
         fixed = fix(entries, self.options, within=within, unsafe=arguments.unsafe_fixes, only=only)
         for note in () if arguments.quiet else fixed.notes:

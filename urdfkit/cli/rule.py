@@ -21,7 +21,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Print the page of the rule, or the list.
 
     Raises:
-        UsageError: the rule is unknown.
+        UsageError: unknown rule.
     """
     from urdfkit.lint.catalogue import page, rules
 

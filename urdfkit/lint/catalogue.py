@@ -1,4 +1,4 @@
-"""The catalogue: every rule, and its page made from its docstring."""
+"""Rule catalogue: all rules, and the documentation page generated from each rule's docstring."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ if TYPE_CHECKING:
     from urdfkit.lint.rule import Rule
 
 _FIXES = {
-    "safe": "mended by `urdfkit lint --fix`",
-    "unsafe": "mended by `urdfkit lint --fix --unsafe-fixes`",
-    "none": "mended by hand",
+    "safe": "fixed by `urdfkit lint --fix`",
+    "unsafe": "fixed by `urdfkit lint --fix --unsafe-fixes`",
+    "none": "no automatic fix",
 }
 
 

@@ -1,7 +1,7 @@
-"""Fixes that rules have in common: another value, another name, an attribute or element less or more.
+"""Edits shared by the rules: replace a value or name, add or remove an attribute or element.
 
-Each returns None where the text a person wrote is not literally what came out of the expansion: an expression cannot be
-edited by its value.
+Each function returns None if the source text differs from the expanded text, because an expression cannot be edited by
+its value.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def new_value(model: Model, element: Element, attribute: str, value: str, safety: Safety, title: str) -> Fix | None:
-    """Return the fix that gives an attribute another value."""
+    """Return the fix that replaces the value of an attribute."""
     written = model.literal(element, attribute)
     if written is None or written.value == value:
         return None
@@ -30,7 +30,7 @@ def new_value(model: Model, element: Element, attribute: str, value: str, safety
 
 
 def new_values(model: Model, element: Element, values: dict[str, str], safety: Safety, title: str) -> Fix | None:
-    """Return the fix that gives several attributes other values; None unless each of them is written out."""
+    """Return the fix that replaces the values of several attributes; None unless all of them are literals."""
     edits: list[Edit] = []
     source = model.document(element.origin.position.file).source
     for attribute, value in values.items():
@@ -43,7 +43,7 @@ def new_values(model: Model, element: Element, values: dict[str, str], safety: S
 
 
 def new_name(model: Model, element: Element, attribute: str, name: str, safety: Safety, title: str) -> Fix | None:
-    """Return the fix that calls an attribute something else."""
+    """Return the fix that renames an attribute."""
     tag = model.tag(element.origin.position)
     written = tag.attributes.get(attribute) if tag is not None else None
     if written is None or attribute not in element.attributes:
@@ -53,7 +53,7 @@ def new_name(model: Model, element: Element, attribute: str, name: str, safety: 
 
 
 def new_tag(model: Model, element: Element, name: str, safety: Safety, title: str) -> Fix | None:
-    """Return the fix that calls an element something else."""
+    """Return the fix that renames an element."""
     tag = model.tag(element.origin.position)
     if tag is None or tag.name != element.tag:
         return None
@@ -65,7 +65,7 @@ def new_tag(model: Model, element: Element, name: str, safety: Safety, title: st
 
 
 def new_text(model: Model, element: Element, text: str, safety: Safety, title: str) -> Fix | None:
-    """Return the fix that puts another text into an element."""
+    """Return the fix that replaces the text of an element."""
     tag = model.tag(element.origin.position)
     if tag is None or tag.close is None or tag.children:
         return None
@@ -77,7 +77,7 @@ def new_text(model: Model, element: Element, text: str, safety: Safety, title: s
 
 
 def without_attribute(model: Model, element: Element, attribute: str, safety: Safety, title: str) -> Fix | None:
-    """Return the fix that takes an attribute away, with the white space before it."""
+    """Return the fix that removes an attribute and the white space before it."""
     tag = model.tag(element.origin.position)
     written = tag.attributes.get(attribute) if tag is not None else None
     if written is None:
@@ -88,7 +88,7 @@ def without_attribute(model: Model, element: Element, attribute: str, safety: Sa
 
 
 def without_element(model: Model, element: Element, safety: Safety, title: str) -> Fix | None:
-    """Return the fix that takes an element away, with its line where it has lines of its own."""
+    """Return the fix that removes an element, and its lines if they contain nothing else."""
     tag = model.tag(element.origin.position)
     if tag is None or tag.name != element.tag:
         return None
@@ -96,7 +96,7 @@ def without_element(model: Model, element: Element, safety: Safety, title: str) 
 
 
 def removal(document: Document, tag: Tag) -> Edit:
-    """Return the edit that takes a tag away, with its line where it has lines of its own."""
+    """Return the edit that removes a tag, and its lines if they contain nothing else."""
     text, start, end = document.source.text, tag.start, tag.close_end
     before = re.search(r"[ \t]*\Z", text[:start])
     line = start - len(before[0]) if before else start
@@ -108,7 +108,7 @@ def removal(document: Document, tag: Tag) -> Edit:
 
 
 def more_attributes(model: Model, element: Element, written: str, safety: Safety, title: str) -> Fix | None:
-    """Return the fix that adds attributes, given as they are to be written."""
+    """Return the fix that adds attributes; `written` is their source text."""
     tag = model.tag(element.origin.position)
     if tag is None or tag.name != element.tag:
         return None
@@ -118,7 +118,7 @@ def more_attributes(model: Model, element: Element, written: str, safety: Safety
 
 
 def more_children(model: Model, element: Element, written: str, safety: Safety, title: str) -> Fix | None:
-    """Return the fix that adds a child before the end tag, on a line of its own, indented as the last child is."""
+    """Return the fix that adds a child on a new line before the end tag, indented like the last child."""
     tag = model.tag(element.origin.position)
     if tag is None or tag.name != element.tag or tag.close is None or not tag.children:
         return None
@@ -129,23 +129,23 @@ def more_children(model: Model, element: Element, written: str, safety: Safety, 
     return Fix(safety, title, (Edit(source.span(last.close_end, last.close_end), text),))
 
 
-def nearest(name: str, candidates: Iterable[str], *, likeness: float = 0.6) -> str | None:
-    """Return the candidate that is nearest to a name, None where none is near.
+def nearest(name: str, candidates: Iterable[str], *, cutoff: float = 0.6) -> str | None:
+    """Return the candidate most similar to a name; None if none is similar enough.
 
     Args:
-        name: what was written.
-        candidates: what would have been right.
-        likeness: how near it has to be, 1 for the same (`difflib.SequenceMatcher.ratio`).
+        name: the name in the source.
+        candidates: the valid names.
+        cutoff: minimum similarity, 1 for equal names (`difflib.SequenceMatcher.ratio`).
     """
     from difflib import get_close_matches
 
     pool = list(dict.fromkeys(candidates))
     by_case = {candidate.lower(): candidate for candidate in pool}
-    near = get_close_matches(name, pool, n=1, cutoff=likeness)
+    near = get_close_matches(name, pool, n=1, cutoff=cutoff)
     return by_case.get(name.lower()) or (near[0] if near else None)
 
 
 def meant(name: str, candidates: Iterable[str]) -> tuple[str | None, str]:
-    """Return the candidate that a name must have meant, None where none is, and ``; did you mean …`` or nothing."""
-    near = nearest(name, candidates, likeness=0.7)
+    """Return the candidate most similar to a misspelt name (or None), and ``; did you mean …`` (or an empty text)."""
+    near = nearest(name, candidates, cutoff=0.7)
     return near, f"; did you mean `{near}`?" if near else ""

@@ -1,4 +1,4 @@
-"""Finding: one thing wrong at one place a person wrote, and perhaps how to mend it."""
+"""Finding: one defect at one source position, optionally with a fix."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
     Safety = Literal["safe", "unsafe"]
 
 SEVERITIES = ("error", "warning", "note")
-"""From worst to mildest. `note` does not make ``urdfkit lint`` exit with 1."""
+"""From most to least severe. A `note` does not make ``urdfkit lint`` exit with status 1."""
 
 
 @record(order=True)
 class Edit:
-    """Replace a stretch of one file by `text`."""
+    """Replacement of a span of one file by `text`."""
 
     span: Span
     text: str
@@ -38,12 +38,12 @@ class Edit:
 
 @record
 class Fix:
-    """How to mend a finding.
+    """Edits that correct a finding.
 
     Attributes:
-        safety: ``safe`` fixes keep the meaning a person had in mind; ``unsafe`` ones guess it.
-        title: what the fix does, as an imperative.
-        edits: changes of literal source text; they do not overlap.
+        safety: ``safe`` fixes preserve the intended meaning; ``unsafe`` fixes guess it.
+        title: description of the fix in the imperative.
+        edits: non-overlapping edits of literal source text.
     """
 
     safety: Safety
@@ -57,20 +57,19 @@ class Fix:
 
 @record
 class Finding:
-    """One thing wrong.
+    """One defect, reported by a rule.
 
     Attributes:
         code: e.g. ``I503``.
         name: the rule's name, e.g. ``inertia-triangle-inequality``.
         severity: ``error``, ``warning`` or ``note``.
-        message: one line: what is wrong, with values and units.
-        span: the start tag, attribute or text a person wrote, with the file as shown to the user.
-        link: the link it is about, after expansion; the first of several expansions.
-        joint: the joint it is about, after expansion.
-        help: what to do about it.
-        fix: how `urdfkit lint --fix` mends it; None where it does not.
-        chains: the chains of macro calls it was reached through, innermost call first; one for each expansion, none
-            for what is not inside a macro.
+        message: one line that describes the defect, with values and units.
+        span: the start tag, attribute or text in the source, with the file name as shown to the user.
+        link: name of the affected link after expansion; of the first of several expansions.
+        joint: name of the affected joint after expansion.
+        help: how to correct the defect.
+        fix: the edits of `urdfkit lint --fix`; None if there is no automatic fix.
+        chains: chains of macro calls, innermost call first, one for each expansion; empty outside of macros.
     """
 
     code: str
@@ -126,15 +125,15 @@ class Finding:
 
 
 @record(eq=False)
-class Found:
-    """What linting one entry file found.
+class EntryResult:
+    """Result of linting one entry file.
 
     Attributes:
-        findings: those that no comment suppresses.
-        files: name in findings → file, absolute, of every file that was read.
-        note: what target was guessed and why, one line; empty where none was.
-        used: the places of comments that suppress something here, each with a code.
-        refused: why it could not be linted, or not by all rules, one line; empty where it could.
+        findings: findings that no comment suppresses.
+        files: name in findings → absolute path, for every file read.
+        note: one line with the guessed target and the reason; empty if no target was guessed.
+        used: positions of comments that suppress findings of this entry, each with a code.
+        refused: one line with the reason why the entry was not linted, or not by all rules; else empty.
     """
 
     findings: tuple[Finding, ...]

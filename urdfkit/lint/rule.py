@@ -1,7 +1,7 @@
-"""Rule: one check, whose docstring is its page in the catalogue.
+"""Rule: base classes of all checks. The docstring of a rule is its page in the catalogue.
 
-There are three layers of rules, by what they look at: `SourceRule` the text of each file, `FaultRule` what xacro could
-not expand, `RobotRule` the robot that came out. All of them yield findings at the place a person wrote.
+Rules come in three layers: `SourceRule` checks the text of each file, `FaultRule` reports errors of xacro, `RobotRule`
+checks the expanded robot. All rules yield findings at a position in the source text.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from urdfkit.lint.model.tags import Document
 
 NOT_GAZEBO = frozenset(("mujoco", "isaac", "drake", "moveit"))
-"""Targets that read neither ``<gazebo>`` nor what belongs to controllers."""
+"""Targets that read neither ``<gazebo>`` elements nor controller configuration."""
 
-_LONGEST = 1_000
-"""Characters of a message: names can be as long as a file."""
+_MAX_MESSAGE = 1_000
+"""Maximum length of a message [characters]; names can be as long as a file."""
 
 SECTIONS = ("What it does", "Why is this bad?", "Example", "Use instead", "Fix safety", "References")
 """The headings a rule's docstring may have, in this order; the first four are required."""
@@ -37,10 +37,10 @@ class Rule:
     Attributes:
         code: e.g. ``I503``.
         name: reads as "allow <name>", e.g. ``inertia-triangle-inequality``.
-        severity: of its findings.
-        fix: whether its findings are mended by ``--fix`` (``safe``), by ``--unsafe-fixes`` (``unsafe``) or by hand.
-        not_for: targets whose consumers do not mind.
-        only_for: targets whose consumers mind, where the others do not; without ``--target`` it is not asked then.
+        severity: default severity of its findings.
+        fix: ``safe`` if ``--fix`` fixes its findings, ``unsafe`` if ``--unsafe-fixes`` is needed, else ``none``.
+        not_for: targets that the rule does not apply to.
+        only_for: if not empty, the only targets the rule applies to; such a rule does not run without ``--target``.
     """
 
     code: ClassVar[str]
@@ -63,20 +63,20 @@ class Rule:
         fix: Fix | None = None,
         severity: Severity | None = None,
     ) -> Finding:
-        """Make a finding.
+        """Create a finding.
 
         Args:
-            model: what is being linted.
-            where: the element, fault or place it is about.
-            message: one line: what is wrong, with values and units.
-            attribute: the attribute to point at; the start tag where it is None or not written there.
-            link: the link it is about.
-            joint: the joint it is about.
-            help: what to do about it.
-            fix: how to mend it.
-            severity: other than the rule's own.
+            model: the linted model.
+            where: the element, fault or position that the finding is about.
+            message: one line that describes the defect, with values and units.
+            attribute: the attribute to mark; by default, or if the source has no such attribute, the start tag.
+            link: name of the affected link.
+            joint: name of the affected joint.
+            help: how to correct the defect.
+            fix: edits that correct the defect.
+            severity: overrides the rule's severity.
         """
-        message = message if len(message) <= _LONGEST else f"{message[: _LONGEST - 100]} … {message[-90:]}"
+        message = message if len(message) <= _MAX_MESSAGE else f"{message[: _MAX_MESSAGE - 100]} … {message[-90:]}"
         place: Any = where if isinstance(where, Position) else getattr(where, "origin", where)
         chain = getattr(place, "expansions", ())
         return Finding(
@@ -94,40 +94,40 @@ class Rule:
 
 
 class SourceRule(Rule):
-    """A rule on the text of one file, as written."""
+    """A rule on the source text of one file."""
 
     def check(self, document: Document, model: Model) -> Iterator[Finding]:
-        """Yield what is wrong in one file of the model."""
+        """Yield the findings in one file of the model."""
         raise NotImplementedError
 
 
 class FaultRule(Rule):
-    """A rule that reports what xacro could not expand.
+    """A rule that reports errors of the xacro expansion.
 
     Attributes:
-        kinds: of the faults it claims.
-        may_be_elsewhere: what it misses may be in an included file that is not there; then it only makes a note of it.
+        kinds: fault kinds that the rule reports.
+        may_be_elsewhere: whether a missing include file may define the missing name; the finding is then a note.
     """
 
     kinds: ClassVar[tuple[str, ...]] = ()
     may_be_elsewhere: ClassVar[bool] = False
 
     def claims(self, fault: Fault) -> bool:
-        """Return whether the fault is this rule's."""
+        """Return whether this rule reports the fault."""
         return fault.kind in self.kinds
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
-        """Yield the finding of a fault that the rule claims."""
+        """Yield the finding for a fault that the rule reports."""
         if self.may_be_elsewhere and (missing := model.missing_file):
-            help = f"it may be defined in {missing}, which is not there"
+            help = f"it may be defined in {missing}, which was not found"
             yield self.at(model, fault, fault.message, attribute=fault.attribute, help=help, severity="note")
         else:
             yield self.at(model, fault, fault.message, attribute=fault.attribute)
 
 
 class RobotRule(Rule):
-    """A rule on the robot after expansion."""
+    """A rule on the expanded robot."""
 
     def check(self, model: Model) -> Iterator[Finding]:
-        """Yield what is wrong with the robot."""
+        """Yield the findings about the robot."""
         raise NotImplementedError

@@ -1,8 +1,8 @@
-"""The table of rules: what a file or a robot must have for a rule to find anything, its module and its class.
+"""Table of rules: preconditions, module and class of each rule.
 
-A small model needs a third of the rules; the others are not imported. In the first column are words, one of which must
-be there, or nothing where the rule is always asked. For a `SourceRule` they are texts in any file, or, after a star,
-endings of file names; for a `RobotRule` they are among what `features.traits` tells of the robot.
+A small model needs a third of the rules; the other rules are not imported. The first column lists words; a rule runs if
+at least one of them is present, or always if the column is empty. For a `SourceRule`, a word is text in any file or,
+after a star, a file name suffix; for a `RobotRule`, a feature of the robot (`features.features_of`).
 """
 
 from __future__ import annotations
@@ -167,7 +167,7 @@ ROBOT: tuple[Row, ...] = (
     ("command_interface", "control.interface_limits", "InterfaceLimits"),
 )
 
-AROUND: tuple[Row, ...] = (
+RELATED_FILES: tuple[Row, ...] = (
     ("", "packaging.launch_path_missing", "LaunchPathMissing"),
     ("", "packaging.controller_joint_undefined", "ControllerJointUndefined"),
     ("", "packaging.frame_undefined", "FrameUndefined"),
@@ -182,7 +182,7 @@ AROUND: tuple[Row, ...] = (
     ("", "packaging.bridge_misspelt", "BridgeMisspelt"),
     ("", "packaging.controller_contradicts_wheels", "ControllerContradictsWheels"),
 )
-"""Rules on the robot that are asked where there are launch files or YAML around it."""
+"""Robot rules that run if the package has launch or YAML files."""
 
 TARGETED: tuple[Row, ...] = (
     ("inertial", "tree.root_link_has_inertia", "RootLinkHasInertia"),
@@ -191,4 +191,4 @@ TARGETED: tuple[Row, ...] = (
     ("material", "gazebo.gazebo_material", "GazeboMaterial"),
     ("transmission", "control.transmission_in_ros2", "TransmissionInRos2"),
 )
-"""Rules on the robot that are asked for some targets only."""
+"""Robot rules that apply to some targets only."""

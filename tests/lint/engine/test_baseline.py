@@ -38,12 +38,12 @@ def test_an_empty_one(tmp_path):
 def test_what_is_no_baseline(tmp_path, text):
     file = Path(tmp_path / "known.json")
     file.write_text(text)
-    with pytest.raises(ResourceError, match="is no baseline"):
+    with pytest.raises(ResourceError, match="is not a baseline"):
         read(file)
 
 
 def test_one_that_is_not_there_or_too_new(tmp_path):
-    with pytest.raises(ResourceError, match="--write-baseline makes one"):
+    with pytest.raises(ResourceError, match="create one with --write-baseline"):
         read(tmp_path / "none.json")
     (tmp_path / "new.json").write_text('{"baseline": 2, "findings": []}')
     with pytest.raises(ResourceError, match="later urdfkit"):

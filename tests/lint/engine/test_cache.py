@@ -146,7 +146,7 @@ def test_no_writable_place_is_no_error(package, monkeypatch):
 def test_old_findings_make_room(package, monkeypatch):
     from urdfkit.lint.engine import cache
 
-    monkeypatch.setattr(cache, "_KEPT", 0)
+    monkeypatch.setattr(cache, "_MAX_FILES", 0)
     lint(package)
     assert kept() == []
 
@@ -163,7 +163,7 @@ def test_yaml_files_count(package):
 
 
 def test_several_processes_find_the_same(write, package, monkeypatch):
-    monkeypatch.setattr(engine, "_AT_ONCE", 2)
+    monkeypatch.setattr(engine, "_MIN_PARALLEL", 2)
     for number in range(5):
         write(f"p/urdf/{number}.urdf", f'<robot name="r{number}"><link name="a" kind="x"/></robot>')
     entries = find_entries(["p"])
@@ -181,9 +181,9 @@ def test_errors_come_back_from_other_processes(write, package, monkeypatch):
     from urdfkit.errors import ModelError
     from urdfkit.lint.project.entry_files import Entry
 
-    monkeypatch.setattr(engine, "_AT_ONCE", 2)
+    monkeypatch.setattr(engine, "_MIN_PARALLEL", 2)
     write("w.urdf", b"<sdf/>")
-    with pytest.raises(ModelError, match="<sdf> is no robot description"):
+    with pytest.raises(ModelError, match="<sdf> is not a robot description"):
         run([Entry(package), Entry(Path("w.urdf"))], Options(), jobs=2)
 
 

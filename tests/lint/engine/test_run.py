@@ -180,7 +180,7 @@ def test_paths_that_are_not_there(write):
 
 
 def test_another_kind_of_file_is_refused(write):
-    with pytest.raises(ModelError, match=r"w\.urdf:1:1: <sdf> is no robot description"):
+    with pytest.raises(ModelError, match=r"w\.urdf:1:1: <sdf> is not a robot description"):
         lint(write("w.urdf", b"<sdf version='1.6'/>"))
 
 

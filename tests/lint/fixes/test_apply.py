@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from urdfkit.errors import ResourceError
 from urdfkit.lint import lint
-from urdfkit.lint.fixes.apply import Change, fix, may_be_changed
+from urdfkit.lint.fixes.apply import Change, editable_folders, fix
 from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
 
@@ -121,7 +121,7 @@ def test_files_outside_are_not_touched(write):
     path = write("mine/r.xacro", '<xacro:include filename="../other/macros.xacro"/>\n<part n="base"/>')
     fixed = mend(path)
     assert [change.shown for change in fixed.changes] in ([], ["mine/r.xacro"])
-    assert fixed.notes == ("other/macros.xacro was not fixed: it is outside of what was linted",)
+    assert fixed.notes == ("other/macros.xacro was not fixed: the file is outside the linted folders",)
     link = Path("mine/linked.xacro")
     link.symlink_to("../other/macros.xacro")
     assert mend(link, within=Path("mine")).changes == ()
@@ -143,9 +143,9 @@ def test_what_may_be_changed(write):
     write("ws/p/package.xml", "<package/>")
     inside = write("ws/p/urdf/r.urdf", '<link name="a"/>')
     alone = write("alone/r.urdf", '<link name="a"/>')
-    assert may_be_changed([inside]) == [Path("ws/p").resolve()]
-    assert may_be_changed([alone, Path("ws")]) == [Path("alone").resolve(), Path("ws").resolve()]
-    assert may_be_changed([Path("simpleton")]) == []
+    assert editable_folders([inside]) == [Path("ws/p").resolve()]
+    assert editable_folders([alone, Path("ws")]) == [Path("alone").resolve(), Path("ws").resolve()]
+    assert editable_folders([Path("simpleton")]) == []
 
 
 def test_unsafe_fixes_are_applied_on_request_only(write):

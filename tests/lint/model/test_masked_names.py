@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from urdfkit.lint.engine.run import lint
-from urdfkit.lint.model.masked_names import is_slip
+from urdfkit.lint.model.masked_names import is_typo
 
 TRANSMISSION = (
     '<transmission name="t"><type>transmission_interface/SimpleTransmission</type>'
@@ -44,10 +44,10 @@ def test_what_an_error_cannot_have_hidden_is_said(write, fault):
 @pytest.mark.parametrize(
     ("fault", "why"),
     [
-        ('<xacro:nope a="b"/>', "it may be in macro `nope`, which is defined nowhere"),
-        ('<xacro:include filename="gone.xacro"/>', "it may be in gone.xacro, which is not there"),
-        ('<xacro:include filename="$(find gone)/a.xacro"/>', "it may be in package `gone`, which is not there"),
-        ('<xacro:include filename="broken.xacro"/>', "it may be in broken.xacro, which breaks off"),
+        ('<xacro:nope a="b"/>', "it may be in macro `nope`, which is not defined"),
+        ('<xacro:include filename="gone.xacro"/>', "it may be in gone.xacro, which was not found"),
+        ('<xacro:include filename="$(find gone)/a.xacro"/>', "it may be in package `gone`, which was not found"),
+        ('<xacro:include filename="broken.xacro"/>', "it may be in broken.xacro, which is not well-formed"),
     ],
 )
 def test_slips_are_said_as_notes_where_any_name_may_be_missing(write, fault, why):
@@ -104,4 +104,4 @@ def test_names_that_could_not_be_evaluated_have_their_fault_already(write):
     ],
 )
 def test_sisters_are_no_slips(name, near, slip):
-    assert is_slip(name, near) is slip
+    assert is_typo(name, near) is slip

@@ -8,7 +8,7 @@ from urdfkit.errors import UsageError
 from urdfkit.lint.engine.run import run
 from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
-from urdfkit.lint.project.target import TARGETS, family_of, guess, known_target
+from urdfkit.lint.project.target import TARGETS, family_of, guess, parse_target
 
 AMENT = "<export><build_type>ament_cmake</build_type></export>"
 CATKIN = "<buildtool_depend>catkin</buildtool_depend>"
@@ -74,7 +74,7 @@ def test_a_run_says_what_it_was_for_and_each_package_has_its_own(write):
     ],
 )
 def test_targets_may_name_a_release(name):
-    assert known_target(name) == name
+    assert parse_target(name) == name
     assert family_of(name) in TARGETS
 
 
@@ -97,7 +97,7 @@ def test_targets_may_name_a_release(name):
 )
 def test_a_target_that_is_misspelt_is_refused_with_the_nearest(name, message):
     with pytest.raises(UsageError, match=message):
-        known_target(name)
+        parse_target(name)
 
 
 @pytest.mark.parametrize(
@@ -118,12 +118,12 @@ def test_a_target_that_is_misspelt_is_refused_with_the_nearest(name, message):
     ],
 )
 def test_case_and_other_names_do_not_matter(name, meant):
-    assert known_target(name) == meant
+    assert parse_target(name) == meant
 
 
 def test_a_release_alone_will_do():
-    assert known_target("noetic") == "ros1-noetic"
-    assert known_target("jazzy") == "ros2-jazzy"
+    assert parse_target("noetic") == "ros1-noetic"
+    assert parse_target("jazzy") == "ros2-jazzy"
 
 
 def test_what_a_release_does_not_have_is_found(write):

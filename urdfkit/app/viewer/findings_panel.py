@@ -82,7 +82,7 @@ class Findings:
             UsageError: there is no such finding, or it has no safe fix, or nothing may be written.
             ResourceError: the fix does not hold, or a file cannot be written.
         """
-        from urdfkit.lint.fixes.apply import fix, may_be_changed
+        from urdfkit.lint.fixes.apply import editable_folders, fix
 
         wanted = self._known.get(number)
         if wanted is None:
@@ -94,7 +94,7 @@ class Findings:
         fixed = fix(
             self._entries(),
             self._options(self._settings()),
-            within=may_be_changed([self.model.path]),
+            within=editable_folders([self.model.path]),
             only=lambda finding: finding == wanted,
         )
         if not fixed.changes:

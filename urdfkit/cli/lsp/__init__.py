@@ -55,11 +55,11 @@ def run(arguments: argparse.Namespace) -> int:
 def _options(arguments: argparse.Namespace) -> Options:
     from urdfkit.lint.engine.settings import find
     from urdfkit.lint.project.options import Options
-    from urdfkit.lint.project.target import known_target
+    from urdfkit.lint.project.target import parse_target
 
     settings = find(Path.cwd())
     target = arguments.target or settings.target
-    named = None if target == "any" else known_target(target)
+    named = None if target == "any" else parse_target(target)
     folders = (*map(Path, arguments.package_path), *settings.package_path)
     return Options(settings.select, settings.ignore, named, settings.arguments, folders, guess_target=target is None)
 

@@ -110,7 +110,7 @@ def _masses(model: Model, cursor: Cursor) -> list[str]:
 def _mass(model: Model, link: Link) -> list[str]:
     from urdfkit.errors import UrdfkitError
     from urdfkit.lint.facts.inertia.principal_moments import principal_moments
-    from urdfkit.lint.fixes.inertia_edits import right
+    from urdfkit.lint.fixes.inertia_edits import compute_inertial
 
     inertial = link.inertial
     lines = [f"**link `{link.name}`**"]
@@ -122,7 +122,7 @@ def _mass(model: Model, link: Link) -> list[str]:
         for moments, _ in list(principal_moments(link))[:1]:
             lines.append(f"principal moments {', '.join(f'{moment:.4g}' for moment in moments)} kg·m²")
     try:
-        value = right(model, link)
+        value = compute_inertial(model, link)
         tensor = ", ".join(f"{part:.4g}" for part in value.tensor)
         lines.append(f"its {value.kind} shapes, filled evenly: {value.volume:.4g} m³, tensor {tensor} kg·m²")
     except (UrdfkitError, ImportError):

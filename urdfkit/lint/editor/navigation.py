@@ -159,7 +159,7 @@ def rename(models: Sequence[Model], cursor: Cursor, name: str) -> list[Edit]:
 
 def _is_parameter(model: Model, name: str) -> bool:
     found = (signature for several in model.signatures.values() for signature in several)
-    return any(name in signature.known for signature in found)
+    return any(name in signature.names for signature in found)
 
 
 def _holds(source: Source, span: Span, offset: int) -> bool:

@@ -72,7 +72,7 @@ def in_settings(model: Model) -> Iterator[Occurrence]:
         start += len(written) - len(name)
         return Occurrence(kind, name, source.span(start, start + len(name)), False, name)
 
-    for source in model.around.values():
+    for source in model.related_files.values():
         if source.file.endswith((".yaml", ".yml")):
             for named in joints(source):
                 yield occurrence(source, "joint", named.name, named.start)

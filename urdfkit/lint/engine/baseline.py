@@ -1,6 +1,6 @@
-"""A baseline: the findings that are known and not to be reported again, in a file that is kept with the sources.
+"""Baseline: a file next to the sources with accepted findings, which are not reported again.
 
-A finding is known by file, code and message, not by its line: what is added above it does not make it new.
+File, code and message identify a finding, not its line: text inserted above a finding does not make it new.
 """
 
 from __future__ import annotations
@@ -18,40 +18,42 @@ if TYPE_CHECKING:
 
     Key = tuple[str, str, str]
 
-_FORM = 1
+_FORMAT = 1
 
 
 def read(path: Path) -> Counter[Key]:
-    """Return how often each finding is known.
+    """Return how often the baseline contains each finding.
 
     Raises:
-        ResourceError: the file cannot be read, or is no baseline.
+        ResourceError: the file cannot be read or is not a baseline.
     """
     import json
 
     try:
         written = json.loads(path.read_text("utf-8"))
-        if written["baseline"] != _FORM:
+        if written["baseline"] != _FORMAT:
             raise ResourceError(
-                f"{path} is a baseline of a later urdfkit (form {written['baseline']}, known is {_FORM})"
+                f"{path} is a baseline of a later urdfkit (format {written['baseline']}, supported is {_FORMAT})"
             )
         rows = [(str(row["file"]), str(row["code"]), str(row["message"])) for row in written["findings"]]
         counts = [int(row.get("count", 1)) for row in written["findings"]]
     except OSError as error:
-        raise ResourceError(f"cannot read the baseline {path}: {error.strerror}; --write-baseline makes one") from error
+        raise ResourceError(
+            f"cannot read the baseline {path}: {error.strerror}; create one with --write-baseline"
+        ) from error
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise ResourceError(f"{path} is no baseline; --write-baseline makes one") from error
-    known: Counter[Key] = Counter()
+        raise ResourceError(f"{path} is not a baseline file; create one with --write-baseline") from error
+    baseline: Counter[Key] = Counter()
     for row, count in zip(rows, counts, strict=True):
-        known[row] += count
-    return known
+        baseline[row] += count
+    return baseline
 
 
 def write(path: Path, findings: Iterable[Finding]) -> int:
-    """Write the findings as known, notes left out, and return how many there are.
+    """Write the findings to a baseline file, without notes, and return their number.
 
     Raises:
-        ResourceError: it cannot be written.
+        ResourceError: the file cannot be written.
     """
     import json
 
@@ -65,16 +67,16 @@ def write(path: Path, findings: Iterable[Finding]) -> int:
     lines = ",\n".join(f"  {json.dumps(row, ensure_ascii=False)}" for row in rows)
     write_text(
         path,
-        f'{{"baseline": {_FORM}, "findings": [\n{lines}\n]}}\n'
+        f'{{"baseline": {_FORMAT}, "findings": [\n{lines}\n]}}\n'
         if rows
-        else f'{{"baseline": {_FORM}, "findings": []}}\n',
+        else f'{{"baseline": {_FORMAT}, "findings": []}}\n',
     )
     return sum(counts.values())
 
 
-def unknown(findings: Iterable[Finding], known: Counter[Key]) -> tuple[list[Finding], int, int]:
-    """Return the findings that are not known, how many were, and how many known ones are there no more."""
-    left = known.copy()
+def unknown(findings: Iterable[Finding], baseline: Counter[Key]) -> tuple[list[Finding], int, int]:
+    """Return the findings that are not in the baseline, and the numbers of matched and of stale baseline entries."""
+    left = baseline.copy()
     new: list[Finding] = []
     for finding in findings:
         key = _key(finding)
@@ -83,7 +85,7 @@ def unknown(findings: Iterable[Finding], known: Counter[Key]) -> tuple[list[Find
         else:
             new.append(finding)
     gone = sum(count for count in left.values() if count > 0)
-    return new, known.total() - gone, gone
+    return new, baseline.total() - gone, gone
 
 
 def _key(finding: Finding) -> Key:

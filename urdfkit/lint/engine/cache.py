@@ -1,9 +1,9 @@
-"""What was found, kept: the findings of each entry file, for as long as nothing that they came from has changed.
+"""Cache of findings per entry file, valid as long as no input of the lint run has changed.
 
-An entry of the cache is one file, named after the description, how it was linted, the version of urdfkit and what else
-is installed. In it are digests of every file that was read, the answers to every question about packages and meshes,
-and the findings. All of it is asked again before the findings are believed; a file that is damaged counts as none, and
-a new one is put in its place by one move, so that writers do not meet.
+Each cache entry is one file. The hash in its name covers the description, the lint options, and the versions of urdfkit
+and its dependencies. The file stores digests of all files read, the answers to all package and mesh queries, and the
+findings. Digests and answers are verified before the findings are used. A damaged entry counts as missing. Entries are
+replaced atomically, so concurrent writers do not conflict.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from functools import cached_property
 from pathlib import Path
 
 from urdfkit.description.xml.source import content_of
-from urdfkit.lint.finding import Edit, Finding, Fix, Found
+from urdfkit.lint.finding import Edit, EntryResult, Finding, Fix
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -41,15 +41,15 @@ _VARIABLES = (
 )
 _MANIFESTS = ("package.xml", "CMakeLists.txt", "setup.py")
 _ENVIRONMENT = r"\$\(\s*(?:opt)?env\s+([^\s()]+)"
-_UNSEEN = r"environ|getenv|\.gltf"
-"""What reads what is not looked at here; files with it are linted every time."""
+_UNTRACKED = r"environ|getenv|\.gltf"
+"""Expressions whose inputs the cache does not track; files that contain them are linted every time."""
 
-_KEPT = 64
-"""Files in one of the 256 folders of the cache; the oldest go first."""
+_MAX_FILES = 64
+"""Maximum number of files in each of the 256 cache folders; the oldest files are deleted first."""
 
 
 def folder() -> Path:
-    """Return where findings are kept: ``URDFKIT_CACHE_DIR``, else in the place the system has for what may go."""
+    """Return the cache folder: ``URDFKIT_CACHE_DIR``, else the user's cache folder of the operating system."""
     named = os.environ.get("URDFKIT_CACHE_DIR")
     if named:
         return Path(named).expanduser() / "lint"
@@ -64,8 +64,8 @@ class Cache:
     """The findings of earlier runs.
 
     Args:
-        options: how it is linted now.
-        packages: resolves what has to be asked again; those of an entry are beside it.
+        options: options of this lint run.
+        packages: resolver that repeats the stored package queries, relative to each entry file.
     """
 
     def __init__(self, options: Options, packages: Packages) -> None:
@@ -73,17 +73,19 @@ class Cache:
         self._digests: dict[str, str] = {}
         self.hits = 0
 
-    def get(self, entry: Entry) -> Found | None:
-        """Return what was found before, None where that is not known or something has changed."""
+    def get(self, entry: Entry) -> EntryResult | None:
+        """Return the cached result; None if there is none or an input has changed."""
         path = self._path(entry)
         try:
             content = path.read_bytes()
             if content[:32] != _digest(content[32:]).encode():
                 return None
-            kept = marshal.loads(content[32:])  # ours, whole, and by this Python: all that marshal asks
+            kept = marshal.loads(
+                content[32:]
+            )  # written by urdfkit, complete, and by this Python version, as marshal requires
             if not self._holds(kept, entry):
                 return None
-            found = Found(tuple(map(_finding, kept["findings"])), kept["files"], kept["note"], kept["used"])
+            found = EntryResult(tuple(map(_finding, kept["findings"])), kept["files"], kept["note"], kept["used"])
         except (OSError, ValueError, EOFError, KeyError, TypeError, RuntimeError):
             return None
         self.hits += 1
@@ -98,20 +100,20 @@ class Cache:
         packages = self.packages.near_file(entry.path)
         return all(packages.answer(tuple(question)) == answer for question, answer in kept["answers"])
 
-    def put(self, entry: Entry, found: Found, expanded: Expanded) -> None:
-        """Keep what was found. Without a writable place, or where not all that was read is known, do not.
+    def put(self, entry: Entry, found: EntryResult, expanded: Expanded) -> None:
+        """Store a result. Do nothing if the cache folder is not writable or not all inputs are known.
 
         Args:
             entry: the entry file.
-            found: what was found.
-            expanded: what it was found in.
+            found: the result to store.
+            expanded: the expansion that the result belongs to.
         """
         environment: dict[str, str | None] = {}
         packages = expanded.packages
         failed = any(fault.kind in ("bad-expression", "conditional", "other") for fault in expanded.faults)
         for text in (source.text for source in expanded.sources.values()):
-            if re.search(_UNSEEN, text) or ("load_yaml" in text and failed):
-                return  # A YAML file that is not there may come.
+            if re.search(_UNTRACKED, text) or ("load_yaml" in text and failed):
+                return  # A missing YAML file may be created later.
             if "env" in text:
                 environment.update((name, os.environ.get(name)) for name in re.findall(_ENVIRONMENT, text))
         if any("$" in name for name in environment):
@@ -137,14 +139,14 @@ class Cache:
         )
 
     def _store(self, path: Path, kept: dict[str, Any]) -> None:
-        temporary = path.with_suffix(f".{os.getpid()}.tmp")  # tempfile takes as long to import as a file to lint
+        temporary = path.with_suffix(f".{os.getpid()}.tmp")  # importing tempfile takes as long as linting a file
         try:
             content = marshal.dumps(kept)
             path.parent.mkdir(parents=True, exist_ok=True)
             temporary.write_bytes(_digest(content).encode() + content)
             temporary.replace(path)
             others = sorted((file.stat().st_mtime, file) for file in path.parent.iterdir())
-            for _, old in others[: max(len(others) - _KEPT, 0)]:
+            for _, old in others[: max(len(others) - _MAX_FILES, 0)]:
                 old.unlink(missing_ok=True)
         except (OSError, RuntimeError, ValueError):
             return
@@ -170,7 +172,7 @@ class Cache:
 
     @cached_property
     def _way(self) -> tuple[str, ...]:
-        """How it is linted, and with what."""
+        """The lint options and the versions of the software."""
         options = self.options
         return (
             *(str(sorted(words)) for words in (options.select, options.ignore)),
@@ -185,7 +187,7 @@ class Cache:
 
 
 def _versions() -> Iterable[str]:
-    """Yield what says whether urdfkit, xacro and what reads meshes are the same as before."""
+    """Yield version strings and modification times of urdfkit, xacro and the mesh libraries."""
     from urdfkit import __version__
 
     yield __version__
@@ -204,7 +206,7 @@ def _versions() -> Iterable[str]:
 
 
 def _digest(content: bytes) -> str:
-    from _blake2 import blake2b  # hashlib takes longer to import than a file takes to lint
+    from _blake2 import blake2b  # importing hashlib takes longer than linting a file
 
     return str(blake2b(content, digest_size=16).hexdigest())
 

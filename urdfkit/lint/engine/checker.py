@@ -1,4 +1,4 @@
-"""From one entry file to what is found in it: expand with recovery, ask the rules, suppress."""
+"""Check one entry file: expand with error recovery, run the rules, drop suppressed findings."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from urdfkit.description.urdf.parser import parse
 from urdfkit.description.xacro.expand import expand_leniently
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.source import Origin, Position
-from urdfkit.lint.finding import Finding, Found
+from urdfkit.lint.finding import EntryResult, Finding
 from urdfkit.lint.model.model import Model
 from urdfkit.lint.project.entry_files import Entry, is_nearly_robot
 from urdfkit.lint.project.options import Options
 from urdfkit.lint.project.rule_selection import selection
 from urdfkit.lint.project.target import family_of, release_of
 from urdfkit.lint.rule import FaultRule, RobotRule, Rule, SourceRule
-from urdfkit.lint.rules import around_rules, fault_rules, robot_rules, source_rules
+from urdfkit.lint.rules import fault_rules, related_file_rules, robot_rules, source_rules
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -32,21 +32,21 @@ if TYPE_CHECKING:
     from urdfkit.lint.facts.suppressions import Suppression
 
 _EVERYWHERE = ("xml", "encoding", "misspelt-directive", "directive-attribute", "too-large", "too-many")
-"""Kinds of faults that count in a file which others include, too: the rest may be due to what only those define."""
+"""Fault kinds reported in included files too; other faults may come from definitions in the including file."""
 
 
 def model_of(path: Path, options: Options, *, packages: Packages | None = None, memory: Memory | None = None) -> Model:
-    """Expand a file, going on after errors, and read the robot in it.
+    """Expand a file with error recovery and parse the robot in it.
 
     Args:
         path: the file.
         options: how to expand it.
-        packages: resolves what it names; by default what lies near it and in the environment.
-        memory: what is known of its files from when they were looked at before.
+        packages: package resolver; by default for packages near the file and in the environment.
+        memory: parsed files of earlier calls.
 
     Raises:
         ResourceError: it cannot be read.
-        ModelError: it is no robot description.
+        ModelError: the file is not a robot description.
     """
     packages = packages if packages is not None else Packages(options.package_path, near=path)
 
@@ -63,19 +63,19 @@ def model_of(path: Path, options: Options, *, packages: Packages | None = None, 
     if root is not None and root.tag != "robot" and not is_nearly_robot(root.tag):
         from urdfkit.errors import ModelError
 
-        raise ModelError(f"<{root.tag}> is no robot description", position=root.origin.position)
-    known = memory.parts if memory is not None else None
-    robot = parse(root if root is not None else _nothing(path), known=known)
+        raise ModelError(f"<{root.tag}> is not a robot description", position=root.origin.position)
+    parsed = memory.parts if memory is not None else None
+    robot = parse(root if root is not None else _empty_root(path), known=parsed)
     return Model(expanded, robot, family_of(options.target), as_written, release_of(options.target), options.texts)
 
 
 class Checker:
-    """One run over several entries.
+    """One lint run over several entry files.
 
     Args:
-        options: what to look for, and how to expand.
-        cached: take and keep what was found before.
-        keep_going: where a rule fails by a fault of its own, ask the others, and say so in what was found.
+        options: lint options.
+        cached: read and write the cache.
+        keep_going: if a rule raises an exception, run the other rules and report the failure in the result.
     """
 
     def __init__(self, options: Options, *, cached: bool = False, keep_going: bool = False) -> None:
@@ -86,7 +86,7 @@ class Checker:
         self.foreign = _third_party()
         self.wanted = selection(options.select, options.ignore, self._codes)
         self.cache: Cache | None = None
-        if cached and not options.texts and not self.foreign:  # nobody knows what the rules of others read
+        if cached and not options.texts and not self.foreign:  # inputs of third-party rules are unknown
             from urdfkit.lint.engine.cache import Cache
 
             self.cache = Cache(options, self.packages)
@@ -97,12 +97,12 @@ class Checker:
     def _applies(self, rule: type[Rule], target: str | None) -> bool:
         return self.wanted(rule.code) and target not in rule.not_for and (not rule.only_for or target in rule.only_for)
 
-    def known(self, entry: Entry) -> Found | None:
-        """Return what was found before, where nothing has changed since."""
+    def cached(self, entry: Entry) -> EntryResult | None:
+        """Return the cached result if no input has changed since."""
         return self.cache.get(entry) if self.cache is not None else None
 
-    def check(self, entry: Entry) -> Found:
-        """Lint one entry file and everything it includes."""
+    def check(self, entry: Entry) -> EntryResult:
+        """Lint one entry file and all files it includes."""
         from urdfkit.errors import UrdfkitError, bug
 
         try:
@@ -114,20 +114,20 @@ class Checker:
         except Exception as error:
             if not self.keep_going:
                 raise
-            return Found((), {}, refused=f"{entry.path}: {bug(error)}")
+            return EntryResult((), {}, refused=f"{entry.path}: {bug(error)}")
         return found
 
-    def tried(self, entry: Entry) -> Found:
-        """Lint one entry file of several; what cannot be linted is said in the outcome."""
+    def check_or_refuse(self, entry: Entry) -> EntryResult:
+        """Lint one of several entry files; record failures in the result instead of raising them."""
         from urdfkit.errors import UrdfkitError
 
         try:
             return self.check(entry)
         except UrdfkitError as error:
-            return Found((), {}, refused=str(error))
+            return EntryResult((), {}, refused=str(error))
 
-    def examine(self, entry: Entry) -> tuple[Found, Model]:
-        """Lint one entry file; return what was found, and the model it was found in."""
+    def examine(self, entry: Entry) -> tuple[EntryResult, Model]:
+        """Lint one entry file; return the result and the model."""
         options, note = self.options, ""
         if options.guess_target and options.target is None:
             from urdfkit.lint.project.target import guess
@@ -139,36 +139,36 @@ class Checker:
         model = model_of(entry.path, options, packages=self.packages.near_file(entry.path), memory=self.memory)
         self.sources.update(model.expanded.sources)
         self._failures: list[str] = []
-        findings = list(self._ask_source_rules(model))
-        findings += self._ask_fault_rules(model, entry)
+        findings = list(self._run_source_rules(model))
+        findings += self._run_fault_rules(model, entry)
         if model.expanded.root is not None and not entry.is_library:
             foreign = [rule for rule in self.foreign if issubclass(rule, RobotRule)]
-            outside = around_rules() if model.around else ()
+            outside = related_file_rules() if model.related_files else ()
             for rule in (*robot_rules(model.robot, model.target), *outside, *foreign):
                 if self._applies(rule, model.target):
-                    findings += self._ask(rule, entry.path, model)
+                    findings += self._run(rule, entry.path, model)
         used: tuple[str, ...] = ()
         if any("urdfkit:" in source.text for source in model.expanded.sources.values()):
             findings, used = self._suppress(findings, model, entry)
         here = str(Path.cwd())
-        read = (*model.expanded.sources, *(model.around if model.expanded.root is not None else ()))
+        read = (*model.expanded.sources, *(model.related_files if model.expanded.root is not None else ()))
         files = {name: os.path.join(here, name) for name in read}  # noqa: PTH118
         if entry.only:
             only = {path.resolve() for path in entry.only}
             names = {name for name, path in files.items() if Path(path).resolve() in only}
             findings = [finding for finding in findings if finding.file in names]
-        return Found(tuple(findings), files, note, used, "; ".join(self._failures)), model
+        return EntryResult(tuple(findings), files, note, used, "; ".join(self._failures)), model
 
-    def _ask_source_rules(self, model: Model) -> Iterator[Finding]:
+    def _run_source_rules(self, model: Model) -> Iterator[Finding]:
         sources = model.expanded.sources
         foreign = [rule for rule in self.foreign if issubclass(rule, SourceRule)]
         rules = [rule for rule in (*source_rules(sources), *foreign) if self._applies(rule, model.target)]
         for file in sources:
             for rule in rules:
-                yield from self._ask(rule, file, model.document(file), model)
+                yield from self._run(rule, file, model.document(file), model)
 
-    def _ask_fault_rules(self, model: Model, entry: Entry) -> Iterator[Finding]:
-        faults = (*model.misread, *model.expanded.faults)
+    def _run_fault_rules(self, model: Model, entry: Entry) -> Iterator[Finding]:
+        faults = (*model.encoding_faults, *model.expanded.faults)
         if not faults:
             return
         rules = [rule() for rule in (*fault_rules(), *(rule for rule in self.foreign if issubclass(rule, FaultRule)))]
@@ -177,10 +177,10 @@ class Checker:
                 continue
             for rule in rules:
                 if rule.claims(fault) and self._applies(type(rule), model.target):
-                    yield from self._ask(type(rule), entry.path, fault, model)
+                    yield from self._run(type(rule), entry.path, fault, model)
 
-    def _ask(self, rule: type[Any], file: Path | str, *subject: Any) -> Iterator[Finding]:
-        """Yield what a rule finds in a subject; where it fails, note that for the file and go on."""
+    def _run(self, rule: type[Any], file: Path | str, *subject: Any) -> Iterator[Finding]:
+        """Yield the findings of a rule; if the rule raises an exception, record the failure and continue."""
         from urdfkit.errors import UrdfkitError, bug
 
         try:
@@ -190,11 +190,11 @@ class Checker:
         except Exception as error:
             if not self.keep_going:
                 raise
-            whose = rule.__module__.partition(".")[0]
-            self._failures.append(f"{file}: {rule.code} {rule.name} could not look at it: {bug(error, whose)}")
+            package = rule.__module__.partition(".")[0]
+            self._failures.append(f"{file}: {rule.code} {rule.name} could not check this file: {bug(error, package)}")
 
     def _suppress(self, findings: list[Finding], model: Model, entry: Entry) -> tuple[list[Finding], tuple[str, ...]]:
-        """Return what no comment suppresses, and the places of the comments that do, for all files of the model."""
+        """Return the findings that no comment suppresses, and the positions of the comments that suppress findings."""
         from urdfkit.lint.facts.suppressions import suppressed, suppressions
         from urdfkit.lint.rules.document.unknown_suppression import UnknownSuppression
         from urdfkit.lint.rules.document.unused_suppression import UnusedSuppression
@@ -206,7 +206,7 @@ class Checker:
                 if self._applies(UnknownSuppression, model.target):
                     findings += UnknownSuppression().check(comments[file], self._codes(), model)
         left, used = suppressed(findings, comments)
-        judged = {code for code, target in self._asked().items() if target(model.target)}
+        judged = {code for code, target in self._applicability().items() if target(model.target)}
         if entry.is_library or model.is_incomplete:
             judged.clear()
         every = bool(judged) and not self.options.select and not self.options.ignore
@@ -218,25 +218,25 @@ class Checker:
                 if lost or (every and not item.codes and not met):
                     unused.append((item, lost))
             if self._applies(UnusedSuppression, model.target):
-                known = [one for one in unused if one[0].verb in ("ignore", "ignore-file")]
-                left += UnusedSuppression().check(known, model)
+                valid = [one for one in unused if one[0].verb in ("ignore", "ignore-file")]
+                left += UnusedSuppression().check(valid, model)
         return left, tuple(sorted({f"{item.position} {code}" for item, code in used}))
 
-    def _asked(self) -> dict[str, Callable[[str | None], bool]]:
+    def _applicability(self) -> dict[str, Callable[[str | None], bool]]:
         from urdfkit.lint.rules import RULES
 
         return {rule.code: partial(self._applies, rule) for rule in RULES}
 
 
 def codes() -> tuple[str, ...]:
-    """Return the codes of all our rules, sorted."""
+    """Return the codes of all built-in rules, sorted."""
     from urdfkit.lint.rules import RULES
 
     return tuple(rule.code for rule in RULES)
 
 
 def every_code() -> tuple[str, ...]:
-    """Return the codes of all our rules and of those that others brought."""
+    """Return the codes of all built-in and third-party rules."""
     return (*codes(), *(rule.code for rule in _third_party()))
 
 
@@ -246,6 +246,6 @@ def _third_party() -> tuple[type[Rule], ...]:
     return tuple(load("urdfkit.rules"))
 
 
-def _nothing(path: Path) -> Element:
-    """Return the root of a robot that could not be read."""
+def _empty_root(path: Path) -> Element:
+    """Return the root element that stands for an unreadable robot."""
     return Element("robot", {}, [], "", Origin(Position(str(path), 1, 1)))

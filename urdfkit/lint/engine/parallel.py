@@ -1,4 +1,4 @@
-"""Many entry files at once, each in one of several processes."""
+"""Lint many entry files in several processes."""
 
 from __future__ import annotations
 
@@ -15,52 +15,56 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from urdfkit.lint.finding import Found
+    from urdfkit.lint.finding import EntryResult
     from urdfkit.lint.project.entry_files import Entry
     from urdfkit.lint.project.options import Options
 
 _checkers: list[Checker] = []
-"""The checker of this process, once it has one: what it learns of packages serves all its files."""
+"""The checker of this process; its package lookups serve all files of the process."""
 
 
-def check_all(entries: Sequence[Entry], options: Options, *, cached: bool, jobs: int, keep_going: bool) -> list[Found]:
+def check_all(
+    entries: Sequence[Entry], options: Options, *, cached: bool, jobs: int, keep_going: bool
+) -> list[EntryResult]:
     """Lint entry files in several processes.
 
     Args:
-        entries: what to lint.
-        options: how.
-        cached: keep what is found.
-        jobs: how many processes at most.
+        entries: the entry files.
+        options: lint options.
+        cached: store the findings in the cache.
+        jobs: maximum number of processes.
         keep_going: see `urdfkit.lint.engine.run.run`.
 
     Raises:
-        UrdfkitError: what one of them could not do.
-        ResourceError: a process was ended from outside, for instance for its use of memory.
+        UrdfkitError: an entry file cannot be linted.
+        ResourceError: a worker process was terminated, for example because memory ran out.
     """
-    # To fork is quickest, and safe where there is one thread only.
-    quick = sys.platform == "linux" and threading.active_count() == 1
-    context = multiprocessing.get_context("fork" if quick else "spawn")
+    # fork is fastest, and safe with a single thread.
+    can_fork = sys.platform == "linux" and threading.active_count() == 1
+    context = multiprocessing.get_context("fork" if can_fork else "spawn")
     count = min(jobs, len(entries))
     try:
         with ProcessPoolExecutor(count, context, _begin, (options, cached, keep_going)) as pool:
             return list(
-                pool.map(_try if keep_going else _check, entries, chunksize=max(1, len(entries) // (8 * count)))
+                pool.map(
+                    _check_or_refuse if keep_going else _check, entries, chunksize=max(1, len(entries) // (8 * count))
+                )
             )
     except BrokenProcessPool as error:
-        raise ResourceError("a process that linted was ended from outside; try --jobs 1") from error
+        raise ResourceError("a worker process was terminated; retry with --jobs 1") from error
 
 
 def _begin(options: Options, cached: bool, keep_going: bool) -> None:
     _checkers[:] = [Checker(options, cached=cached, keep_going=keep_going)]
 
 
-def _check(entry: Entry) -> Found:
+def _check(entry: Entry) -> EntryResult:
     checker = _checkers[0]
     checker.sources.clear()
     return checker.check(entry)
 
 
-def _try(entry: Entry) -> Found:
+def _check_or_refuse(entry: Entry) -> EntryResult:
     checker = _checkers[0]
     checker.sources.clear()
-    return checker.tried(entry)
+    return checker.check_or_refuse(entry)

@@ -1,4 +1,4 @@
-"""From files to findings: check each, or take what is known of it; merge, sort."""
+"""Lint files: check each entry file or use its cached result, then merge and sort the findings."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from urdfkit.lint.engine.checker import Checker
 from urdfkit.lint.finding import SEVERITIES, Finding
 from urdfkit.lint.project.entry_files import Entry, find_entries
 from urdfkit.lint.project.options import Options
-from urdfkit.lint.project.target import known_target
+from urdfkit.lint.project.target import parse_target
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -19,21 +19,21 @@ if TYPE_CHECKING:
 
     from urdfkit.description.xml.source import Source, Span
 
-_AT_ONCE = 8
-"""From so many files on it pays to lint them in several processes."""
+_MIN_PARALLEL = 8
+"""Minimum number of files for which several processes are faster."""
 
 
 @record(eq=False)
 class Outcome:
-    """What came of linting.
+    """Result of a lint run.
 
     Attributes:
-        findings: sorted by place.
-        sources: the text of every file that was read, by the name findings use.
-        files: every file that was read, absolute; by the same name.
-        notes: what targets were guessed, one line each.
-        cached: how many entry files had not changed since they were linted before.
-        refused: why some of several files could not be linted, one line each.
+        findings: findings sorted by position.
+        sources: name in findings → text, for every file read.
+        files: name in findings → absolute path, for every file read.
+        notes: one line for each guessed target.
+        cached: number of entry files with a valid cached result.
+        refused: one line for each file that could not be linted, with the reason.
     """
 
     findings: tuple[Finding, ...]
@@ -56,19 +56,19 @@ def lint(
     """Lint files, packages or workspaces.
 
     Args:
-        paths: one or more files or folders, or names of robots we ship.
-        select: codes, or beginnings of codes, to report; all where it is empty.
-        ignore: codes, or beginnings, not to report.
+        paths: one or more files or folders, or names of bundled robots.
+        select: codes, or beginnings of codes, to report; all if empty.
+        ignore: codes, or beginnings of codes, not to report.
         target: the consumer the robot is meant for, one of `TARGETS`, or with its release: ``ros2-jazzy``.
         arguments: values for ``$(arg …)``.
-        package_path: folders to look for packages in first.
+        package_path: folders to search first for packages.
 
     Returns:
-        The findings, sorted by place. Faults in the files are findings, not exceptions.
+        The findings, sorted by position. Defects in the files are findings, not exceptions.
 
     Raises:
-        UsageError: a code or the target is not known.
-        ResourceError: a path is not there, or holds no description.
+        UsageError: a code or the target is unknown.
+        ResourceError: a path does not exist or has no robot description.
     """
     several = [paths] if isinstance(paths, (str, Path)) else list(paths)
     folders = tuple(Path(folder) for folder in package_path)
@@ -82,25 +82,25 @@ def run(
     """Lint entry files.
 
     Args:
-        entries: what to lint.
-        options: how.
-        cached: take what was found before where nothing has changed since, and keep what is found now.
-        jobs: how many processes to lint in at most.
-        keep_going: lint the others where some of several cannot be linted, or a rule fails, and say so in the outcome.
+        entries: the entry files.
+        options: lint options.
+        cached: use cached results of unchanged files, and store new results.
+        jobs: maximum number of processes.
+        keep_going: if one of several files cannot be linted or a rule fails, report it in the outcome and continue.
 
     Raises:
-        UsageError: a code or the target is not known.
+        UsageError: a code or the target is unknown.
         ResourceError: an entry cannot be read, or a third-party rule cannot be imported.
-        ModelError: an entry is no robot description.
+        ModelError: an entry is not a robot description.
     """
-    options = Options(**{**options.__dict__, "target": known_target(options.target)})
+    options = Options(**{**options.__dict__, "target": parse_target(options.target)})
     entries = list(entries)
     checker = Checker(options, cached=cached, keep_going=keep_going)
-    check = checker.tried if keep_going and len(entries) > 1 else checker.check
-    found = {entry: known for entry in entries if (known := checker.known(entry)) is not None}
+    check = checker.check_or_refuse if keep_going and len(entries) > 1 else checker.check
+    found = {entry: result for entry in entries if (result := checker.cached(entry)) is not None}
     hits = len(found)
     left = [entry for entry in entries if entry not in found]
-    if jobs > 1 and len(left) >= _AT_ONCE and not options.texts:
+    if jobs > 1 and len(left) >= _MIN_PARALLEL and not options.texts:
         from urdfkit.lint.engine.parallel import check_all
 
         found.update(zip(left, check_all(left, options, cached=cached, jobs=jobs, keep_going=keep_going), strict=True))
@@ -116,7 +116,7 @@ def run(
 
 
 def _is_in_use(finding: Finding, used: set[str]) -> bool:
-    """Whether a suppression without use in one robot is in use in another."""
+    """Return whether a suppression that is unused in one robot suppresses a finding in another robot."""
     if finding.code != "E019" or not used:
         return False
     codes = finding.message.split("`")[1::2]
@@ -125,17 +125,14 @@ def _is_in_use(finding: Finding, used: set[str]) -> bool:
 
 
 class Sources(dict[str, "Source"]):
-    """The text of every file that was read, by the name findings use; read again when it is not at hand.
-
-    What was found before comes without the texts that it was found in.
-    """
+    """Name in findings → text of the file; texts of cached results are read on first access."""
 
     def __init__(self, sources: Mapping[str, Source], files: Mapping[str, Path]) -> None:
         super().__init__(sources)
         self._files = files
 
     def get(self, name: str, default: Any = None) -> Any:
-        """Return the text of a file, the default where nobody has read it or it has gone."""
+        """Return the text of a file; the default if the file is unknown or has been deleted."""
         try:
             return self[name]
         except (KeyError, ResourceError):
@@ -149,35 +146,39 @@ class Sources(dict[str, "Source"]):
 
 
 def merged(findings: Iterable[Finding]) -> list[Finding]:
-    """Return the findings sorted by place; what was found at one place in several expansions becomes one finding."""
-    groups: dict[tuple[str, Span], list[_Together]] = {}
+    """Return the findings sorted by position; merge findings of several expansions of the same source text."""
+    groups: dict[tuple[str, Span], list[_MergedFinding]] = {}
     for finding in findings:
-        together = groups.setdefault((finding.code, finding.span), [])
-        if not any(one.takes(finding) for one in together):
-            together.append(_Together(finding))
+        merged_here = groups.setdefault((finding.code, finding.span), [])
+        if not any(one.add(finding) for one in merged_here):
+            merged_here.append(_MergedFinding(finding))
     return sorted(
         (one.finding() for group in groups.values() for one in group), key=lambda f: (f.span, f.code, f.message)
     )
 
 
-class _Together:
-    """What was found at one place in several expansions: a macro may have thousands."""
+class _MergedFinding:
+    """Findings of several expansions at one source position; a macro may have thousands of expansions."""
 
     def __init__(self, first: Finding) -> None:
-        self._worst = first
+        self._most_severe = first
         self._chains = dict.fromkeys(first.chains)
 
-    def takes(self, finding: Finding) -> bool:
-        """Take a finding that says the same, or the same of another expansion; return whether it is one."""
+    def add(self, finding: Finding) -> bool:
+        """Add a finding with the same message or from another expansion; return False if it is neither."""
         is_another = bool(finding.chains) and self._chains.keys().isdisjoint(finding.chains)
-        if not is_another and self._worst.message != finding.message:
+        if not is_another and self._most_severe.message != finding.message:
             return False
-        if SEVERITIES.index(finding.severity) < SEVERITIES.index(self._worst.severity):
-            self._worst = finding
+        if SEVERITIES.index(finding.severity) < SEVERITIES.index(self._most_severe.severity):
+            self._most_severe = finding
         self._chains.update(dict.fromkeys(finding.chains))
         return True
 
     def finding(self) -> Finding:
-        """Return the worst of them, with the chains of all."""
+        """Return the most severe finding, with the macro chains of all."""
         chains = tuple(self._chains)
-        return self._worst if chains == self._worst.chains else Finding(**{**self._worst.__dict__, "chains": chains})
+        return (
+            self._most_severe
+            if chains == self._most_severe.chains
+            else Finding(**{**self._most_severe.__dict__, "chains": chains})
+        )

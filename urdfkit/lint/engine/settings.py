@@ -1,4 +1,4 @@
-"""Settings in files: ``urdfkit.toml``, or ``[tool.urdfkit]`` in pyproject.toml, nearest above what is linted.
+"""Settings files: ``urdfkit.toml``, or ``[tool.urdfkit]`` in pyproject.toml, nearest above the linted files.
 
 ::
 
@@ -26,22 +26,22 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from typing import Any
 
-_KINDS = {"list": "a list", "dict": "a table", "str": "a text"}
+_KINDS = {"list": "a list", "dict": "a table", "str": "a string"}
 _MARKS = (".git", ".hg", ".catkin_workspace", ".colcon")
 
 
 @record
 class Settings:
-    """What a file says; empty where there is none.
+    """Settings of one file; all empty if there is no file.
 
     Attributes:
-        file: where it says so.
+        file: the settings file.
         target: see ``--target``.
         select: codes to report.
         ignore: codes not to report.
-        exclude: patterns of files to leave out, below the folder of `file`.
-        package_path: folders to look for packages in.
-        baseline: the file of known findings.
+        exclude: patterns of files to skip, relative to the folder of `file`.
+        package_path: folders to search for packages.
+        baseline: the baseline file.
         arguments: values for ``$(arg …)``.
         per_file: pattern of files → codes not to report in them.
     """
@@ -57,7 +57,7 @@ class Settings:
     per_file: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def matches(self, path: Path, pattern: str) -> bool:
-        """Whether a pattern of this file means `path`: the file, or a folder above it."""
+        """Return whether a pattern of this file matches `path` or a folder above it."""
         from fnmatch import fnmatch
 
         folder = self.file.parent if self.file is not None else Path.cwd()
@@ -70,10 +70,10 @@ class Settings:
 
 
 def find(start: Path) -> Settings:
-    """Return the settings for what lies in `start`.
+    """Return the settings that apply to `start`.
 
     Raises:
-        UsageError: the file holds what is not known, or is no TOML.
+        UsageError: the file is not valid TOML or has an unknown setting.
     """
     start = start.absolute()
     for folder in (start, *start.parents) if start.is_dir() else start.parents:
@@ -91,7 +91,7 @@ def read(file: Path) -> Settings:
     """Return the settings of a file.
 
     Raises:
-        UsageError: it cannot be read, is no TOML, or holds what is not known.
+        UsageError: the file cannot be read, is not valid TOML, or has an unknown setting.
     """
     import sys
 
@@ -105,7 +105,7 @@ def read(file: Path) -> Settings:
     except (OSError, UnicodeDecodeError) as error:
         raise UsageError(f"cannot read {file}: {getattr(error, 'strerror', None) or 'it is not UTF-8'}") from error
     except tomllib.TOMLDecodeError as error:
-        raise UsageError(f"{file} is no TOML: {error}") from error
+        raise UsageError(f"{file} is not valid TOML: {error}") from error
     if file.name == "pyproject.toml":
         table = table.get("tool", {}).get("urdfkit", {})
     _check(file, "", table, {"lint": dict})
@@ -113,23 +113,23 @@ def read(file: Path) -> Settings:
     _check(file, "lint.", lint, {key: kind for key, (kind, _) in _KEYS.items()})
     values: dict[str, Any] = {"file": file}
     for key, value in lint.items():
-        _, taken = _KEYS[key]
+        _, convert = _KEYS[key]
         name = {"per-file-ignores": "per_file"}.get(key, key.replace("-", "_"))
-        values[name] = taken(file, f"lint.{key}", value)
+        values[name] = convert(file, f"lint.{key}", value)
     settings = Settings(**values)
     _check_words(settings)
     return settings
 
 
 def _check_words(settings: Settings) -> None:
-    """Refuse codes and targets that there are not.
+    """Reject unknown codes and targets.
 
     Raises:
-        UsageError: there is one; it names the file, not an option.
+        UsageError: a code or target is unknown; the message names the settings file.
     """
     from urdfkit.lint.engine.checker import every_code
     from urdfkit.lint.project.rule_selection import checked
-    from urdfkit.lint.project.target import known_target
+    from urdfkit.lint.project.target import parse_target
 
     of = f"{settings.file}: `lint."
     checked(f"{of}select`", settings.select, every_code)
@@ -137,17 +137,17 @@ def _check_words(settings: Settings) -> None:
     for pattern, codes in settings.per_file.items():
         checked(f"{of}per-file-ignores.{pattern}`", codes, every_code)
     if settings.target is not None and settings.target.lower() != "any":
-        known_target(settings.target, f"{of}target`")
+        parse_target(settings.target, f"{of}target`")
 
 
-def _check(file: Path, prefix: str, table: Any, known: Mapping[str, type]) -> None:
+def _check(file: Path, prefix: str, table: Any, kinds: Mapping[str, type]) -> None:
     for key, value in table.items():
-        if key not in known:
-            hint = did_you_mean(key, known) or f"; there are {', '.join(known)}"
-            raise UsageError(f"{file}: there is no setting `{prefix}{key}`{hint}")
-        if not isinstance(value, known[key]):
-            kind = _KINDS[known[key].__name__]
-            raise UsageError(f"{file}: `{prefix}{key}` is {kind}, not {value!r}")
+        if key not in kinds:
+            hint = did_you_mean(key, kinds) or f"; the settings are {', '.join(kinds)}"
+            raise UsageError(f"{file}: unknown setting `{prefix}{key}`{hint}")
+        if not isinstance(value, kinds[key]):
+            kind = _KINDS[kinds[key].__name__]
+            raise UsageError(f"{file}: `{prefix}{key}` must be {kind}, not {value!r}")
 
 
 def _text(_: Path, __: str, value: str) -> str:
@@ -157,7 +157,7 @@ def _text(_: Path, __: str, value: str) -> str:
 def _texts(file: Path, name: str, value: list[Any]) -> tuple[str, ...]:
     for item in value:
         if not isinstance(item, str):
-            raise UsageError(f"{file}: `{name}` is a list of texts, not of {item!r}")
+            raise UsageError(f"{file}: `{name}` must be a list of strings, not of {item!r}")
     return tuple(value)
 
 
@@ -169,7 +169,7 @@ def _folders(file: Path, name: str, value: list[Any]) -> tuple[Path, ...]:
     folders = tuple(file.parent / Path(text).expanduser() for text in _texts(file, name, value))
     for folder in folders:
         if not folder.is_dir():
-            raise UsageError(f"{file}: `{name}`: no folder {folder}")
+            raise UsageError(f"{file}: `{name}`: folder not found: {folder}")
     return folders
 
 
@@ -177,14 +177,14 @@ def _arguments(file: Path, name: str, value: dict[str, Any]) -> dict[str, str]:
     words = {True: "true", False: "false"}
     for key, item in value.items():
         if not isinstance(item, (str, int, float)):
-            raise UsageError(f"{file}: `{name}.{key}` is one value, not {item!r}")
+            raise UsageError(f"{file}: `{name}.{key}` must be a single value, not {item!r}")
     return {key: words[item] if isinstance(item, bool) else str(item) for key, item in value.items()}
 
 
 def _by_file(file: Path, name: str, value: dict[str, Any]) -> dict[str, tuple[str, ...]]:
     for pattern, codes in value.items():
         if not isinstance(codes, list):
-            raise UsageError(f"{file}: `{name}.{pattern}` is a list of codes, not {codes!r}")
+            raise UsageError(f"{file}: `{name}.{pattern}` must be a list of codes, not {codes!r}")
     return {pattern: _texts(file, f"{name}.{pattern}", codes) for pattern, codes in value.items()}
 
 
@@ -198,4 +198,4 @@ _KEYS: dict[str, tuple[type, Callable[[Path, str, Any], Any]]] = {
     "arguments": (dict, _arguments),
     "per-file-ignores": (dict, _by_file),
 }
-"""Setting → what TOML has for it, and what it becomes."""
+"""Setting → its TOML type and its converter."""

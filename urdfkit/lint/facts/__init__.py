@@ -1,4 +1,4 @@
-"""What several rules need to know of a robot, worked out once: features, neighbouring names, root causes.
+"""Facts about a robot that several rules share: features, neighbouring names, root causes.
 
-A `Model` goes in; plain facts come out, with their places, and no findings.
+Input is a `Model`; output are facts with their source positions, not findings.
 """

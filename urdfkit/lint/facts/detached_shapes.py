@@ -1,4 +1,4 @@
-"""Shapes of a link that are far from where its others, and its inertia, say that it is."""
+"""Detached shapes: shapes of a link that are far away from its other shapes and from its centre of mass."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ if TYPE_CHECKING:
     from urdfkit.description.urdf.robot import Collision, Link, Visual
     from urdfkit.lint.model.model import Model
 
-LEAST = 0.05
-"""Of a reach: what a radius of gyration is at least (see I508)."""
+MIN_GYRATION = 0.05
+"""Minimum ratio of radius of gyration to reach (see I508)."""
 
 TIMES = 10.0
-"""How many times farther than all others a shape has to reach."""
+"""Minimum ratio of the reach of a detached shape to the reach of the other shapes."""
 
 
-def apart(model: Model, link: Link) -> tuple[list[Visual | Collision], float, float]:
-    """Return the shapes that neither the others nor the inertia of their link explain.
+def detached_shapes(model: Model, link: Link) -> tuple[list[Visual | Collision], float, float]:
+    """Return the shapes whose distance contradicts the other shapes and the inertia of their link.
 
     Args:
-        model: what is being linted.
-        link: of it.
+        model: the linted model.
+        link: a link of the model.
 
     Returns:
-        The shapes, how far they reach from the centre of mass at least, and how far the others do at most [m].
+        The shapes, their minimum reach from the centre of mass, and the maximum reach of the other shapes [m].
     """
     nothing: tuple[list[Visual | Collision], float, float] = ([], 0.0, 0.0)
     inertial, shapes, extent = link.inertial, shapes_of(link), model.extents.get(link.name)
@@ -37,7 +37,7 @@ def apart(model: Model, link: Link) -> tuple[list[Visual | Collision], float, fl
     if len(shapes) != len(extent.shapes) or largest <= 0.0:
         return nothing
     reaches = extent.reaches(inertial.origin.xyz)
-    limit = sqrt(largest / inertial.mass) / LEAST
+    limit = sqrt(largest / inertial.mass) / MIN_GYRATION
     near = max((reach for reach in reaches if reach <= limit), default=0.0)
     far = min((reach for reach in reaches if reach > limit), default=0.0)
     if near <= 0.0 or far < TIMES * near:

@@ -1,4 +1,4 @@
-"""Expressions that are written so that xacro leaves them as they are."""
+"""Malformed expressions that xacro copies without evaluation."""
 
 from __future__ import annotations
 
@@ -13,14 +13,16 @@ _SWAPPED = r"(?:(?<!\$)\{\$(?!\()|\$ +\{)([^{}]*)\}"
 
 
 def is_unexpanded(text: str) -> bool:
-    """Whether a value, or a whole file, holds an expression that xacro does not evaluate."""
+    """Return whether a value or a file contains an expression that xacro does not evaluate."""
     return (
-        "$" in text and not _is_sound(text) and (re.search(_BROKEN, text) or re.search(_INSIDE_OUT, text)) is not None
+        "$" in text
+        and not _is_complete(text)
+        and (re.search(_BROKEN, text) or re.search(_INSIDE_OUT, text)) is not None
     )
 
 
-def _is_sound(text: str) -> bool:
-    """Whether every ``$`` surely begins an expression that ends; most texts are such, and need no patterns."""
+def _is_complete(text: str) -> bool:
+    """Return whether every ``$`` begins a complete expression; a quick test before the patterns."""
     if "{$" in text:
         return False
     for piece in text.split("$")[1:]:
@@ -33,6 +35,6 @@ def _is_sound(text: str) -> bool:
     return True
 
 
-def righted(text: str) -> str:
+def correct_escapes(text: str) -> str:
     """Return the text with ``${…}`` for ``{$…}`` and ``$ {…}``."""
     return re.sub(_SWAPPED, r"${\1}", text)

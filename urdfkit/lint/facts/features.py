@@ -1,7 +1,7 @@
-"""What a robot has, and what looks odd about it at a glance: which rules have to be asked.
+"""Features of a robot: tags, joint types and suspicious properties, which select the rules to run.
 
-A clean robot needs a third of the rules; to import and ask the others takes longer than to look once whether they could
-find anything. What is told here must never be too little: a rule whose word is missing is not asked.
+A clean robot needs a third of the rules; importing and running the others takes longer than computing the features. The
+set must be complete: a rule whose feature is missing does not run.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 
 _TENSOR = frozenset(("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
 _FAR = 2.0 * pi
-"""[rad]: no limit and no angle in radians need be larger."""
+"""[rad]: larger limits and angles are suspicious."""
 
 
-def traits(robot: Robot) -> set[str]:
-    """Return what a robot has: its tags, the types of its joints, and, with ``!``, what is odd about it."""
+def features_of(robot: Robot) -> set[str]:
+    """Return the features of a robot: tags, joint types, and suspicious properties, which end with ``!``."""
     found = _of_elements(robot.element)
     found.update(f"{problem.kind}!" for problem in robot.problems)
     if robot.element.tag != "robot" or not robot.element.get("name"):
@@ -46,11 +46,11 @@ def traits(robot: Robot) -> set[str]:
 
 
 def _of_elements(root: Element) -> set[str]:
-    """Return the tags, whether there is text, and whether an origin is turned far."""
+    """Return the tags, and whether any element has text or any origin a large rotation."""
     found: set[str] = set()
-    known: set[str] = set()
+    checked: set[str] = set()
     pending = [root]
-    for element in pending:  # It grows while it is walked through.
+    for element in pending:  # The list grows during the iteration.
         found.add(element.tag)
         if element.text:
             found.add("text!")
@@ -59,8 +59,8 @@ def _of_elements(root: Element) -> set[str]:
             found.add("size!")
         if element.tag == "origin":
             angles = element.attributes.get("rpy")
-            if angles is not None and angles not in known:
-                known.add(angles)
+            if angles is not None and angles not in checked:
+                checked.add(angles)
                 if any(abs(angle) > _FAR for angle in numbers(angles) or ()):
                     found.add("turned-far!")
     return found
@@ -94,7 +94,7 @@ def _of_link(link: Link, found: set[str]) -> None:
 
 
 def _is_possible(inertial: Inertial) -> bool:
-    """Whether mass and tensor are surely those of a body: by Gershgorin's circles about the diagonal."""
+    """Return whether mass and tensor are certainly physical, by Gershgorin circles."""
     inertia = inertial.inertia
     written = [child for child in inertial.element.children if child.tag == "inertia"]
     if inertia is None or len(written) != 1 or not written[0].attributes.keys() >= _TENSOR:
@@ -148,12 +148,12 @@ def _of_joint(joint: Joint, found: set[str]) -> None:
     if limit is None:
         if kind in ("revolute", "prismatic"):
             found.add("no-limit!")
-    elif not _is_sound(limit, kind):
+    elif not _is_valid(limit, kind):
         found.add("limit!")
 
 
-def _is_sound(limit: Limit, kind: str | None) -> bool:
-    """Whether a limit is surely one of a joint of that type."""
+def _is_valid(limit: Limit, kind: str | None) -> bool:
+    """Return whether a limit is certainly valid for a joint type."""
     if not ((limit.effort or 0.0) > 0.0 and (limit.velocity or 0.0) > 0.0):
         return False
     if kind == "continuous":

@@ -1,4 +1,4 @@
-"""Names that the descriptions of the packages around a robot may have."""
+"""Names that descriptions in neighbouring packages may define."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ if TYPE_CHECKING:
     from urdfkit.lint.model.model import Model
 
 
-def names_around(model: Model, tag: str) -> list[str]:
-    """Return patterns of the names that links or joints of any package around may have, arguments being as they like.
+def neighbouring_names(model: Model, tag: str) -> list[str]:
+    """Return patterns of the link or joint names in neighbouring packages, for any values of the arguments.
 
     Args:
-        model: what is being linted.
+        model: the linted model.
         tag: ``link`` or ``joint``.
     """
     from urdfkit.description.packages.related_files import dependencies_in, manifest, neighbours, package_of
@@ -22,7 +22,7 @@ def names_around(model: Model, tag: str) -> list[str]:
 
     near = neighbours(model.package) if model.package is not None else {}
     folders: set[Path] = set()
-    for file in model.around:
+    for file in model.related_files:
         package = package_of(Path(file))
         if package is not None:
             folders |= {package, *(near[name] for name in dependencies_in(manifest(package)) if name in near)}
@@ -31,22 +31,22 @@ def names_around(model: Model, tag: str) -> list[str]:
     is_fixed = not any(re.search(r"<(?:xacro:)?(?:if|unless|arg)\b", text) for text in own.values())
     texts = {path: text for path, text in texts.items() if path not in own} if is_fixed else {**own, **texts}
     every = "\n".join(texts.values())
-    # What begins with an interface is no joint, but a part of ros2_control or of a transmission.
+    # An element whose first child is an interface belongs to ros2_control or a transmission.
     tags = re.findall(rf"(<{tag}\b[^>]*>)(?!\s*<(?:command_interface|state_interface|hardwareInterface)\b)", every)
     names = [name for found in tags for name in re.findall(r"\bname\s*=\s*[\"']([^\"']*)", found)[:1]]
     calls = "\n".join((*re.findall(_CALL, every), *re.findall(_DEFAULTS, every)))
     return [_pattern(name, calls, every) for name in dict.fromkeys(names)]
 
 
-def is_conditional(text: str, what: str) -> bool:
-    """Whether a text has something inside of a condition of xacro.
+def is_conditional(text: str, pattern: str) -> bool:
+    """Return whether a pattern matches inside of a xacro condition.
 
     Args:
-        text: of a description.
-        what: a pattern without groups.
+        text: text of a description.
+        pattern: a regular expression without groups.
     """
     depth = 0
-    for at in re.finditer(rf"<(/?)xacro:(?:if|unless)\b|{what}", text):
+    for at in re.finditer(rf"<(/?)xacro:(?:if|unless)\b|{pattern}", text):
         if at[1] is None:
             if depth:
                 return True
@@ -56,17 +56,17 @@ def is_conditional(text: str, what: str) -> bool:
 
 
 def _pattern(name: str, calls: str, texts: str) -> str:
-    """Return the pattern of a name: what a macro's parameter stands for is what its calls give, if that is written."""
+    """Return the pattern of a name; literal arguments of the macro's calls replace its parameters."""
     parts = []
     for part in re.split(r"(\$\([^()]*\)|\$\{[^{}]*\})", name):
         if not part.startswith("$"):
             parts.append(re.escape(part))
             continue
         word = re.fullmatch(r"\$\{\s*(\w+)\s*\}", part)
-        given = set(re.findall(rf"(?<![\w:]){word[1]}\s*:?=\s*[\"']?([^\"'\s]*)", calls)) if word else set()
-        is_written = given and len(given) <= _MAX_VALUES and not any("$" in value or "^" in value for value in given)
+        values = set(re.findall(rf"(?<![\w:]){word[1]}\s*:?=\s*[\"']?([^\"'\s]*)", calls)) if word else set()
+        is_written = values and len(values) <= _MAX_VALUES and not any("$" in value or "^" in value for value in values)
         is_set = word is not None and re.search(rf"property\s+name\s*=\s*[\"']{word[1]}[\"']", texts)
-        parts.append(f"(?:{'|'.join(map(re.escape, sorted(given)))})" if is_written and not is_set else ".*")
+        parts.append(f"(?:{'|'.join(map(re.escape, sorted(values)))})" if is_written and not is_set else ".*")
     return "".join(parts)
 
 
@@ -75,4 +75,4 @@ _DEFAULTS = r"\bparams\s*=\s*(?:\"[^\"]*\"|'[^']*')"
 """Calls of macros, and the defaults of their parameters."""
 
 _MAX_VALUES = 200
-"""Different values of one parameter that are looked at."""
+"""Maximum number of values of one parameter."""

@@ -1,4 +1,4 @@
-"""Where a defect that shows in many places was made: a file that is broken, a property, an argument of a call."""
+"""Root cause of a defect with many symptoms: a malformed file, a property, an argument of a macro call."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ _MAX_STEPS = 8
 
 
 def is_in_broken_file(model: Model, tag: str, name: str) -> bool:
-    """Whether a file that is no XML, which is a finding of its own, defines a macro or material of a name.
+    """Return whether a malformed file, which is reported separately, defines a macro or material of that name.
 
     Args:
-        model: what is being linted.
+        model: the linted model.
         tag: ``macro`` or ``material``.
-        name: of it.
+        name: its name.
     """
     files = {fault.position.file for fault in model.expanded.faults if fault.kind == "xml"}
     pattern = rf"<(?:xacro:)?{tag}\s[^<>]*?\bname\s*=\s*[\"'](?:xacro:)?{re.escape(name)}[\"']"
@@ -37,29 +37,29 @@ def is_in_broken_file(model: Model, tag: str, name: str) -> bool:
     return any(re.search(pattern, text) for text in texts)
 
 
-def blamed(model: Model, element: Element, attribute: str, is_wrong: Callable[[str], bool]) -> Place | None:
-    """Return the one property, or argument of a call, that brings a wrong value into an attribute.
+def root_cause(model: Model, element: Element, attribute: str, is_wrong: Callable[[str], bool]) -> Place | None:
+    """Return the single property or macro argument that causes a wrong attribute value.
 
     Args:
-        model: what is being linted.
-        element: after expansion.
-        attribute: of the element.
-        is_wrong: tells of a text that stands for a property or argument whether it is what is wrong.
+        model: the linted model.
+        element: an expanded element.
+        attribute: name of the attribute.
+        is_wrong: returns whether the text of a property or argument is wrong.
 
     Returns:
-        None where the value is written in the attribute itself, or where it is not clear what brings it.
+        None if the value is a literal in the attribute itself, or if the cause is ambiguous.
     """
     tag = model.tag(element.origin.position)
     written = tag.attributes.get(attribute) if tag is not None else None
-    return culprit(model, written.value, element.origin.expansions, is_wrong) if written is not None else None
+    return cause_in_text(model, written.value, element.origin.expansions, is_wrong) if written is not None else None
 
 
 def call_of(element: Element, right: Iterable[Element]) -> Position | None:
-    """Return the call of a macro that makes an element wrong, where other calls make it right; None where none does.
+    """Return the macro call that makes an element wrong while other calls make it right; None if there is none.
 
     Args:
-        element: what is wrong, after expansion.
-        right: such elements that are right.
+        element: the wrong expanded element.
+        right: elements of the same kind that are right.
     """
     others = [one.origin for one in right if one.origin.position == element.origin.position]
     if not others:
@@ -70,17 +70,17 @@ def call_of(element: Element, right: Iterable[Element]) -> Position | None:
     )
 
 
-def culprit(
+def cause_in_text(
     model: Model, text: str, calls: Sequence[Expansion], is_wrong: Callable[[str], bool], steps: int = 0
 ) -> Place | None:
-    """Return where the one wrong value that a text with ``${…}`` uses is written; None where that is not clear.
+    """Return the position of the single wrong value used by a text with ``${…}``; None if it is ambiguous.
 
     Args:
-        model: what is being linted.
-        text: as written.
-        calls: the macro calls that the text went through, innermost first.
-        is_wrong: as of `blamed`.
-        steps: how many properties and arguments have been followed.
+        model: the linted model.
+        text: the source text.
+        calls: the macro calls around the text, innermost first.
+        is_wrong: see `root_cause`.
+        steps: number of properties and arguments followed so far.
     """
     if steps > _MAX_STEPS:
         return None
@@ -91,23 +91,23 @@ def culprit(
         if place is None:
             continue
         if "${" in value:
-            deeper = culprit(model, value, outer, is_wrong, steps + 1)
+            deeper = cause_in_text(model, value, outer, is_wrong, steps + 1)
             if deeper is not None:
                 found[deeper] = name
         elif is_wrong(value):
             found[place] = name
-    if len(found) > 1 and is_wrong is is_not_positive:  # A place may well be below zero.
+    if len(found) > 1 and is_wrong is is_not_positive:  # A coordinate may be negative.
         found = {place: name for place, name in found.items() if re.search(_SIZE, name)}
     return next(iter(found)) if len(found) == 1 else None
 
 
 def _value(model: Model, name: str, calls: Sequence[Expansion]) -> tuple[str, Place | None, Sequence[Expansion]]:
-    """Return what a name stands for, as written, where, and the calls that this went through."""
+    """Return the source text that a name stands for, its position, and the macro calls around it."""
     macro = model.expanded.macros.get(calls[0].macro) if calls else None
     if macro is not None and name in macro.parameters:
         call = model.tag(calls[0].position)
-        given = call.attributes.get(name) if call is not None else None
-        return (given.value, (calls[0].position, name), calls[1:]) if given is not None else ("", None, ())
+        argument = call.attributes.get(name) if call is not None else None
+        return (argument.value, (calls[0].position, name), calls[1:]) if argument is not None else ("", None, ())
     position = model.expanded.properties.get(name)
     tag = model.tag(position) if position is not None else None
     value = tag.attributes.get("value") if tag is not None else None
@@ -118,11 +118,11 @@ def _value(model: Model, name: str, calls: Sequence[Expansion]) -> tuple[str, Pl
 
 
 def is_not_positive(text: str) -> bool:
-    """Whether a text is a number that is zero or less."""
+    """Return whether a text is a number that is not positive."""
     value = number(text.strip())
     return value is not None and value <= 0.0
 
 
 def is_no_number(text: str) -> bool:
-    """Whether a text that looks like a number is none: ``O.4``, ``0,4``."""
+    """Return whether a text resembles a number but is invalid: ``O.4``, ``0,4``."""
     return number(text.strip()) is None and re.fullmatch(r"\s*[-+]?[\dOol.,][\dOolIeE.,+-]*\s*", text) is not None

@@ -3,7 +3,7 @@
 ::
 
     <!-- urdfkit: ignore I503 -->            after an element: this line; alone on its line: the next element, whole
-    <!-- urdfkit: ignore I503, J403 why -->  several codes; what follows the codes is for the reader
+    <!-- urdfkit: ignore I503, J403 why -->  several codes; text after the codes is a comment
     <!-- urdfkit: ignore -->                 every rule
     <!-- urdfkit: ignore-file I503 -->       the whole file, wherever the comment stands
 """
@@ -24,21 +24,21 @@ if TYPE_CHECKING:
 
 _COMMENT = re.compile(r"\s*urdfkit:\s*([\w-]*)(.*)", re.DOTALL)
 _CODE = re.compile(r"[A-Z]+[0-9][0-9A-Z]*")
-_MEANT = re.compile(r"[A-Z][0-9A-Z]{2,}")
-"""What stands first and is meant for a code, so that ``ignore ZZZ`` does not stand for every rule."""
+_INTENDED_CODE = re.compile(r"[A-Z][0-9A-Z]{2,}")
+"""A first word that is intended as a code, so that ``ignore ZZZ`` does not suppress every rule."""
 _SEPARATOR = re.compile(r"[\s,;:]+")
 
 
 @record
 class Suppression:
-    """One comment.
+    """One suppression comment.
 
     Attributes:
-        verb: ``ignore``, ``ignore-file``, or what was written instead.
-        codes: the rules it is about; empty for all.
-        position: where the comment begins.
-        first: the first line it covers.
-        last: the last line it covers.
+        verb: ``ignore``, ``ignore-file``, or an unknown word.
+        codes: codes of the suppressed rules; empty for all rules.
+        position: start of the comment.
+        first: first suppressed line.
+        last: last suppressed line.
     """
 
     verb: str
@@ -68,7 +68,7 @@ def suppressions(document: Document) -> list[Suppression]:
 def suppressed(
     findings: Iterable[Finding], by_file: Mapping[str, list[Suppression]]
 ) -> tuple[list[Finding], set[tuple[Suppression, str]]]:
-    """Return the findings that no comment suppresses, and which comments met findings of which codes."""
+    """Return the findings that no comment suppresses, and pairs of comments and suppressed codes."""
     left: list[Finding] = []
     used: set[tuple[Suppression, str]] = set()
     for finding in findings:
@@ -82,7 +82,7 @@ def suppressed(
 def _codes(text: str) -> tuple[str, ...]:
     codes: list[str] = []
     for word in _SEPARATOR.split(text.strip()):
-        if not (_CODE if codes else _MEANT).fullmatch(word):
+        if not (_CODE if codes else _INTENDED_CODE).fullmatch(word):
             break
         codes.append(word)
     return tuple(codes)

@@ -1,8 +1,8 @@
-"""Mend files: edit literal source text, lint the result, and keep it only if nothing got worse (see `regressions`).
+"""Fix files: edit literal source text, lint the result, and keep it only without regressions (see `regressions`).
 
-Bytes that no edit touches stay as they are: line ends, byte order marks, encodings, comments. Nothing is written before
-the mended text has been linted, and then each file is replaced in one move. Files outside the folders that were linted
-(installed packages, other people's) are never touched.
+Bytes outside of the edits stay unchanged: line endings, byte order marks, encodings, comments. Files are written only
+after the fixed text has been linted, and each file is replaced atomically. Files outside the linted folders, such as
+installed packages, are never changed.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from urdfkit.lint.engine.run import (
     Outcome,
     run,
 )
-from urdfkit.lint.fixes.regressions import Written, left_over, new_findings
+from urdfkit.lint.fixes.regressions import Written, new_findings, unmatched
 from urdfkit.lint.project.options import Options
 from urdfkit.record import record
 
@@ -34,13 +34,13 @@ _SURROGATE = re.compile("[\ud800-\udfff]")
 
 @record(eq=False)
 class Change:
-    """One file that fixes change.
+    """Change of one file.
 
     Attributes:
         path: the file, absolute.
-        shown: what findings call it.
-        before: its bytes as they were read.
-        after: its bytes as they are to be.
+        shown: the file name in findings.
+        before: bytes read from the file.
+        after: bytes to write.
     """
 
     path: Path
@@ -49,10 +49,10 @@ class Change:
     after: bytes
 
     def write(self) -> None:
-        """Replace the file in one move.
+        """Replace the file atomically.
 
         Raises:
-            ResourceError: it cannot be written, or somebody changed it since it was read.
+            ResourceError: the file cannot be written, or has changed since it was read.
         """
         from urdfkit.atomic import write_bytes
 
@@ -62,7 +62,7 @@ class Change:
 
     @property
     def text(self) -> str:
-        """What the file is to hold, decoded."""
+        """New text of the file, decoded."""
         return _SURROGATE.sub("\ufffd", _Text(self.after).text)
 
     def diff(self) -> str:
@@ -70,7 +70,7 @@ class Change:
         from difflib import unified_diff
 
         old, new = (re.findall(r"[^\n]*\n|[^\n]+", _Text(content).text) for content in (self.before, self.after))
-        # As git has it: `git apply` takes it, and `patch -p1`.
+        # File names as in git's diffs, for `git apply` and `patch -p1`.
         names = (self.shown, self.shown) if self.shown.startswith("/") else (f"a/{self.shown}", f"b/{self.shown}")
         lines = unified_diff(old, new, *names)
         return "".join(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines)
@@ -78,13 +78,13 @@ class Change:
 
 @record(eq=False)
 class Fixed:
-    """What fixing came to.
+    """Result of fixing.
 
     Attributes:
-        outcome: what is left, linted on the mended text.
+        outcome: lint result of the fixed text.
         changes: the files to write.
-        fixed: how many findings were mended, by code.
-        notes: why something that could be fixed was not, one line each.
+        fixed: code → number of fixed findings.
+        notes: one line for each fix that was not applied, with the reason.
     """
 
     outcome: Outcome
@@ -101,26 +101,26 @@ def fix(
     unsafe: bool = False,
     only: Callable[[Finding], bool] | None = None,
 ) -> Fixed:
-    """Mend what can be mended, in memory; see `Change.write`.
+    """Compute all fixes in memory; `Change.write` writes them.
 
     Args:
-        entries: what to lint.
-        options: how to lint it.
+        entries: the entry files.
+        options: lint options.
         within: folders (or files) whose files may be changed.
         unsafe: apply unsafe fixes too.
-        only: mend the findings it says yes to; all where it is None.
+        only: predicate that selects the findings to fix; None for all.
 
     Raises:
-        UsageError: a code or the target is not known.
+        UsageError: a code or the target is unknown.
         ResourceError: an entry cannot be read.
     """
     return _Fixer(entries, options, tuple(path.resolve() for path in within), unsafe, only).fix()
 
 
-def may_be_changed(paths: Iterable[Path]) -> list[Path]:
-    """Return the folders that fixes may change files in, for the paths a user named.
+def editable_folders(paths: Iterable[Path]) -> list[Path]:
+    """Return the folders whose files fixes may change, for the paths a user named.
 
-    That is a named folder itself, and for a named file its package, or the file alone where it is in none.
+    A folder stands for itself, a file for its package, or for its folder if it is not in a package.
     """
     folders = []
     for path in paths:
@@ -134,15 +134,15 @@ def may_be_changed(paths: Iterable[Path]) -> list[Path]:
 
 
 def changes(edits: Iterable[Edit], sources: Mapping[str, Source], *, within: Iterable[Path]) -> list[Change]:
-    """Return the files that edits change, in memory; see `Change.write`.
+    """Apply edits in memory and return the changed files; `Change.write` writes them.
 
     Args:
-        edits: changes that do not overlap, by the names of `sources`.
-        sources: the text of each file as it was read.
+        edits: non-overlapping edits; their files are keys of `sources`.
+        sources: name → text of each file.
         within: folders (or files) whose files may be changed.
 
     Raises:
-        ResourceError: a file is outside of them, or in another encoding.
+        ResourceError: a file is outside the folders, or in an unsupported encoding.
     """
     folders = [folder.resolve() for folder in within]
     found = []
@@ -166,22 +166,22 @@ def changes(edits: Iterable[Edit], sources: Mapping[str, Source], *, within: Ite
 
 
 class _Text:
-    """The text of a file and the way back to its exact bytes."""
+    """Decoded text of a file, which can be encoded back to the exact bytes."""
 
     def __init__(self, content: bytes) -> None:
         if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
             self.codec, self.mark = ("utf-16-le" if content[:2] == b"\xff\xfe" else "utf-16-be"), content[:2]
         else:
             self.codec, self.mark = "utf-8", b"\xef\xbb\xbf" if content[:3] == b"\xef\xbb\xbf" else b""
-        # Bytes that are no UTF-8 (Latin-1 comments) come back as they were.
+        # Bytes that are not UTF-8, such as Latin-1 comments, are preserved.
         self.text = content[len(self.mark) :].decode(self.codec, errors="surrogateescape")
 
     def encoded(self, text: str) -> bytes:
-        """Return the bytes of a text that was made from `text` by edits."""
+        """Return the bytes of an edited text."""
         return self.mark + text.encode(self.codec, errors="surrogateescape")
 
     def overlay(self, text: str) -> str:
-        """Return a text that was made from `text` by edits as the linter sees it once it is written."""
+        """Return an edited text as the linter would read it from disk."""
         seen = Overlay(_SURROGATE.sub("\ufffd", text))
         stray = _SURROGATE.search(text)
         if self.codec != "utf-8":
@@ -191,14 +191,14 @@ class _Text:
         return seen
 
     def agrees_with(self, source: Source) -> bool:
-        """Return whether offsets into the text that was linted hold in this one."""
+        """Return whether offsets into the linted text are valid in this text."""
         return len(self.text) == len(source.text) and all(
             ours == theirs or theirs == "�" for ours, theirs in zip(self.text, source.text, strict=True)
         )
 
 
 class _Fixer:
-    """One call of `fix`."""
+    """State of one call of `fix`."""
 
     def __init__(
         self,
@@ -235,24 +235,24 @@ class _Fixer:
         return Fixed(outcome, changes, fixed, tuple(self.notes))
 
     def _lint(self, texts: dict[Path, str]) -> Outcome:
-        # Lone surrogates stand for bytes that are no UTF-8; the linter saw U+FFFD there.
+        # Lone surrogates stand for bytes that are not UTF-8; the linter reads U+FFFD instead.
         overlay = {str(path): self.originals[path].overlay(text) for path, text in texts.items()}
         return run(self.entries, Options(**{**self.options.__dict__, "texts": overlay}), keep_going=True)
 
     def _attempt(self, findings: Sequence[Finding], outcome: Outcome) -> tuple[dict[Path, str], Outcome] | None:
-        """Apply fixes at once; where that makes something worse, those of a part, and refuse the ones to blame."""
+        """Apply all fixes together; if that causes regressions, bisect, and reject the fixes that cause them."""
         texts, written = self._edited(findings, outcome)
         if texts == self.texts:
             return None
-        mended = self._lint(texts)
-        new = new_findings(outcome, mended)
-        worse = [finding for finding in new if written.has_caused(finding, mended.sources[finding.file])]
-        alike = {_key(finding) for finding in findings}  # others may say the same elsewhere, and stay
+        relinted = self._lint(texts)
+        new = new_findings(outcome, relinted)
+        worse = [finding for finding in new if written.explains(finding, relinted.sources[finding.file])]
+        alike = {_key(finding) for finding in findings}  # equal findings elsewhere may remain
         before = [finding for finding in outcome.findings if _key(finding) in alike]
-        if not worse and any(True for _ in left_over(before, mended.findings)):
-            return texts, mended
+        if not worse and any(True for _ in unmatched(before, relinted.findings)):
+            return texts, relinted
         if len(findings) == 1:
-            cause = f"that would have caused {_listed(worse)}" if worse else "it would still be there"
+            cause = f"that would have caused {_listed(worse)}" if worse else "the finding would remain"
             self.refused.add(_key(findings[0]))
             self.notes[f"{findings[0].code} at {findings[0].file}:{findings[0].line} was not fixed: {cause}"] = None
             return None
@@ -266,7 +266,7 @@ class _Fixer:
         return self.only is None or self.only(finding)
 
     def _edited(self, findings: Sequence[Finding], outcome: Outcome) -> tuple[dict[Path, str], Written]:
-        """Return the texts with the fixes applied that do not overlap; the rest has its turn in the next round."""
+        """Return the texts after all non-overlapping fixes; overlapping fixes are applied in the next round."""
         written = Written(guessed=any(finding.fix is not None and finding.fix.safety != "safe" for finding in findings))
         taken: dict[str, dict[Edit, None]] = {}
         for finding in findings:
@@ -294,9 +294,9 @@ class _Fixer:
         path = outcome.files[file]
         real = path.resolve()
         if self.names.setdefault(real, path) != path:
-            return False  # The same file under another name: its turn comes under the first.
+            return False  # The same file under another name; it is fixed under the first name.
         if not any(real == folder or folder in real.parents for folder in self.within):
-            self.notes[f"{file} was not fixed: it is outside of what was linted"] = None
+            self.notes[f"{file} was not fixed: the file is outside the linted folders"] = None
             return False
         if path not in self.originals:
             content = path.read_bytes()
@@ -320,12 +320,12 @@ def _overlaps(edit: Edit, other: Edit) -> bool:
 
 
 def _key(finding: Finding) -> tuple[str, str, str]:
-    """Return what a finding is known by, wherever other fixes move it."""
+    """Return the identity of a finding, independent of its line."""
     return finding.code, finding.file, finding.message
 
 
 def _parts(findings: Sequence[Finding]) -> list[Sequence[Finding]]:
-    """Return the findings of each rule; halves where they are of one."""
+    """Split the findings by rule; findings of a single rule into halves."""
     codes = dict.fromkeys(finding.code for finding in findings)
     if len(codes) > 1:
         return [[finding for finding in findings if finding.code == code] for code in codes]
@@ -341,6 +341,6 @@ def _counts(outcome: Outcome) -> dict[str, int]:
 
 
 def _listed(findings: Sequence[Finding]) -> str:
-    """Name the first finding of each rule, with its place and what it says."""
+    """Format the first finding of each rule with position and message."""
     firsts = {finding.code: finding for finding in reversed(findings)}
     return "; ".join(f"{code} at {found.file}:{found.line}, {found.message}" for code, found in firsts.items())

@@ -1,4 +1,4 @@
-"""The right mass, centre of mass and inertia of a link, from its shapes, and the edits that write them down."""
+"""Mass, centre of mass and inertia of a link computed from its shapes, and the edits that write them."""
 
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ if TYPE_CHECKING:
     from urdfkit.lint.model.tags import Tag
 
 KINDS = ("collision", "visual")
-"""The shapes a link may be computed from."""
+"""Kinds of shapes that an inertia can be computed from."""
 
 
 @record
-class Right:
-    """What the shapes of a link give.
+class ComputedInertial:
+    """Inertial parameters computed from the shapes of a link.
 
     Attributes:
-        kind: ``collision`` or ``visual``: which shapes were taken.
-        count: how many.
-        volume: of all of them together [m³].
-        shared: what overlapping primitives share [m³]; it counts once in `volume`.
+        kind: ``collision`` or ``visual``: the shapes used.
+        count: number of shapes.
+        volume: volume of the union of the shapes [m³].
+        shared: volume of the overlaps of primitives [m³]; it counts once in `volume`.
         mass: [kg].
         xyz: the centre of mass in the link's frame [m].
         tensor: ixx, ixy, ixz, iyy, iyz, izz about it [kg·m²], along the axes of the present inertial frame.
-        notes: what had to be assumed, one line each.
+        notes: assumptions, one line each.
     """
 
     kind: str
@@ -49,20 +49,20 @@ class Right:
     notes: tuple[str, ...]
 
 
-def right(
+def compute_inertial(
     model: Model, link: Link, *, mass: float | None = None, density: float | None = None, kind: str | None = None
-) -> Right:
-    """Compute mass, centre of mass and inertia of a link's shapes, filled evenly.
+) -> ComputedInertial:
+    """Compute mass, centre of mass and inertia of a link's shapes with uniform density.
 
     Args:
-        model: what the link is in.
+        model: the model of the link.
         link: the link.
-        mass: what it weighs [kg]; by default `density` times the volume, else what is written.
-        density: of what it is made of [kg/m³].
-        kind: which shapes to take; by default those for collisions, or the visual ones where there are none.
+        mass: mass of the link [kg]; by default `density` times the volume, else the mass in the source.
+        density: density of the material [kg/m³].
+        kind: shapes to use; by default the collision shapes, or the visual shapes of a link without them.
 
     Raises:
-        ResourceError: it has no such shapes, no volume, no mass, or a mesh that cannot be read.
+        ResourceError: the link has no such shapes, no volume, no mass, or an unreadable mesh.
         MissingDependencyError: a mesh needs trimesh, which is not installed.
     """
     kind = kind or ("collision" if link.collisions or not link.visuals else "visual")
@@ -84,16 +84,18 @@ def right(
         shapes.append((item.geometry, item.origin, _moments(item.geometry, model, notes)))
     whole, shared, mixed = union(shapes)
     if mixed:
-        notes["what a mesh shares with other shapes counts twice"] = None
+        notes["overlaps of meshes with other shapes count twice"] = None
     if whole.volume <= 0.0:
         raise ResourceError(f"the {kind} shapes of link `{link.name}` have no volume")
     written = link.inertial.mass if link.inertial is not None else None
     if mass is None:
         mass = density * whole.volume if density is not None else written
     if mass is None or mass <= 0.0:
-        raise ResourceError(f"link `{link.name}` has no mass to go by: give --mass or --density")
+        raise ResourceError(f"link `{link.name}` has no mass to compute with: pass --mass or --density")
     frame = rotation(link.inertial.origin.rpy) if link.inertial is not None else rotation((0.0, 0.0, 0.0))
-    return Right(kind, len(items), whole.volume, shared, mass, whole.middle, whole.tensor(mass, frame), tuple(notes))
+    return ComputedInertial(
+        kind, len(items), whole.volume, shared, mass, whole.middle, whole.tensor(mass, frame), tuple(notes)
+    )
 
 
 def _moments(geometry: Geometry, model: Model, notes: dict[str, None]) -> Moments:
@@ -110,16 +112,16 @@ def _moments(geometry: Geometry, model: Model, notes: dict[str, None]) -> Moment
 
 
 def written(value: float, largest: float) -> str:
-    """Return a number as it is written into a file: six digits, and zero for what is rounding beside the `largest`."""
+    """Format a number with six digits; values that are rounding errors relative to `largest` become 0."""
     return "0" if abs(value) < 1e-9 * abs(largest) or value == 0.0 else f"{value:.6g}"
 
 
-def edits(model: Model, link: Link, value: Right) -> list[Edit]:
-    """Return the changes that write what was computed where a person wrote the ``<inertial>``.
+def edits(model: Model, link: Link, value: ComputedInertial) -> list[Edit]:
+    """Return the edits that write the computed values into the ``<inertial>`` of the source.
 
     Raises:
-        UrdfkitError: it is written in a macro, or included, in a place that several links share; or there is no
-            element of it to write to.
+        UrdfkitError: several links share the source of the ``<inertial>`` (macro or include), or the source has no
+            element to write to.
     """
     reach = max(abs(value.volume) ** (1.0 / 3.0), *map(abs, value.xyz))
     largest = max(value.tensor)
@@ -191,7 +193,7 @@ def _replaced(model: Model, link: Link, element: Element, values: dict[str, str]
 
 
 def _same(text: str | None, other: str) -> bool:
-    """Whether two texts are the same numbers, to the six digits that are written."""
+    """Return whether two texts are the same numbers to six digits."""
     from urdfkit.description.xml.numbers import numbers
 
     values, others = numbers(text or ""), numbers(other)

@@ -1,14 +1,14 @@
-"""Which new findings a fix has caused, and which it has only uncovered.
+"""Regressions: distinguish new findings that a fix causes from defects that it only uncovers.
 
-A defect often hides others: what stands in a misspelt element is not looked at, and where the mass is no number no
-inertia is judged. A finding that is new after a fix was caused by it where
+A defect often masks others: children of a misspelt element are not checked, nor is the inertia if the mass is not a
+number. A fix causes a new finding if
 
-- the file cannot be read any more, or an element is there twice;
-- it is about what the fix wrote: for fixes that guess all of it, for those that keep the meaning spelling and numbers;
-- xacro stumbles over a tag that the fix has changed;
-- it names what the fix has taken away or brought in.
+- the file is no longer well-formed, or a unique element occurs twice;
+- the finding is about text written by the fix: any finding for unsafe fixes, spelling and numbers for safe fixes;
+- xacro fails at a tag that the fix has changed;
+- the finding names a word that the fix has removed or inserted.
 
-Everything else was in the files before and is only seen now. Notes are never worse.
+Other new findings are defects that were masked before. Notes are never regressions.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ if TYPE_CHECKING:
     from urdfkit.lint.finding import Finding
 
 _ALWAYS = frozenset(("E001", "E013"))
-"""The file is not well-formed; an element that may be there once is there twice."""
+"""The file is not well-formed; a unique element occurs twice."""
 
 _NAMED = re.compile(r"`([^`]*)`")
 _WORD = re.compile(r"[\w./:-]+")
 
 
 class Written:
-    """What a set of edits has changed, seen from the text that came out.
+    """Changes of a set of edits, at their positions in the new text.
 
     Args:
-        guessed: whether any of the fixes is an unsafe one.
+        guessed: whether any of the fixes is unsafe.
     """
 
     def __init__(self, *, guessed: bool) -> None:
@@ -44,7 +44,7 @@ class Written:
         self._inserted: set[str] = set()
 
     def add(self, file: str, before: str, changes: Iterable[tuple[int, int, str]]) -> None:
-        """Add the changes of one file, in order: where each began and ended in the text before, what is there now."""
+        """Add the changes of one file in order: start and end in the old text, and the new text."""
         moved = 0
         places = self._places.setdefault(file, [])
         for start, end, text in changes:
@@ -55,11 +55,11 @@ class Written:
 
     @property
     def names(self) -> set[str]:
-        """The words that were taken away and stand nowhere else now, and those that were brought in."""
+        """The words that the edits removed or inserted, without words in both sets."""
         return self._removed ^ self._inserted
 
-    def has_caused(self, finding: Finding, source: Source) -> bool:
-        """Return whether the edits have caused a finding that is new after them."""
+    def explains(self, finding: Finding, source: Source) -> bool:
+        """Return whether the edits cause a new finding."""
         if finding.severity == "note":
             return False
         if finding.code in _ALWAYS or not self.names.isdisjoint(_NAMED.findall(finding.message)):
@@ -73,23 +73,23 @@ class Written:
 
 
 def new_findings(before: Outcome, after: Outcome) -> Iterator[Finding]:
-    """Yield the findings of the rules that find more than before, those that were not there before."""
+    """Yield the new findings of rules that report more findings than before."""
     counts = {code: -count for code, count in _counts(before.findings).items()}
     for code, count in _counts(after.findings).items():
         counts[code] = counts.get(code, 0) + count
-    yield from (finding for finding in left_over(after.findings, before.findings) if counts[finding.code] > 0)
+    yield from (finding for finding in unmatched(after.findings, before.findings) if counts[finding.code] > 0)
 
 
-def left_over(some: Iterable[Finding], others: Iterable[Finding]) -> Iterator[Finding]:
-    """Yield those of `some` findings that are not among the `others`, wherever they stand in their file."""
-    known: dict[tuple[str, str, str], int] = {}
+def unmatched(some: Iterable[Finding], others: Iterable[Finding]) -> Iterator[Finding]:
+    """Yield the findings of `some` that are not among `others`, independent of their lines."""
+    remaining: dict[tuple[str, str, str], int] = {}
     for finding in others:
         key = (finding.code, finding.file, finding.message)
-        known[key] = known.get(key, 0) + 1
+        remaining[key] = remaining.get(key, 0) + 1
     for finding in some:
         key = (finding.code, finding.file, finding.message)
-        if known.get(key, 0) > 0:
-            known[key] -= 1
+        if remaining.get(key, 0) > 0:
+            remaining[key] -= 1
         else:
             yield finding
 

@@ -1,9 +1,9 @@
-"""What a fault may have hidden: names that nothing has here, and that could be in what is missing.
+"""Masked names: names that do not exist in the expanded robot, but may be defined in a part that a fault dropped.
 
-After an error the linter goes on. What the error has dropped is mostly written somewhere all the same: in a condition
-that nobody can decide, in a macro that calls itself. A name is then in doubt only where it could be written there. What
-nobody can read, a file that is not there or breaks off, a macro that is defined nowhere, may hold any name; a name that
-is a slip of one that is there is spoken of nevertheless, as a note.
+The linter continues after an error. The source of the dropped part is often available, for example in a condition that
+cannot be evaluated or in a recursive macro; a name is then masked only if that source can define it. An unreadable part
+(a missing or malformed file, an undefined macro) may define any name; a name that is a typo of an existing name is then
+reported as a note.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ if TYPE_CHECKING:
             """The outcome of the expansion."""
 
         @property
-        def hidden(self) -> Hidden:
-            """What may be in what is missing."""
+        def masked_names(self) -> MaskedNames:
+            """Names that missing parts of the robot may define."""
 
         def document(self, file: str) -> Document:
             """Return the tags of a file."""
@@ -48,34 +48,34 @@ if TYPE_CHECKING:
 
 _NAMED = ("link", "joint")
 _EXPRESSION = r"(\$\([^()]*\)|\$\{[^{}]*\})"
-_LOOSE = r"\b(?:name|link)\s*=\s*[\"']?([^\"'<>]*)"
-"""Names in a file that breaks off, wherever a quote may lack."""
+_UNQUOTED_NAME = r"\b(?:name|link)\s*=\s*[\"']?([^\"'<>]*)"
+"""Names in a file that is not well-formed; quotes may be missing."""
 
 _ANY = ".*"
 _DIRECTIVES = frozenset(("arg", "property", "if", "unless", "element", "attribute", "macro"))
 _CONDITIONS = ("xacro:if", "xacro:unless")
-_PLACES = frozenset(("robot", "xacro:macro", *_CONDITIONS))
-"""Where blocks may bring links and joints; elsewhere they bring origins and shapes."""
+_BLOCK_PARENTS = frozenset(("robot", "xacro:macro", *_CONDITIONS))
+"""Parents in which a block may contain links and joints; elsewhere blocks contain origins and shapes."""
 
-_LIKENESS = 0.8
-"""How near the one word that differs has to be for a slip (`difflib.SequenceMatcher.ratio`): `bse`, `lnk`, `weel`."""
+_CUTOFF = 0.8
+"""Minimum similarity of the one word that differs in a typo (`difflib.SequenceMatcher.ratio`): `bse`, `lnk`, `weel`."""
 
 
-class Hidden:
-    """What is missing from a robot, as far as faults tell.
+class MaskedNames:
+    """Names that the parts of a robot dropped by faults may define.
 
     Args:
-        model: what is being linted.
+        model: the linted model.
 
     Attributes:
-        anything: what may hold any name, and why it is not known; empty where all that is missing can be read.
-        patterns: of the names that links and joints could have in what is missing.
-        children: of the links that joints in there could have as children.
+        unreadable: a part that may define any name, with the reason; empty if all dropped parts have source.
+        patterns: patterns of link and joint names in the dropped parts.
+        children: patterns of the child links of joints in the dropped parts.
     """
 
     def __init__(self, model: Model) -> None:
         self._model = model
-        self.anything = ""
+        self.unreadable = ""
         self.patterns: set[str] = set()
         self.children: set[str] = set()
         self._seen: set[tuple[str, tuple[tuple[str, str], ...]]] = set()
@@ -96,28 +96,28 @@ class Hidden:
                 self._take(fault)
 
     def has(self, name: str) -> bool:
-        """Return whether a link or joint of that name could be in what is missing and can be read."""
+        """Return whether a dropped part with available source may define a link or joint of that name."""
         return any(re.fullmatch(pattern, name) for pattern in self.patterns)
 
     def has_child(self, name: str) -> bool:
-        """Return whether a joint in what is missing could have that link as its child, or nobody knows its name."""
-        return bool(self.anything) or "$" in name or any(re.fullmatch(pattern, name) for pattern in self.children)
+        """Return whether a dropped joint may have that link as its child, or the link's name is unknown."""
+        return bool(self.unreadable) or "$" in name or any(re.fullmatch(pattern, name) for pattern in self.children)
 
     def _take(self, fault: Fault) -> None:
         kind, tag = fault.kind, self._model.tag(fault.position)
         if kind == "include-not-found":
-            self.anything = f"{fault.name}, which is not there"
+            self.unreadable = f"{fault.name}, which was not found"
         elif kind == "package-not-found":
-            self.anything = f"package `{fault.name}`, which is not there"
+            self.unreadable = f"package `{fault.name}`, which was not found"
         elif kind == "too-many":
-            self.anything = "what was not expanded any more"
+            self.unreadable = "the part that was not expanded"
         elif kind == "undefined-macro" and fault.defined_at is None:
             if tag is not None:
                 self._call(tag, fault.name or "", {})
         elif kind == "xml":
-            loose = re.findall(_LOOSE, self._model.document(fault.position.file).source.text)
-            self.anything = f"{fault.position.file}, which breaks off"
-            self.patterns |= {_pattern(name, {}) for name in loose}
+            names = re.findall(_UNQUOTED_NAME, self._model.document(fault.position.file).source.text)
+            self.unreadable = f"{fault.position.file}, which is not well-formed"
+            self.patterns |= {_pattern(name, {}) for name in names}
             self.children |= self.patterns
         elif kind in ("conditional", "other") and tag is not None:
             self._read([tag], {})
@@ -129,7 +129,7 @@ class Hidden:
             self._read(call.children if call is not None else (), {})
 
     def _read(self, tags: Iterable[Tag], values: Mapping[str, str]) -> None:
-        """Note the names in what is written, parameters being patterns."""
+        """Collect the names in source tags; macro parameters become patterns."""
         for tag in tags:
             if tag.name in _NAMED and (name := tag.attributes.get("name")) is not None:
                 self.patterns.add(_pattern(name.value, values))
@@ -137,10 +137,10 @@ class Hidden:
                 self.children.add(_pattern(name.value, values))
             prefix, _, local = tag.name.rpartition(":")
             if prefix == "xacro" and local == "include":
-                self.anything = "a file that was not included"
+                self.unreadable = "a file that was not included"
             elif prefix == "xacro" and local == "insert_block":
-                if tag.parent is None or tag.parent.name in _PLACES:
-                    self.anything = "a block that was not inserted"
+                if tag.parent is None or tag.parent.name in _BLOCK_PARENTS:
+                    self.unreadable = "a block that was not inserted"
             elif (prefix == "xacro" and local not in _DIRECTIVES) or local in self._definitions:
                 self._call(tag, local, values)
             self._read(tag.children, values)
@@ -148,17 +148,17 @@ class Hidden:
     def _call(self, tag: Tag, name: str, values: Mapping[str, str]) -> None:
         bodies = self._definitions.get(name.rpartition(".")[2], ())
         if not bodies:
-            self.anything = f"macro `{name}`, which is defined nowhere"
-        given = {key: _pattern(one.value, values) for key, one in tag.attributes.items()}
-        key = name, tuple(sorted(given.items()))
+            self.unreadable = f"macro `{name}`, which is not defined"
+        arguments = {key: _pattern(one.value, values) for key, one in tag.attributes.items()}
+        key = name, tuple(sorted(arguments.items()))
         if key not in self._seen and len(self._seen) < 1_000:
             self._seen.add(key)
             for body in bodies:
-                self._read(body.children, given)
+                self._read(body.children, arguments)
 
     @property
     def _definitions(self) -> dict[str, list[Tag]]:
-        """The macros that any of the files defines, by name."""
+        """Macro name → its definitions in all files."""
         if "_defined" not in self.__dict__:
             self._defined: dict[str, list[Tag]] = {}
             for file in self._model.expanded.sources:
@@ -170,44 +170,44 @@ class Hidden:
         return self._defined
 
 
-def doubted(model: Model, name: str, near: str | None, finding: Finding) -> Iterator[Finding]:
-    """Yield a finding on a name that nothing has, as far as that is certain.
+def unless_masked(model: Model, name: str, near: str | None, finding: Finding) -> Iterator[Finding]:
+    """Yield a finding about an undefined name, unless a dropped part may define the name.
 
     Args:
-        model: what is being linted.
-        name: of a link or joint.
-        near: the nearest name that there is; None where none is near.
-        finding: says that there is none of that name.
+        model: the linted model.
+        name: the undefined name of a link or joint.
+        near: the most similar existing name; None if none is similar.
+        finding: the finding that reports the name as undefined.
 
     Yields:
-        The finding; without its fix, as a note, where the name may be in what nobody can read but is a slip of another;
-        nothing where it may be in what is missing, or could not be evaluated itself.
+        The finding; as a note without fix if an unreadable part may define the name but the name is a typo of another;
+        nothing if a dropped part may define the name, or if the name itself was not evaluated.
     """
     if not model.robot.links or "$" in name:
         return
-    hidden = model.hidden
-    if hidden.has(name):
+    masked = model.masked_names
+    if masked.has(name):
         return
-    if not hidden.anything:
+    if not masked.unreadable:
         yield finding
-    elif near is not None and is_slip(name, near):
-        help = f"it may be in {hidden.anything}"
+    elif near is not None and is_typo(name, near):
+        help = f"it may be in {masked.unreadable}"
         yield Finding(**{**finding.__dict__, "severity": "note", "help": help, "fix": None})
 
 
-def is_slip(name: str, near: str) -> bool:
-    """Return whether a name is another one misspelt, not a sister of it: `bse_link`, not `left_link` or `link_2`."""
+def is_typo(name: str, near: str) -> bool:
+    """Return whether a name is a typo of another (`bse_link`), not a sibling (`left_link` or `link_2`)."""
     words, others = (re.findall(r"\d+|[^\W\d_]+", text.lower()) for text in (name, near))
     if len(words) != len(others):
         return "".join(words) == "".join(others)
     from difflib import SequenceMatcher
 
     pairs = [(a, b) for a, b in zip(words, others, strict=True) if a != b]
-    return len(pairs) < 2 and all(SequenceMatcher(None, a, b).ratio() >= _LIKENESS for a, b in pairs)
+    return len(pairs) < 2 and all(SequenceMatcher(None, a, b).ratio() >= _CUTOFF for a, b in pairs)
 
 
 def _pattern(name: str, values: Mapping[str, str]) -> str:
-    """Return the pattern of a name as written, given those of the parameters in it."""
+    """Return the pattern of a source name; `values` are the patterns of its parameters."""
     parts = []
     for part in re.split(_EXPRESSION, name):
         if part.startswith(("${", "$(")):

@@ -1,4 +1,4 @@
-"""Mesh files: where they are, and the box around one. trimesh is loaded only for a mesh that is there."""
+"""Mesh files: path, bounding box and volume moments. trimesh is imported only for existing meshes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from urdfkit.description.xml.element import Element
 
 LFS = b"version https://git-lfs.github.com/spec/"
-"""How a Git LFS pointer begins."""
+"""First bytes of a Git LFS pointer."""
 
 
 def meshes(robot: Robot) -> Iterator[tuple[Mesh, Element, Link]]:
@@ -31,7 +31,7 @@ def meshes(robot: Robot) -> Iterator[tuple[Mesh, Element, Link]]:
 
 
 def path_of(mesh: Mesh, expanded: Expanded) -> Path | None:
-    """Return the file a mesh is in; None where it is not there."""
+    """Return the path of a mesh; None if it was not found."""
     from urdfkit.errors import ResourceError
 
     try:
@@ -41,7 +41,7 @@ def path_of(mesh: Mesh, expanded: Expanded) -> Path | None:
 
 
 def box(mesh: Mesh, expanded: Expanded) -> tuple[Vector, Vector] | None:
-    """Return centre and size of the box around a mesh [m], scale included; None where it cannot be read."""
+    """Return centre and size of a mesh's bounding box [m], scale included; None if it cannot be read."""
     from urdfkit.errors import UrdfkitError
 
     path = path_of(mesh, expanded)
@@ -59,7 +59,7 @@ def box(mesh: Mesh, expanded: Expanded) -> tuple[Vector, Vector] | None:
 
 
 def missing(mesh: Mesh, expanded: Expanded) -> tuple[str, str] | None:
-    """Return what of a mesh's URI is not there, ``package`` or ``file``, with its name or a hint; None where all is."""
+    """Return the missing part of a mesh's URI (``package`` or ``file``) with its name or a hint; None if it exists."""
     from urdfkit.errors import ResourceError
 
     uri = mesh.uri.strip()
@@ -71,7 +71,7 @@ def missing(mesh: Mesh, expanded: Expanded) -> tuple[str, str] | None:
         except ResourceError:
             return "package", name
     elif separator and scheme != "file":
-        return None  # From the net: nobody knows.
+        return None  # Remote URIs are not checked.
     try:
         expanded.packages.resolve(uri, expanded.path)
     except ResourceError as error:
@@ -80,5 +80,5 @@ def missing(mesh: Mesh, expanded: Expanded) -> tuple[str, str] | None:
 
 
 def is_absolute(uri: str) -> bool:
-    """Whether a URI is a path that only one machine has."""
+    """Return whether a URI is an absolute path, which is valid on one machine only."""
     return re.match(r"\s*(?:file:/+[^$]|/|[A-Za-z]:[\\/])", uri) is not None

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from urdfkit.description.xacro.expanded import Expanded
     from urdfkit.description.xacro.faults import Fault
     from urdfkit.description.xml.element import Element
-    from urdfkit.lint.model.masked_names import Hidden
+    from urdfkit.lint.model.masked_names import MaskedNames
     from urdfkit.lint.model.placement import Extent, Frame
     from urdfkit.lint.model.tags import Attribute, Tag
     from urdfkit.lint.model.xacro_prefix import Signature
@@ -39,20 +39,20 @@ _DROPPING = frozenset(
         "conditional",
     )
 )
-"""Kinds of faults after which elements are missing, or too many."""
+"""Fault kinds after which elements are missing or superfluous."""
 
 
 @record(eq=False)
 class Model:
-    """What the rules see.
+    """The linted model: the expanded robot, its source files and its package.
 
     Attributes:
-        expanded: the outcome of the recovering expansion, read as if no ``xacro:`` prefix were missing.
-        robot: the robot in it; empty where there is none.
-        target: the consumer it is meant for; None for all of them.
-        expand_as_written: makes the robot without mending prefixes; see `as_written`.
-        release: of the target (``jazzy``); empty where it does not matter.
-        texts: contents to read instead of those on disk, by absolute path.
+        expanded: result of the expansion with error recovery, with missing ``xacro:`` prefixes added.
+        robot: the parsed robot; empty if there is none.
+        target: the consumer of the robot; None for all consumers.
+        expand_as_written: expands the robot without adding missing prefixes; see `as_written`.
+        release: release of the target (``jazzy``); empty if unspecified.
+        texts: absolute path → content that replaces the file on disk.
     """
 
     expanded: Expanded
@@ -64,17 +64,17 @@ class Model:
 
     @cached_property
     def as_written(self) -> Robot:
-        """The robot that other tools see: what lacks its ``xacro:`` prefix is not expanded."""
+        """The robot as other tools read it: directives without ``xacro:`` prefix are not expanded."""
         if self.expand_as_written is None or not self.expanded.unprefixed:
             return self.robot
         return self.expand_as_written()
 
     @cached_property
     def is_incomplete(self) -> bool:
-        """Whether what is not there may be elsewhere.
+        """Whether missing elements may be defined elsewhere.
 
-        That is so where elements were dropped, or kept, because of a fault, where the name of a link or joint is
-        misspelt, and in files without a link: they are a part of a robot that somebody includes.
+        True if a fault dropped or kept elements, if a <link> or <joint> tag is misspelt, and for files without a link,
+        which are fragments included by a robot.
         """
         if not self.robot.links:
             return True
@@ -86,8 +86,8 @@ class Model:
         return any(fault.kind in _DROPPING and not fault.message.startswith("unbound prefix") for fault in faults)
 
     @cached_property
-    def misread(self) -> tuple[Fault, ...]:
-        """What of the files is no UTF-8, a fault for each that is XML for the rest."""
+    def encoding_faults(self) -> tuple[Fault, ...]:
+        """One fault for each otherwise well-formed file that is not UTF-8."""
         broken = {fault.position.file for fault in self.expanded.faults if fault.kind == "xml"}
         sources = [one for one in self.expanded.sources.values() if one.flaw is not None and one.file not in broken]
         if not sources:
@@ -100,24 +100,27 @@ class Model:
         found = []
         for source in sources:
             at, what = source.flaw or (0, "")
-            message, refuses = f"{what} is no UTF-8", "xacro refuses" if is_xacro else "what reads it as text refuses"
+            message, rejects = (
+                f"{what} is not UTF-8",
+                "xacro rejects" if is_xacro else "programs that read it as text reject",
+            )
             if what == "UTF-16":
-                message, refuses = "the file is in UTF-16", "xacro refuses" if is_xacro else "urdfdom refuses"
+                message, rejects = "the file is in UTF-16", "xacro rejects" if is_xacro else "urdfdom rejects"
             fatal = is_xacro or what == "UTF-16"
             facts = {"severity": "error" if fatal else "warning"}
-            found.append(Fault("encoding", f"{message}: {refuses} the file", source.position(at), details=facts))
+            found.append(Fault("encoding", f"{message}: {rejects} the file", source.position(at), details=facts))
         return tuple(found)
 
     @cached_property
-    def hidden(self) -> Hidden:
-        """What may be in what is missing: names that nothing has here; see `masked_names.doubted`."""
-        from urdfkit.lint.model.masked_names import Hidden
+    def masked_names(self) -> MaskedNames:
+        """Names that missing parts of the robot may define; see `masked_names.unless_masked`."""
+        from urdfkit.lint.model.masked_names import MaskedNames
 
-        return Hidden(self)
+        return MaskedNames(self)
 
     @cached_property
     def missing_file(self) -> str:
-        """An included file, or the package of one, that is not there; empty when all are."""
+        """An included file, or its package, that was not found; empty if all were found."""
         for fault in self.expanded.faults:
             if fault.kind in ("include-not-found", "package-not-found"):
                 return f"package `{fault.name}`" if fault.kind == "package-not-found" else str(fault.name)
@@ -125,24 +128,24 @@ class Model:
 
     @cached_property
     def package(self) -> Path | None:
-        """The package that the entry file is in."""
+        """The package folder of the entry file."""
         from urdfkit.description.packages.related_files import package_of
 
         return package_of(self.expanded.path)
 
     def manifest(self, package: Path) -> str:
-        """Return the package.xml of a package, comments left out; empty where it cannot be read."""
+        """Return the package.xml of a package without comments; empty if it cannot be read."""
         from urdfkit.description.packages.related_files import manifest, uncommented
 
         text = self.texts.get(str(package / "package.xml"))
         return manifest(package) if text is None else uncommented(text)
 
     @cached_property
-    def around(self) -> dict[str, Source]:
-        """The launch files and YAML of the package and of those beside it, as the user is shown.
+    def related_files(self) -> dict[str, Source]:
+        """Shown name → launch and YAML files of the package and of related packages.
 
-        Those are the packages that depend on it, and those whose settings a plugin of the robot reads. The package.xml
-        is one of them where it is no XML.
+        Related packages depend on the package, or have settings that a plugin of the robot reads. A package.xml that is
+        not well-formed is included.
         """
         from urdfkit.description.xml.reader import read_source, shown_path
 
@@ -161,7 +164,7 @@ class Model:
         return found
 
     def _configured(self) -> list[Path]:
-        """Return the packages beside the robot's whose settings a plugin of it reads."""
+        """Return the neighbouring packages whose settings a plugin of the robot reads."""
         from pathlib import Path
 
         from urdfkit.description.packages.related_files import package_of
@@ -178,8 +181,8 @@ class Model:
         return list(found)
 
     @cached_property
-    def macros_around(self) -> dict[str, list[Path]]:
-        """Macro → the files of the package, or of the entry's folder, that define it and were not read."""
+    def neighbouring_macros(self) -> dict[str, list[Path]]:
+        """Macro → files of the package, or of the entry's folder, that define it but are not included."""
         from pathlib import Path
 
         from urdfkit.lint.project.entry_files import near_descriptions
@@ -194,7 +197,7 @@ class Model:
 
     @cached_property
     def signatures(self) -> dict[str, list[Signature]]:
-        """The parameters of every macro that any of the files defines, with prefix or without, by its name."""
+        """Macro → its signatures in all files, with or without ``xacro:`` prefix."""
         found: dict[str, list[Signature]] = {}
         for source in self.expanded.sources.values():
             for name, signature in signatures(source.text):
@@ -203,15 +206,15 @@ class Model:
 
     @cached_property
     def parts(self) -> tuple[Link | Joint, ...]:
-        """The links, then the joints."""
+        """All links, then all joints."""
         return (*self.robot.links, *self.robot.joints)
 
     @cached_property
     def elements(self) -> list[Element]:
-        """The links, joints and materials and what is in them, as far as URDF has such elements there."""
+        """The links, joints and materials with all descendants that URDF defines."""
         found: list[Element] = []
         pending = [part for part in self.robot.element.children if part.tag in ("link", "joint", "material")]
-        for element in pending:  # It grows while it is walked through.
+        for element in pending:  # The list grows during the iteration.
             found.append(element)
             allowed = URDF_CHILDREN.get(element.tag)
             if allowed is not None and element.children:
@@ -227,17 +230,17 @@ class Model:
 
     @cached_property
     def extents(self) -> dict[str, Extent]:
-        """Link name → what its shapes fill; links without shapes, or with one that cannot be known, are left out."""
+        """Link name → extent of its shapes; without links that have no shapes or a shape of unknown size."""
         from urdfkit.lint.model.placement import extent
 
         counts = Counter(link.name for link in self.robot.links)
-        # Of what is there twice nobody knows which shapes count.
+        # Which shapes of a duplicate link apply is undefined.
         once = (link for link in self.robot.links if counts[link.name] == 1)
         found = ((link.name, extent(link, self.box_of)) for link in once)
         return {name: filled for name, filled in found if filled is not None}
 
     def box_of(self, mesh: Mesh) -> tuple[Vector, Vector] | None:
-        """Return centre and size of the box around a mesh [m], scale included; None where it cannot be read."""
+        """Return centre and size of a mesh's bounding box [m], scale included; None if it cannot be read."""
         if mesh not in self._boxes:
             from urdfkit.lint.model.mesh_files import box
 
@@ -253,13 +256,13 @@ class Model:
         return {}
 
     def document(self, file: str) -> Document:
-        """Return the tags of one file, as written."""
+        """Return the source tags of one file."""
         if file not in self._documents:
             self._documents[file] = Document(self.expanded.sources.get(file) or Source(file, ""))
         return self._documents[file]
 
     def tag(self, position: Position) -> Tag | None:
-        """Return the tag a person wrote there."""
+        """Return the source tag at a position."""
         return self.document(position.file).tag_at(position.line, position.column)
 
     def span(self, position: Position, attribute: str | None = None) -> Span:
@@ -270,11 +273,11 @@ class Model:
         return Span(position.file, position.line, position.column, position.line, position.column + 1)
 
     def is_unresolved(self, element: Element, attribute: str | None = None) -> bool:
-        """Return whether xacro could not evaluate the attribute (or text): a fault says so already."""
+        """Return whether xacro failed to evaluate the attribute or text, which a fault reports already."""
         return (element.origin.position, attribute) in self.expanded.unresolved
 
     def literal(self, element: Element, attribute: str) -> Attribute | None:
-        """Return the attribute as written if it is written out: no expression, no entity, value as after expansion."""
+        """Return the source attribute if it is a literal: no expression, no entity, same value as after expansion."""
         tag = self.tag(element.origin.position)
         written = tag.attributes.get(attribute) if tag is not None else None
         if written is None or written.value != element.get(attribute) or "&" in written.value:
@@ -282,12 +285,12 @@ class Model:
         return written
 
     def shown(self, position: Position) -> str:
-        """Return a place as the user is shown it, without the column."""
+        """Format a position as ``file:line``."""
         return f"{position.file}:{position.line}"
 
 
 def _is_broken(manifest: Path, texts: Mapping[str, str]) -> bool:
-    """Whether a package.xml is no XML. It is there: it is what makes a folder a package."""
+    """Return whether an existing package.xml is not well-formed."""
     from xml.parsers import expat
 
     text = texts.get(str(manifest))

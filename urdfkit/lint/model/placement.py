@@ -1,4 +1,4 @@
-"""Where links and shapes are, in plain Python: rotations, frames at position zero, what the shapes of a link fill."""
+"""Poses of links and shapes without numpy: rotations, link frames at zero joint positions, bounding boxes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def rotation(rpy: Vector) -> Matrix:
     )
 
 
-def turned(matrix: Matrix, vector: Vector) -> Vector:
+def rotated(matrix: Matrix, vector: Vector) -> Vector:
     """Return matrix · vector."""
     x, y, z = (row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2] for row in matrix)
     return x, y, z
@@ -38,7 +38,7 @@ def turned(matrix: Matrix, vector: Vector) -> Vector:
 
 def product(first: Matrix, second: Matrix) -> Matrix:
     """Return first · second."""
-    columns = [turned(first, (second[0][k], second[1][k], second[2][k])) for k in range(3)]
+    columns = [rotated(first, (second[0][k], second[1][k], second[2][k])) for k in range(3)]
     a, b, c = ((columns[0][i], columns[1][i], columns[2][i]) for i in range(3))
     return a, b, c
 
@@ -58,7 +58,7 @@ class Frame:
 
     def moved(self, pose: Pose) -> Frame:
         """Return the frame at a pose that is given in this one."""
-        offset = turned(self.rotation, pose.xyz)
+        offset = rotated(self.rotation, pose.xyz)
         x, y, z = (a + b for a, b in zip(self.translation, offset, strict=True))
         return Frame(product(self.rotation, rotation(pose.rpy)), (x, y, z))
 
@@ -73,19 +73,19 @@ def frames(robot: Robot) -> dict[str, Frame]:
 
 
 def shapes_of(link: Link) -> tuple[Visual | Collision, ...]:
-    """Return what a link looks like, then what it collides with."""
+    """Return the visual shapes of a link, then its collision shapes."""
     return (*link.visuals, *link.collisions)
 
 
 @record
 class Extent:
-    """What the shapes of a link fill, in the link's frame.
+    """Extent of the shapes of a link, in the link's frame.
 
     Attributes:
-        low: the lowest corner of the box around all shapes [m].
-        high: its highest corner [m].
-        shapes: each shape with its pose; of meshes the box around them.
-        volumes: of all visual and of all collision shapes [m³], of those that there are; nothing where one is a mesh.
+        low: lower corner of the bounding box of all shapes [m].
+        high: upper corner [m].
+        shapes: each shape with its pose; meshes are replaced by their bounding boxes.
+        volumes: volume of all visual shapes and of all collision shapes [m³]; groups with a mesh are omitted.
     """
 
     low: Vector
@@ -112,11 +112,11 @@ class Extent:
 
 
 def extent(link: Link, box_of: Callable[[Mesh], tuple[Vector, Vector] | None]) -> Extent | None:
-    """Return what the shapes of a link fill; None where it has none, or one that cannot be known.
+    """Return the extent of a link's shapes; None if it has no shapes or a shape of unknown size.
 
     Args:
         link: the link.
-        box_of: returns centre and size of the box around a mesh, scale included; None where it cannot be read.
+        box_of: returns centre and size of a mesh's bounding box, scale included; None if it cannot be read.
     """
     shapes: list[tuple[Geometry, Pose]] = []
     volumes: list[float] = []
@@ -152,7 +152,7 @@ def extent(link: Link, box_of: Callable[[Mesh], tuple[Vector, Vector] | None]) -
 
 
 def _is_impossible(shape: Geometry) -> bool:
-    """Whether a primitive has a size of less than nothing: that is what is wrong with it, not what is beside it."""
+    """Return whether a primitive has a negative size."""
     if isinstance(shape, Box):
         return min(shape.size) < 0.0
     if isinstance(shape, (Cylinder, Capsule)):

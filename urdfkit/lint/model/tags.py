@@ -1,6 +1,6 @@
-"""The tags of a file exactly as written: where each name, attribute and comment begins and ends.
+"""Source tags of a file: exact offsets of each name, attribute and comment.
 
-Works on any text; of a file that is not well-formed it yields what can be told.
+Works on any text; files that are not well-formed yield the tags that can be recognised.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-# What is never closed reaches to the end, so that it is looked at once. XML forbids `<` in attribute values: every
-# alternative stops there, so a stray quote cannot swallow the file.
+# Unclosed comments and sections extend to the end of the file, so they are scanned once. XML forbids `<` in attribute
+# values: every alternative stops there, so a stray quote cannot consume the file.
 _TOKEN = (
     r"<!--(?P<comment>.*?)(?:-->|\Z)|<!\[CDATA\[.*?(?:\]\]>|\Z)|<\?.*?(?:\?>|\Z)"
     r"|<!DOCTYPE[^<>\[]*(?:\[.*?(?:\]|\Z)\s*)?>?"
@@ -44,7 +44,7 @@ class Tag:
         name: with prefix.
         start: offset of ``<``.
         end: offset after ``>`` of the start tag.
-        close: offset of ``</``; None for an empty element or one that is never closed.
+        close: offset of ``</``; None for an empty or unclosed element.
         close_end: offset after the whole element.
     """
 
@@ -83,7 +83,7 @@ class Tag:
 
 
 class Document:
-    """The tags and comments of one file, `MAX_TAGS` of them at most; read when first asked for.
+    """The tags and comments of one file, at most `MAX_TAGS`; parsed on first access.
 
     Attributes:
         source: its text.
@@ -99,7 +99,7 @@ class Document:
 
     @property
     def root(self) -> Tag | None:
-        """The first tag; without its children where nobody has asked for the others."""
+        """The first tag; without its children unless all tags have been parsed."""
         if "_read" in self.__dict__:
             return self.roots[0] if self.roots else None
         text = self.source.text
@@ -147,11 +147,11 @@ class Document:
             yield from root.walk()
 
     def tag_at(self, line: int, column: int) -> Tag | None:
-        """Return the tag whose ``<`` is there."""
+        """Return the tag whose ``<`` is at that line and column."""
         return self._read[2].get(self.source.offset(line, column))
 
     def span_of(self, tag: Tag, attribute: str | None = None) -> Span:
-        """Return the span of an attribute with its value, or of the start tag where it has no such attribute."""
+        """Return the span of an attribute with its value, or of the start tag if it has no such attribute."""
         written = tag.attributes.get(attribute) if attribute is not None else None
         if written is not None:
             return self.source.span(written.start, written.end)

@@ -1,4 +1,4 @@
-"""The ``xacro:`` prefix: where it is missing, and the edits that add it."""
+"""Missing ``xacro:`` prefixes, and the edits that add them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.model.tags import Document, Tag
 
 NAMESPACE = "http://www.ros.org/wiki/xacro"
-"""What ``xmlns:xacro`` is bound to."""
+"""Namespace URI of ``xmlns:xacro``."""
 
 URDF_CHILDREN: dict[str, frozenset[str]] = {
     "robot": frozenset(("link", "joint", "material", "transmission", "gazebo", "ros2_control", "sensor")),
@@ -65,10 +65,10 @@ URDF_ATTRIBUTES: dict[str, tuple[str, ...]] = {
 
 URDF_ELEMENTS = frozenset(URDF_CHILDREN).union(*URDF_CHILDREN.values())
 
-_LIKENESS = 0.8
-"""How near a name has to be to that of an element (`difflib.SequenceMatcher.ratio`): `lnk`, `joit`, `gazeebo`."""
+_CUTOFF = 0.8
+"""Minimum similarity to the name of an element (`difflib.SequenceMatcher.ratio`): `lnk`, `joit`, `gazeebo`."""
 
-# Compiled on first use: most files need none of them.
+# Compiled on first use; most files need none of these patterns.
 _XACRO_URI = r"https?://(www\.)?(wiki\.)?ros\.org/(wiki/)?xacro/?"
 _DEFINITION = r"<(?:xacro:)?macro\s[^<>]*?\bname\s*=\s*[\"'](?:xacro:)?([^\"']+)[\"'][^<>]*>"
 _PARAMS = r"\bparams\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
@@ -77,14 +77,14 @@ _PARAMETER = r"([^\s:=,;]+)(\s*:?=\s*(?:\^\|?)?(?:'[^']*'|\"[^\"]*\"|[^\s]*))?"
 
 @record
 class Signature:
-    """The parameters of a macro, blocks left out.
+    """The parameters of a macro, without blocks.
 
     Attributes:
-        known: all of them.
-        required: those without default.
+        names: all parameters.
+        required: parameters without default.
     """
 
-    known: frozenset[str]
+    names: frozenset[str]
     required: frozenset[str]
 
 
@@ -115,15 +115,15 @@ def declares_xacro(document: Document) -> bool:
 
 
 def has_xacro_as_default(document: Document) -> bool:
-    """Return whether the root element makes xacro's namespace the default one, which was meant to bind the prefix."""
+    """Return whether the root element declares xacro's namespace as the default namespace."""
     default = document.roots[0].attributes.get("xmlns") if document.roots else None
     return default is not None and re.fullmatch(_XACRO_URI, default.value) is not None
 
 
 def declaration(document: Document) -> tuple[Edit, ...]:
-    """Return the edit that binds the prefix on the root element; none where it is bound.
+    """Return the edit that binds the prefix on the root element; empty if it is bound.
 
-    A default namespace that was meant to bind it (``xmlns="http://www.ros.org/wiki/xacro"``) is renamed.
+    A default namespace with the URI of xacro (``xmlns="http://www.ros.org/wiki/xacro"``) is renamed.
     """
     if declares_xacro(document) or not document.roots:
         return ()
@@ -137,7 +137,7 @@ def declaration(document: Document) -> tuple[Edit, ...]:
 
 
 def prefixing(document: Document, tag: Tag) -> tuple[Edit, ...]:
-    """Return the edits that prefix a tag, its end tag included, and bind the prefix where it is not."""
+    """Return the edits that add the prefix to a tag and its end tag, and bind the prefix if necessary."""
     source = document.source
     edits = [*declaration(document), Edit(source.span(tag.start + 1, tag.start + 1), "xacro:")]
     if tag.close is not None:
@@ -146,17 +146,17 @@ def prefixing(document: Document, tag: Tag) -> tuple[Edit, ...]:
 
 
 def misspelt_in_robot(element: Element) -> str | None:
-    """Return which child of ``<robot>`` an element must be meant as, None where it is one, or nothing like any.
+    """Return the child of ``<robot>`` that a misspelt element stands for; None if the element is valid or unlike all.
 
     Args:
-        element: stands directly in ``<robot>``.
+        element: a child of ``<robot>``.
     """
     tag = element.tag
     if tag in URDF_CHILDREN["robot"] or tag in URDF_ELEMENTS or ":" in tag or len(tag) < 3:
         return None
     if tag.endswith("s") and "name" not in element.attributes:
-        return None  # <joints> around something: an extension of somebody's
+        return None  # <joints> as a container: an extension
     from difflib import get_close_matches
 
-    known = URDF_CHILDREN["robot"]
-    return next(iter(get_close_matches(tag.lower(), sorted(known), n=1, cutoff=_LIKENESS)), None)
+    candidates = URDF_CHILDREN["robot"]
+    return next(iter(get_close_matches(tag.lower(), sorted(candidates), n=1, cutoff=_CUTOFF)), None)

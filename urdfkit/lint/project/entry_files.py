@@ -1,4 +1,4 @@
-"""Which files to lint: models, the fragments they include, and libraries of macros that nothing includes."""
+"""Entry files: models, the models that include a fragment, and macro libraries that no file includes."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ if TYPE_CHECKING:
 
 SUFFIXES = (".urdf", ".xacro")
 _TO_MERGE = (".urdf.new", ".xacro.new")
-"""What `urdfkit new --update` puts beside a robot that was edited; the parts it includes are there already."""
+"""Suffixes of merge candidates that `urdfkit new --update` writes next to an edited robot."""
 _SKIPPED = frozenset(("build", "install", "devel", "log", "node_modules", "__pycache__"))
 _IGNORE_MARKS = frozenset(("CATKIN_IGNORE", "COLCON_IGNORE", "AMENT_IGNORE"))
 _MAX_DEPTH = 12
-_MAX_LOOSE = 200
-"""Files that are looked at where there is no package."""
+_MAX_FILES = 200
+"""Maximum number of files to search outside of a package."""
 
-# Compiled on first use: to lint one named file takes none of the last four.
-_COMMENT = r"(?s)<!--.*?(?:-->|\Z)"  # one that is never closed is looked at once
+# Compiled on first use; linting one named file needs none of the last four.
+_COMMENT = r"(?s)<!--.*?(?:-->|\Z)"  # an unclosed comment is scanned once
 _FIRST = r"<([A-Za-z_][\w:.-]*)"
 _ROOT = r"<(robot)\b((?:\"[^\"]*\"|'[^']*'|[^>\"'])*)>|<[A-Za-z_]"
 _NAMED = r"(?<![\w:])name\s*="
@@ -40,8 +40,8 @@ class Entry:
 
     Attributes:
         path: the file.
-        only: report what is in these files; everything where it is empty.
-        is_library: it only defines macros: what it lacks, its users bring.
+        only: report findings in these files only; in all files if empty.
+        is_library: the file only defines macros; including files may define the names it lacks.
     """
 
     path: Path
@@ -50,13 +50,13 @@ class Entry:
 
 
 def find_entries(paths: Iterable[str | Path]) -> list[Entry]:
-    """Return what to lint for the paths a user named.
+    """Return the entry files for the paths a user named.
 
     Args:
-        paths: files, package folders, workspaces, or names of robots we ship.
+        paths: files, package folders, workspaces, or names of bundled robots.
 
     Raises:
-        ResourceError: a path is not there, or there is no description in it.
+        ResourceError: a path does not exist or has no robot description.
     """
     found: dict[Entry, None] = {}
     for path in paths:
@@ -71,10 +71,10 @@ def find_entries(paths: Iterable[str | Path]) -> list[Entry]:
 
 
 def find_each(paths: Iterable[str | Path]) -> tuple[list[Entry], tuple[str, ...]]:
-    """Return what to lint for the paths a user named, and why there is nothing at some of them, one line each.
+    """Return the entry files for the paths a user named, and one line with the reason for each path without any.
 
     Raises:
-        ResourceError: there is nothing at the only path.
+        ResourceError: the only path has no entry file.
     """
     paths = list(paths)
     found: dict[Entry, None] = {}
@@ -94,7 +94,7 @@ def _of_name(name: str) -> list[Entry]:
 
     if name in robot_names() and (robots_dir() / name).is_dir():
         return _of_folder(robots_dir() / name)
-    # A variant of a robot we ship; or it says what is not there and the nearest right thing.
+    # A variant of a bundled robot; else the error names the nearest match.
     return [Entry(find_model([name]).path)]
 
 
@@ -106,18 +106,18 @@ def _of_folder(folder: Path) -> list[Entry]:
 
 
 def descriptions(folder: Path) -> Iterator[tuple[Path, str]]:
-    """Yield every description and fragment in a folder, with its text, comments left out."""
+    """Yield every description and fragment in a folder with its text, without comments."""
     yield from ((path, _text(path)) for path in _walk(folder, 0))
 
 
 def near_descriptions(package: Path | None, path: Path) -> Iterator[tuple[Path, str]]:
-    """Yield the descriptions of a package; without one, those in the folder of a file, and one below."""
+    """Yield the descriptions of a package; without a package, those in the file's folder and its subfolders."""
     if package is not None:
         yield from descriptions(package)
         return
     folder = path.absolute().parent
     files = sorted(file for file in (*folder.glob("*.xacro"), *folder.glob("*/*.xacro")) if file.is_file())
-    yield from ((file, _text(file)) for file in files[:_MAX_LOOSE])
+    yield from ((file, _text(file)) for file in files[:_MAX_FILES])
 
 
 def _robots_in(folder: Path) -> list[Entry]:
@@ -125,14 +125,14 @@ def _robots_in(folder: Path) -> list[Entry]:
     robots = {path: text for path, text in texts.items() if _is_robot(text) or _is_broken(text)}
     included = _included(robots)
     alone = [path for path in robots if path not in included]
-    if waiting := _to_merge(alone):
-        alone = [path for path in alone if not any(_matches(text, path) for text in waiting.values())] or alone
+    if candidates := _to_merge(alone):
+        alone = [path for path in alone if not any(_matches(text, path) for text in candidates.values())] or alone
     found = [Entry(path, (), _is_robot(robots[path]) and _is_library(robots[path])) for path in alone]
     return [*found, *(Entry(path, (), is_library=True) for path in _unreached(included, robots))]
 
 
 def _unreached(included: set[Path], robots: dict[Path, str]) -> list[Path]:
-    """Return the files that are no XML, and are included by way of one that is none either: it may not get to them."""
+    """Return malformed files that other malformed files include; the expansion may not reach them."""
     broken = {path for path, text in robots.items() if not _is_well_formed(text)} if included else set()
     if len(broken) < 2:
         return []
@@ -140,16 +140,16 @@ def _unreached(included: set[Path], robots: dict[Path, str]) -> list[Path]:
 
 
 def _to_merge(paths: Iterable[Path]) -> dict[Path, str]:
-    """Return what waits in the folders of files, or above, to be merged into a robot; with the texts."""
+    """Return the merge candidates in the folders of the files and their parent folders, with their texts."""
     folders = dict.fromkeys(folder for path in paths for folder in (path.parent, path.parent.parent))
-    waiting = (file for folder in folders for ending in _TO_MERGE for file in sorted(folder.glob(f"*{ending}*")))
-    return {file: text for file in waiting if file.is_file() and _is_robot(text := _text(file))}
+    candidates = (file for folder in folders for ending in _TO_MERGE for file in sorted(folder.glob(f"*{ending}*")))
+    return {file: text for file in candidates if file.is_file() and _is_robot(text := _text(file))}
 
 
 def _of_file(path: Path) -> list[Entry]:
-    """Return the file itself, or for a fragment the models that include it."""
+    """Return the file itself; for a fragment, the models that include it."""
     if path.name.endswith((*LAUNCH, *YAML)):
-        return _around(path)
+        return _related_robots(path)
     text = _text(path)
     if _begins_with_robot(text) and not _may_be_library(text):
         return [Entry(path)]
@@ -163,30 +163,30 @@ def _of_file(path: Path) -> list[Entry]:
         place = path.resolve()
         robots = {other: text for other in _walk(package, 0) if _is_robot(text := _text(other))}
     else:
-        place = Path(os.path.abspath(path))  # noqa: PTH100 - without what is in links
-        robots = _beside(place.parent)
-    waiting = _to_merge([place])
-    above = _includers(place, robots | waiting)
-    if above := [model for model in above if model not in waiting] or above:
+        place = Path(os.path.abspath(path))  # noqa: PTH100 - keep symbolic links
+        robots = _nearby(place.parent)
+    candidates = _to_merge([place])
+    above = _includers(place, robots | candidates)
+    if above := [model for model in above if model not in candidates] or above:
         return [Entry(_relative(model), (path,)) for model in above]
     return [Entry(path, (), not is_named and _is_library(text))]
 
 
 def _may_be_library(text: str) -> bool:
-    """Whether a text may define macros and nothing else; most do not, and need no patterns."""
+    """Return whether a text may define only macros; a quick test before the patterns."""
     _, end, rest = text.rpartition("macro>")
     return bool(end) and not any(tag in rest for tag in ("<link", "<joint", "<xacro:"))
 
 
-def _beside(folder: Path) -> dict[Path, str]:
-    """Return the robots and parts, with their texts, of a folder, its own folders and the one it lies in."""
+def _nearby(folder: Path) -> dict[Path, str]:
+    """Return the robots and fragments of a folder, its subfolders and its parent, with their texts."""
     files = (file for place in ("", "*/", "../") for end in SUFFIXES for file in sorted(folder.glob(f"{place}*{end}")))
     near = dict.fromkeys(Path(os.path.normpath(file)) for file in files if file.is_file())
-    return {file: text for file in list(near)[:_MAX_LOOSE] if _is_robot(text := _text(file))}
+    return {file: text for file in list(near)[:_MAX_FILES] if _is_robot(text := _text(file))}
 
 
 def _begins_with_robot(text: str) -> bool:
-    """Whether a text plainly is a robot with a name; most are, and need no patterns."""
+    """Return whether a text begins with a named <robot>; a quick test before the patterns."""
     start = text.lstrip("\ufeff \t\r\n")
     if start.startswith("<?xml"):
         start = start.partition("?>")[2].lstrip()
@@ -195,18 +195,18 @@ def _begins_with_robot(text: str) -> bool:
     return is_closed and tag.startswith("<robot ") and ' name="' in tag
 
 
-def _around(path: Path) -> list[Entry]:
-    """Return the robots that a launch file or YAML is for: of its package, else of those beside it that that needs."""
+def _related_robots(path: Path) -> list[Entry]:
+    """Return the robots that a launch or YAML file belongs to: of its package, else of neighbouring dependencies."""
     package = package_of(path)
     if package is None:
-        raise ResourceError(f"{path}: lies in no package, so there is no robot to compare it with")
+        raise ResourceError(f"{path}: not in a package, so no robot belongs to it")
     needed = dependencies_in(manifest(package))
     folders = [package, *(folder for name, folder in neighbours(package).items() if name in needed)]
     for folder in folders:
         found = [entry for entry in _robots_in(folder) if not entry.is_library]
         if found:
             return [Entry(_relative(entry.path), (path,)) for entry in found]
-    raise ResourceError(f"{path}: no robot description in its package, nor beside it in one that it depends on")
+    raise ResourceError(f"{path}: no robot description in its package or in a neighbouring package that it depends on")
 
 
 def _relative(path: Path) -> Path:
@@ -215,16 +215,16 @@ def _relative(path: Path) -> Path:
 
 
 def _includers(path: Path, robots: dict[Path, str]) -> list[Path]:
-    """Return the files nobody includes that reach `path` through includes."""
+    """Return the top-level files that include `path` directly or indirectly."""
     included = _included(robots)
     return sorted(other for other in _above(path, robots) - {path} if other not in included)
 
 
 def _above(path: Path, robots: dict[Path, str]) -> set[Path]:
-    """Return a file and all that reach it through includes."""
+    """Return a file and all files that include it directly or indirectly."""
     reached = {path}
     while True:
-        more = {other for other, text in robots.items() if any(_matches(text, known) for known in reached)}
+        more = {other for other, text in robots.items() if any(_matches(text, file) for file in reached)}
         if more <= reached:
             return reached
         reached |= more
@@ -244,7 +244,7 @@ def _matches(text: str, path: Path) -> bool:
 
 
 def _patterns(text: str) -> list[re.Pattern[str]]:
-    """Return what the paths of included files look like: the part after the last ``$(…)`` or ``..``, if any."""
+    """Return patterns of the paths of included files: the part after the last ``$(…)`` or ``..``."""
     found = []
     for double, single in re.findall(_INCLUDE, text):
         written = (double or single).replace("\\", "/").rpartition("../")[2].removeprefix("./")
@@ -261,7 +261,7 @@ def _is_robot(text: str) -> bool:
 
 
 def _is_broken(text: str) -> bool:
-    """Whether a file is none of another format, but empty, cut off, or a robot whose root is misspelt or gone."""
+    """Return whether a file is a broken robot: empty, truncated, or with a misspelt or missing root element."""
     first = re.search(_FIRST, text)
     if first is None or is_nearly_robot(first[1]):
         return True
@@ -269,7 +269,7 @@ def _is_broken(text: str) -> bool:
 
 
 def _is_well_formed(text: str) -> bool:
-    """Whether a text is XML."""
+    """Return whether a text is well-formed XML."""
     from xml.parsers import expat
 
     try:
@@ -280,7 +280,7 @@ def _is_well_formed(text: str) -> bool:
 
 
 def is_nearly_robot(tag: str) -> bool:
-    """Whether a root element is called nearly ``robot``."""
+    """Return whether the name of a root element is a misspelt ``robot``."""
     from difflib import SequenceMatcher
 
     return tag != "robot" and SequenceMatcher(None, tag.lower(), "robot").ratio() >= 0.75
@@ -302,7 +302,7 @@ def _walk(folder: Path, depth: int) -> Iterator[Path]:
         if child.is_dir(follow_symlinks=False):
             if depth < _MAX_DEPTH and child.name not in _SKIPPED and not child.name.startswith("."):
                 yield from _walk(folder / child.name, depth + 1)
-        # A link to nowhere is no file: an editor's lock, or what somebody else has not got.
+        # A dangling symbolic link, such as an editor's lock file, is not a file.
         elif child.name.endswith(SUFFIXES) and child.is_file():
             yield folder / child.name
 

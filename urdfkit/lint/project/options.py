@@ -17,7 +17,7 @@ class Options:
     Attributes:
         select: codes, or beginnings of codes, to report; all where it is empty.
         ignore: codes, or beginnings, not to report.
-        target: the consumer the robot is meant for, as `known_target` returns it.
+        target: the consumer the robot is meant for, as `parse_target` returns it.
         arguments: values for ``$(arg …)``.
         package_path: folders to look for packages in first.
         texts: contents to lint instead of those on disk, by absolute path.

@@ -1,4 +1,4 @@
-"""Which rules are wanted: ``--select`` and ``--ignore`` take codes and their beginnings (``I``, ``I5``, ``I503``)."""
+"""Rule selection: ``--select`` and ``--ignore`` accept codes and prefixes of codes (``I``, ``I5``, ``I503``)."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ if TYPE_CHECKING:
 def selection(
     select: Iterable[str], ignore: Iterable[str], codes: Callable[[], tuple[str, ...]]
 ) -> Callable[[str], bool]:
-    """Return whether a code is wanted, as a function.
+    """Return the predicate that accepts the codes to report.
 
     Args:
-        select: codes to report; all where it is empty.
-        ignore: codes not to report, unless `select` names them more exactly.
-        codes: the codes there are; called only to check what was given.
+        select: codes to report; all if empty.
+        ignore: codes not to report, unless `select` has a longer prefix of the code.
+        codes: returns the existing codes; called only to validate prefixes.
 
     Raises:
-        UsageError: one of them is no code, nor the beginning of one.
+        UsageError: a prefix matches no code.
     """
     chosen, left_out = checked("--select", select, codes), checked("--ignore", ignore, codes)
 
@@ -33,20 +33,18 @@ def selection(
 
 
 def checked(option: str, prefixes: Iterable[str], codes: Callable[[], tuple[str, ...]]) -> tuple[str, ...]:
-    """Return codes, or beginnings of codes, one by one, in capitals.
+    """Return validated codes and prefixes of codes, in capitals.
 
     Args:
-        option: what gave them.
-        prefixes: the codes, several of which may stand in one text, with commas between.
-        codes: the codes there are.
+        option: the option or setting, for messages.
+        prefixes: codes or prefixes; one text may hold several, separated by commas.
+        codes: returns the existing codes.
 
     Raises:
-        UsageError: one of them is no code, nor the beginning of one.
+        UsageError: a prefix matches no code.
     """
     wanted = tuple(word.strip().upper() for prefix in prefixes for word in prefix.split(",") if word.strip())
     for prefix in wanted:
         if not any(code.startswith(prefix) for code in codes()):
-            raise UsageError(
-                f"{option} {prefix}: there is no such rule{did_you_mean(prefix, codes())}; see urdfkit rule"
-            )
+            raise UsageError(f"{option} {prefix}: unknown rule{did_you_mean(prefix, codes())}; see urdfkit rule")
     return wanted

@@ -1,4 +1,4 @@
-"""What a robot is meant for, guessed from the package.xml of its package."""
+"""Targets: names and releases of the consumers of a robot, and the guess from package.xml."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from urdfkit.record import record
 
 TARGETS = ("ros1", "ros2", "gz", "classic", "mujoco", "isaac", "drake", "moveit", "urdfkit")
-"""Consumers that ``--target`` may name; without one every rule counts that holds for any of them."""
+"""Consumers that ``--target`` accepts; without a target, all rules that apply to any consumer run."""
 
 DISTROS: dict[str, tuple[str, ...]] = {
     "ros1": ("hydro", "indigo", "jade", "kinetic", "lunar", "melodic", "noetic"),
@@ -32,7 +32,7 @@ _ROS = {
     "ament_cmake_python": "ros2",
     "ament_python": "ros2",
 }
-"""Build tool or type → the ROS that has it (REP-149, and the build types of colcon)."""
+"""Build tool or build type → ROS version (REP-149, and the build types of colcon)."""
 
 _ONLY_ROS = {
     "roslaunch": "ros1",
@@ -42,7 +42,7 @@ _ONLY_ROS = {
     "rclpy": "ros2",
     "rclcpp": "ros2",
 }
-"""Packages of one ROS only: they count where the build tool says nothing."""
+"""Packages that exist in one ROS version only; used if the build tool does not decide."""
 
 _NEW_GAZEBO = ("ros_gz", "gz_ros2_control", "ign_ros2_control", "ros_ign", "gz_sim_vendor", "gz-sim", "ignition-gazebo")
 _CLASSIC = ("gazebo_ros", "gazebo_plugins", "gazebo_ros2_control", "gazebo_dev", "gazebo_rosdev")
@@ -50,12 +50,12 @@ _CLASSIC = ("gazebo_ros", "gazebo_plugins", "gazebo_ros2_control", "gazebo_dev",
 
 @record
 class Guess:
-    """What a package is for.
+    """Guessed target of a package.
 
     Attributes:
-        target: ``ros1``, ``ros2``, ``gz``, or None where package.xml does not tell, or tells of several.
-        why: what it was guessed from, for the reader.
-        manifest: the package.xml; None where there is none.
+        target: ``ros1``, ``ros2``, ``gz``, or None if package.xml fits none or several.
+        why: the reason for the guess, for messages.
+        manifest: path of the package.xml; None if there is none.
     """
 
     target: str | None
@@ -66,7 +66,8 @@ class Guess:
 def guess(path: Path) -> Guess:
     """Guess the target of a description file from the package.xml above it.
 
-    A package that needs the new Gazebo and not the classic one is for ``gz``; else the build tool tells ROS 1 and 2.
+    A package that depends on the new Gazebo, and not on Gazebo classic, has the target ``gz``; otherwise the build tool
+    distinguishes ROS 1 from ROS 2.
     """
     above = (folder / "package.xml" for folder in path.absolute().parents)
     manifest = next((file for file in above if file.is_file()), None)
@@ -84,25 +85,25 @@ def guess(path: Path) -> Guess:
     versions = {_ROS[tool] for tool in tools}
     if len(versions) == 1:
         return Guess(versions.pop(), f"is built with {tools[0]}", manifest)
-    known = [name for name in needs if name in _ONLY_ROS]
-    others = {_ONLY_ROS[name] for name in known}
+    specific = [name for name in needs if name in _ONLY_ROS]
+    others = {_ONLY_ROS[name] for name in specific}
     if not versions and len(others) == 1:
-        return Guess(others.pop(), f"depends on {known[0]}", manifest)
+        return Guess(others.pop(), f"depends on {specific[0]}", manifest)
     return Guess(None, "is for ROS 1 and ROS 2" if len(versions | others) > 1 else "names no build tool", manifest)
 
 
-def known_target(name: str | None, option: str = "--target") -> str | None:
-    """Return the name of a target, which may name a release: ``ros2`` or ``ros2-jazzy``; a release alone will do.
+def parse_target(name: str | None, option: str = "--target") -> str | None:
+    """Return the canonical name of a target, with its release if given: ``ros2`` or ``ros2-jazzy``.
 
-    Case does not count, nor what stands between the two, and other names of the same are known: ``Ignition``,
+    A release alone is sufficient. Case and separators are ignored, and common aliases are accepted: ``Ignition``,
     ``gazebo11``, ``ros_noetic``.
 
     Args:
-        name: as the user gave it; None for none.
-        option: what gave it.
+        name: the name from the user; None for no target.
+        option: the option or setting, for messages.
 
     Raises:
-        UsageError: there is none of that name, or several.
+        UsageError: the name is unknown or ambiguous.
     """
     if name is None or name in TARGETS:
         return name
@@ -114,29 +115,29 @@ def known_target(name: str | None, option: str = "--target") -> str | None:
     from urdfkit.errors import UsageError, did_you_mean
 
     if written in _SEVERAL:
-        raise UsageError(f"{option} {name} is not known: {_SEVERAL[written]}?")
-    releases = {one: known for known, distros in DISTROS.items() for one in distros}
+        raise UsageError(f"{option} {name} is ambiguous: use {_SEVERAL[written]}")
+    releases = {release: target for target, distros in DISTROS.items() for release in distros}
     if distro and family in DISTROS and ("-" in written or distro.isdecimal()):
         others = {} if distro.isdecimal() else releases
         hint = did_you_mean(distro, DISTROS[family]) or did_you_mean(distro, others)
         near = hint.partition("`")[2].partition("`")[0]
-        said = f"; did you mean `{releases[near]}-{near}`?" if near else f"; {family} has {', '.join(DISTROS[family])}"
-        raise UsageError(f"{option} {name} is not known{said}")
+        hint = f"; did you mean `{releases[near]}-{near}`?" if near else f"; {family} has {', '.join(DISTROS[family])}"
+        raise UsageError(f"{option} {name}: unknown target{hint}")
     names = (one for one in releases if not one.isdecimal())
-    hint = did_you_mean(written, (*TARGETS, *names, *(f"{known}-{one}" for one, known in releases.items())))
+    hint = did_you_mean(written, (*TARGETS, *names, *(f"{target}-{release}" for release, target in releases.items())))
     families = f"; one of {', '.join(TARGETS)}"
-    raise UsageError(f"{option} {name} is not known{hint or families}")
+    raise UsageError(f"{option} {name}: unknown target{hint or families}")
 
 
 def _split(written: str) -> tuple[str, str]:
-    """Return family and release of a name in lower case; the family may be what is written, and the release empty."""
+    """Split a lower-case name into family and release; the release may be empty."""
     if written in TARGETS or written in _SAME:
         return _SAME.get(written, written), ""
-    releases = {one: known for known, distros in DISTROS.items() for one in distros}
-    known = "|".join(sorted((*TARGETS, *_SAME, *_SEVERAL), key=len, reverse=True))
-    parts = re.fullmatch(rf"({known})-?([a-z]+|\d+)", written)
+    releases = {release: target for target, distros in DISTROS.items() for release in distros}
+    families = "|".join(sorted((*TARGETS, *_SAME, *_SEVERAL), key=len, reverse=True))
+    parts = re.fullmatch(rf"({families})-?([a-z]+|\d+)", written)
     family, distro = (_SAME.get(parts[1], parts[1]), parts[2]) if parts else (written, "")
-    if family in _SEVERAL and distro in releases:  # `gazebo` and `ros` are told apart by their releases
+    if family in _SEVERAL and distro in releases:  # the release resolves the ambiguity of `gazebo` and `ros`
         return releases[distro], distro
     if not distro and written in releases and not written.isdecimal():
         return releases[written], written
@@ -155,10 +156,10 @@ _SAME = {
     "isaacsim": "isaac",
     "moveit2": "moveit",
 }
-"""Other names of targets."""
+"""Aliases of targets."""
 
 _SEVERAL = {"gazebo": "`gz`, the new Gazebo, or `classic`", "ros": "`ros1` or `ros2`"}
-"""Names of several targets, told apart by a release."""
+"""Ambiguous names, which a release resolves."""
 
 
 def family_of(target: str | None) -> str | None:
@@ -167,5 +168,5 @@ def family_of(target: str | None) -> str | None:
 
 
 def release_of(target: str | None) -> str:
-    """Return the release that a target names; empty where it names none."""
+    """Return the release of a target; empty if it has none."""
     return target.partition("-")[2] if target is not None else ""

@@ -22,7 +22,7 @@ def as_junit(findings: Sequence[Finding], files: Iterable[str]) -> str:
     """Return the document. Files without findings have one case that passes; notes are cases that were skipped.
 
     Args:
-        findings: what was found.
+        findings: the findings.
         files: every file that was read.
     """
     by_file: dict[str, list[Finding]] = {file: [] for file in sorted(files)}

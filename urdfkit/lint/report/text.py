@@ -26,7 +26,7 @@ _RESET = "\x1b[0m"
 _STYLES = {"error": "\x1b[1;31m", "warning": "\x1b[1;33m", "note": "\x1b[1;36m", "bold": "\x1b[1m", "dim": "\x1b[34m"}
 _TAB = "    "
 _CONTROL = r"[\x00-\x1f\x7f-\x9f]"
-"""What a terminal would obey."""
+"""Control characters of terminals."""
 _LISTED_CALLS = 4
 _LONG = 400
 """Columns to which a source line is cut where the output is no terminal."""
@@ -111,7 +111,7 @@ def summary(findings: Sequence[Finding]) -> str:
 
 
 def counts(findings: Iterable[Finding]) -> list[tuple[str, str, str, int]]:
-    """Return code, name, severity and number of findings of each rule that found something, most findings first."""
+    """Return code, name, severity and number of findings of each rule with findings, most findings first."""
     found: dict[tuple[str, str, str], int] = {}
     for finding in findings:
         key = (finding.code, finding.name, finding.severity)

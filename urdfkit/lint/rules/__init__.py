@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from urdfkit.lint.table import AROUND, FAULTS, ROBOT, SOURCE, SUPPRESSION, TARGETED
+from urdfkit.lint.table import FAULTS, RELATED_FILES, ROBOT, SOURCE, SUPPRESSION, TARGETED
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -45,9 +45,9 @@ def fault_rules() -> tuple[type[FaultRule], ...]:
     return tuple(_rules(FAULTS))
 
 
-def around_rules() -> tuple[type[RobotRule], ...]:
+def related_file_rules() -> tuple[type[RobotRule], ...]:
     """Return the rules for launch and YAML files of the package."""
-    return tuple(_rules(AROUND))
+    return tuple(_rules(RELATED_FILES))
 
 
 def robot_rules(robot: Robot | None = None, target: str | None = None) -> tuple[type[RobotRule], ...]:
@@ -58,10 +58,10 @@ def robot_rules(robot: Robot | None = None, target: str | None = None) -> tuple[
         target: with a robot, None skips the rules that apply only to some targets.
     """
     if robot is None:
-        return tuple(_rules((*ROBOT, *AROUND, *TARGETED)))
-    from urdfkit.lint.facts.features import traits
+        return tuple(_rules((*ROBOT, *RELATED_FILES, *TARGETED)))
+    from urdfkit.lint.facts.features import features_of
 
-    features = traits(robot)
+    features = features_of(robot)
     rows = ROBOT if target is None else (*ROBOT, *TARGETED)
     return tuple(_rules(row for row in rows if not row[0] or not features.isdisjoint(row[0].split())))
 

@@ -109,6 +109,6 @@ def misspelt(source: Source) -> Iterator[tuple[Node, str, Settings]]:
             name = key.text.partition(".")[0]
             if name in known or name in _ALWAYS or value.find("type") is not None:
                 continue
-            meant = nearest(name, lacking, likeness=0.85)
+            meant = nearest(name, lacking, cutoff=0.85)
             if meant is not None:
                 yield key, meant, one

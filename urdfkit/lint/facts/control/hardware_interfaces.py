@@ -64,7 +64,7 @@ def misspelt_parts(element: Element, where: str) -> Iterator[tuple[Element, Elem
         if child.tag in known:
             yield from misspelt_parts(child, f"{where}/{child.tag}")
         elif ":" not in child.tag and child.tag not in _OTHERS:
-            meant = nearest(child.tag, known, likeness=0.8)
+            meant = nearest(child.tag, known, cutoff=0.8)
             if meant is not None:
                 yield element, child, meant
 
@@ -83,14 +83,14 @@ def is_misspelt(name: str) -> bool:
     """Whether a hardware interface, without its package, is nearly one that there is."""
     from urdfkit.lint.edits import nearest
 
-    return name not in INTERFACES and nearest(name, INTERFACES, likeness=0.85) is not None
+    return name not in INTERFACES and nearest(name, INTERFACES, cutoff=0.85) is not None
 
 
 def meant_interface(name: str) -> str | None:
     """Return the standard interface of ros2_control that a misspelt one must have meant; None where it is one."""
     from urdfkit.lint.edits import nearest
 
-    return nearest(name, STANDARD, likeness=0.85) if name not in STANDARD else None
+    return nearest(name, STANDARD, cutoff=0.85) if name not in STANDARD else None
 
 
 def meant_joints(robot: Robot) -> set[str]:

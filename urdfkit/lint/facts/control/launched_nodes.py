@@ -36,7 +36,7 @@ class Started:
 def launches(model: Model) -> Iterator[Source]:
     """Yield the launch files around a model."""
     endings = (".launch", ".launch.xml", ".launch.py", ".launch.yaml")
-    yield from (source for name, source in model.around.items() if name.endswith(endings))
+    yield from (source for name, source in model.related_files.items() if name.endswith(endings))
 
 
 def started(source: Source) -> Iterator[Started]:

@@ -159,7 +159,7 @@ def offered(model: Model) -> dict[str, dict[bool, list[str]]] | None:
     own = {str(Path(name).absolute()): source.text for name, source in model.expanded.sources.items()}
     if any(is_conditional(text, _PARTS) for text in own.values() if "_interface" in text):
         return None
-    packages = {package_of(Path(file)) for file in model.around}
+    packages = {package_of(Path(file)) for file in model.related_files}
     for folder in sorted({model.package, *(package for package in packages if package is not None)}):
         for path, text in descriptions(folder):
             if str(path.absolute()) not in own and ("<ros2_control" in text or "_interface" in text):

@@ -60,7 +60,7 @@ class Broken:
 
 def yamls(model: Model) -> Iterator[Source]:
     """Yield the files in YAML around a model."""
-    yield from (source for name, source in model.around.items() if name.endswith((".yaml", ".yml")))
+    yield from (source for name, source in model.related_files.items() if name.endswith((".yaml", ".yml")))
 
 
 def documents(source: Source) -> tuple[tuple[Node, ...], Broken | None]:

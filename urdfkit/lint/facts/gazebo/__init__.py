@@ -1,4 +1,4 @@
-"""What ``<gazebo>`` blocks mean: plugins and their tables, libraries, drive wheels, topics of sensors.
+"""Contents of ``<gazebo>`` blocks: plugins and their specifications, libraries, drive wheels, sensor topics.
 
 A `Model` goes in; plugin records, joints and topic names come out.
 """

@@ -1,11 +1,11 @@
-"""Drives with wheels on two sides: which joints they turn, and where those are when every joint is at zero."""
+"""Drives with wheels on two sides: their joints and the wheel positions at zero joint positions."""
 
 from __future__ import annotations
 
 from urdfkit.description.urdf.robot import Cylinder, Sphere
 from urdfkit.lint.edits import nearest, new_text
 from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of
-from urdfkit.lint.model.placement import Frame, rotation, shapes_of, turned
+from urdfkit.lint.model.placement import Frame, rotated, rotation, shapes_of
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -24,24 +24,24 @@ _SIDES = {
     "skid_steer": (("left_front_joint", "left_rear_joint"), ("right_front_joint", "right_rear_joint")),
     "mecanum_drive": (("front_left_joint", "back_left_joint"), ("front_right_joint", "back_right_joint")),
 }
-"""Kind of a drive → what its parameters for the joints of each side mean."""
+"""Kind of drive → meanings of the parameters that name the joints of each side."""
 
 _SAME = 1e-6
-"""Lengths that differ by less are one [m]."""
+"""Lengths that differ by less are equal [m]."""
 
 
 @record(eq=False)
 class Wheel:
-    """A joint that a drive turns.
+    """A wheel joint of a drive.
 
     Attributes:
-        joint: the joint; the one with the nearest name where the drive's parameter names none.
-        element: where the drive names it; None where its default does.
-        named: what it is called there.
-        place: the middle of the joint in the root link [m].
+        joint: the joint; the most similar name if the drive's parameter names an undefined joint.
+        element: the parameter that names the joint; None for the default.
+        named: name of the joint in the parameter.
+        place: the origin of the joint in the root link [m].
         axis: its axis in the root link.
-        radius: of the cylinder or sphere its link is [m]; None where it is something else.
-        middles: the middle of the joint and of every shape of its link, in the root link [m].
+        radii: radii of the cylinders and spheres of its link [m]; empty if it has other shapes.
+        middles: the origins of the joint and of every shape of its link, in the root link [m].
     """
 
     joint: Joint
@@ -64,7 +64,7 @@ class TwoSided:
 
 
 def drives(model: Model) -> Iterator[TwoSided]:
-    """Yield every drive of the robot that turns wheels on two sides, all of which are there."""
+    """Yield every drive of the robot with wheels on two sides whose wheels all exist."""
     for plugin, _, _ in plugins(model.robot):
         spec = spec_of(plugin, model.target)
         if spec is None or spec.kind not in _SIDES or is_foreign(plugin, model):
@@ -77,9 +77,9 @@ def drives(model: Model) -> Iterator[TwoSided]:
 
 
 def written(model: Model, drive: TwoSided, meaning: str) -> tuple[float, Element, str] | None:
-    """Return the number written for a parameter, its element and its tag; the default at the plugin where none is.
+    """Return the value of a parameter, its element and its tag; the default and the plugin if it is not set.
 
-    None where it is not known, or written under a name that this plugin does not read: that is a finding of its own.
+    None if the value is unknown, or set by a misspelt parameter, which is reported separately.
     """
     from urdfkit.description.plugins import values
     from urdfkit.description.xml.numbers import number
@@ -96,7 +96,7 @@ def written(model: Model, drive: TwoSided, meaning: str) -> tuple[float, Element
 
 
 def _is_meant(drive: TwoSided, meaning: str, tag: str) -> bool:
-    """Whether a parameter is misspelt, or written as another generation of the plugin reads it."""
+    """Return whether a parameter is misspelt, or spelt as in another generation of the plugin."""
     from urdfkit.description.plugins.unread_parameters import tables, unread
 
     others = (other.by_meaning(meaning) for other in tables(drive.plugin))
@@ -106,24 +106,24 @@ def _is_meant(drive: TwoSided, meaning: str, tag: str) -> bool:
 
 
 def mismatch(
-    rule: Rule, model: Model, drive: TwoSided, parameter: tuple[float, Element, str], *, actual: float, beside: str
+    rule: Rule, model: Model, drive: TwoSided, parameter: tuple[float, Element, str], *, actual: float, comparison: str
 ) -> Finding:
-    """Return the finding for a length of a drive that is not what the robot has.
+    """Return the finding for a drive parameter that contradicts the robot's geometry.
 
     Args:
-        rule: whose finding it is.
-        model: what is being linted.
+        rule: the reporting rule.
+        model: the linted model.
         drive: the drive.
         parameter: the length [m], its element and its tag, as `written` returns them.
-        actual: what the robot has [m].
-        beside: what has it, with ``{}`` where the length goes.
+        actual: the length in the robot [m].
+        comparison: text that states the actual length, with ``{}`` for its value.
     """
     number, element, tag = parameter
     text = f"{actual:.6g}"
     return rule.at(
         model,
         element,
-        f"<{tag}> is {number:g} m{'' if element.tag == tag else ' by default'}, but {beside.format(text)}",
+        f"<{tag}> is {number:g} m{'' if element.tag == tag else ' by default'}, but {comparison.format(text)}",
         joint=drive.left[0].joint.name,
         fix=new_text(model, element, text, "unsafe", f"Write {text}") if element.tag == tag else None,
     )
@@ -147,13 +147,13 @@ def _wheels(model: Model, plugin: Plugin, spec: PluginSpec, meaning: str) -> Ite
 
 
 def wheel_of(model: Model, joint: Joint, element: Element | None, *, named: str | None = None) -> Wheel | None:
-    """Return the wheel that a joint turns, named by an element; None where it is not known where it is.
+    """Return the wheel of a joint; None if its position is unknown.
 
     Args:
-        model: what is being linted.
+        model: the linted model.
         joint: the joint.
-        element: where it is named.
-        named: what it is called there; its name where it is None.
+        element: the element that names the joint.
+        named: the name in that element; by default the joint's name.
     """
     parent = model.frames.get(joint.parent or "")
     if parent is None:
@@ -168,19 +168,19 @@ def wheel_of(model: Model, joint: Joint, element: Element | None, *, named: str 
         element,
         joint.name if named is None else named,
         frame.translation,
-        turned(frame.rotation, joint.axis),
+        rotated(frame.rotation, joint.axis),
         round_ones if len(round_ones) == len(shapes) else (),
         (frame.translation, *middles),
     )
 
 
 def track(left: Wheel, right: Wheel, distances: Iterable[float]) -> tuple[float, str]:
-    """Return how far apart two wheels are [m], and what is: their shapes where those agree, else their joints.
+    """Return the distance of two wheels [m], and its endpoints: their shapes if those agree, else their joints.
 
     Args:
         left: a wheel.
         right: the other.
-        distances: of their `middles`: of the joints, then of the shapes [m].
+        distances: distances of their `middles`: of the joints, then of the shapes [m].
     """
     joints, *shapes = distances
     names = f"`{left.joint.name}` and `{right.joint.name}`"

@@ -1,6 +1,6 @@
-"""The Gazebo libraries that exist, and which of them a misspelt name means.
+"""Names of existing Gazebo libraries, and suggestions for misspelt names.
 
-Libraries with a table of parameters are known from `urdfkit.description.plugins`; here are the others in wide use.
+`urdfkit.description.plugins` lists the libraries with a specification; this module adds other common libraries.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ user-commands=UserCommands velocity-control=VelocityControl wheel-slip=WheelSlip
 
 @cache
 def classes() -> dict[str, tuple[str, ...]]:
-    """Return the stem of every library → the classes a plugin of it may be called, none where any name will do."""
+    """Return library stem → valid plugin class names; empty if any name is valid."""
     from urdfkit.description.plugins import ALL_SPECS
 
     found: dict[str, tuple[str, ...]] = dict.fromkeys(_CLASSIC.split(), ())
@@ -66,7 +66,7 @@ def classes() -> dict[str, tuple[str, ...]]:
 
 
 def meant_library(stem: str) -> str | None:
-    """Return the stem of the library that a name must have meant, None where it may well be another.
+    """Return the library stem that a misspelt name stands for; None if the name may be a different library.
 
     A name means another where every word of it is that of the other, or nearly, or its beginning, where only the
     dashes and underscores are others, and a letter at most, or where it has one more word that any library could have.
@@ -76,61 +76,61 @@ def meant_library(stem: str) -> str | None:
     whole = _with_ending(stem) if _SYSTEM.match(stem) else stem
     if whole in classes():
         return whole
-    near = [(likeness, known) for known in classes() if (likeness := _likeness(whole, known))]
+    near = [(similarity, candidate) for candidate in classes() if (similarity := _similarity(whole, candidate))]
     if near:
         return max(near)[1]
-    longer = [known for known in classes() if known.startswith(f"{stem}_")]
+    longer = [candidate for candidate in classes() if candidate.startswith(f"{stem}_")]
     return longer[0] if len(longer) == 1 and stem.count("_") >= 3 else _without_ending(stem)
 
 
-def meant_class(name: str, known: Iterable[str]) -> str | None:
-    """Return the class that a misspelt one must have meant, None where it may well be another."""
+def meant_class(name: str, candidates: Iterable[str]) -> str | None:
+    """Return the class that a misspelt name stands for; None if the name may be a different class."""
     from urdfkit.lint.edits import nearest
 
-    return nearest(name, known, likeness=0.9) if "::" in name else None
+    return nearest(name, candidates, cutoff=0.9) if "::" in name else None
 
 
 def _with_ending(stem: str) -> str:
-    """Return the name of a system with the word that all of them end with, where it is misspelt or missing."""
+    """Return the name of a system with a corrected or added last word ``system``."""
     name, _, last = stem.rpartition("-")
     return f"{name}-system" if last == "plugin" or _is_like(last, "system", 0.65) else f"{stem}-system"
 
 
 def _without_ending(stem: str) -> str | None:
-    """Return the library whose name a person has put a word behind that any library could have; None if it is none."""
+    """Return the library whose name is extended by a generic last word; None if there is none."""
     name, _, last = stem.rpartition("_")
     return name if name in classes() and any(_is_like(last, word, 0.8) for word in _GENERAL) else None
 
 
-def _is_like(one: str, other: str, likeness: float) -> bool:
+def _is_like(one: str, other: str, similarity: float) -> bool:
     from difflib import SequenceMatcher
 
-    return SequenceMatcher(None, one, other, autojunk=False).ratio() >= likeness
+    return SequenceMatcher(None, one, other, autojunk=False).ratio() >= similarity
 
 
 _GENERAL = ("controller", "plugin", "driver", "sensor", "scanner", "system")
-"""Words that people put behind the names of gazebo_plugins: ``libgazebo_ros_laser_controller.so``."""
+"""Generic words often appended to the names of gazebo_plugins: ``libgazebo_ros_laser_controller.so``."""
 
 _SYSTEM = re.compile("(gz|ign|ignition)[-_](sim|gazebo)[-_]")
 _WORDS = re.compile("[-_]")
 _DIGITS = re.compile("[0-9]")
 
 
-def _likeness(name: str, known: str) -> float:
-    """Return how near two names are, 0 where they are different names."""
+def _similarity(name: str, candidate: str) -> float:
+    """Return the similarity of two names; 0 if they are different names."""
     from difflib import SequenceMatcher
 
-    ours, theirs = (_WORDS.split(one.lower()) for one in (name, known))
-    if _DIGITS.findall(name) != _DIGITS.findall(known):
+    ours, theirs = (_WORDS.split(one.lower()) for one in (name, candidate))
+    if _DIGITS.findall(name) != _DIGITS.findall(candidate):
         return 0.0
     if len(ours) != len(theirs):
-        likeness = SequenceMatcher(None, "".join(ours), "".join(theirs), autojunk=False).ratio()
-        return likeness if likeness > 0.95 else 0.0
+        similarity = SequenceMatcher(None, "".join(ours), "".join(theirs), autojunk=False).ratio()
+        return similarity if similarity > 0.95 else 0.0
     total = 1.0
     for one, other in zip(ours, theirs, strict=True):
-        likeness = SequenceMatcher(None, one, other, autojunk=False).ratio() if one != other else 1.0
+        similarity = SequenceMatcher(None, one, other, autojunk=False).ratio() if one != other else 1.0
         begins = min(len(one), len(other)) >= 4 and (one.startswith(other) or other.startswith(one))
-        if likeness < 0.8 and not begins:
+        if similarity < 0.8 and not begins:
             return 0.0
-        total *= likeness
+        total *= similarity
     return total

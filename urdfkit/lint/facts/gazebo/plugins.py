@@ -1,4 +1,4 @@
-"""What rules on ``<gazebo>`` have in common: plugins and their tables, what they refer to, who reads them."""
+"""Gazebo plugins: specifications, generations, references to links and joints, lumped links."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from urdfkit.lint.model.model import Model
 
 OUTSIDE_FRAMES = frozenset(("world", "map", "odom", "/world", "/map", "/odom", "base_footprint_odom"))
-"""Frames that are no links of the robot."""
+"""Frames outside of the robot."""
 
 
 def plugins(robot: Robot) -> Iterator[tuple[Plugin, GazeboBlock, SensorTag | None]]:
-    """Yield every plugin with the block and the sensor it stands in."""
+    """Yield every plugin with its block and sensor."""
     for block in robot.gazebo:
         for plugin in block.plugins:
             yield plugin, block, None
@@ -35,7 +35,7 @@ def specs(plugin: Plugin) -> list[PluginSpec]:
 
 
 def generations(plugin: Plugin) -> set[str]:
-    """Return the generations that have a plugin's library, by our tables or by its name; none where neither tells."""
+    """Return the generations that have a plugin's library, from its specifications or its name; empty if unknown."""
     from urdfkit.description.plugins.lookup import stem
 
     found: set[str] = {spec.generation for spec in specs(plugin)}
@@ -48,7 +48,7 @@ def generations(plugin: Plugin) -> set[str]:
 
 
 def allowed(model: Model) -> set[str]:
-    """Return the generations that a model's target has; all where it does not tell."""
+    """Return the generations that a model's target supports; all without a target."""
     if model.release in WITHOUT_CLASSIC:
         return {"gz"}
     every = {"ros1", "ros2", "gz"}
@@ -65,13 +65,13 @@ def simulated_hardware(model: Model) -> tuple[str, ...] | None:
 
 
 def is_foreign(plugin: Plugin, model: Model) -> bool:
-    """Whether the target has no such plugin: then nothing of it is read, and nothing else has to be said."""
+    """Return whether the target has no such plugin; its parameters are then not checked."""
     found = generations(plugin)
     return bool(found) and found.isdisjoint(allowed(model))
 
 
 def spec_of(plugin: Plugin, target: str | None) -> PluginSpec | None:
-    """Return the table a plugin is read by: that of the target's generation, else the one its spelling tells."""
+    """Return the specification of a plugin: of the target's generation, else the best match of its parameters."""
     found = specs(plugin)
     if len(found) > 1 and target in ("ros1", "ros2"):
         return next((spec for spec in found if spec.generation == target), found[0])
@@ -114,8 +114,8 @@ def lumped(robot: Robot) -> set[str]:
     kept = set()
     for block in robot.gazebo:
         for child in block.element.children:
-            says = (child.text or child.get("value") or "").strip().lower()
-            if child.tag in ("preserveFixedJoint", "disableFixedJointLumping") and says in ("true", "1"):
+            value = (child.text or child.get("value") or "").strip().lower()
+            if child.tag in ("preserveFixedJoint", "disableFixedJointLumping") and value in ("true", "1"):
                 kept.add(block.reference)
     return {
         joint.child

@@ -1,4 +1,4 @@
-"""The topics that sensors publish on, as far as a description tells: what is written, else what plugins take."""
+"""Topics that sensors publish on: topics in the description, else the defaults of the plugins."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from urdfkit.lint.model.model import Model
 
 _TOPICS = ("topic", "image_topic", "depth_topic", "cloud_topic")
-"""Meanings of parameters that name what a plugin of ROS 1 publishes; the calibration goes with the image."""
+"""Meanings of ROS 1 plugin parameters that name a topic; camera_info accompanies the image."""
 
 _ROS_2 = {
     "ray_sensor": ("~/out",),
@@ -27,7 +27,7 @@ _ROS_2 = {
 """Kind of a plugin → the topics of its node before they are remapped."""
 
 _SHARED = frozenset(("range", "hector_sonar", "sonar", "bumper"))
-"""Kinds whose messages tell by their frame where they come from: several on one topic are common, and read so."""
+"""Kinds whose messages identify the sensor by frame; several sensors often share a topic."""
 
 _GZ = {
     "rgbd": ("/image", "/depth_image", "/points"),
@@ -39,7 +39,7 @@ _GZ = {
     "lidar": ("", "/points"),
     "ray": ("", "/points"),
 }
-"""Type of a sensor of the new Gazebo → what it puts behind its topic (gz-sensors)."""
+"""Sensor type of the new Gazebo → suffixes of its topics (gz-sensors)."""
 
 
 @record(eq=False)

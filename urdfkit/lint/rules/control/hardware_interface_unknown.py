@@ -71,8 +71,8 @@ class HardwareInterfaceUnknown(RobotRule):
             package, slash, name = text.rpartition("/")
             if name in INTERFACES and package in ("", PACKAGE):
                 continue
-            match = name if name in INTERFACES else nearest(name, INTERFACES, likeness=0.85)
-            if match is None or (slash and package != PACKAGE and nearest(package, [PACKAGE], likeness=0.7) is None):
+            match = name if name in INTERFACES else nearest(name, INTERFACES, cutoff=0.85)
+            if match is None or (slash and package != PACKAGE and nearest(package, [PACKAGE], cutoff=0.7) is None):
                 continue
             qualified = f"{PACKAGE}/{match}"
             yield self.at(

@@ -101,7 +101,7 @@ class HardwareMismatch(RobotRule):
                 expected = HARDWARE[next(iter(hosts))]
                 message = f"hardware `{text}` does not belong to {next(iter(hosts))}"
             else:
-                suggestion = HARDWARE.get(package) or nearest(text, (*HARDWARE.values(), *MOCKS), likeness=0.9)
+                suggestion = HARDWARE.get(package) or nearest(text, (*HARDWARE.values(), *MOCKS), cutoff=0.9)
                 if suggestion is None:
                     continue
                 expected, message = suggestion, f"unknown hardware `{text}`"

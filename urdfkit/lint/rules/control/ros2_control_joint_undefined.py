@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_value
-from urdfkit.lint.model.masked_names import doubted
+from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -89,4 +89,4 @@ class Ros2ControlJointUndefined(RobotRule):
                     joint=name,
                     fix=new_value(model, element, "name", near, "unsafe", f"Replace with `{near}`") if near else None,
                 )
-                yield from doubted(model, name, near, finding)
+                yield from unless_masked(model, name, near, finding)

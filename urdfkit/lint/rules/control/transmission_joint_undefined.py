@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_value
-from urdfkit.lint.model.masked_names import doubted
+from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -82,4 +82,4 @@ class TransmissionJointUndefined(RobotRule):
                     if near
                     else None,
                 )
-                yield from doubted(model, part.name, near, finding)
+                yield from unless_masked(model, part.name, near, finding)

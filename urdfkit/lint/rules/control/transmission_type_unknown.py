@@ -73,8 +73,8 @@ class TransmissionTypeUnknown(RobotRule):
         """Yield a finding for each misspelt transmission type."""
         for element in _type_elements(model):
             package, slash, name = element.text.rpartition("/")
-            suggestion = name if name in _TYPES else nearest(name, _TYPES, likeness=0.85)
-            is_standard = not slash or package == _PACKAGE or nearest(package, [_PACKAGE], likeness=0.8) is not None
+            suggestion = name if name in _TYPES else nearest(name, _TYPES, cutoff=0.85)
+            is_standard = not slash or package == _PACKAGE or nearest(package, [_PACKAGE], cutoff=0.8) is not None
             qualified = f"{_PACKAGE}/{suggestion}"
             if suggestion is None or not is_standard or element.text in (qualified, suggestion):
                 continue

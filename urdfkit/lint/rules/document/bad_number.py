@@ -6,7 +6,7 @@ import re
 
 from urdfkit.description.xml.numbers import number
 from urdfkit.lint.facts.escaped_expressions import is_unexpanded
-from urdfkit.lint.facts.root_cause import blamed, is_no_number
+from urdfkit.lint.facts.root_cause import is_no_number, root_cause
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import RobotRule
 
@@ -74,7 +74,7 @@ class BadNumber(RobotRule):
             written = problem.element.get(problem.attribute) if problem.attribute else problem.element.text
             if is_unexpanded(written or ""):
                 continue  # Reported by X110.
-            place = blamed(model, problem.element, problem.attribute, is_no_number) if problem.attribute else None
+            place = root_cause(model, problem.element, problem.attribute, is_no_number) if problem.attribute else None
             if place is not None:
                 if place not in reported:
                     reported.add(place)

@@ -119,14 +119,14 @@ def _message(parent: Element, child: Element) -> str:
 def _hint(parent: Element, child: Element) -> str | None:
     if child.tag in _CURRENT_NAMES:
         return f"rename it to <{_CURRENT_NAMES[child.tag]}>"
-    near = nearest(child.tag, URDF_CHILDREN[parent.tag], likeness=0.7)
+    near = nearest(child.tag, URDF_CHILDREN[parent.tag], cutoff=0.7)
     if near or not child.attributes:
         return f"did you mean `{near}`?" if near else None
     return "to call a macro, add the prefix `xacro:` and process the file with xacro"
 
 
 def _renamed(model: Model, parent: Element, child: Element) -> Fix | None:
-    tag = _CURRENT_NAMES.get(child.tag) or nearest(child.tag, URDF_CHILDREN[parent.tag], likeness=0.75)
+    tag = _CURRENT_NAMES.get(child.tag) or nearest(child.tag, URDF_CHILDREN[parent.tag], cutoff=0.75)
     if tag is None or (tag != "visual" and tag != "collision" and parent.find(tag) is not None):
         return None
     if not child.attributes.keys() <= set(URDF_ATTRIBUTES.get(tag, ())):

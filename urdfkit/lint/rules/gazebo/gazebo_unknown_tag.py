@@ -125,7 +125,7 @@ class GazeboUnknownTag(RobotRule):
             for child in block.element.children if block.reference else ():
                 if child.tag in KEYS or child.tag in _SDF or ":" in child.tag:
                     continue
-                suggestion = _ALIASES.get(child.tag) or nearest(child.tag, KEYS, likeness=0.7)
+                suggestion = _ALIASES.get(child.tag) or nearest(child.tag, KEYS, cutoff=0.7)
                 if suggestion is not None:
                     yield self.at(
                         model,

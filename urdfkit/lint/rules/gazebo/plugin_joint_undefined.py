@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.model.masked_names import doubted
+from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -115,7 +115,9 @@ class PluginJointUndefined(RobotRule):
                 help = hint.removeprefix("; ") or f"joints of the robot: {', '.join(joints) or 'none'}"
                 fix = new_text(model, element, near, "unsafe", f"Replace with `{near}`") if near and is_single else None
             finding = self.at(model, element, message, joint=text, help=help, fix=fix)
-            yield from doubted(model, text, near, finding) if text not in model.robot.joint_by_name else (finding,)
+            yield from (
+                unless_masked(model, text, near, finding) if text not in model.robot.joint_by_name else (finding,)
+            )
         default = parameter.default
         if not named and default is not None and default not in joints:
             finding = self.at(
@@ -125,7 +127,7 @@ class PluginJointUndefined(RobotRule):
                 joint=default,
                 help=f"add <{parameter.tag}>…</{parameter.tag}>{did_you_mean(default, joints)}",
             )
-            yield from doubted(model, default, None, finding)
+            yield from unless_masked(model, default, None, finding)
 
 
 def _unprefixed_call(model: Model, joint: str) -> str:

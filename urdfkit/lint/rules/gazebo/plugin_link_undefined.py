@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_text
 from urdfkit.lint.facts.gazebo.plugins import is_frame, references
-from urdfkit.lint.model.masked_names import doubted
+from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -73,4 +73,4 @@ class PluginLinkUndefined(RobotRule):
                 link=text,
                 fix=new_text(model, element, near, "unsafe", f"Replace with `{near}`") if near else None,
             )
-            yield from doubted(model, text, near, finding)
+            yield from unless_masked(model, text, near, finding)

@@ -86,7 +86,7 @@ class SensorTypeUnknown(RobotRule):
                 if kind in SENSOR_TYPES or kind in ("openni_kinect", "gpu_ray"):
                     expected = _CLASSIC.get(kind) if is_classic else None
                 else:
-                    expected = _MISNOMERS.get(kind.lower()) or nearest(kind.strip(), SENSOR_TYPES, likeness=0.8)
+                    expected = _MISNOMERS.get(kind.lower()) or nearest(kind.strip(), SENSOR_TYPES, cutoff=0.8)
                     expected = {"ray": "gpu_lidar"}.get(expected or "", expected) if model.target == "gz" else expected
                 if expected is None:
                     continue

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.description.xml.numbers import numbers
-from urdfkit.lint.facts.root_cause import blamed, is_not_positive
+from urdfkit.lint.facts.root_cause import is_not_positive, root_cause
 from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import RobotRule
 
@@ -67,7 +67,7 @@ class NonpositivePrimitive(RobotRule):
                         values = numbers(text) or []
                         if any(value <= 0.0 for value in values) and not model.is_unresolved(element, attribute):
                             message = f'link `{link.name}`: {attribute}="{text}" of <{element.tag}> must be positive'
-                            place = blamed(model, element, attribute, is_not_positive)
+                            place = root_cause(model, element, attribute, is_not_positive)
                             if place is None:
                                 yield self.at(model, element, message, attribute=attribute, link=link.name)
                             elif place not in reported:

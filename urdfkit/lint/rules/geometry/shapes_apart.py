@@ -74,9 +74,9 @@ class ShapesApart(RobotRule):
             extent = model.extents.get(link.name)
             if extent is None or all(shape == extent.shapes[0] for shape in extent.shapes):
                 continue
-            from urdfkit.lint.facts.detached_shapes import TIMES, apart
+            from urdfkit.lint.facts.detached_shapes import TIMES, detached_shapes
 
-            shapes, far, near = apart(model, link)
+            shapes, far, near = detached_shapes(model, link)
             for shape in shapes:
                 if isinstance(shape, Visual) and _is_translucent(model, shape):
                     continue  # It probably shows the view of a sensor.

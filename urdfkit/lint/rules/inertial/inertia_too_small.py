@@ -114,6 +114,6 @@ class InertiaTooSmall(RobotRule):
 
 def _has_detached_shape(model: Model, link: Link) -> bool:
     """Whether a detached shape explains the ratio."""
-    from urdfkit.lint.facts.detached_shapes import apart
+    from urdfkit.lint.facts.detached_shapes import detached_shapes
 
-    return bool(apart(model, link)[0])
+    return bool(detached_shapes(model, link)[0])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from urdfkit.description.urdf.robot import Cylinder
 from urdfkit.description.xml.numbers import numbers
-from urdfkit.lint.model.placement import rotation, shapes_of, turned, unit
+from urdfkit.lint.model.placement import rotated, rotation, shapes_of, unit
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -107,6 +107,6 @@ def _forward_axis(model: Model, joint: Joint, axis: tuple[float, ...]) -> Vector
     x, y, z = axis
     parent = model.frames.get(joint.parent or "")
     frame = parent.moved(joint.origin) if parent is not None else None
-    axis_in_root = turned(frame.rotation, (x, y, z)) if frame is not None else (x, y, z)
+    axis_in_root = rotated(frame.rotation, (x, y, z)) if frame is not None else (x, y, z)
     largest = max(axis_in_root, key=abs)
     return (x, y, z) if largest > 0.0 else (-x, -y, -z)

@@ -77,7 +77,7 @@ class JointTypeUnknown(RobotRule):
         for joint in model.robot.joints:
             if joint.type is None or joint.type in JOINT_TYPES:
                 continue
-            is_typo = nearest(joint.type.strip(), JOINT_TYPES, likeness=0.85) is not None
+            is_typo = nearest(joint.type.strip(), JOINT_TYPES, cutoff=0.85) is not None
             suggestion = _FOREIGN_TYPES.get(joint.type.lower()) or nearest(joint.type.strip(), JOINT_TYPES)
             yield self.at(
                 model,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import meant, new_value
-from urdfkit.lint.model.masked_names import doubted
+from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -110,4 +110,4 @@ class MimicJointUndefined(RobotRule):
                 if suggestion
                 else None,
             )
-            yield from doubted(model, mimic.joint, suggestion, finding)
+            yield from unless_masked(model, mimic.joint, suggestion, finding)

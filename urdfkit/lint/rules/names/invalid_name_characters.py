@@ -48,7 +48,7 @@ class InvalidNameCharacters(RobotRule):
         """Yield a finding for each invalid name."""
         for part in model.parts:
             name = part.name
-            if "$" in name or model.is_unresolved(part.element, "name") or ("\ufffd" in name and model.misread):
+            if "$" in name or model.is_unresolved(part.element, "name") or ("\ufffd" in name and model.encoding_faults):
                 continue
             invalid = re.search(r"^/|[^!-~]|[\"'`<>&]", name)
             if invalid is not None:

@@ -56,7 +56,7 @@ class BridgeMisspelt(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding for each invalid key, type, topic or direction."""
-        sources = [source for source in model.around.values() if any(word in source.text for word in _BRIDGES)]
+        sources = [source for source in model.related_files.values() if any(word in source.text for word in _BRIDGES)]
         if not sources:
             return
         from urdfkit.lint.edits import nearest
@@ -71,7 +71,7 @@ class BridgeMisspelt(RobotRule):
             for bridge, keys in in_yaml(source):
                 bridges.append((source, bridge))
                 for key in keys:
-                    suggestion = nearest(key.text, KEYS, likeness=0.7) if key.text not in KEYS else None
+                    suggestion = nearest(key.text, KEYS, cutoff=0.7) if key.text not in KEYS else None
                     if suggestion is not None:
                         message = f"unknown key `{key.text}` of ros_gz_bridge; did you mean `{suggestion}`?"
                         yield Finding(self.code, self.name, self.severity, message, span_of(source, key))
@@ -101,12 +101,12 @@ def _type_defect(bridge: Bridged) -> tuple[Named, str] | None:
     if bridge.ros is not None and ros_type in known_gazebo_types:
         return bridge.ros, f"expected the ROS type before the Gazebo type, found `{bridge.ros.name}`"
     if bridge.ros is not None and ros_type not in compatible_types:
-        suggestion = nearest(ros_type, compatible_types, likeness=0.85)
+        suggestion = nearest(ros_type, compatible_types, cutoff=0.85)
         return (
             (bridge.ros, f"unknown ROS type `{bridge.ros.name}`; did you mean `{suggestion}`?") if suggestion else None
         )
     if bridge.gazebo is not None and gz_type not in known_gazebo_types:
-        suggestion = nearest(gz_type, known_gazebo_types, likeness=0.85)
+        suggestion = nearest(gz_type, known_gazebo_types, cutoff=0.85)
         return (
             (bridge.gazebo, f"unknown Gazebo type `{bridge.gazebo.name}`; did you mean `{suggestion}`?")
             if suggestion
@@ -125,7 +125,7 @@ def _direction_defect(bridge: Bridged) -> tuple[Named, str] | None:
 
     if bridge.direction is None or bridge.direction.name in DIRECTIONS:
         return None
-    suggestion = nearest(bridge.direction.name, DIRECTIONS, likeness=0.7)
+    suggestion = nearest(bridge.direction.name, DIRECTIONS, cutoff=0.7)
     return bridge.direction, f"unknown direction `{bridge.direction.name}`" + (
         f"; did you mean `{suggestion}`?" if suggestion else ""
     )
@@ -152,7 +152,7 @@ def _topic_defects(bridges: list[tuple[Source, Bridged]], model: Model) -> Itera
             continue
         topic, direction = bridge.topic.name.strip("/"), bridge.direction.name if bridge.direction is not None else ""
         unbridged = [name for name in robot_topics if (source.file, name) not in bridged_topics]
-        suggestion = nearest(topic, sorted(unbridged), likeness=0.75) if topic not in robot_topics else None
+        suggestion = nearest(topic, sorted(unbridged), cutoff=0.75) if topic not in robot_topics else None
         if suggestion is not None and _is_misspelling(topic, suggestion) and not _is_in_description(topic, model):
             yield (
                 source,

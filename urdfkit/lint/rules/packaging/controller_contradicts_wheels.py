@@ -163,7 +163,7 @@ def _has_other_wheels(model: Model) -> bool:
     from urdfkit.lint.project.entry_files import descriptions
 
     included = {str(Path(name).absolute()) for name in model.expanded.sources}
-    packages = {model.package, *(package_of(Path(file)) for file in model.around)}
+    packages = {model.package, *(package_of(Path(file)) for file in model.related_files)}
     folders = sorted(package for package in packages if package is not None)
     texts = (description for folder in folders for description in descriptions(folder))
     return any("continuous" in text for path, text in texts if str(path.absolute()) not in included)

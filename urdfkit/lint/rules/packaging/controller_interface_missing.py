@@ -66,7 +66,7 @@ class ControllerInterfaceMissing(RobotRule):
             for joint in transmission.joints:
                 names = (name.rpartition("/")[2] for name in joint.hardware_interfaces)
                 provided.setdefault(joint.name or "", set()).update(names)
-        for source in model.around.values() if provided else ():
+        for source in model.related_files.values() if provided else ():
             if not source.file.endswith((".yaml", ".yml")):
                 continue
             for controller_type in typed(source):

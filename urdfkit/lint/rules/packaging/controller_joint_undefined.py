@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.lint.facts.neighbouring_names import names_around
+from urdfkit.lint.facts.neighbouring_names import neighbouring_names
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.model.masked_names import doubted
+from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -64,14 +64,16 @@ class ControllerJointUndefined(RobotRule):
         if not joints_by_name:
             return
         defined_elsewhere: list[str] | None = None
-        for source in model.around.values():
+        for source in model.related_files.values():
             if not source.file.endswith((".yaml", ".yml")):
                 continue
             for reference in joints(source):
                 # A chained controller writes the name of the other controller before that of the joint.
                 if reference.name.rpartition("/")[2] in joints_by_name:
                     continue
-                defined_elsewhere = names_around(model, "joint") if defined_elsewhere is None else defined_elsewhere
+                defined_elsewhere = (
+                    neighbouring_names(model, "joint") if defined_elsewhere is None else defined_elsewhere
+                )
                 if any(re.fullmatch(pattern, reference.name) for pattern in defined_elsewhere):
                     continue
                 suggestion = nearest(reference.name, joints_by_name)
@@ -84,4 +86,4 @@ class ControllerJointUndefined(RobotRule):
                     source.span(reference.start, reference.start + len(reference.name)),
                     joint=reference.name,
                 )
-                yield from doubted(model, reference.name, suggestion, finding)
+                yield from unless_masked(model, reference.name, suggestion, finding)

@@ -68,7 +68,7 @@ class ControllerSettingsMisspelt(RobotRule):
         from urdfkit.lint.facts.control.controller_joints import typed
         from urdfkit.lint.facts.control.launch_files import uncommented
 
-        for source in model.around.values():
+        for source in model.related_files.values():
             if not source.file.endswith((".yaml", ".yml")):
                 continue
             text = uncommented(source)
@@ -91,7 +91,7 @@ class ControllerSettingsMisspelt(RobotRule):
 
         keys = [(key[2], key.start(2), len(key[1])) for key in re.finditer(_KEY, text)]
         for name, start in ((key[1], key.start(1)) for key in re.finditer(_GROUP, text)):
-            if name != _PARAMETERS and nearest(name, [_PARAMETERS], likeness=0.85) is not None:
+            if name != _PARAMETERS and nearest(name, [_PARAMETERS], cutoff=0.85) is not None:
                 yield self._at(source, start, name, f"unknown key `{name}`; did you mean `{_PARAMETERS}`?")
         declared = set(controllers(source))
         sections = [
@@ -102,7 +102,7 @@ class ControllerSettingsMisspelt(RobotRule):
         without_section = declared - {short_name for _, short_name, _ in sections}
         for name, short_name, start in sections:
             suggestion = (
-                nearest(short_name, without_section, likeness=0.85)
+                nearest(short_name, without_section, cutoff=0.85)
                 if short_name not in (*declared, "controller_manager")
                 else None
             )
@@ -129,7 +129,7 @@ def _suggested_type(name: str) -> str | None:
 
     if name in TYPES:
         return None
-    suggestion = nearest(name, TYPES, likeness=0.9)
+    suggestion = nearest(name, TYPES, cutoff=0.9)
     if suggestion is None:
         return None
     parts = zip(name.split("/"), suggestion.split("/"), strict=False)

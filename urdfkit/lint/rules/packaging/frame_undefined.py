@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 
-from urdfkit.lint.facts.neighbouring_names import names_around
+from urdfkit.lint.facts.neighbouring_names import neighbouring_names
 from urdfkit.lint.finding import Finding
-from urdfkit.lint.model.masked_names import doubted
+from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -65,7 +65,7 @@ class FrameUndefined(RobotRule):
         if not links_by_name:
             return
         defined_elsewhere: list[str] | None = None
-        for source in model.around.values():
+        for source in model.related_files.values():
             if not source.file.endswith((".yaml", ".yml")):
                 continue
             for match in re.finditer(_FRAME, uncommented(source)):
@@ -73,7 +73,9 @@ class FrameUndefined(RobotRule):
                 suggestion, hint = meant(name, links_by_name)
                 if name in links_by_name or (suggestion is None and not _is_drive_frame(source, match, model)):
                     continue
-                defined_elsewhere = names_around(model, "link") if defined_elsewhere is None else defined_elsewhere
+                defined_elsewhere = (
+                    neighbouring_names(model, "link") if defined_elsewhere is None else defined_elsewhere
+                )
                 if any(re.fullmatch(pattern, name) for pattern in defined_elsewhere):
                     continue
                 finding = Finding(
@@ -84,7 +86,7 @@ class FrameUndefined(RobotRule):
                     source.span(*match.span(3)),
                     link=name,
                 )
-                yield from doubted(model, name, suggestion, finding)
+                yield from unless_masked(model, name, suggestion, finding)
 
 
 def _is_drive_frame(source: Source, match: re.Match[str], model: Model) -> bool:
@@ -93,7 +95,7 @@ def _is_drive_frame(source: Source, match: re.Match[str], model: Model) -> bool:
 
     if match[1] != "base_frame_id" or any(
         re.search(rf"(?<![\w-]){re.escape(match[3])}(?![\w-])", other.text)
-        for other in model.around.values()
+        for other in model.related_files.values()
         if other is not source
     ):
         return False

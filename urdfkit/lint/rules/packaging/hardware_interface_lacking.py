@@ -93,7 +93,7 @@ class HardwareInterfaceLacking(RobotRule):
         sensor = controller.settings.find("sensor_name") if controller.settings is not None else None
         if sensor is None or not sensor.text or controller.kind.text not in _BROADCASTERS or sensor.text in hardware:
             return
-        suggestion = nearest(sensor.text, hardware, likeness=0.7)
+        suggestion = nearest(sensor.text, hardware, cutoff=0.7)
         if suggestion is not None:
             message = f"unknown sensor `{sensor.text}` of controller `{controller.name}`; did you mean `{suggestion}`?"
             yield Finding(self.code, self.name, self.severity, message, span_of(source, sensor))

@@ -44,7 +44,7 @@ class LaunchNotWellFormed(RobotRule):
 
     def check(self, model: Model) -> Iterator[Finding]:
         """Yield a finding at the first syntax error of each launch file and package.xml."""
-        for source in model.around.values():
+        for source in model.related_files.values():
             error = None
             if source.file.endswith((".launch", ".launch.xml", "package.xml")):
                 error = _in_xml(source)

@@ -55,7 +55,7 @@ class LaunchPathMissing(RobotRule):
         if model.package is None:
             return
         neighbouring: dict[str, Path] | None = None
-        for source in model.around.values():
+        for source in model.related_files.values():
             if not source.file.endswith(LAUNCH) or ("find" not in source.text and "hare" not in source.text):
                 continue
             neighbouring = neighbours(model.package) if neighbouring is None else neighbouring

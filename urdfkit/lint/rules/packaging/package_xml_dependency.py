@@ -81,7 +81,7 @@ class PackageXmlDependency(RobotRule):
         """Yield a finding for each package that a launch file uses without a dependency in its own package."""
         from urdfkit.lint.facts.control.launch_files import packages_used
 
-        for file, source in model.around.items():
+        for file, source in model.related_files.items():
             package = package_of(Path(file)) if file.endswith(LAUNCH) else None
             if package is None or not _TESTS.isdisjoint(Path(file).absolute().relative_to(package).parts):
                 continue

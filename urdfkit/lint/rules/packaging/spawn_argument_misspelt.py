@@ -94,7 +94,7 @@ def _invalid_arguments(node: Started) -> Iterator[tuple[int, str, str]]:
                 yield word.start, text, f"unknown option `{text}` of `{node.program}`; did you mean `-{suggestion}`?"
         elif word is not None and previous in ("topic", "param"):
             name = text.strip("/").rpartition("/")[2]
-            if name != _DESCRIPTION and nearest(name, [_DESCRIPTION], likeness=0.88) is not None:
+            if name != _DESCRIPTION and nearest(name, [_DESCRIPTION], cutoff=0.88) is not None:
                 kind = "topic" if previous == "topic" else "parameter"
                 yield word.start, text, f"unknown {kind} `{text}`; did you mean `{_DESCRIPTION}`?"
         previous = option[1] if option is not None else ""
@@ -104,7 +104,7 @@ def _nearest_option(option: str, options: tuple[str, ...]) -> str | None:
     from urdfkit.lint.edits import nearest
 
     return (
-        nearest(option, [candidate for candidate in options if len(candidate) > 1], likeness=0.7)
+        nearest(option, [candidate for candidate in options if len(candidate) > 1], cutoff=0.7)
         if len(option) > 2
         else None
     )

@@ -54,8 +54,8 @@ class SpawnedControllerUndefined(RobotRule):
         from urdfkit.errors import did_you_mean
         from urdfkit.lint.facts.control.controller_joints import controllers
 
-        launches = [file for file in model.around.values() if re.search(r"spawner", file.text)]
-        parameter_files = [file for file in model.around.values() if file.file.endswith((".yaml", ".yml"))]
+        launches = [file for file in model.related_files.values() if re.search(r"spawner", file.text)]
+        parameter_files = [file for file in model.related_files.values() if file.file.endswith((".yaml", ".yml"))]
         if not launches or not parameter_files:
             return
         defined = [name for file in parameter_files for name in controllers(file)]

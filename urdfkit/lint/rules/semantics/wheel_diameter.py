@@ -113,4 +113,4 @@ class WheelDiameter(RobotRule):
                 if any(abs(value[0] - factor * radius) <= TOLERANCE * factor * radius for radius in radii):
                     continue
                 actual = f"the {meaning.removeprefix('wheel_')} of the wheels is {{}} m"
-                yield mismatch(self, model, drive, value, actual=factor * radii[0], beside=actual)
+                yield mismatch(self, model, drive, value, actual=factor * radii[0], comparison=actual)

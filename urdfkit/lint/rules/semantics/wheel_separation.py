@@ -126,4 +126,4 @@ class WheelSeparation(RobotRule):
                 continue
             first_pair = min(len(left.middles), len(right.middles))
             actual, subject = track(left, right, distances[:first_pair])
-            yield mismatch(self, model, drive, value, actual=actual, beside=f"{subject} are {{}} m apart")
+            yield mismatch(self, model, drive, value, actual=actual, comparison=f"{subject} are {{}} m apart")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from urdfkit.description.urdf.queries import dangling
 from urdfkit.lint.edits import new_value
 from urdfkit.lint.facts.parentless_links import meant_child
-from urdfkit.lint.model.masked_names import doubted
+from urdfkit.lint.model.masked_names import unless_masked
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -64,4 +64,4 @@ class ChildLinkUndefined(RobotRule):
                 if suggestion
                 else None,
             )
-            yield from doubted(model, name, suggestion, finding)
+            yield from unless_masked(model, name, suggestion, finding)

@@ -55,7 +55,7 @@ class MultipleRoots(RobotRule):
         if len(roots) < 2:
             return
         likely_children = _likely_children(robot)
-        masked = model.hidden
+        masked = model.masked_names
         roots = [link for link in roots if link.name not in likely_children and not masked.has_child(link.name)]
         if len(roots) < 2:
             return

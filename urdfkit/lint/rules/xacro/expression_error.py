@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from urdfkit.lint.facts.root_cause import culprit, is_no_number
+from urdfkit.lint.facts.root_cause import cause_in_text, is_no_number
 from urdfkit.lint.rule import FaultRule
 
 TYPE_CHECKING = False
@@ -51,7 +51,7 @@ class ExpressionError(FaultRule):
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
         """Yield the finding, at the definition of a malformed number if that is the cause."""
         text = f"${{{fault.expression}}}"
-        cause = culprit(model, text, fault.expansions, is_no_number) if fault.expression else None
+        cause = cause_in_text(model, text, fault.expansions, is_no_number) if fault.expression else None
         if cause is None:
             yield from super().check(fault, model)
         else:

@@ -65,7 +65,7 @@ def _nearest_file(fault: Fault, model: Model) -> Fix | None:
     if not path.name or not path.parent.is_dir() or attribute is None or not attribute.value.endswith(path.name):
         return None
     files = sorted(file.name for file in path.parent.iterdir() if file.is_file() and file.suffix == path.suffix)
-    suggestion = nearest(path.name, files, likeness=0.75)
+    suggestion = nearest(path.name, files, cutoff=0.75)
     if suggestion is None or fault.position.file.endswith(suggestion):
         return None
     start = attribute.value_end - len(path.name)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.lint.edits import new_text, new_value
-from urdfkit.lint.facts.escaped_expressions import is_unexpanded, righted
+from urdfkit.lint.facts.escaped_expressions import correct_escapes, is_unexpanded
 from urdfkit.lint.finding import Edit, Fix
 from urdfkit.lint.rule import RobotRule
 
@@ -70,7 +70,7 @@ class UnexpandedExpression(RobotRule):
                 if is_unexpanded(value) and not model.is_unresolved(element, attribute):
                     if is_reported_at_source and model.literal(element, attribute) is None:
                         continue  # Reported at the property or argument that contains it.
-                    corrected = righted(value)
+                    corrected = correct_escapes(value)
                     fix = (
                         new_value(model, element, attribute, corrected, "safe", f"Replace with `{corrected}`")
                         if corrected != value
@@ -79,7 +79,7 @@ class UnexpandedExpression(RobotRule):
                     message = f'xacro does not evaluate the expression in {attribute}="{value}"'
                     yield self.at(model, element, message, attribute=attribute, help="write ${…}", fix=fix)
             if element.text and is_unexpanded(element.text) and not model.is_unresolved(element):
-                corrected = righted(element.text)
+                corrected = correct_escapes(element.text)
                 fix = (
                     new_text(model, element, corrected, "safe", f"Replace with `{corrected}`")
                     if corrected != element.text
@@ -97,7 +97,7 @@ class UnexpandedExpression(RobotRule):
                 if not tag.name.startswith("xacro:"):
                     continue
                 for attribute, written_value in tag.attributes.items():
-                    corrected = righted(written_value.value)
+                    corrected = correct_escapes(written_value.value)
                     if corrected == written_value.value:
                         continue
                     edit = Edit(source.span(written_value.value_start, written_value.value_end), corrected)

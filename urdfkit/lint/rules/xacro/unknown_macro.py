@@ -65,7 +65,7 @@ class UnknownMacro(FaultRule):
             return  # The malformed file is reported instead.
         correct_name = fault.name
         if fault.kind == "undefined-macro":
-            correct_name = fault.details.get("meant") or nearest(fault.name or "", fault.candidates, likeness=0.7)
+            correct_name = fault.details.get("meant") or nearest(fault.name or "", fault.candidates, cutoff=0.7)
         changes: dict[str, object] = {}
         fix = self._renaming_fix(model, fault, correct_name) if correct_name and fault.defined_at is None else None
         if fix is None and fault.kind == "undefined-macro" and fault.defined_at is None:
@@ -91,7 +91,7 @@ class UnknownMacro(FaultRule):
 
 def _defining_file(name: str, model: Model) -> str | None:
     """Return the path, relative to the entry file, of the only file that defines a macro and is not included."""
-    files = model.macros_around.get(name, [])
+    files = model.neighbouring_macros.get(name, [])
     if len(files) != 1:
         return None
     return os.path.relpath(files[0], model.expanded.path.absolute().parent).replace(os.sep, "/")

@@ -94,7 +94,7 @@ def _is_call(tag: Tag, signatures: list[Signature]) -> bool:
     if any(ancestor.name in FOREIGN for ancestor in tag.ancestors()):
         # Embedded formats may have elements of any name; only an exact match of the parameters is a call.
         arguments = frozenset(tag.attributes)
-        return bool(arguments) and any(macro.required <= arguments <= macro.known for macro in signatures)
+        return bool(arguments) and any(macro.required <= arguments <= macro.names for macro in signatures)
     return True
 
 
