@@ -5,7 +5,7 @@ are those of the x86-64 ABI. Processors since Intel's Haswell (2013) and AMD's E
 first, and compute the same bytes. Others, which lack fused multiply-add (Pentium, Celeron and Atom of some later years
 among them), run slower code, which rounds otherwise where a kernel lets a product and a sum be one instruction.
 
-The user's settings come first: with ``NUMBA_CPU_NAME`` or ``NUMBA_CPU_FEATURES`` kernels are compiled as these say, and
+The user's settings come first: with ``NUMBA_CPU_NAME`` or ``NUMBA_CPU_FEATURES`` kernels follow these variables, and
 with ``NUMBA_ENABLE_AVX=0`` for the level without AVX. For other architectures they are compiled as numba does.
 """
 
@@ -22,7 +22,7 @@ LEVELS = {
     "x86-64-v2": V2,
     "x86-64": (),
 }
-"""What a processor has to support for each level, by LLVM's names; the best level first."""
+"""Level → the features a processor must support, by LLVM's names; the best level first."""
 BEYOND = "-adx,-aes,-clflushopt,-fsgsbase,-invpcid,-pclmul,-prfchw,-rdrnd,-rdseed,-sgx,-xsavec,-xsaveopt,-xsaves"
 TUNED = {"x86-64-v3": ("skylake", BEYOND)}
 """The processor that code of a level is arranged for, and the features it has beyond the level. This changes the order
@@ -40,7 +40,7 @@ def level() -> str:
         return NATIVE
     try:
         host = binding.get_host_cpu_features()
-    except RuntimeError:  # LLVM cannot tell
+    except RuntimeError:  # LLVM cannot detect the features
         host = {}
     supported = {name for name, has in host.items() if has and (config.ENABLE_AVX or not name.startswith("avx"))}
     return next(name for name, needed in LEVELS.items() if supported.issuperset(needed))

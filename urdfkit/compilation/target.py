@@ -1,4 +1,4 @@
-"""numba's code generator for a fixed level of x86-64, beside the one of the process."""
+"""numba's code generator for a fixed level of x86-64, in addition to the default one."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from urdfkit.compilation.level import NATIVE, TUNED, level
 
 
 class LevelCodegen(JITCPUCodegen):  # type: ignore[misc]
-    """numba's code generator, for a level. numba keeps the level in the key of what it caches."""
+    """Code generator of numba for one level, which becomes part of numba's cache key."""
 
     def _get_host_cpu_name(self) -> str:
         """Return the processor, by LLVM's name; a level is one, too."""
@@ -34,9 +34,9 @@ def codegen() -> Any:
 
 @contextmanager
 def fixed_level() -> Iterator[None]:
-    """Compile for `level` while this lasts, and load from numba's cache what was compiled for it.
+    """Compile for `level` in the ``with`` block, and load code of that level from numba's cache.
 
-    Nobody else in the process compiles meanwhile; functions that others compile stay as numba makes them.
+    Other threads of the process wait to compile; functions compiled elsewhere are unaffected.
     """
     if level() == NATIVE:
         yield

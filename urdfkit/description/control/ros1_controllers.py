@@ -5,7 +5,7 @@ The model does not name it: a launch file loads the parameters and starts the co
 1. explicitly named files replace all others; a file without the robot's namespace is treated as if it had been
    loaded into it;
 2. launch files in the robot's package and in neighbouring packages, similarly named packages first: the first file
-   that loads controllers into the robot's namespace, preferably one that also starts controllers;
+   that loads controllers into the robot's namespace, preferably a file that also starts controllers;
 3. without one, the YAML files in the ``config`` folders of the same packages that configure controllers there.
 """
 

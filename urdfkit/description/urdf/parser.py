@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from urdfkit.description.urdf.values import Part
 
 SHAPES = ("box", "cylinder", "sphere", "capsule", "mesh")
-"""What a ``<geometry>`` may hold."""
+"""Shapes allowed in a ``<geometry>``."""
 
 _TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
@@ -57,7 +57,7 @@ def parse(
 
     Args:
         root: the ``<robot>`` element after expansion. Any other element gives a robot without links.
-        files: what was read, for `Robot.files`.
+        files: the files read, for `Robot.files`.
         packages: for `Robot.packages`.
         known: element → the part read from it before, with its problems; updated.
     """

@@ -18,7 +18,7 @@ STAMP = "urdfkit.origin"
 """The key under which the elements of a minidom carry their `Stamp` (as DOM user data)."""
 
 Stamp = tuple[str, int, int, tuple[Expansion, ...]]
-"""File, line, column and chain of macro calls: an `Origin` before anybody asks for it."""
+"""File, line, column and chain of macro calls: the compact form of an `Origin`."""
 
 
 @record(eq=False)

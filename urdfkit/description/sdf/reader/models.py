@@ -1,4 +1,4 @@
-"""Models of SDF: links, joints, frames and models inside models, and what is included from other files."""
+"""Models of SDF: links, joints, frames and models inside models, and included files."""
 
 from __future__ import annotations
 
