@@ -86,16 +86,16 @@ def opened(folder: Path, message: Any) -> np.ndarray:
 
 def test_points_are_saved_otherwise(capsys: Capture) -> None:
     assert main(["sim", "run", "gem_e2", "--for", "0", "--save-image", "/velodyne_points=x.png"]) == 2
-    said = "--save-image: points come on /velodyne_points, not pictures; save them by --save-scan"
+    said = "--save-image: /velodyne_points carries points, not images; use --save-scan"
     assert said in capsys.readouterr().err.splitlines()[-1]
 
 
 @pytest.mark.parametrize(
     ("option", "said"),
     [
-        ("/simpleton/camera1/image=x.png", f"no pictures come on /simpleton/camera1/image; did you mean `{TOPIC}`?"),
+        ("/simpleton/camera1/image=x.png", f"unknown topic /simpleton/camera1/image; did you mean `{TOPIC}`?"),
         (f"{TOPIC}=x.jpg", "is not TOPIC=FILE.png"),
-        ("x.png", "no picture came on /simpleton/camera1/image_raw in 0 s; run for longer"),
+        ("x.png", "no image was published on /simpleton/camera1/image_raw in 0 s; increase --for"),
     ],
 )
 def test_what_cannot_be_saved_is_said(tmp_path: Path, capsys: Capture, option: str, said: str) -> None:

@@ -63,23 +63,23 @@ def test_the_only_cloud_needs_no_topic(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("robot", "option", "seconds", "said"),
     [
-        (LASER, "/scn=x.json", "0.1", "--save-scan: no scans come on /scn; did you mean `/scan`?"),
+        (LASER, "/scn=x.json", "0.1", "--save-scan: unknown topic /scn; did you mean `/scan`?"),
         (LASER, "/scan=x.png", "0.1", "`/scan=x.png` is not TOPIC=FILE.json or .csv"),
         (LASER, "x.json", "0", "--save-scan: no scan was published on /scan in 0 s; increase --for"),
         (
             "simpleton",
             "simpleton/camera1/image_raw=x.json",
             "0",
-            "--save-scan: pictures come on /simpleton/camera1/image_raw, not scans; save them by --save-image",
+            "--save-scan: /simpleton/camera1/image_raw carries images, not scans; use --save-image",
         ),
         (
             "simpleton",
             "camera1/image_raw=x.json",
             "0",
-            "scans come on /camera1/image_raw; did you mean `/simpleton/cam",
+            "unknown topic /camera1/image_raw; did you mean `/simpleton/cam",
         ),
-        (LASER, "/joint_states=x.json", "0", "no scans come on /joint_states, but sensor_msgs/msg/JointState; there"),
-        ("simpleton", "x.json", "0", "say which scans, TOPIC=FILE.json; nothing here publishes any"),
+        (LASER, "/joint_states=x.json", "0", "/joint_states carries sensor_msgs/msg/JointState, not scans; topics"),
+        ("simpleton", "x.json", "0", "select a topic with TOPIC=FILE.json; no topic carries scans"),
     ],
 )
 def test_what_cannot_be_saved_is_said(

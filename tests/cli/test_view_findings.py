@@ -30,7 +30,7 @@ def robot(tmp_path: Path) -> Path:
 
 def look(path: Path, **options) -> tuple[Findings, dict[str, dict]]:
     findings = Findings(find_model([str(path)]), **options)
-    return findings, {row["code"]: row for row in findings.look()["findings"]}
+    return findings, {row["code"]: row for row in findings.lint()["findings"]}
 
 
 def test_a_row_has_the_lines_the_place_the_rule_and_the_fix(robot: Path) -> None:
@@ -43,7 +43,7 @@ def test_a_row_has_the_lines_the_place_the_rule_and_the_fix(robot: Path) -> None
     assert 'xyz="0 0 1"' in row["fix"]["diff"][2]
     assert row["fix"]["may"]
     assert rows["I503"]["link"] == "mast"
-    rules = findings.look()["rules"]
+    rules = findings.lint()["rules"]
     assert rules["J412"].startswith("# ")
     assert set(rules) == set(rows)
 
@@ -52,11 +52,11 @@ def test_one_fix_changes_its_line_and_no_other_byte(robot: Path) -> None:
     before = robot.read_bytes()
     robot.chmod(0o640)
     findings, rows = look(robot)
-    assert findings.mend(rows["J412"]["number"]).startswith("J412: Normalise the axis, in ")
+    assert findings.apply_fix(rows["J412"]["number"]).startswith("J412: Normalise the axis, in ")
     assert robot.read_bytes() == before.replace(b'xyz="0 0 2"', b'xyz="0 0 1"')
     assert robot.stat().st_mode & 0o777 == 0o640
     assert list(robot.parent.iterdir()) == [robot]  # no temporary file is left
-    assert "J412" not in {row["code"] for row in findings.look()["findings"]}
+    assert "J412" not in {row["code"] for row in findings.lint()["findings"]}
 
 
 def test_only_the_finding_that_was_named_is_mended(tmp_path: Path) -> None:
@@ -64,9 +64,9 @@ def test_only_the_finding_that_was_named_is_mended(tmp_path: Path) -> None:
     path.write_text(ROBOT.replace("</robot>", """<link name="eye"/><joint name="look" type="continuous">
       <parent link="base"/><child link="eye"/><axis xyz="0 3 0"/></joint></robot>"""))  # fmt: skip
     findings = Findings(find_model([str(path)]))
-    rows = [row for row in findings.look()["findings"] if row["code"] == "J412"]
+    rows = [row for row in findings.lint()["findings"] if row["code"] == "J412"]
     assert [row["joint"] for row in rows] == ["turn", "look"]
-    findings.mend(rows[1]["number"])
+    findings.apply_fix(rows[1]["number"])
     assert 'xyz="0 1 0"' in path.read_text()
     assert 'xyz="0 0 2"' in path.read_text()
 
@@ -76,10 +76,10 @@ def test_one_of_several_that_say_the_same_is_mended(tmp_path: Path, nth: int) ->
     path = tmp_path / "two.urdf.xacro"
     path.write_text(TWINS)
     findings = Findings(find_model([str(path)]))
-    rows = [row for row in findings.look()["findings"] if row["code"] == "X112"]
+    rows = [row for row in findings.lint()["findings"] if row["code"] == "X112"]
     assert len(rows) == 4
     assert len({row["message"] for row in rows}) == 1
-    findings.mend(rows[nth]["number"])
+    findings.apply_fix(rows[nth]["number"])
     before, after = TWINS.splitlines(), path.read_text().splitlines()
     assert [line for line, (old, new) in enumerate(zip(before, after, strict=True), 1) if old != new] == [
         rows[nth]["line"]
@@ -90,7 +90,7 @@ def test_a_finding_in_the_text_knows_the_links_and_joints_made_of_it(tmp_path: P
     path = tmp_path / "two.urdf.xacro"
     path.write_text(TWINS)
     findings = Findings(find_model([str(path)]))
-    rows = [row for row in findings.look(load(path))["findings"] if row["code"] == "X112"]
+    rows = [row for row in findings.lint(load(path))["findings"] if row["code"] == "X112"]
     assert [row["about"] for row in rows] == [
         [{"link": "a"}],
         [{"link": "b"}],
@@ -108,21 +108,21 @@ def test_a_finding_in_the_text_knows_the_links_and_joints_made_of_it(tmp_path: P
 def test_a_number_that_was_never_given_is_refused(robot: Path, number: int) -> None:
     findings, _ = look(robot)
     with pytest.raises(UsageError, match="gone"):
-        findings.mend(number)
+        findings.apply_fix(number)
 
 
 def test_a_number_of_an_earlier_look_is_refused(robot: Path) -> None:
     findings, rows = look(robot)
-    findings.look()
+    findings.lint()
     with pytest.raises(UsageError, match="gone"):
-        findings.mend(rows["J412"]["number"])
+        findings.apply_fix(rows["J412"]["number"])
 
 
 def test_what_has_no_safe_fix_is_refused_and_nothing_is_written(robot: Path) -> None:
     before = robot.read_bytes()
     findings, rows = look(robot)
     with pytest.raises(UsageError, match="no safe fix"):
-        findings.mend(rows["I503"]["number"])
+        findings.apply_fix(rows["I503"]["number"])
     assert robot.read_bytes() == before
 
 
@@ -130,8 +130,8 @@ def test_a_file_that_has_changed_is_not_written(robot: Path) -> None:
     findings, rows = look(robot)
     robot.write_text(robot.read_text("latin-1").replace("0 0 2", "0 0 1"))
     before = robot.read_bytes()
-    with pytest.raises(ResourceError, match="not there any more"):
-        findings.mend(rows["J412"]["number"])
+    with pytest.raises(ResourceError, match="no longer occurs"):
+        findings.apply_fix(rows["J412"]["number"])
     assert robot.read_bytes() == before
 
 
@@ -140,14 +140,14 @@ def test_who_may_not_write_does_not(robot: Path) -> None:
     findings, rows = look(robot, may_write=False)
     assert not rows["J412"]["fix"]["may"]
     with pytest.raises(UsageError, match="changes no files"):
-        findings.mend(rows["J412"]["number"])
+        findings.apply_fix(rows["J412"]["number"])
     assert robot.read_bytes() == before
 
 
 def test_a_file_that_cannot_be_read_is_a_fault_and_no_error(robot: Path) -> None:
     findings, _ = look(robot)
     robot.unlink()
-    found = findings.look()
+    found = findings.lint()
     assert found["findings"] == []
     assert "lab.urdf" in found["fault"]
 
@@ -159,7 +159,7 @@ def test_the_settings_of_the_project_hold_here_too(robot: Path) -> None:
     (robot.parent / "urdfkit.toml").write_text("nonsense = 1\n")
     findings, rows = look(robot)
     assert rows == {}
-    assert "nonsense" in findings.look()["fault"]
+    assert "nonsense" in findings.lint()["fault"]
 
 
 def test_findings_are_those_of_the_linter() -> None:

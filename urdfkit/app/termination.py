@@ -1,4 +1,4 @@
-"""Being told to end while files are written: undone as Ctrl-C undoes it, then gone with the signal's exit code."""
+"""Termination by signals: undo unfinished work as after Ctrl-C, then exit with the signal's exit code."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C.
 
-    When a plain KeyboardInterrupt leaves text that `exec` or `eval` runs, as dataclasses have it, Python ends by SIGINT
-    whatever exit code it is given, although somebody has caught the exception.
+    When a plain KeyboardInterrupt leaves code run by `exec` or `eval`, as in dataclasses, Python exits by SIGINT
+    whatever the exit code, even if the exception was caught.
     """
 
 
@@ -26,13 +26,13 @@ def _interrupt(_number: int, _frame: FrameType | None) -> None:
 
 @contextmanager
 def ended_by_signals() -> Iterator[None]:
-    """Run a block that SIGTERM and SIGHUP, of a terminal that is closed, end as Ctrl-C does: what it began is undone.
+    """Run a block that SIGTERM and SIGHUP interrupt as Ctrl-C does, so that unfinished work is undone.
 
-    What was ignored before stays ignored: SIGHUP under ``nohup``, and Ctrl-C in a job that a script starts in the
-    background. SIGTERM ends these, too.
+    A signal that was ignored before stays ignored: SIGHUP under ``nohup``, and Ctrl-C in a background job of a
+    script. SIGTERM ends these, too.
 
     Raises:
-        SystemExit: 128 and the number of the signal, as a shell reports a program that one has ended.
+        SystemExit: 128 plus the number of the signal, as shells report it.
         KeyboardInterrupt: Ctrl-C.
     """
     before = {}
@@ -40,13 +40,13 @@ def ended_by_signals() -> Iterator[None]:
 
     def end(number: int, _frame: FrameType | None) -> None:
         ended.append(number)
-        if len(ended) != 2:  # a shell sends it twice, and the second must not interrupt the cleanup of the first
+        if len(ended) != 2:  # a shell may send the signal twice; the second must not interrupt the cleanup
             raise SystemExit(128 + number)
 
     if threading.current_thread() is threading.main_thread():
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
             before[signal.SIGINT] = signal.signal(signal.SIGINT, _interrupt)
-        for name in ("SIGTERM", "SIGHUP"):  # the second is not everywhere
+        for name in ("SIGTERM", "SIGHUP"):  # SIGHUP is missing on Windows
             number = getattr(signal, name, None)
             if number is not None and signal.getsignal(number) == signal.SIG_DFL:
                 before[number] = signal.signal(number, end)

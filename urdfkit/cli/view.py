@@ -181,7 +181,7 @@ class Session:
             UrdfkitError: it cannot be done.
         """
         if order.name == "fix":
-            done = self.findings.mend(order.values["finding"])
+            done = self.findings.apply_fix(order.values["finding"])
             note(f"fixed {done}")
             return {"done": done}
         frame, position = order.values["frame"], order.values["position"]
@@ -192,7 +192,7 @@ class Session:
     def lint(self, *, stale: bool = False) -> None:
         """Put what the linter finds on the page; `stale` where the robot is not the one in the files."""
         robot = None if stale else self.figure.kinematics.robot
-        self.server.declare("findings", **self.findings.look(robot))
+        self.server.declare("findings", **self.findings.lint(robot))
 
     def look(self) -> None:
         """Look at the files: read what has changed, say what is gone."""

@@ -1,4 +1,4 @@
-"""``sim run --save-image``: the last picture of a topic, as PNG."""
+"""``sim run --save-image``: write the last image of a topic as PNG."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ IMAGE = "sensor_msgs/msg/Image"
 
 
 def find_topics(simulator: Simulator, wanted: Sequence[TopicFile]) -> list[tuple[str, Path]]:
-    """Return the topic and the file of each ``--save-image``.
+    """Return topic and file of each ``--save-image``.
 
     Raises:
-        UsageError: there is no such topic, it carries no pictures, or none is named and there are several.
+        UsageError: the topic is unknown or carries no images, or the default is ambiguous.
         MissingDependencyError: Pillow is not installed.
     """
     from importlib.util import find_spec
@@ -29,30 +29,30 @@ def find_topics(simulator: Simulator, wanted: Sequence[TopicFile]) -> list[tuple
     if wanted and find_spec("PIL") is None:
         raise MissingDependencyError("--save-image needs Pillow: pip install 'urdfkit[sim]'")
     return saved_topics.find_topics(
-        simulator, wanted, option="--save-image", types=(IMAGE,), what="pictures", suffix=".png"
+        simulator, wanted, option="--save-image", types=(IMAGE,), what="images", suffix=".png"
     )
 
 
 def contents(simulator: Simulator, wanted: Sequence[tuple[str, Path]]) -> Iterator[tuple[Path, bytes]]:
-    """Yield each file and what is to be in it, the last picture of its topic.
+    """Yield each file and its content, the last image of its topic.
 
     Raises:
-        UsageError: none has been taken so far.
+        UsageError: no image has been published.
     """
     for topic, file in wanted:
         message = simulator.bus.latest(topic)
         if message is None:
-            raise UsageError(f"--save-image: no picture came on {topic} in {simulator.t:g} s; run for longer")
+            raise UsageError(f"--save-image: no image was published on {topic} in {simulator.t:g} s; increase --for")
         yield file, png(message)
 
 
 def png(message: Any) -> bytes:
     """Return an Image as PNG.
 
-    Depths become 16 bits of millimetres, zero where there is none, as in 16UC1. Bayer patterns stay grey.
+    Depths are converted to 16-bit millimetres, zero where unknown, as in 16UC1. Bayer patterns stay grey.
 
     Args:
-        message: of type sensor_msgs/Image.
+        message: a message of type sensor_msgs/Image.
     """
     import numpy as np
     from PIL import Image
@@ -60,8 +60,8 @@ def png(message: Any) -> bytes:
     def rows(kind: str, channels: int = 1) -> Any:
         lines = np.frombuffer(message.data.tobytes(), "u1").reshape(message.height, message.step)
         size = np.dtype(kind).itemsize * channels * message.width
-        found = np.ascontiguousarray(lines[:, :size]).view(kind).reshape(message.height, message.width, channels)
-        return found[:, :, 0] if channels == 1 else found
+        image = np.ascontiguousarray(lines[:, :size]).view(kind).reshape(message.height, message.width, channels)
+        return image[:, :, 0] if channels == 1 else image
 
     match message.encoding:
         case "rgb8":
@@ -69,11 +69,11 @@ def png(message: Any) -> bytes:
         case "bgr8":
             pixels = rows("u1", 3)[:, :, ::-1]
         case "rgb16":
-            pixels = (rows("<u2", 3) >> 8).astype(np.uint8)  # PNG libraries know 16 bits of grey only
+            pixels = (rows("<u2", 3) >> 8).astype(np.uint8)  # PNG libraries support 16 bits only for grey
         case "32FC1":
             depth = rows("<f4")
-            known = np.isfinite(depth) & (depth > 0) & (depth < 65.535)
-            pixels = np.rint(np.where(known, depth, 0.0) * 1000.0).astype(np.uint16)
+            valid = np.isfinite(depth) & (depth > 0) & (depth < 65.535)
+            pixels = np.rint(np.where(valid, depth, 0.0) * 1000.0).astype(np.uint16)
         case "16UC1" | "mono16":
             pixels = rows("<u2")
         case _:

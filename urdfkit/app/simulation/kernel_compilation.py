@@ -1,4 +1,4 @@
-"""Compile the physics kernel where it has not been, and say so."""
+"""Compile the physics kernels if they are not cached, and announce it."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from typing import TextIO
 
 
 def prepare_rays(out: TextIO) -> bool:
-    """Make sure that the kernels that sensors see by are compiled and loaded; return whether they had to be compiled.
+    """Compile and load the kernels of ray-casting sensors; return whether a compilation was necessary.
 
     Args:
-        out: where to announce a compilation.
+        out: stream for the announcement of a compilation.
     """
     from urdfkit.scene.rays import announcement, warmup
 
@@ -17,14 +17,14 @@ def prepare_rays(out: TextIO) -> bool:
 
 
 def prepare_kernel(out: TextIO, *, world: bool = False) -> bool:
-    """Make sure that the kernel is compiled and loaded, so that no later step waits for it.
+    """Compile and load the physics kernel, so that no later step waits for it.
 
     Args:
-        out: where to announce a compilation; a terminal also sees how it gets on.
-        world: whether it is the kernel for worlds that hold bodies.
+        out: stream for the announcement of a compilation; a terminal also gets its progress.
+        world: compile the kernel for worlds with bodies.
 
     Returns:
-        Whether it had to be compiled.
+        Whether a compilation was necessary.
 
     Raises:
         MissingDependencyError: numba is not installed.

@@ -1,4 +1,4 @@
-"""Ride: the loop of a simulation that is driven: do what pages order, advance to now, show where everything is."""
+"""Loop of a simulation driven from the page: execute requests, advance to the current time, publish the poses."""
 
 from __future__ import annotations
 
@@ -36,27 +36,27 @@ if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
 
 STATUS = 0.1
-"""Seconds between status lines on the page."""
+"""Seconds between two status messages to the page."""
 PATIENCE = 0.05
-"""Seconds of a round that orders may take; what is left is done in the next."""
+"""Seconds per iteration for requests; remaining requests are executed in the next iteration."""
 PARTS: tuple[type[Part], ...] = (Transport, Topics, Listening, Curves, Objects, Arms, Screws, Hands, Forces, Tape)
-"""What the page can do beside driving; a test fails if one is missing here."""
+"""Features of the page; a test fails if one is missing here."""
 
 
 class Ride:
-    """The loop.
+    """Loop of a simulation that is driven from the page.
 
     Args:
         simulator: advanced by `run`, in the thread that calls it.
         server: the page.
         clock: wall clock [s].
-        sleep: waits for so many seconds.
+        sleep: function that waits for a number of seconds.
 
     Attributes:
-        look: is called in every round.
-        sights: what sensors see.
-        pace: how simulated time keeps up with the clock.
-        parts: what the page can do beside driving.
+        look: function that is called in every iteration, for a recording.
+        sights: views of the sensors.
+        pace: ratio of simulated time to the clock.
+        parts: features of the page.
     """
 
     def __init__(
@@ -73,9 +73,9 @@ class Ride:
         self._failed = False
         self._orders: deque[Order] = deque()
         self._reported = -math.inf
-        self._remarks: list[str] = []
-        self._log, simulator._note = simulator._note, self._remark
-        self.look: Callable[[], None] = lambda: None  # for topics that have come up, where there is a recording
+        self._warnings: list[str] = []
+        self._log, simulator._note = simulator._note, self._warn
+        self.look: Callable[[], None] = lambda: None  # subscribes a recording to new topics
         self.pace = Pace(simulator.dt, clock)
         self.sights = Sights(simulator, server, clock)
         self.figures = Figures(simulator, server)
@@ -89,7 +89,7 @@ class Ride:
         server.orders.update({name: schema for name, (schema, _) in self._takes.items()})
 
     def show(self) -> None:
-        """Put everything on the page, where it is, and tell what can be done."""
+        """Show robots and bodies on the page, and publish the controls of all features."""
         self.figures.show()
         self.server.declare("teleop", **wheel(self.simulator))
         for part in self.parts:
@@ -97,7 +97,7 @@ class Ride:
         self.server.publish(self.simulator.t, self.figures.poses())
 
     def run(self) -> None:
-        """Simulate for ever."""
+        """Simulate until an exception is raised."""
         self.pace.begin(self.simulator.t)
         due = self._clock()
         try:
@@ -112,16 +112,16 @@ class Ride:
             self.tape.close()
 
     def tick(self) -> None:
-        """Do one round: wishes, wheel, physics, picture."""
-        wishes = self.server.inbox.take()
-        for action in wishes.actions:
+        """Run one iteration: requests, drive commands, physics, poses."""
+        requests = self.server.inbox.take()
+        for action in requests.actions:
             self._act(action)
-        self._orders.extend(wishes.orders)
+        self._orders.extend(requests.orders)
         begin = self._clock()
         while self._orders and self._clock() - begin <= PATIENCE:
             self._do(self._orders.popleft())
         if not self.tape.playing:
-            self._steer()
+            self._drive()
             if not self.simulator.paused:
                 self._physics()
         self.look()
@@ -144,42 +144,42 @@ class Ride:
         self.pace.restart(simulator.t)
 
     def _stop(self) -> None:
-        """Send zero to everything that drives, whoever gave the last command, and take the wheel out of all hands."""
+        """Send zero velocity to every drive, whoever sent the last command, and release the controls of all pages."""
         self.server.driver.stop()
         self.server.tell("stop")
         self._driven = ""
         for name, robot in self.simulator.robots.items():
             if command_topics(robot):
-                self._tell(name, STOP)
+                self._command(name, STOP)
 
     def _do(self, order: Order) -> None:
-        if self._failed:  # nothing in it is a number any more
-            self.server.answer(order, "the simulation has diverged; Reset starts again")
+        if self._failed:  # its state is NaN
+            self.server.answer(order, "the simulation has diverged; press Reset")
             return
-        self._remarks.clear()
+        self._warnings.clear()
         try:
-            found = self._takes[order.name][1](order)
+            values = self._takes[order.name][1](order)
         except (UrdfkitError, OSError) as error:
             self.server.answer(order, str(error))
         else:
-            answer: dict[str, Any] = dict(found or {})
-            if self._remarks:
-                answer["remarks"] = list(self._remarks)
+            answer: dict[str, Any] = dict(values or {})
+            if self._warnings:
+                answer["remarks"] = list(self._warnings)
             self.server.answer(order, **answer)
-        # Who orders the same again is told the same again.
-        self.simulator._noted.difference_update(self._remarks)
-        self._remarks.clear()
+        # A repeated request gets the same warnings again.
+        self.simulator._noted.difference_update(self._warnings)
+        self._warnings.clear()
 
-    def _remark(self, text: str) -> None:
-        """Say in the terminal, and on the page, what the user should know."""
+    def _warn(self, text: str) -> None:
+        """Print a warning in the terminal and show it on the page."""
         self._log(text)
-        self._remarks.append(text)
+        self._warnings.append(text)
         self.server.tell("notice", text=text, tone="warning")
 
     def _fail(self, error: SimulationError) -> None:
         self.simulator.paused = self._failed = True
         note(f"urdfkit: {error}")
-        self.server.declare("fault", message=f"{error}; Reset starts again")
+        self.server.declare("fault", message=f"{error}; press Reset")
 
     def _physics(self) -> None:
         simulator, pace = self.simulator, self.pace
@@ -192,8 +192,8 @@ class Ride:
             self._fail(error)
         pace.took(steps, self._clock() - begin, simulator.t)
 
-    def _steer(self) -> None:
-        """Publish what the driver holds; once zero when nobody holds anything any more."""
+    def _drive(self) -> None:
+        """Publish the command of the driver; zero once when the driver releases the controls."""
         held, robots = self.server.driver.axes, self.simulator.robots
         driven, motion = "", None
         if held is not None:
@@ -203,13 +203,13 @@ class Ride:
         if motion is None:
             driven = ""
         if self._driven and self._driven != driven:
-            self._tell(self._driven, STOP)
+            self._command(self._driven, STOP)
         self._driven = ""
         if motion is not None and driven in robots and command_topics(robots[driven]):
-            self._tell(driven, motion)
+            self._command(driven, motion)
             self._driven = driven
 
-    def _tell(self, name: str, motion: Motion) -> None:
+    def _command(self, name: str, motion: Motion) -> None:
         if name in self.simulator.robots:
             command(self.simulator, self.simulator.robots[name], *motion)
 
@@ -217,7 +217,7 @@ class Ride:
         simulator, now = self.simulator, self._clock()
         if self._failed:
             return
-        if simulator.revision != self.figures.revision:  # something came or went
+        if simulator.revision != self.figures.revision:  # an entity was spawned or removed
             self.show()
         poses = self.figures.poses()
         if self.tape.playing:

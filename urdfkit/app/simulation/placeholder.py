@@ -1,4 +1,4 @@
-"""Likeness: the robot where it will start, on the page while the engine that moves it is still being made."""
+"""Placeholder: the robot in its initial pose, on the page while the engine is compiled."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ if TYPE_CHECKING:
 
 
 class Likeness:
-    """A robot that stands still.
+    """Scene of a robot that does not move.
 
     Args:
-        robot: as written.
-        world: what it stands in.
+        robot: the loaded description.
+        world: the world of the simulation.
 
     Raises:
-        UrdfkitError: it cannot be simulated; says why and where.
+        UrdfkitError: the robot cannot be simulated.
 
     Attributes:
-        scene: its shapes, which the simulation needs too.
+        scene: shapes of the robot; the simulation uses them too.
     """
 
     def __init__(self, robot: Robot, world: World) -> None:
@@ -37,10 +37,10 @@ class Likeness:
         spawn = Spawn(z=0.0 if on_world else None)
         base = spawn.place(kinematics, self.scene, None if world.ground is None else world.ground.height)
         self._q = spawn.configuration(kinematics, base)[0]
-        require_masses(kinematics, self._q, lambda _: None)  # the simulation says it again
+        require_masses(kinematics, self._q, lambda _: None)  # the simulation reports them
 
     def show(self, server: Screen) -> None:
-        """Put it on the page."""
+        """Show the robot on the page."""
         from urdfkit.view.content.meshcat_objects import draw, link_path
 
         names = self._kinematics.link_names

@@ -1,4 +1,4 @@
-"""What takes its time before a ride begins, told in the terminal and on the page."""
+"""Progress of long operations before a simulation starts, in the terminal and on the page."""
 
 from __future__ import annotations
 
@@ -13,52 +13,52 @@ if TYPE_CHECKING:
     from urdfkit.view.content.display import Board
 
 PATIENCE = 1.0
-"""Seconds that something may take without a word."""
+"""Seconds that an operation may take before it is reported."""
 
 
 def compile_kernel(server: Board) -> None:
-    """Compile the physics kernel if it has not been."""
+    """Compile the physics kernel if it is not cached."""
     from urdfkit.sim.engine.kernel_cache import announcement, warmup
 
     _compile(warmup, announcement(), server)
 
 
 def compile_rays(server: Board) -> None:
-    """Compile what sensors see by if it has not been; see `compile_kernel`."""
+    """Compile the ray-casting kernels of sensors if they are not cached; see `compile_kernel`."""
     from urdfkit.scene.rays import announcement, warmup
 
     _compile(warmup, announcement(), server)
 
 
 def _compile(warmup: Callable[[Callable[[int], None]], bool], label: str, server: Board) -> None:
-    def say(functions: int) -> None:
+    def report(functions: int) -> None:
         if functions == 0:
             note(label)
         server.declare("progress", label=f"{label} {functions} functions" if functions else label)
 
-    warmup(say)
+    warmup(report)
     server.declare("progress", label=None)
 
 
 @contextmanager
 def progress(server: Board, label: str) -> Iterator[None]:
-    """Say what is being done in the terminal and on the page, if it takes longer than `PATIENCE`.
+    """Report an operation in the terminal and on the page if it takes longer than `PATIENCE`.
 
     Args:
         server: the page.
-        label: what is being done.
+        label: name of the operation.
     """
-    over, said = threading.Lock(), False
+    over, reported = threading.Lock(), False
 
-    def say() -> None:
-        nonlocal said
+    def report() -> None:
+        nonlocal reported
         with over:
             if not timer.finished.is_set():
-                said = True
+                reported = True
                 note(label)
                 server.declare("progress", label=label)
 
-    timer = threading.Timer(PATIENCE, say)
+    timer = threading.Timer(PATIENCE, report)
     timer.daemon = True
     timer.start()
     try:
@@ -66,5 +66,5 @@ def progress(server: Board, label: str) -> Iterator[None]:
     finally:
         timer.cancel()
         with over:
-            if said:
+            if reported:
                 server.declare("progress", label=None)

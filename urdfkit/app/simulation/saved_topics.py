@@ -1,4 +1,4 @@
-"""What ``sim run --save-…`` has in common: which topic is meant."""
+"""Selection of the topic for options ``sim run --save-…``."""
 
 from __future__ import annotations
 
@@ -23,22 +23,22 @@ class TopicFile(NamedTuple):
 
 
 SAVED_BY = {
-    "sensor_msgs/msg/Image": ("--save-image", "pictures"),
+    "sensor_msgs/msg/Image": ("--save-image", "images"),
     "sensor_msgs/msg/LaserScan": ("--save-scan", "scans"),
     "sensor_msgs/msg/PointCloud2": ("--save-scan", "points"),
 }
-"""Type of messages → the option that saves them, and what they are called."""
+"""Type of messages → the option that saves them, and the name of their content."""
 
 
 def check_places(option: str, files: Iterable[Path]) -> None:
-    """Refuse what cannot be written, before anything is computed.
+    """Reject files that cannot be written, before the simulation starts.
 
     Args:
-        option: such as ``--save-image``.
-        files: to be written.
+        option: name of the option, such as ``--save-image``.
+        files: files that will be written.
 
     Raises:
-        UsageError: there is no such folder, nothing may be written there, or a folder has the file's name.
+        UsageError: the folder does not exist or is not writable, or the file is a folder.
     """
     for file in files:
         folder = file.parent
@@ -47,42 +47,47 @@ def check_places(option: str, files: Iterable[Path]) -> None:
         if not folder.is_dir():
             raise UsageError(f"{option}: cannot write {file}: no folder {folder}{near_path(folder)}")
         if not os.access(folder, os.W_OK | os.X_OK):
-            raise UsageError(f"{option}: cannot write {file}: nothing may be written into {folder}")
+            raise UsageError(f"{option}: cannot write {file}: {folder} is not writable")
 
 
 def find_topics(
     simulator: Simulator, wanted: Sequence[TopicFile], *, option: str, types: Sequence[str], what: str, suffix: str
 ) -> list[tuple[str, Path]]:
-    """Return the topic and the file of each use of an option.
+    """Return topic and file of each use of an option.
 
     Args:
-        simulator: where to look.
-        wanted: what was asked for.
-        option: such as ``--save-image``.
-        types: of messages that can be saved.
-        what: these are called.
-        suffix: of the file.
+        simulator: simulator with the topics.
+        wanted: values of the option.
+        option: name of the option, such as ``--save-image``.
+        types: types of messages that the option can save.
+        what: name of their content.
+        suffix: suffix of the file.
 
     Raises:
-        UsageError: there is no such topic, it carries something else, or none is named and there are several.
+        UsageError: the topic is unknown or has another type, or none is named and several are possible.
     """
-    carries = {topic.name: topic.type for topic in simulator.bus.topics}
-    there = [name for name, kind in carries.items() if kind in types]
+    type_by_topic = {topic.name: topic.type for topic in simulator.bus.topics}
+    candidates = [name for name, kind in type_by_topic.items() if kind in types]
 
     def topic(name: str) -> str:
         if name:
-            if absolute(name) not in there:
-                kind = carries.get(absolute(name), "")
+            if absolute(name) not in candidates:
+                kind = type_by_topic.get(absolute(name), "")
                 if kind in SAVED_BY:
-                    right, come = SAVED_BY[kind]
-                    raise UsageError(f"{option}: {come} come on {absolute(name)}, not {what}; save them by {right}")
-                hint = did_you_mean(absolute(name), there) or (f"; there are {', '.join(there)}" if there else "")
-                hint = hint or did_you_mean(absolute(name), [each for each, of in carries.items() if of in SAVED_BY])
-                raise UsageError(f"{option}: no {what} come on {absolute(name)}{f', but {kind}' if kind else ''}{hint}")
+                    right_option, content = SAVED_BY[kind]
+                    raise UsageError(f"{option}: {absolute(name)} carries {content}, not {what}; use {right_option}")
+                hint = did_you_mean(absolute(name), candidates) or (
+                    f"; topics with {what}: {', '.join(candidates)}" if candidates else ""
+                )
+                hint = hint or did_you_mean(
+                    absolute(name), [each for each, of in type_by_topic.items() if of in SAVED_BY]
+                )
+                problem = f"{absolute(name)} carries {kind}, not {what}" if kind else f"unknown topic {absolute(name)}"
+                raise UsageError(f"{option}: {problem}{hint}")
             return absolute(name)
-        if len(there) != 1:
-            found = f"there are {', '.join(there)}" if there else "nothing here publishes any"
-            raise UsageError(f"{option}: say which {what}, TOPIC=FILE{suffix}; {found}")
-        return there[0]
+        if len(candidates) != 1:
+            available = f"topics with {what}: {', '.join(candidates)}" if candidates else f"no topic carries {what}"
+            raise UsageError(f"{option}: select a topic with TOPIC=FILE{suffix}; {available}")
+        return candidates[0]
 
     return [(topic(each.topic), each.file) for each in wanted]

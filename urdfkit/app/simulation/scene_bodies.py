@@ -1,4 +1,4 @@
-"""Figures: what stands in the world, on the page; only what came or went is sent anew."""
+"""Scene of the page: robots and bodies of the world; only added and removed bodies are sent again."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ if TYPE_CHECKING:
     from urdfkit.view.content.display import Screen
 
 BODY = "world/"
-"""Goes before the names of the world's bodies: no link has a slash where a body of the world has its first."""
+"""Prefix of the names of the world's bodies; no name of a link begins with it."""
 
 
 class Figures:
-    """What is drawn, and where everything is.
+    """Drawn bodies and their poses.
 
     Args:
-        simulator: what is shown.
+        simulator: the simulation to show.
         server: the page.
 
     Attributes:
-        revision: of the simulation, when it was shown last.
-        tip: the link that most joints that move lie between and the root; of an arm its end.
+        revision: revision of the simulation that was shown last.
+        tip: link with the most moving joints between it and the root, e.g. the end of an arm.
     """
 
     def __init__(self, simulator: Simulator, server: Screen) -> None:
@@ -42,7 +42,7 @@ class Figures:
         self.tip = _tip(kinematics.robot)
 
     def show(self) -> None:
-        """Put the robots and what else the world holds on the page, where they are."""
+        """Show the robots and bodies of the world in their current poses."""
         from urdfkit.scene import Scene
         from urdfkit.view.content.meshcat_objects import draw, link_path
         from urdfkit.view.content.scene_changes import draw_more, forget_others
@@ -56,7 +56,7 @@ class Figures:
         same = drawn == self._drawn and looks == self._shown
         before, self._drawn, self.revision = self._shown, drawn, simulator.revision
         self._shown = looks
-        if same and not first:  # something that stands was put elsewhere
+        if same and not first:  # only poses of static bodies have changed
             return
         bodies = (*simulator.kinematics.link_names, *(BODY + name for name in drawn))
         if first:
@@ -66,17 +66,17 @@ class Figures:
                 draw(scene, server, server.geometries)
 
         else:
-            gone = [name for name in before if name not in looks or looks[name] != before[name]]
-            come = [name for name in drawn if looks[name] != before.get(name)]
+            removed = [name for name in before if name not in looks or looks[name] != before[name]]
+            added = [name for name in drawn if looks[name] != before.get(name)]
 
             def picture(server: Screen) -> None:
                 draw_more(
-                    [shape for name in come for shape in shapes.get(name, ())],
+                    [shape for name in added for shape in shapes.get(name, ())],
                     server,
                     server.geometries,
-                    instead_of=[BODY + name for name in gone],
+                    instead_of=[BODY + name for name in removed],
                 )
-                if gone:
+                if removed:
                     rest = (each for some in shapes.values() for each in some)
                     forget_others((*simulator.scene.shapes, *rest), server.geometries)
 
@@ -88,7 +88,7 @@ class Figures:
         )
 
     def poses(self) -> NDArray[np.float64]:
-        """Return where everything on the page is; shape (bodies, 7), the robot's links first."""
+        """Return the poses of all bodies on the page; shape (bodies, 7), the robot's links first."""
         poses = self._simulator.link_poses()
         if not self._drawn:
             return poses
@@ -97,12 +97,12 @@ class Figures:
 
     @property
     def root(self) -> int:
-        """The row of the robot's root link."""
+        """Row of the robot's root link."""
         return self._root
 
 
 def _tip(robot: Robot) -> str:
-    """Return the first link of those that the most moving joints carry."""
+    """Return the first link with the most moving joints between it and the root."""
     moved = {robot.roots()[0].name: 0}
     for joint in tree_order(robot):
         moved[str(joint.child)] = moved[str(joint.parent)] + (joint.type != "fixed")
@@ -110,7 +110,7 @@ def _tip(robot: Robot) -> str:
 
 
 def _look(shape: Shape) -> tuple[Any, ...]:
-    """Return what makes a shape look as it does, to be compared."""
+    """Return a key that is equal for shapes with the same appearance."""
     mesh = None if shape.mesh is None else shape.mesh.hash
     placement = np.asarray(shape.placement, dtype=float).tobytes()
     return shape.role, shape.geometry, placement, shape.rgba, shape.has_color, mesh

@@ -1,4 +1,4 @@
-"""What the linter finds, as the viewer shows it: with the source lines, the rule's page, and the fix to apply."""
+"""Lint findings in the viewer: source lines, page of the rule, and the fix."""
 
 from __future__ import annotations
 
@@ -19,37 +19,37 @@ if TYPE_CHECKING:
     from urdfkit.resources import ModelArgument
 
 LINES = 12
-"""Most source lines shown of one finding."""
+"""Maximum number of source lines shown per finding."""
 
 
 class Findings:
-    """The findings of one model, numbered; a number is never used for another finding.
+    """The findings of one model, numbered; a number is not reused.
 
     Args:
-        model: the model looked at.
+        model: the model to lint.
         may_write: whether fixes may be applied.
     """
 
     def __init__(self, model: ModelArgument, *, may_write: bool = True) -> None:
         self.model = model
         self.may_write = may_write
-        self._known: dict[int, Finding] = {}
+        self._findings: dict[int, Finding] = {}
         self._next = 1
 
-    def look(self, robot: Robot | None = None) -> dict[str, Any]:
-        """Lint the files as they are now.
+    def lint(self, robot: Robot | None = None) -> dict[str, Any]:
+        """Lint the current files.
 
         Args:
-            robot: expanded from these files; tells which links and joints a finding in the text is about.
+            robot: robot expanded from these files; assigns findings in the text to links and joints.
 
         Returns:
-            ``findings``, one object each; ``rules``, code → the rule's page as Markdown; ``fault``, why nothing could
-            be looked at, or not by all rules, or None.
+            ``findings``, one object each; ``rules``, code → the rule's page as Markdown; ``fault``, the error that
+            prevented the lint or some of its rules, or None.
         """
         from urdfkit.app.viewer.source_links import Whereabouts
         from urdfkit.lint.engine.run import run
 
-        self._known = {}
+        self._findings = {}
         places = None if robot is None else Whereabouts(robot)
         try:
             settings = self._settings()
@@ -60,7 +60,7 @@ class Findings:
         for finding in outcome.findings:
             if _is_ignored(finding, settings):
                 continue
-            self._known[self._next] = finding
+            self._findings[self._next] = finding
             rows.append(self._row(self._next, finding, outcome, places))
             self._next += 1
         return {
@@ -69,28 +69,30 @@ class Findings:
             "fault": next(iter(outcome.refused), None),
         }
 
-    def mend(self, number: int) -> str:
-        """Apply the safe fix of one finding: linted in memory first, then written beside the file and moved.
+    def apply_fix(self, number: int) -> str:
+        """Apply the safe fix of one finding: verified in memory first, then each file is replaced atomically.
 
         Args:
-            number: of a finding of the last look.
+            number: number of a finding of the last lint.
 
         Returns:
-            What was done, one line.
+            The applied change, one line.
 
         Raises:
-            UsageError: there is no such finding, or it has no safe fix, or nothing may be written.
-            ResourceError: the fix does not hold, or a file cannot be written.
+            UsageError: the finding is outdated or has no safe fix, or writing is not allowed.
+            ResourceError: the fix does not remove the finding, or a file cannot be written.
         """
         from urdfkit.lint.fixes.apply import editable_folders, fix
 
-        wanted = self._known.get(number)
+        wanted = self._findings.get(number)
         if wanted is None:
-            raise UsageError("this finding is gone: the files have changed since")
+            raise UsageError("this finding is outdated: the files have changed since")
         if wanted.fix is None or wanted.fix.safety != "safe":
-            raise UsageError(f"{wanted.code} has no safe fix here; `urdfkit rule {wanted.code}` says what to do")
+            raise UsageError(f"{wanted.code} has no safe fix here; run `urdfkit rule {wanted.code}` for instructions")
         if not self.may_write:
-            raise UsageError("others can reach this page, so it changes no files; run `urdfkit lint --fix`")
+            raise UsageError(
+                "this page is reachable from other machines and cannot change files; run `urdfkit lint --fix`"
+            )
         fixed = fix(
             self._entries(),
             self._options(self._settings()),
@@ -98,7 +100,7 @@ class Findings:
             only=lambda finding: finding == wanted,
         )
         if not fixed.changes:
-            raise ResourceError(next(iter(fixed.notes), f"{wanted.code} is not there any more"))
+            raise ResourceError(next(iter(fixed.notes), f"{wanted.code} no longer occurs"))
         for change in fixed.changes:
             change.write()
         files = ", ".join(change.shown for change in fixed.changes)
@@ -116,16 +118,16 @@ class Findings:
         return find(self.model.path)
 
     def _options(self, settings: Settings) -> Options:
-        """Return how ``urdfkit lint`` would look at this model, with the arguments it is shown with."""
+        """Return the options of ``urdfkit lint`` for this model, with its xacro arguments."""
         from urdfkit.lint.project.options import Options
 
-        target, ours = settings.target, tuple(Path(folder) for folder in self.model.package_path)
+        target, folders = settings.target, tuple(Path(folder) for folder in self.model.package_path)
         return Options(
             settings.select,
             settings.ignore,
             None if target == "any" else target,
             self.model.arguments,
-            (*ours, *settings.package_path),
+            (*folders, *settings.package_path),
             guess_target=target is None,
         )
 
@@ -137,7 +139,7 @@ class Findings:
         row["about"] = []
         if places is not None and finding.link is None and finding.joint is None:
             parts = places.of(finding.span)
-            row["about"] = [{what: name} for what, name, _ in parts]
+            row["about"] = [{owner: name} for owner, name, _ in parts]
             chains = dict.fromkeys(chain for _, _, chain in parts if chain)
             row["chains"] = row["chains"] or [[_call(call) for call in chain] for chain in chains]
         if finding.fix is not None:
@@ -168,7 +170,7 @@ def _lines(source: Source | None, span: Span) -> list[str]:
 
 
 def _difference(fix: Fix, outcome: Outcome) -> list[str]:
-    """Return what a fix changes as the lines of a unified diff without context."""
+    """Return the changes of a fix as the lines of a unified diff without context."""
     from difflib import unified_diff
 
     lines: list[str] = []

@@ -1,4 +1,4 @@
-"""What `urdfkit new` shows in the browser while it asks: the robot as it would be, following each answer."""
+"""Preview of `urdfkit new` in the browser: the robot of the answers so far."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ from urdfkit.resources import find_model
 from urdfkit.scaffold import Template, computed, fill
 
 PATIENCE = 6.0
-"""Seconds to wait for the page before the first question is asked without it."""
+"""Seconds to wait for the page before the first question."""
 STAND_IN = "robot"
-"""What the robot is called until it has a name."""
+"""Name of the robot until the user has entered one."""
 _ENDING = 5.0
 
 
 class Preview:
-    """A folder with the robot that the answers so far make, and ``urdfkit view`` looking at it.
+    """A folder with the robot of the answers so far, and ``urdfkit view`` that shows it.
 
-    Use it as a context; nothing of it is left afterwards.
+    Use it as a context manager; the folder is removed at its end.
 
     Args:
-        template: which has a robot to look at (`Template.teleop`).
+        template: a template with a robot (`Template.teleop`).
 
     Attributes:
-        model: the file that the page looks at.
-        url: of the page; empty while there is none.
+        model: the file that the page shows.
+        url: address of the page; empty until it is served.
     """
 
     def __init__(self, template: Template) -> None:
@@ -43,7 +43,7 @@ class Preview:
         self._view: subprocess.Popen[str] | None = None
         self.model = self.folder / "preview.urdf.xacro"
         self._ready = threading.Event()
-        self._told = False
+        self._announced = False
 
     def __enter__(self) -> Preview:
         return self
@@ -60,32 +60,32 @@ class Preview:
                 self._view.stdout.close()
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def follow(self, found: Mapping[str, str]) -> None:
-        """Show the robot of these answers, the others by default; where they make none, that of before stays.
+    def follow(self, answers: Mapping[str, str]) -> None:
+        """Show the robot of these answers and the defaults of the others; keep the last robot on a contradiction.
 
         Args:
-            found: answers by question.
+            answers: answers by question.
         """
         try:
-            self._write({"name": STAND_IN, **found})
-        except UrdfkitError:  # sizes that do not go together, yet
+            self._write({"name": STAND_IN, **answers})
+        except UrdfkitError:  # sizes that contradict each other
             return
         if self._view is None:
             self._start()
-        self._tell()
+        self._announce()
 
-    def _write(self, found: Mapping[str, str]) -> None:
-        known = {question.name for question in self.template.questions}
-        answers = self.template.answers({name: answer for name, answer in found.items() if name in known})
+    def _write(self, chosen: Mapping[str, str]) -> None:
+        names = {question.name for question in self.template.questions}
+        answers = self.template.answers({name: answer for name, answer in chosen.items() if name in names})
         answers |= computed(self.template.name, answers)
         with tempfile.TemporaryDirectory() as place:
             targets = self.template.render({**answers, "year": "", "into": "."}, Path(place))
-            # What includes others comes last: the page looks again when that changes.
+            # Files that include others are written last: the page reloads when they change.
             for target in sorted(targets, key=lambda path: (".urdf." in path.name, path)):
                 _put(self.folder / target, Path(place, target).read_bytes())
         home = self.folder / fill(self.template.teleop, answers, where="teleop")
         robot = find_model([str(home)]).path.relative_to(self.folder).as_posix()
-        # The page looks at one file, whatever the robot is called.
+        # The file has the same name whatever the robot is called.
         _put(self.model, _WINDOW.format(name=answers["name"], robot=robot).encode())
 
     def _start(self) -> None:
@@ -95,21 +95,21 @@ class Preview:
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
-            start_new_session=True,  # Ctrl-C is for the questions; the page ends with them
+            start_new_session=True,  # Ctrl-C interrupts the questions only
         )
         threading.Thread(target=self._read, daemon=True, name="preview-address").start()
         self._ready.wait(PATIENCE)
 
     def _read(self) -> None:
-        """Wait for the address of the page."""
+        """Read the address of the page."""
         if self._view is not None and self._view.stdout is not None:
             self.url = self._view.stdout.readline().strip()
         self._ready.set()
 
-    def _tell(self) -> None:
-        """Say once where the page is."""
-        if self.url and not self._told:
-            self._told = True
+    def _announce(self) -> None:
+        """Print the address of the page once."""
+        if self.url and not self._announced:
+            self._announced = True
             print(f"preview: {self.url}", file=sys.stderr, flush=True)
 
 
@@ -120,17 +120,17 @@ _WINDOW = """<robot name="{name}" xmlns:xacro="http://www.ros.org/wiki/xacro">
 
 
 def _put(path: Path, content: bytes) -> None:
-    """Write a file that is not that already."""
+    """Write a file unless it has this content already."""
     if not path.exists() or path.read_bytes() != content:
         path.parent.mkdir(parents=True, exist_ok=True)
         write_bytes(path, content)
 
 
 def can_preview(template: Template) -> bool:
-    """Return whether there is something to look at, somebody who looks, and what it takes.
+    """Return whether the template has a robot, the session is interactive, and the required modules are installed.
 
     Args:
-        template: which asks.
+        template: the template of the questions.
     """
     from importlib.util import find_spec
 

@@ -1,4 +1,4 @@
-"""Whereabouts: which links and joints of a robot came out of a place in the source."""
+"""Links and joints of a robot that a position in the source belongs to."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ if TYPE_CHECKING:
 
 
 class Whereabouts:
-    """Finds the links and joints that a stretch of source text is a part of.
+    """Index from source text to links and joints.
 
-    What is written in a macro is a part of all that its calls made.
+    Text in a macro belongs to all elements that its calls create.
 
     Args:
-        robot: expanded from the files as they are now.
+        robot: robot expanded from the current files.
     """
 
     def __init__(self, robot: Robot) -> None:
@@ -37,18 +37,20 @@ class Whereabouts:
         self._source = cache(_read)
 
     def of(self, span: Span) -> list[Hit]:
-        """Return what a stretch of text is a part of, in document order; nothing where it is in no link or joint."""
+        """Return the links and joints that a span belongs to, in document order."""
         if self._robot is not None:
             for owner, name, element in _owners(self._robot):
                 self._add(owner, name, element)
             self._robot = None
         start = (span.line, span.column)
         parts = self._parts.get(_real(span.file), [])
-        found = {(what, name): (what, name, chain) for begin, end, (what, name, chain) in parts if begin <= start < end}
+        found = {
+            (owner, name): (owner, name, chain) for begin, end, (owner, name, chain) in parts if begin <= start < end
+        }
         return list(found.values())
 
     def _add(self, owner: str, name: str, whole: Element) -> None:
-        """Note where a link or joint is written: itself, and what in it comes from other files or macros."""
+        """Record the text of a link or joint: its element, and its parts from other files or macros."""
         above = None
         for element in whole.walk():
             origin = element.origin
