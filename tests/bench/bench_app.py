@@ -66,12 +66,12 @@ class Running:
     """A ride in a thread of its own, as the command runs it."""
 
     def __init__(self, robot: Any, **options: Any) -> None:
-        from urdfkit.app.simulation.loop import Ride
+        from urdfkit.app.simulation.loop import DriveLoop
         from urdfkit.sim import Simulator
         from urdfkit.view.server.server import Server
 
         self.server = Server("sim", port=0)
-        self.ride = Ride(Simulator(robot, note=lambda _: None, **options), self.server)
+        self.ride = DriveLoop(Simulator(robot, note=lambda _: None, **options), self.server)
         self.ride.show()
         self.server.start()
         self._ended = threading.Event()

@@ -14,12 +14,12 @@ pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
 from urdfkit.app.simulation import loop
-from urdfkit.app.simulation.clock_rate import FRAME, Pace
+from urdfkit.app.simulation.clock_rate import FRAME, ClockRate
 from urdfkit.app.simulation.features import topic_stream
-from urdfkit.app.simulation.features.feature import Part
+from urdfkit.app.simulation.features.feature import Feature
 from urdfkit.app.simulation.features.message_values import as_json, number_at, numbers_in
 from urdfkit.app.simulation.features.wall_model import walls
-from urdfkit.app.simulation.loop import PARTS, Ride
+from urdfkit.app.simulation.loop import FEATURES, DriveLoop
 from urdfkit.errors import SimulationError, UsageError
 from urdfkit.messages import from_fields
 from urdfkit.sim import Simulator
@@ -95,10 +95,10 @@ class Page:
 
 @pytest.fixture
 def made():
-    def make(robot: str = "simpleton", **options: Any) -> Ride:
+    def make(robot: str = "simpleton", **options: Any) -> DriveLoop:
         wall, page = Wall(), Page()
         page.hub.wanted = page.wanted
-        ride = Ride(Simulator(robot, note=lambda _: None, **options), page, clock=wall)  # type: ignore[arg-type]
+        ride = DriveLoop(Simulator(robot, note=lambda _: None, **options), page, clock=wall)  # type: ignore[arg-type]
         ride.wall, ride.page = wall, page  # type: ignore[attr-defined]
         page.driver._clock = wall
         ride.pace.begin(0.0)
@@ -133,8 +133,8 @@ def test_every_part_is_at_work(ride) -> None:
     def below(kind: type) -> set[type]:
         return {kind, *(each for one in kind.__subclasses__() for each in below(one))}
 
-    assert below(Part) - {Part} == set(PARTS)
-    assert set(ride.page.orders) == {name for part in ride.parts for name in part.takes}
+    assert below(Feature) - {Feature} == set(FEATURES)
+    assert set(ride.page.orders) == {name for part in ride.features for name in part.takes}
 
 
 def test_steps_and_speed(ride) -> None:
@@ -187,7 +187,7 @@ def test_orders_that_take_long_are_spread_over_rounds(ride, monkeypatch) -> None
 
 def test_as_fast_as_it_can_fills_the_round_and_no_more() -> None:
     wall = Wall()
-    pace = Pace(0.001, wall)
+    pace = ClockRate(0.001, wall)
     pace.factor = math.inf
     t = 0.0
     for _ in range(20):
@@ -224,13 +224,13 @@ def test_publishing_by_a_form(ride) -> None:
         ("/x", "geometry_msgs/msg/Twits", {}, "did you mean"),
         ("/x", "geometry_msgs/msg/Twist", {"liner": {}}, "did you mean `linear`"),
         ("/x", "geometry_msgs/msg/Twist", {"linear": {"x": "fast"}}, "float64"),
-        ("/", "geometry_msgs/msg/Twist", {}, "a topic has a name"),
-        ("/cmd vel", "geometry_msgs/msg/Twist", {}, "`/cmd vel` is no name of a topic"),
+        ("/", "geometry_msgs/msg/Twist", {}, "the name of the topic is missing"),
+        ("/cmd vel", "geometry_msgs/msg/Twist", {}, "`/cmd vel` is not a topic name"),
         (" simpleton/cmd_vel", "geometry_msgs/msg/Twist", {}, "did you mean `/simpleton/cmd_vel`"),
         ("/1st", "geometry_msgs/msg/Twist", {}, "no name of a topic"),
         ("/x\ty", "geometry_msgs/msg/Twist", {}, "no name of a topic"),
         ("/grüße", "geometry_msgs/msg/Twist", {}, "no name of a topic"),
-        ("/x", "std_msgs/msg/UInt8MultiArray", {"data": [2**40]}, "cannot take that message"),
+        ("/x", "std_msgs/msg/UInt8MultiArray", {"data": [2**40]}, "does not accept this message"),
         ("/gazebo/delete_model", "gazebo_msgs/srv/DeleteModel_Request", {}, "no message type"),
     ):
         with pytest.raises(SimulationError, match=line):
@@ -273,7 +273,7 @@ def test_a_curve_of_nothing_says_so(ride) -> None:
     spend(ride, 0.3)
     errors = {part["curve"]: part["error"] for part in ride.page.streamed}
     assert "did you mean `position`" in errors["field:/simpleton/odom:pose.pose.psition.x"]
-    assert errors["field:/nowhere:x"] == "there is no topic /nowhere"
+    assert errors["field:/nowhere:x"] == "unknown topic /nowhere"
 
 
 def test_numbers_of_messages_by_path() -> None:
@@ -332,7 +332,7 @@ def test_what_comes_and_goes_for_an_hour_leaves_nothing_behind() -> None:
     from urdfkit.view.server.server import Server
 
     server = Server("sim", port=0)  # not started: nobody looks, but what is kept for pages is kept
-    ride = Ride(Simulator("simpleton", note=lambda _: None), server, clock=Wall())
+    ride = DriveLoop(Simulator("simpleton", note=lambda _: None), server, clock=Wall())
     try:
         ride.show()
         sizes = []
@@ -384,7 +384,7 @@ def test_walls_have_doors_one_can_drive_through(ride) -> None:
 @pytest.mark.parametrize(
     ("corners", "doors", "line"),
     [
-        ([[0, 0], [0, 0]], [], "two corners that are apart"),
+        ([[0, 0], [0, 0]], [], "two different corners"),
         ([[0, 0], [1, 0]], [{"segment": 1, "at": 0.5, "width": 0.5}], "there are 1"),
         ([[0, 0], [1, 0]], [{"segment": 0, "at": 0.9, "width": 0.5}], "does not fit"),
         ([[0, 0], [4, 0]], [{"segment": 0, "at": 1, "width": 1}, {"segment": 0, "at": 1.8, "width": 1}], "overlap"),
@@ -514,14 +514,14 @@ def test_a_recording_ends_when_something_comes_or_time_begins_anew(ride) -> None
     do(ride, "record", on=True)
     spend(ride, 0.2)
     do(ride, "spawn", model="crate", pose=[2, 0, 0])
-    assert "something came or went" in ride.page.said["notice"]["text"]
-    with pytest.raises(SimulationError, match="came or went"):
+    assert "an entity was spawned or removed" in ride.page.said["notice"]["text"]
+    with pytest.raises(SimulationError, match="entities were spawned or removed"):
         do(ride, "replay", action="play")
     do(ride, "record", on=True)
     spend(ride, 0.2)
     ride._act("reset")
     spend(ride, 0.1)
-    assert "time began anew" in ride.page.said["notice"]["text"]
+    assert "the simulation was reset" in ride.page.said["notice"]["text"]
 
 
 def test_a_tape_has_an_end(ride, monkeypatch) -> None:
@@ -530,7 +530,7 @@ def test_a_tape_has_an_end(ride, monkeypatch) -> None:
     monkeypatch.setattr(replay, "MOST_BYTES", 20_000)
     do(ride, "record", on=True)
     spend(ride, 3.0)
-    assert "the tape is full" in ride.page.said["notice"]["text"]
+    assert "the memory limit was reached" in ride.page.said["notice"]["text"]
     assert not ride.page.said["tape"]["recording"]
 
 
@@ -553,7 +553,7 @@ def test_topics_are_recorded_to_a_file_that_the_page_gets(ride, tmp_path, monkey
     monkeypatch.chdir(tmp_path)
     do(ride, "record", on=True, topics=True)
     spend(ride, 0.2)
-    ride.tape.close()  # as at the end of the program
+    ride.replay.close()  # as at the end of the program
     assert (tmp_path / "simpleton.mcap").stat().st_size > 1000
 
 
@@ -646,7 +646,7 @@ def test_random_orders_never_break_the_loop(ride) -> None:
         ride.tick()
         done += 1
     assert done > 200
-    assert loop.PARTS
+    assert loop.FEATURES
 
 
 def test_after_a_divergence_nothing_falls_over_and_reset_starts_again(ride) -> None:

@@ -9,8 +9,8 @@ pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
 from urdfkit.app.page import told_of_faults
-from urdfkit.app.simulation.placeholder import Likeness
-from urdfkit.app.simulation.scene_bodies import Figures
+from urdfkit.app.simulation.placeholder import Placeholder
+from urdfkit.app.simulation.scene_bodies import SceneBodies
 from urdfkit.description.sdf import load_world
 from urdfkit.errors import SimulationError
 from urdfkit.sim import Simulator
@@ -41,12 +41,12 @@ class Page:
 @pytest.mark.parametrize("name", ["simpleton", "rrbot"])
 def test_it_stands_where_the_simulation_starts(name: str) -> None:
     robot, world, page = load_robot(name), load_world("empty"), Page()
-    likeness = Likeness(robot, world)
+    likeness = Placeholder(robot, world)
     likeness.show(page)
     simulator = Simulator(robot, world=world, scene=likeness.scene, note=lambda _: None)
     assert simulator.scene is likeness.scene
     before = page.poses
-    figures = Figures(simulator, page)
+    figures = SceneBodies(simulator, page)
     figures.show()
     first, second = page.shown
     assert first == second

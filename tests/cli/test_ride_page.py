@@ -254,7 +254,7 @@ def test_plots_zoom_stand_still_and_follow_again(page, keep, until) -> None:
         until(lambda path=path: page.get_by_label(f"Remove /simpleton/odom:{path}").is_visible())
     page.locator("#plot-path").fill("/simpleton/odom:twist.twist.linear.q")
     page.locator("#plot-form button").click()
-    until(lambda: page.locator(".legend").get_by_text("no field `q`").is_visible())
+    until(lambda: page.locator(".legend").get_by_text("unknown field `q`").is_visible())
     page.keyboard.down("w")
     page.keyboard.down("a")
     until(lambda: page.evaluate("[...urdfkit.plots.curves.values()][0].curve.t.length") > 100)

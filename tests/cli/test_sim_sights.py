@@ -14,7 +14,7 @@ pytest.importorskip("meshcat")
 
 from PIL import Image
 
-from urdfkit.app.simulation.features.sensor_views import MOST_POINTS, OPTICAL, Sights, picture, points
+from urdfkit.app.simulation.features.sensor_views import MOST_POINTS, OPTICAL, SensorViews, picture, points
 from urdfkit.description import load
 from urdfkit.scene.camera_model import Lens
 from urdfkit.sim import Simulator
@@ -90,7 +90,7 @@ def shown():
     now = [0.0]
     page = Page()
     simulator = Simulator(load(LASER), world="cylinders", note=lambda _: None)
-    sights = Sights(simulator, page, lambda: now[0])  # type: ignore[arg-type]
+    sights = SensorViews(simulator, page, lambda: now[0])  # type: ignore[arg-type]
     assert sights.find()
     return simulator, page, sights, now
 
@@ -130,7 +130,7 @@ def test_there_is_time_between_two_looks(shown) -> None:
 def test_what_one_camera_publishes_comes_of_one_small_look(monkeypatch: pytest.MonkeyPatch) -> None:
     page, looks = Page(), []
     simulator = Simulator("seven_dof_arm_with_rgbd", note=lambda _: None)
-    sights = Sights(simulator, page, lambda: 0.0)  # type: ignore[arg-type]
+    sights = SensorViews(simulator, page, lambda: 0.0)  # type: ignore[arg-type]
     assert sights.find()
     names = [each["topic"] for each in page.declared[0]["sensors"]]
     look = Eye.look

@@ -13,7 +13,7 @@ pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
 from urdfkit.app.simulation.clock_rate import BEHIND, FRAME
-from urdfkit.app.simulation.loop import Ride
+from urdfkit.app.simulation.loop import DriveLoop
 from urdfkit.cli import main
 from urdfkit.view.protocol.websocket_messages import Axes
 
@@ -288,7 +288,7 @@ def ride():
 
     wall = Wall()
     server = Server("sim", port=0)  # not started: nobody looks
-    made = Ride(Simulator("simpleton", note=lambda text: None), server, clock=wall)
+    made = DriveLoop(Simulator("simpleton", note=lambda text: None), server, clock=wall)
     made.wall = wall
     made.server.driver._clock = wall
     made.pace.begin(0.0)
@@ -296,18 +296,18 @@ def ride():
     server.stop()
 
 
-def spend(ride: Ride, seconds: float) -> None:
+def spend(ride: DriveLoop, seconds: float) -> None:
     for _ in range(round(seconds / FRAME)):
         ride.wall.now += FRAME
         ride.tick()
 
 
-def test_the_loop_advances_with_the_clock(ride: Ride) -> None:
+def test_the_loop_advances_with_the_clock(ride: DriveLoop) -> None:
     spend(ride, 3.0)
     assert ride.simulator.t == pytest.approx(3.0, abs=0.002)
 
 
-def test_the_loop_lets_the_clock_go_after_a_long_pause_of_the_machine(ride: Ride) -> None:
+def test_the_loop_lets_the_clock_go_after_a_long_pause_of_the_machine(ride: DriveLoop) -> None:
     spend(ride, 1.0)
     ride.wall.now += 60.0  # the lid was closed
     ride.tick()
@@ -317,7 +317,7 @@ def test_the_loop_lets_the_clock_go_after_a_long_pause_of_the_machine(ride: Ride
     assert ride.simulator.t - before == pytest.approx(1.0, abs=0.002)
 
 
-def test_the_robot_goes_while_somebody_holds_and_stops_by_itself(ride: Ride) -> None:
+def test_the_robot_goes_while_somebody_holds_and_stops_by_itself(ride: DriveLoop) -> None:
     sent: list = []
     topic = ride.simulator.command_topics[0]
     ride.simulator.subscribe(topic, "geometry_msgs/msg/Twist", sent.append)
@@ -332,7 +332,7 @@ def test_the_robot_goes_while_somebody_holds_and_stops_by_itself(ride: Ride) -> 
     assert max(message.linear.x for message in sent) == 0.5
 
 
-def test_pause_play_reset(ride: Ride) -> None:
+def test_pause_play_reset(ride: DriveLoop) -> None:
     spend(ride, 0.5)
     ride.server.inbox.put_action("pause")
     spend(ride, 0.5)
@@ -345,7 +345,7 @@ def test_pause_play_reset(ride: Ride) -> None:
     assert ride.simulator.t == pytest.approx(0.1, abs=0.02)
 
 
-def test_a_simulation_that_diverges_pauses_and_says_so(ride: Ride, capfd, monkeypatch) -> None:
+def test_a_simulation_that_diverges_pauses_and_says_so(ride: DriveLoop, capfd, monkeypatch) -> None:
     from urdfkit.errors import SimulationError
 
     def diverge(steps: int) -> None:
@@ -363,7 +363,7 @@ def test_what_is_spawned_appears_on_the_page_and_what_is_removed_vanishes() -> N
 
     simulator = Simulator("simpleton", note=lambda text: None)
     with Server("sim", port=0) as server:
-        ride = Ride(simulator, server)
+        ride = DriveLoop(simulator, server)
 
         def shown() -> set[str]:
             ride.tick()

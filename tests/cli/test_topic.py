@@ -21,7 +21,7 @@ pytest.importorskip("numba")
 from tests.processes import running
 from tests.time_limit import PATIENCE
 from urdfkit.app.simulation.clock_rate import FRAME
-from urdfkit.app.simulation.loop import Ride
+from urdfkit.app.simulation.loop import DriveLoop
 from urdfkit.cli import main
 from urdfkit.cli.topic.echo import as_yaml, part
 from urdfkit.cli.topic.pub import message_of
@@ -35,12 +35,12 @@ ODOM, COMMAND = "/simpleton/odom", "/simpleton/cmd_vel"
 
 
 @pytest.fixture(scope="module")
-def ride(tmp_path_factory) -> Iterator[Ride]:
+def ride(tmp_path_factory) -> Iterator[DriveLoop]:
     """Simpleton, as `sim teleop` runs it."""
     over = threading.Event()
     with pytest.MonkeyPatch.context() as patch, Server("sim", port=0) as server:
         patch.setenv("XDG_RUNTIME_DIR", str(tmp_path_factory.mktemp("runtime")))
-        ride = Ride(Simulator("simpleton", note=lambda _: None), server)
+        ride = DriveLoop(Simulator("simpleton", note=lambda _: None), server)
         ride.show()
 
         def run() -> None:
@@ -73,7 +73,7 @@ def topic(ride, capsys):
     return run
 
 
-def subscribers(ride: Ride, name: str) -> int:
+def subscribers(ride: DriveLoop, name: str) -> int:
     return next(len(each.subscribers) for each in ride.simulator.bus.topics if each.name == name)
 
 

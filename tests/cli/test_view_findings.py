@@ -167,5 +167,5 @@ def test_findings_are_those_of_the_linter() -> None:
 
     for name in ("artoo", "simpleton"):
         model = find_model([name])
-        assert Findings(model).look()["findings"] == []  # linted for what its package is built for
+        assert Findings(model).lint()["findings"] == []  # linted for what its package is built for
     assert lint(model.path) == []

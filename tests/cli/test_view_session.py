@@ -10,7 +10,7 @@ pytest.importorskip("pinocchio")
 pytest.importorskip("meshcat")
 
 from urdfkit.app.viewer.findings_panel import Findings
-from urdfkit.cli.view import CLICKED_POINT, Figure, Session, orders
+from urdfkit.cli.view import CLICKED_POINT, Session, ShownRobot, orders
 from urdfkit.errors import UrdfkitError
 from urdfkit.resources import find_model
 from urdfkit.view.html_export import Recording
@@ -50,7 +50,7 @@ def session(tmp_path: Path) -> Session:
     path = tmp_path / "lab.urdf"
     path.write_text(ROBOT)
     model = find_model([str(path)])
-    made = Session(Shown(), model, Figure.read(model), Findings(model))
+    made = Session(Shown(), model, ShownRobot.read(model), Findings(model))
     made.show()
     return made
 
@@ -73,18 +73,18 @@ def test_a_pose_that_is_none_is_not_taken(session: Session) -> None:
 def test_a_point_is_published_in_the_frame_of_its_link(session: Session, capsys) -> None:
     heard = []
     session.bus.subscribe(CLICKED_POINT, "geometry_msgs/msg/PointStamped", heard.append)
-    assert session.obey(Order(1, 1, "point", {"frame": "arm", "position": [1.0, 2.0, 3.0]})) == {}
+    assert session.execute(Order(1, 1, "point", {"frame": "arm", "position": [1.0, 2.0, 3.0]})) == {}
     (point,) = heard
     assert (point.header.frame_id, point.point.x, point.point.y, point.point.z) == ("arm", 1.0, 2.0, 3.0)
     assert "/clicked_point: 1 2 3 in arm" in capsys.readouterr().err
     with pytest.raises(UrdfkitError, match="no frame"):
-        session.obey(Order(1, 2, "point", {"frame": "../arm", "position": [0.0, 0.0, 0.0]}))
+        session.execute(Order(1, 2, "point", {"frame": "../arm", "position": [0.0, 0.0, 0.0]}))
 
 
 def test_a_fix_is_ordered_by_its_number(session: Session) -> None:
     session.lint()
     number = next(row["number"] for row in session.server.said["findings"]["findings"] if row["code"] == "J412")
-    assert session.obey(Order(1, 1, "fix", {"finding": number}))["done"].startswith("J412: ")
+    assert session.execute(Order(1, 1, "fix", {"finding": number}))["done"].startswith("J412: ")
     assert 'xyz="0 0 1"' in session.model.path.read_text()
 
 
@@ -92,15 +92,15 @@ def test_a_file_that_goes_is_told_and_taken_up_again(session: Session, capsys) -
     path = session.model.path
     aside = path.with_name("aside")
     path.rename(aside)
-    session.look()
-    session.look()
-    assert "lab.urdf is gone; the robot shown is the last one" in session.server.said["fault"]["message"]
-    assert capsys.readouterr().err.count("is gone") == 1
-    session.look()
+    session.check_files()
+    session.check_files()
+    assert "lab.urdf not found; the page shows the robot that was read last" in session.server.said["fault"]["message"]
+    assert capsys.readouterr().err.count("not found") == 1
+    session.check_files()
     assert capsys.readouterr().err == ""  # once
     aside.rename(path)  # as it was, to the time of its last change
-    session.look()
-    session.look()
+    session.check_files()
+    session.check_files()
     assert session.server.said["fault"]["message"] is None
     assert "reloaded lab.urdf" in capsys.readouterr().err
 

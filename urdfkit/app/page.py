@@ -1,4 +1,4 @@
-"""What `view` and `sim teleop` share: the options of the server, saying where the page is, ending cleanly."""
+"""Common parts of `view` and `sim teleop`: server options, the address of the page, termination."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
 
 NEEDED = {"meshcat": "meshcat", "tornado": "tornado", "umsgpack": "u-msgpack-python", "trimesh": "trimesh"}
-"""Module → package, beside Pinocchio."""
-LAST_WORDS = 0.3
-"""Seconds that pages have to hear why the server ends."""
+"""Module → package, in addition to Pinocchio."""
+FAULT_DELAY = 0.3
+"""Seconds for pages to receive the last error before the server stops."""
 
 
 def add_page_options(parser: argparse.ArgumentParser) -> None:
@@ -32,25 +32,25 @@ def add_page_options(parser: argparse.ArgumentParser) -> None:
         "--host",
         default="127.0.0.1",
         metavar="H",
-        help="listen on this address; 0.0.0.0 lets other machines in, who still need the key in the address",
+        help="listen on this address; 0.0.0.0 accepts other machines, which need the token in the address",
     )
     parser.add_argument("--no-browser", action="store_true", help="do not open a browser, only print the address")
 
 
-def require_page(command: str, extra: str, *, beside: Sequence[str] = ()) -> None:
-    """Check that what the page needs is installed.
+def require_page(command: str, extra: str, *, modules: Sequence[str] = ()) -> None:
+    """Check that the packages of the page are installed.
 
     Args:
         command: the subject of the message, e.g. ``view``.
-        extra: the extra that has it all.
-        beside: further modules.
+        extra: the extra with all packages.
+        modules: further modules.
 
     Raises:
-        MissingDependencyError: naming what is missing and the command to run.
+        MissingDependencyError: a package is missing; names it and the command that installs it.
     """
     from importlib.util import find_spec
 
-    needed = NEEDED | {module: module for module in beside}
+    needed = NEEDED | {module: module for module in modules}
     missing = [package for module, package in needed.items() if find_spec(module) is None]
     if find_spec("pinocchio") is None:
         missing.append("pinocchio")
@@ -59,18 +59,18 @@ def require_page(command: str, extra: str, *, beside: Sequence[str] = ()) -> Non
     if "pinocchio" in missing and sys.platform != "linux":
         from urdfkit.kinematics.pinocchio_requirement import require_pinocchio
 
-        require_pinocchio(command)  # knows the platforms it has no wheels for, and says what to do there
+        require_pinocchio(command)  # reports what to do on platforms without wheels
     names = " and ".join([", ".join(missing[:-1]), missing[-1]] if len(missing) > 1 else missing)
     raise MissingDependencyError(f"{command} needs {names}: pip install 'urdfkit[{extra}]'")
 
 
 class Page:
-    """Starts a server and says where it is, once.
+    """Starts a server and prints its address, once.
 
     Args:
-        server: not started yet.
-        host: the address asked for.
-        browser: open one, if this machine has a screen.
+        server: the server, not started yet.
+        host: the address to listen on.
+        browser: open a browser, if this machine has a screen.
     """
 
     def __init__(self, server: Server, *, host: str, browser: bool) -> None:
@@ -80,7 +80,7 @@ class Page:
         self._opened = False
 
     def open(self) -> None:
-        """Start, print the address on standard output, open it in a browser; the second time do nothing."""
+        """Start the server, print its address on standard output, open a browser; do nothing the second time."""
         from urdfkit.view.server.access_control import is_loopback
 
         if self._opened:
@@ -92,22 +92,22 @@ class Page:
         if not is_loopback(self._host):
             for url in server.urls[1:]:
                 print(url, flush=True)
-            note("warning: anybody on the network who has the address can watch and drive; it is not encrypted")
+            note("warning: everyone with this address can watch and drive; the connection is not encrypted")
         if self._browser and _has_screen():
-            # Some browsers keep the caller waiting until they are closed.
+            # Some browsers block the caller until they are closed.
             threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True, name="open-browser").start()
         elif self._browser:
-            note("no screen here: open the address in a browser")
+            note("no screen found: open the address in a browser")
 
 
 @contextmanager
-def told_of_faults(server: Board) -> Iterator[None]:
-    """Run a block whose error a page that is open already is told too, before the server ends."""
+def faults_on_page(server: Board) -> Iterator[None]:
+    """Run a block; show its error on open pages too, before the server stops."""
     try:
         yield
     except UrdfkitError as error:
         server.declare("fault", message=str(error))
-        time.sleep(LAST_WORDS)
+        time.sleep(FAULT_DELAY)
         raise
 
 
@@ -118,7 +118,7 @@ def note(text: str) -> None:
 
 @contextmanager
 def until_interrupted() -> Iterator[None]:
-    """Run a block that Ctrl-C, SIGTERM and a closed terminal end quietly, as a server's way to be done."""
+    """Run a block that Ctrl-C, SIGTERM and a closed terminal end without an error message."""
     try:
         with ended_by_signals():
             yield

@@ -1,4 +1,4 @@
-"""`urdfkit view`: a robot in the browser, with a slider for every joint; saving the file shows the change."""
+"""`urdfkit view`: show a robot in the browser with a slider for every joint; changed files are reloaded."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ if TYPE_CHECKING:
     from urdfkit.view.protocol.page_requests import Order, Schema
     from urdfkit.view.server.server import Server
 
-LOOK = 0.15
-"""Seconds between looks at the files."""
-SIGN = 2.0
-"""Seconds between signs of life to the pages, which take six seconds of silence for a lost connection."""
+CHECK_PERIOD = 0.15
+"""Seconds between two checks of the files."""
+KEEPALIVE_PERIOD = 2.0
+"""Seconds between two keepalive messages; pages treat six seconds of silence as a lost connection."""
 JOINT_STATES = "/joint_states"
 CLICKED_POINT = "/clicked_point"
-"""Where RViz's "Publish Point" tool publishes (rviz_default_plugins, tools/point)."""
+"""Topic of RViz's "Publish Point" tool (rviz_default_plugins, tools/point)."""
 POINT_STAMPED = "geometry_msgs/msg/PointStamped"
 
 
@@ -39,7 +39,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_model(parser)
     add_page_options(parser)
     parser.add_argument(
-        "--html", metavar="FILE", help="write one self-contained page with sliders that needs no server, and end"
+        "--html", metavar="FILE", help="write a self-contained page with sliders that needs no server, and exit"
     )
     parser.epilog = (
         "examples:\n  urdfkit view simpleton\n  urdfkit view urdf/robot.urdf.xacro use_camera:=true --port 8080\n"
@@ -48,8 +48,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Serve until interrupted, or write the page."""
-    require_page("view", "view", beside=("rosbags",))
+    """Serve until interrupted, or write the page to a file."""
+    require_page("view", "view", modules=("rosbags",))
     from urdfkit.app.simulation.saved_topics import check_places
     from urdfkit.app.viewer.findings_panel import Findings
     from urdfkit.resources import find_model
@@ -61,14 +61,14 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.html is not None:
         return export(model, Path(arguments.html), quiet=arguments.quiet)
     with until_interrupted():
-        figure = Figure.read(model)
-        note_unused(model.arguments, figure.files, quiet=arguments.quiet)
+        shown = ShownRobot.read(model)
+        note_unused(model.arguments, shown.files, quiet=arguments.quiet)
         server = Server("view", host=arguments.host, port=arguments.port, orders=orders())
         page = Page(server, host=arguments.host, browser=not arguments.no_browser)
         try:
-            session = Session(server, model, figure, Findings(model, may_write=is_loopback(arguments.host)))
+            session = Session(server, model, shown, Findings(model, may_write=is_loopback(arguments.host)))
             server.declare("progress", label="Preparing shapes")
-            page.open()  # the browser starts while shapes are made ready
+            page.open()  # the browser starts while the shapes are prepared
             session.show()
             server.declare("progress", label=None)
             session.run()
@@ -78,7 +78,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def orders() -> dict[str, Schema]:
-    """Return what the page may order: a fix by the number of its finding, a point in a link's frame."""
+    """Return the requests of the page: a fix by the number of its finding, a point in a link's frame."""
     from urdfkit.view.protocol.page_requests import Schema, numbers, text, whole
 
     return {
@@ -88,15 +88,15 @@ def orders() -> dict[str, Schema]:
 
 
 def export(model: ModelArgument, path: Path, *, quiet: bool = False) -> int:
-    """Write the page in one file."""
+    """Write the page as one file."""
     from urdfkit.app.viewer.findings_panel import Findings
     from urdfkit.atomic import write_text
     from urdfkit.view.html_export import Recording
 
-    figure = Figure.read(model)
-    note_unused(model.arguments, figure.files, quiet=quiet)
+    shown = ShownRobot.read(model)
+    note_unused(model.arguments, shown.files, quiet=quiet)
     recording = Recording()
-    session = Session(recording, model, figure, Findings(model, may_write=False))
+    session = Session(recording, model, shown, Findings(model, may_write=False))
     session.show()
     session.lint()
     html = recording.html()
@@ -107,19 +107,19 @@ def export(model: ModelArgument, path: Path, *, quiet: bool = False) -> int:
 
 
 @dataclass(frozen=True)
-class Figure:
-    """A robot ready to be shown."""
+class ShownRobot:
+    """A robot with its kinematics and shapes."""
 
     kinematics: Kinematics
     scene: Scene
     files: tuple[Path, ...]
 
     @classmethod
-    def read(cls, model: ModelArgument) -> Figure:
+    def read(cls, model: ModelArgument) -> ShownRobot:
         """Load a robot.
 
         Raises:
-            UrdfkitError: the description cannot be read as a robot.
+            UrdfkitError: the description is invalid.
         """
         from urdfkit.description import load
         from urdfkit.kinematics import Kinematics
@@ -130,42 +130,42 @@ class Figure:
 
 
 class Session:
-    """One robot being looked at: joint positions, what is on the page, and the files it came from."""
+    """One robot on the page: its joint positions, its findings, and its files."""
 
-    def __init__(self, server: Server | Recording, model: ModelArgument, figure: Figure, findings: Findings) -> None:
+    def __init__(self, server: Server | Recording, model: ModelArgument, shown: ShownRobot, findings: Findings) -> None:
         from urdfkit.bus import Bus
         from urdfkit.view.file_watch import Watch
 
         self.server = server
         self.model = model
-        self.figure = figure
+        self.shown = shown
         self.findings = findings
-        self.watch = Watch(figure.files)
+        self.watch = Watch(shown.files)
         self.positions: dict[str, float] = {}
         self.bus = Bus()
         self.bus.subscribe(JOINT_STATES, "sensor_msgs/msg/JointState", self._place)
 
     def run(self) -> None:
-        """Follow sliders, orders and files for ever."""
+        """Process slider changes, requests and changed files until interrupted."""
         server = cast("Server", self.server)
         self.lint()
         due = 0.0
         while True:
             if (now := time.monotonic()) >= due:
                 server.tell("alive")
-                due = now + SIGN
-            wishes = server.inbox.wait(LOOK)
-            if wishes.joints:
-                self.move(wishes.joints)
-            for order in wishes.orders:
+                due = now + KEEPALIVE_PERIOD
+            requests = server.inbox.wait(CHECK_PERIOD)
+            if requests.joints:
+                self.move(requests.joints)
+            for order in requests.orders:
                 try:
-                    server.answer(order, **self.obey(order))
+                    server.answer(order, **self.execute(order))
                 except UrdfkitError as error:
                     server.answer(order, str(error))
-            self.look()
+            self.check_files()
 
     def move(self, joints: Mapping[str, float]) -> None:
-        """Set joint positions [rad or m] of those that are there; nothing moves where they make no pose."""
+        """Set positions [rad or m] of existing joints; keep the last positions if they are invalid."""
         before = dict(self.positions)
         self.positions.update({name: at for name, at in joints.items() if name in self.positions})
         try:
@@ -174,62 +174,62 @@ class Session:
             self.positions = before
             self._publish()
 
-    def obey(self, order: Order) -> dict[str, Any]:
-        """Do what a page ordered and return what to answer.
+    def execute(self, order: Order) -> dict[str, Any]:
+        """Execute a request of a page and return its response.
 
         Raises:
-            UrdfkitError: it cannot be done.
+            UrdfkitError: the request cannot be executed.
         """
         if order.name == "fix":
             done = self.findings.apply_fix(order.values["finding"])
             note(f"fixed {done}")
             return {"done": done}
         frame, position = order.values["frame"], order.values["position"]
-        self.figure.kinematics.frame(frame)
+        self.shown.kinematics.frame(frame)
         self._publish_point(frame, position)
         return {}
 
     def lint(self, *, stale: bool = False) -> None:
-        """Put what the linter finds on the page; `stale` where the robot is not the one in the files."""
-        robot = None if stale else self.figure.kinematics.robot
+        """Publish the findings; `stale` where the robot on the page differs from the files."""
+        robot = None if stale else self.shown.kinematics.robot
         self.server.declare("findings", **self.findings.lint(robot))
 
-    def look(self) -> None:
-        """Look at the files: read what has changed, say what is gone."""
-        gone = self.watch.missing
+    def check_files(self) -> None:
+        """Reload changed files, and report missing files."""
+        missing_before = self.watch.missing
         if self.watch.changed():
             self._reload()
-        elif (missing := self.watch.missing) and missing != gone:
-            self._miss(missing)
+        elif (missing := self.watch.missing) and missing != missing_before:
+            self._report_missing(missing)
 
-    def _miss(self, missing: Sequence[Path]) -> None:
-        """Say that files are gone; the robot stays as it was until they are back."""
+    def _report_missing(self, missing: Sequence[Path]) -> None:
+        """Report missing files; the robot on the page stays until they exist again."""
         names = ", ".join(str(path) for path in missing)
-        text = f"{names} {'is' if len(missing) == 1 else 'are'} gone; the robot shown is the last one that was read"
+        text = f"{names} not found; the page shows the robot that was read last"
         note(f"urdfkit: {text}")
         self.server.declare("fault", message=text)
 
     def _reload(self) -> None:
-        """Read the files again; a robot that cannot be read leaves the last good one where it is."""
+        """Read the files again; keep the last valid robot on an error."""
         try:
-            self.figure = Figure.read(self.model)
+            self.shown = ShownRobot.read(self.model)
         except UrdfkitError as error:
             note(f"urdfkit: {error}")
             self.server.declare("fault", message=str(error))
             self.lint(stale=True)
         else:
-            self.watch.follow(self.figure.files)
+            self.watch.follow(self.shown.files)
             self.show()
             note(f"reloaded {self.model.path.name}")
             self.lint()
 
     def show(self) -> None:
-        """Put the robot on the page, its joints where they were by name."""
+        """Show the robot on the page, with the positions of joints that existed before."""
         from urdfkit.view.content.inspector import inspection
         from urdfkit.view.content.joint_panel import home, joint_rows
         from urdfkit.view.content.meshcat_objects import draw, link_path
 
-        kinematics, scene = self.figure.kinematics, self.figure.scene
+        kinematics, scene = self.shown.kinematics, self.shown.scene
         self.positions = {name: self.positions.get(name, at) for name, at in home(kinematics).items()}
         q = kinematics.configuration(self.positions)
         positions = kinematics.positions(q) | self.positions
@@ -240,16 +240,16 @@ class Session:
             root=kinematics.link_names.index(kinematics.root),
             draw=lambda server: draw(scene, server, server.geometries),
         )
-        self.server.publish(0.0, kinematics.link_poses(q))  # it is seen before the types of messages are loaded
+        self.server.publish(0.0, kinematics.link_poses(q))  # before message types are loaded, which takes longer
         self.server.declare("inspect", **inspection(kinematics))
         self.server.declare("fault", message=None)
         self._publish()
 
     def _publish(self) -> None:
-        """Publish the joint positions; what hears them moves the links."""
+        """Publish the joint positions; the subscription moves the links."""
         from urdfkit.messages import JOINT_STATE, header, message_type
 
-        kinematics = self.figure.kinematics
+        kinematics = self.shown.kinematics
         positions = kinematics.positions(kinematics.configuration(self.positions)) | self.positions
         names, values = list(positions), list(positions.values())
         import numpy as np
@@ -259,7 +259,7 @@ class Session:
         self.bus.publish(JOINT_STATES, JOINT_STATE, message)
 
     def _publish_point(self, frame: str, position: Sequence[float]) -> None:
-        """Publish a point as RViz's tool of that name does, and say it in the terminal."""
+        """Publish a point as RViz's tool does, and print it in the terminal."""
         from urdfkit.messages import header, message_type
 
         point = message_type("geometry_msgs/msg/Point")(*position)
@@ -269,7 +269,7 @@ class Session:
 
     def _place(self, message: Any) -> None:
         """Move the links to the joint positions of a message."""
-        kinematics = self.figure.kinematics
+        kinematics = self.shown.kinematics
         own = set(kinematics.variable_names)
         positions = {n: float(p) for n, p in zip(message.name, message.position, strict=True)}
         q = kinematics.configuration({name: position for name, position in positions.items() if name in own})

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from urdfkit.app.viewer.source_links import Whereabouts
+from urdfkit.app.viewer.source_links import SourceLinks
 from urdfkit.description import load
 from urdfkit.description.xml.source import Span
 
@@ -27,11 +27,11 @@ ROBOT = """<robot name="two" xmlns:xacro="http://www.ros.org/wiki/xacro">
 
 
 @pytest.fixture
-def whereabouts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Whereabouts:
+def source_links(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> SourceLinks:
     (tmp_path / "parts.xacro").write_text(PARTS)
     (tmp_path / "two.urdf.xacro").write_text(ROBOT)
     monkeypatch.chdir(tmp_path)  # places may be told from here or from the root
-    return Whereabouts(load(tmp_path / "two.urdf.xacro"))
+    return SourceLinks(load(tmp_path / "two.urdf.xacro"))
 
 
 @pytest.mark.parametrize(
@@ -49,8 +49,8 @@ def whereabouts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Whereabouts:
     ],
 )
 def test_a_place_is_a_part_of_all_that_was_made_of_it(
-    whereabouts: Whereabouts, file: str, line: int, column: int, expected: list
+    source_links: SourceLinks, file: str, line: int, column: int, expected: list
 ) -> None:
-    found = whereabouts.of(Span(file, line, column, line, column + 1))
+    found = source_links.of(Span(file, line, column, line, column + 1))
     calls = [(what, name, [(call.macro, call.position.line) for call in chain]) for what, name, chain in found]
     assert calls == expected

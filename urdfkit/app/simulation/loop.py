@@ -9,21 +9,21 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import note
-from urdfkit.app.simulation.clock_rate import FRAME, Pace
-from urdfkit.app.simulation.features.contact_forces import Forces
-from urdfkit.app.simulation.features.feature import Part
-from urdfkit.app.simulation.features.joint_sliders import Arms
-from urdfkit.app.simulation.features.live_parameters import Screws
-from urdfkit.app.simulation.features.playback import Transport
-from urdfkit.app.simulation.features.plots import Curves
-from urdfkit.app.simulation.features.pushing import Hands
-from urdfkit.app.simulation.features.replay import Tape
-from urdfkit.app.simulation.features.sensor_views import Sights
-from urdfkit.app.simulation.features.teleop import command, command_topics, wheel
-from urdfkit.app.simulation.features.topic_panel import Topics
-from urdfkit.app.simulation.features.topic_stream import Listening
-from urdfkit.app.simulation.features.world_objects import Objects
-from urdfkit.app.simulation.scene_bodies import Figures
+from urdfkit.app.simulation.clock_rate import FRAME, ClockRate
+from urdfkit.app.simulation.features.contact_forces import ContactForces
+from urdfkit.app.simulation.features.feature import Feature
+from urdfkit.app.simulation.features.joint_sliders import JointSliders
+from urdfkit.app.simulation.features.live_parameters import LiveParameters
+from urdfkit.app.simulation.features.playback import Playback
+from urdfkit.app.simulation.features.plots import Plots
+from urdfkit.app.simulation.features.pushing import Pushing
+from urdfkit.app.simulation.features.replay import Replay
+from urdfkit.app.simulation.features.sensor_views import SensorViews
+from urdfkit.app.simulation.features.teleop import command, command_topics, drive_controls
+from urdfkit.app.simulation.features.topic_panel import TopicPanel
+from urdfkit.app.simulation.features.topic_stream import TopicStreams
+from urdfkit.app.simulation.features.world_objects import WorldObjects
+from urdfkit.app.simulation.scene_bodies import SceneBodies
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.teleop import STOP, Motion, Teleop
 
@@ -39,11 +39,22 @@ STATUS = 0.1
 """Seconds between two status messages to the page."""
 PATIENCE = 0.05
 """Seconds per iteration for requests; remaining requests are executed in the next iteration."""
-PARTS: tuple[type[Part], ...] = (Transport, Topics, Listening, Curves, Objects, Arms, Screws, Hands, Forces, Tape)
+FEATURES: tuple[type[Feature], ...] = (
+    Playback,
+    TopicPanel,
+    TopicStreams,
+    Plots,
+    WorldObjects,
+    JointSliders,
+    LiveParameters,
+    Pushing,
+    ContactForces,
+    Replay,
+)
 """Features of the page; a test fails if one is missing here."""
 
 
-class Ride:
+class DriveLoop:
     """Loop of a simulation that is driven from the page.
 
     Args:
@@ -76,25 +87,25 @@ class Ride:
         self._warnings: list[str] = []
         self._log, simulator._note = simulator._note, self._warn
         self.look: Callable[[], None] = lambda: None  # subscribes a recording to new topics
-        self.pace = Pace(simulator.dt, clock)
-        self.sights = Sights(simulator, server, clock)
-        self.figures = Figures(simulator, server)
-        self.parts: tuple[Part, ...] = tuple(part(simulator, server, clock) for part in PARTS)
-        self.tape = next(part for part in self.parts if isinstance(part, Tape))
+        self.pace = ClockRate(simulator.dt, clock)
+        self.sensor_views = SensorViews(simulator, server, clock)
+        self.scene_bodies = SceneBodies(simulator, server)
+        self.features: tuple[Feature, ...] = tuple(part(simulator, server, clock) for part in FEATURES)
+        self.replay = next(part for part in self.features if isinstance(part, Replay))
         self._takes: dict[str, tuple[Schema, Callable[[Order], Done]]] = {}
-        for part in self.parts:
-            if isinstance(part, Transport):
+        for part in self.features:
+            if isinstance(part, Playback):
                 part.pace = self.pace
             self._takes.update(part.takes)
         server.orders.update({name: schema for name, (schema, _) in self._takes.items()})
 
     def show(self) -> None:
         """Show robots and bodies on the page, and publish the controls of all features."""
-        self.figures.show()
-        self.server.declare("teleop", **wheel(self.simulator))
-        for part in self.parts:
+        self.scene_bodies.show()
+        self.server.declare("teleop", **drive_controls(self.simulator))
+        for part in self.features:
             part.show()
-        self.server.publish(self.simulator.t, self.figures.poses())
+        self.server.publish(self.simulator.t, self.scene_bodies.poses())
 
     def run(self) -> None:
         """Simulate until an exception is raised."""
@@ -109,7 +120,7 @@ class Ride:
                 else:
                     due = self._clock()
         finally:
-            self.tape.close()
+            self.replay.close()
 
     def tick(self) -> None:
         """Run one iteration: requests, drive commands, physics, poses."""
@@ -120,7 +131,7 @@ class Ride:
         begin = self._clock()
         while self._orders and self._clock() - begin <= PATIENCE:
             self._do(self._orders.popleft())
-        if not self.tape.playing:
+        if not self.replay.playing:
             self._drive()
             if not self.simulator.paused:
                 self._physics()
@@ -133,7 +144,7 @@ class Ride:
             simulator.reset()
             simulator.paused = self._failed = False
             self.server.declare("fault", message=None)
-            for part in self.parts:
+            for part in self.features:
                 part.forget()
             self.show()
         elif action == "stop":
@@ -217,17 +228,17 @@ class Ride:
         simulator, now = self.simulator, self._clock()
         if self._failed:
             return
-        if simulator.revision != self.figures.revision:  # an entity was spawned or removed
+        if simulator.revision != self.scene_bodies.revision:  # an entity was spawned or removed
             self.show()
-        poses = self.figures.poses()
-        if self.tape.playing:
-            t, shown = self.tape.picture()
+        poses = self.scene_bodies.poses()
+        if self.replay.playing:
+            t, shown = self.replay.picture()
             self.server.publish(t, shown)
         else:
             self.server.publish(simulator.t, poses)
-            self.tape.keep(simulator.t, poses, simulator.revision)
-        self.pace.looked = self.sights.show()
-        for part in self.parts:
+            self.replay.keep(simulator.t, poses, simulator.revision)
+        self.pace.looked = self.sensor_views.show()
+        for part in self.features:
             part.tick()
         if now - self._reported >= STATUS:
             self._reported = now
@@ -247,10 +258,10 @@ class Ride:
             "real_time_factor": self.pace.real_time_factor,
             "factor": None if factor == math.inf else factor,
             "dt": simulator.dt,
-            "pose": _pose(poses[self.figures.root]),
+            "pose": _pose(poses[self.scene_bodies.root]),
             "speed": float(simulator.state.v[0]) if simulator.kinematics.floating_base else 0.0,
             "fixed": not simulator.kinematics.floating_base,
-            "tip": self.figures.tip,
+            "tip": self.scene_bodies.tip,
             "robots": robots,
             "odometry": {frame: [*pose[:2], _yaw(turn)] for frame, (pose, turn) in simulator.odometry().items()},
             "driver": self.server.driver.holder,

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from urdfkit.view.content.display import Screen
 
 
-class Likeness:
+class Placeholder:
     """Scene of a robot that does not move.
 
     Args:

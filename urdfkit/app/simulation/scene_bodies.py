@@ -20,7 +20,7 @@ BODY = "world/"
 """Prefix of the names of the world's bodies; no name of a link begins with it."""
 
 
-class Figures:
+class SceneBodies:
     """Drawn bodies and their poses.
 
     Args:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.errors import ResourceError, UrdfkitError, UsageError
 
 if TYPE_CHECKING:
-    from urdfkit.app.viewer.source_links import Whereabouts
+    from urdfkit.app.viewer.source_links import SourceLinks
     from urdfkit.description.urdf.robot import Robot
     from urdfkit.description.xml.source import Expansion, Source, Span
     from urdfkit.lint.engine.run import Outcome
@@ -46,11 +46,11 @@ class Findings:
             ``findings``, one object each; ``rules``, code → the rule's page as Markdown; ``fault``, the error that
             prevented the lint or some of its rules, or None.
         """
-        from urdfkit.app.viewer.source_links import Whereabouts
+        from urdfkit.app.viewer.source_links import SourceLinks
         from urdfkit.lint.engine.run import run
 
         self._findings = {}
-        places = None if robot is None else Whereabouts(robot)
+        places = None if robot is None else SourceLinks(robot)
         try:
             settings = self._settings()
             outcome = run(self._entries(), self._options(settings), keep_going=True)
@@ -131,7 +131,7 @@ class Findings:
             guess_target=target is None,
         )
 
-    def _row(self, number: int, finding: Finding, outcome: Outcome, places: Whereabouts | None) -> dict[str, Any]:
+    def _row(self, number: int, finding: Finding, outcome: Outcome, places: SourceLinks | None) -> dict[str, Any]:
         source = outcome.sources.get(finding.file)
         row = finding.to_json()
         row["number"] = number

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     """``link`` or ``joint``, its name, and the chain of macro calls it came through, innermost first."""
 
 
-class Whereabouts:
+class SourceLinks:
     """Index from source text to links and joints.
 
     Text in a macro belongs to all elements that its calls create.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from urdfkit.app.page import Page, add_page_options, note, require_page, told_of_faults, until_interrupted
+from urdfkit.app.page import Page, add_page_options, faults_on_page, note, require_page, until_interrupted
 from urdfkit.app.simulation.progress import compile_kernel, compile_rays, progress
 from urdfkit.cli.parser import add_model
 from urdfkit.cli.sim.controllers_option import add_controllers
@@ -15,8 +15,8 @@ from urdfkit.cli.sim.ros_distro_option import add_distro
 from urdfkit.cli.unused_arguments import note_unused
 
 if TYPE_CHECKING:
-    from urdfkit.app.simulation.loop import Ride
-    from urdfkit.app.simulation.placeholder import Likeness
+    from urdfkit.app.simulation.loop import DriveLoop
+    from urdfkit.app.simulation.placeholder import Placeholder
     from urdfkit.description import Robot
     from urdfkit.description.sdf import World
     from urdfkit.view.server.server import Server
@@ -45,8 +45,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Simulate and serve until interrupted."""
-    require_page("sim teleop", "sim", beside=("numba", "rosbags"))
-    from urdfkit.app.simulation.placeholder import Likeness
+    require_page("sim teleop", "sim", modules=("numba", "rosbags"))
+    from urdfkit.app.simulation.placeholder import Placeholder
     from urdfkit.description import load
     from urdfkit.description.sdf import load_world
     from urdfkit.resources import find_model
@@ -59,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
         robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
         note_unused(model.arguments, robot.files, quiet=arguments.quiet)
         world = load_world(arguments.world)
-        placeholder = Likeness(robot, world)
+        placeholder = Placeholder(robot, world)
         server = Server("sim", host=arguments.host, port=arguments.port)
         page = Page(server, host=arguments.host, browser=not arguments.no_browser)
         try:
@@ -67,7 +67,7 @@ def run(arguments: argparse.Namespace) -> int:
             with noted(
                 server.port, server.url, robot.name or "robot"
             ):  # `urdfkit topic` finds the simulation from here on
-                with told_of_faults(server):
+                with faults_on_page(server):
                     placeholder.show(server)
                     server.declare("progress", label="preparing the engine …")
                     ride = _ride(arguments, robot, world, placeholder, server)
@@ -80,9 +80,11 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _ride(arguments: argparse.Namespace, robot: Robot, world: World, placeholder: Likeness, server: Server) -> Ride:
+def _ride(
+    arguments: argparse.Namespace, robot: Robot, world: World, placeholder: Placeholder, server: Server
+) -> DriveLoop:
     """Compile the kernels, build the world and show it on the page."""
-    from urdfkit.app.simulation.loop import Ride
+    from urdfkit.app.simulation.loop import DriveLoop
     from urdfkit.sim import Simulator
 
     compile_kernel(server)
@@ -96,11 +98,11 @@ def _ride(arguments: argparse.Namespace, robot: Robot, world: World, placeholder
             renderer=arguments.renderer,
             note=lambda text: note(f"urdfkit: {text}"),
         )
-        ride = Ride(simulator, server)
+        ride = DriveLoop(simulator, server)
     with progress(server, "drawing …"):
         ride.show()
-    if ride.sights.find():
+    if ride.sensor_views.find():
         compile_rays(server)
         with progress(server, "building the ray-casting trees of sensors …"):
-            ride.sights.prepare()
+            ride.sensor_views.prepare()
     return ride

@@ -1,25 +1,25 @@
-"""Contact forces of robots as arrows, and how fast what they touch slides; while a page shows them."""
+"""Contact forces on robots as arrows, and slip velocities at their contacts; sent while a page shows them."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from urdfkit.app.simulation.features.feature import Part
+from urdfkit.app.simulation.features.feature import Feature
 from urdfkit.view.protocol.websocket_messages import ARROWS
 
 FORCES, SLIPS = "contacts", "slip"
-"""Keys that pages want them by."""
+"""Keys of the streams."""
 PERIOD = 1 / 30
-"""Seconds between two looks."""
+"""Seconds between two messages."""
 MOST = 400
-"""Arrows of one look, the strongest."""
+"""Maximum number of arrows in a message; the largest are sent."""
 
 
-class Forces(Part):
-    """Looks at the contacts of the last step."""
+class ContactForces(Feature):
+    """Sends the contacts of the last step."""
 
     def tick(self) -> None:
-        """Send what pages can take."""
+        """Send forces and slip velocities to pages that are ready for them."""
         hub = self.server.hub
         forces, slides = hub.takes(FORCES), hub.takes(SLIPS)
         if not (forces or slides) or not self.is_due(PERIOD):
@@ -42,7 +42,7 @@ class Forces(Part):
             self.server.tell_who_wants(SLIPS, SLIPS, rows=[[link, round(v, 5)] for link, v in sorted(fastest.items())])
 
     def _links(self) -> set[str]:
-        """Return what contacts call the links of robots: without the robot's name those of the first."""
+        """Return the names of the links of robots in contacts: without the robot's name for the first robot."""
         robots = list(self.simulator.robots.values())
         found = set(robots[0].kinematics.link_names)
         for robot in robots[1:]:

@@ -1,4 +1,4 @@
-"""Part: one thing that the page of a simulation can do. What they share: the simulation, the server, orders."""
+"""Feature: base class of the features of a simulation's page, with simulator, server and requests."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
 
 Done = dict[str, Any] | None
-"""What the page is answered."""
+"""Response to the page."""
 Takes = Mapping[str, "tuple[Schema, Callable[[Order], Done]]"]
-"""Order → what it takes, and what does it."""
+"""Request → its schema and its handler."""
 
 
-class Part:
-    """A part of the page. Works in the thread of the simulation, between steps.
+class Feature:
+    """A feature of the page. It works in the thread of the simulation, between steps.
 
     Args:
-        simulator: what it is about.
+        simulator: the simulation.
         server: the page.
         clock: wall clock [s].
     """
@@ -31,20 +31,20 @@ class Part:
 
     @property
     def takes(self) -> Takes:
-        """The orders it takes."""
+        """The supported requests."""
         return {}
 
     def show(self) -> None:
-        """Tell the pages what there is; called at the start, and when something came or went."""
+        """Publish the state; called at the start, and when an entity was spawned or removed."""
 
     def tick(self) -> None:
-        """Do what is due; called in every round."""
+        """Do periodic work; called in every iteration."""
 
     def forget(self) -> None:
-        """Start again; called after a reset."""
+        """Clear the state; called after a reset."""
 
     def is_due(self, period: float) -> bool:
-        """Whether so many seconds have passed since this was last true."""
+        """Whether this period has passed since the last time that this was true."""
         now = self.clock()
         if now < self._due:
             return False

@@ -1,11 +1,11 @@
-"""Arms: a slider for every joint of every controller, and of the drives of the new Gazebo that take one number."""
+"""Sliders for the joints of controllers, and of the Gazebo drives that are commanded by one number."""
 
 from __future__ import annotations
 
 from math import isfinite, pi
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.app.simulation.features.feature import Done, Part, Takes
+from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.errors import UnknownNameError, did_you_mean
 from urdfkit.messages import FLOAT, FLOATS, TRAJECTORY, from_fields
 from urdfkit.sim.plugins.controllers.joints.forward_command import Forward, ForwardGroup
@@ -24,30 +24,30 @@ if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
 
 KEY = "arms"
-"""Key that pages want the joints' positions by."""
+"""Key of the stream of joint positions."""
 PERIOD = 0.1
-"""Seconds between two of them."""
+"""Seconds between two messages."""
 FASTEST, STRONGEST = 2.0, 10.0
-"""Ends of a slider of a joint without limit [rad/s or m/s], [N·m or N]."""
+"""Range of the slider of a joint without limit [rad/s or m/s], [N·m or N]."""
 SPEED = 0.5
-"""Part of its fastest at which a joint is sent to a slider's place."""
+"""Share of its maximum velocity at which a joint moves to the position of its slider."""
 BRISK = 1.0
-"""How fast a joint without ``<limit velocity>`` goes there [rad/s or m/s]."""
+"""Velocity of a joint without ``<limit velocity>`` [rad/s or m/s]."""
 
 GOALS = {1: ("goal", "ActionGoal"), 2: ("_action/send_goal", "_SendGoal_Request")}
-"""Where a goal goes below an action, and what its type ends in, in ROS 1 and 2."""
+"""Topic of an action's goal and suffix of its type, in ROS 1 and 2."""
 
 
-class Arm:
-    """A controller that can be told by sliders.
+class ControllerSliders:
+    """A controller that is commanded by sliders.
 
     Args:
-        robot: whose.
+        robot: the robot of the controller.
         law: the controller.
 
     Attributes:
         name: ``ROBOT/CONTROLLER``.
-        values: joint → what it was told last.
+        values: joint → last command.
     """
 
     def __init__(self, robot: SimulatedRobot, law: Law) -> None:
@@ -61,7 +61,7 @@ class Arm:
         return self.robot.state.position(joint) if self.of == "position" else 0.0
 
     def row(self) -> dict[str, Any]:
-        """Return what the page needs to know."""
+        """Return the description of the controller for the page."""
         joints = []
         for name, handle in self.handles.items():
             lower, upper = self._bounds(handle)
@@ -90,14 +90,14 @@ class Arm:
             return handle.lower, handle.upper
         return -pi, pi
 
-    def tell(self, bus: Any, joint: str, value: float) -> None:
-        """Tell one joint, and the others of the controller what they were told before.
+    def command(self, bus: Any, joint: str, value: float) -> None:
+        """Command one joint, and repeat the last commands of the controller's other joints.
 
         Raises:
-            SimulationError: no such joint.
+            SimulationError: the joint is unknown.
         """
         if joint not in self.values:
-            raise UnknownNameError(f"no joint `{joint}` in `{self.name}`{did_you_mean(joint, self.values)}")
+            raise UnknownNameError(f"unknown joint `{joint}` in `{self.name}`{did_you_mean(joint, self.values)}")
         self.values[joint] = value
         law = self.law
         if isinstance(law, ForwardGroup | PidGroup):
@@ -114,7 +114,7 @@ class Arm:
             bus.publish(law.topic("command"), FLOAT, from_fields(FLOAT, {"data": value}))
 
     def _way(self) -> Any:
-        """Return a trajectory from here to where the sliders stand, at half the joints' fastest."""
+        """Return a trajectory from the current positions to those of the sliders, at half the maximum velocities."""
         longest = 0.0
         for name, handle in self.handles.items():
             fastest = SPEED * handle.fastest if isfinite(handle.fastest) else BRISK
@@ -125,24 +125,24 @@ class Arm:
         return from_fields(TRAJECTORY, {"joint_names": list(self.values), "points": [point]})
 
 
-class Arms(Part):
+class JointSliders(Feature):
     """The sliders of all controllers."""
 
     def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
         super().__init__(simulator, server, clock)
-        self._arms: dict[str, Arm] = {}
+        self._arms: dict[str, ControllerSliders] = {}
         self._states: list[tuple[str, str]] = []
 
     @property
     def takes(self) -> Takes:
-        """The orders it takes."""
+        """The supported requests."""
         return {
-            "arm": (Schema({"controller": text(), "joint": text(), "value": number()}), self._tell),
+            "arm": (Schema({"controller": text(), "joint": text(), "value": number()}), self._command),
             "controller": (Schema({"controller": text(), "running": lambda value: bool(value)}), self._switch),
         }
 
     def show(self) -> None:
-        """Tell the pages which sliders there are."""
+        """Publish the sliders."""
         before, self._arms = self._arms, {}
         for robot in self.simulator.robots.values():
             for controller in robot.plugins.controllers:
@@ -150,9 +150,9 @@ class Arms(Part):
                     continue
                 for law in controller.loop.laws.values():
                     if _commanded(law) and law.outputs:
-                        arm = Arm(robot, law)
-                        if (known := before.get(arm.name)) is not None and known.law is law:
-                            arm = known
+                        arm = ControllerSliders(robot, law)
+                        if (previous := before.get(arm.name)) is not None and previous.law is law:
+                            arm = previous
                         self._arms[arm.name] = arm
         self._declare()
 
@@ -165,15 +165,15 @@ class Arms(Part):
         return [(f"{robot.name}/{each.name}", each.state) for robot in robots for each in robot.controllers.list()]
 
     def forget(self) -> None:
-        """Put the sliders where the joints are."""
+        """Set the sliders to the positions of the joints."""
         self._arms = {}
         self.show()
 
     def tick(self) -> None:
-        """Send where the joints are."""
+        """Send the positions of the joints."""
         if not self._arms or KEY not in self.server.hub.wanted or not self.is_due(PERIOD):
             return
-        if self._now() != self._states:  # somebody loaded, started or stopped one
+        if self._now() != self._states:  # a controller was loaded, started or stopped
             self.show()
         measure = {"position": "position", "velocity": "velocity", "effort": "effort"}
         rows = {
@@ -182,14 +182,14 @@ class Arms(Part):
         }
         self.server.tell_who_wants(KEY, KEY + "_now", values=rows)
 
-    def _tell(self, order: Order) -> Done:
-        arm = self._known(order.values["controller"])
+    def _command(self, order: Order) -> Done:
+        arm = self._arm(order.values["controller"])
         self.server.driver.touch(order.client)
-        arm.tell(self.simulator.bus, order.values["joint"], order.values["value"])
+        arm.command(self.simulator.bus, order.values["joint"], order.values["value"])
         return None
 
     def _switch(self, order: Order) -> Done:
-        arm = self._known(order.values["controller"])
+        arm = self._arm(order.values["controller"])
         if order.values["running"]:
             arm.robot.controllers.start(arm.law.name)
         else:
@@ -197,14 +197,14 @@ class Arms(Part):
         self._declare()
         return None
 
-    def _known(self, name: str) -> Arm:
+    def _arm(self, name: str) -> ControllerSliders:
         if name not in self._arms:
-            raise UnknownNameError(f"no controller `{name}`{did_you_mean(name, self._arms)}")
+            raise UnknownNameError(f"unknown controller `{name}`{did_you_mean(name, self._arms)}")
         return self._arms[name]
 
 
 def _commanded(law: Law) -> str:
-    """Return what a controller is told: position, velocity or effort; "" for one that sliders cannot tell."""
+    """Return the quantity that a controller is commanded by: position, velocity or effort; "" if not by sliders."""
     if isinstance(law, PidVelocity):
         return "velocity"
     if isinstance(law, PidPosition | PidGroup | TrajectoryFollower | Gripper):

@@ -1,10 +1,10 @@
-"""Screws: friction, masses, gravity and gains, turned from the page while the simulation runs."""
+"""Live parameters: change friction, masses, gravity and gains while the simulation runs."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.app.simulation.features.feature import Done, Part, Takes
+from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.sim.construction.loading import STRONGEST
 from urdfkit.sim.state.pid import Gains
 from urdfkit.sim.world.live_parameters import LEAST_MASS, Tuning
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
 
 
-class Screws(Part):
-    """What can be turned."""
+class LiveParameters(Feature):
+    """Requests that change parameters."""
 
     def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
         super().__init__(simulator, server, clock)
@@ -26,7 +26,7 @@ class Screws(Part):
 
     @property
     def takes(self) -> Takes:
-        """The orders it takes."""
+        """The supported requests."""
         link = {"link": text()}
         gains = Schema({"path": text(), "p": number(0), "i": number(0), "d": number(0)}, {"clamp": number(0)})
         return {
@@ -37,7 +37,7 @@ class Screws(Part):
         }
 
     def show(self) -> None:
-        """Tell the pages what can be turned, and how it stands."""
+        """Publish all parameters with their values."""
         tuning, rows = self._tuning, []
         for name, robot in self.simulator.robots.items():
             if robot.has_plugins or robot is self.simulator._stage.everybody[0]:

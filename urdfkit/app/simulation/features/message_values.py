@@ -1,4 +1,4 @@
-"""Messages for people and for curves: as JSON, cut where they are long, and the numbers in them by path."""
+"""Values of messages for the page: messages as JSON with long arrays cut, and numbers by path."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ import numpy as np
 from urdfkit.errors import UsageError, did_you_mean
 
 LONG = 24
-"""Entries of an array that are shown."""
+"""Number of entries of an array that are shown."""
 PLOTTED = 64
-"""Entries of an array that are offered to be plotted."""
+"""Number of entries of an array that can be plotted."""
 _STEP = re.compile(r"([A-Za-z_]\w*)|\[(\d{1,6})\]")
 
 
@@ -24,11 +24,11 @@ def fields_of(message: Any) -> tuple[str, ...]:
 
 
 def as_json(value: Any, long: int = LONG) -> Any:
-    """Return a message, or a part of one, as JSON can say it.
+    """Return a message, or a part of one, as a JSON value.
 
     Args:
         value: the message.
-        long: entries of an array that are kept; a longer one is cut, with how many it has.
+        long: maximum number of entries of an array; a longer one is cut, followed by its length.
     """
     if isinstance(value, bool | np.bool_):
         return bool(value)
@@ -61,21 +61,21 @@ def number_at(message: Any, path: str) -> float:
     """Return the number at a path such as ``pose.pose.position.x`` or ``position[2]``; NaN past the end of an array.
 
     Raises:
-        UsageError: no field, or no number, there; says where and what is near.
+        UsageError: the field does not exist or is not a number; names the nearest field.
     """
     value, at = message, 0
     while at < len(path):
         found = _STEP.match(path, at)
         if found is None:
-            raise UsageError(f"`{path}` is no path of a field, such as pose.position.x or position[2]")
+            raise UsageError(f"`{path}` is not the path of a field, such as pose.position.x or position[2]")
         name, index = found[1], found[2]
         if name is not None:
-            if name not in (known := fields_of(value)):
-                raise UsageError(f"no field `{name}` in `{path}`{did_you_mean(name, known)}")
+            if name not in (names := fields_of(value)):
+                raise UsageError(f"unknown field `{name}` in `{path}`{did_you_mean(name, names)}")
             value = getattr(value, name)
         else:
             if not isinstance(value, np.ndarray | list | tuple):
-                raise UsageError(f"`{path[:at]}` is no array: it has no entry {index}")
+                raise UsageError(f"`{path[:at]}` is not an array and has no entry {index}")
             if int(index) >= len(value):
                 return math.nan
             value = value[int(index)]
@@ -84,7 +84,7 @@ def number_at(message: Any, path: str) -> float:
             at += 1
     if isinstance(value, bool | np.bool_ | int | float | np.number):
         return float(value)
-    raise UsageError(f"`{path}` is no number")
+    raise UsageError(f"`{path}` is not a number")
 
 
 def numbers_in(value: Any, path: str = "") -> Iterator[str]:

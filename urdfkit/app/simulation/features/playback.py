@@ -1,35 +1,35 @@
-"""Transport: one step, so many steps, slower and faster."""
+"""Playback: single steps, N steps, and the speed of the simulation."""
 
 from __future__ import annotations
 
 from math import inf
 from typing import TYPE_CHECKING
 
-from urdfkit.app.simulation.features.feature import Done, Part, Takes
+from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.errors import SimulationError
 from urdfkit.view.protocol.page_requests import Order, Schema, number, whole
 
 if TYPE_CHECKING:
-    from urdfkit.app.simulation.clock_rate import Pace
+    from urdfkit.app.simulation.clock_rate import ClockRate
 
 MOST_STEPS = 10_000
-"""At one order."""
+"""Maximum number of steps of one request."""
 CHUNK, LONGEST = 50, 1.0
-"""Steps between two looks at the clock, and seconds that one order of steps may take: everybody waits for it."""
+"""Steps between two readings of the clock, and maximum duration of one request [s]."""
 
 
-class Transport(Part):
-    """Orders about time.
+class Playback(Feature):
+    """Requests about time.
 
     Attributes:
-        pace: how simulated time keeps up with the clock.
+        pace: ratio of simulated time to the clock.
     """
 
-    pace: Pace
+    pace: ClockRate
 
     @property
     def takes(self) -> Takes:
-        """The orders it takes."""
+        """The supported requests."""
         return {
             "step": (Schema({"steps": whole(1, MOST_STEPS)}), self._step),
             "speed": (Schema({}, {"factor": number(0.01, 1000)}), self._speed),
@@ -37,7 +37,7 @@ class Transport(Part):
 
     def _step(self, order: Order) -> Done:
         if not self.simulator.paused:
-            raise SimulationError("the simulation runs: pause it to go by steps")
+            raise SimulationError("the simulation is running: pause it to step")
         wanted, done, begin = order.values["steps"], 0, self.clock()
         while done < wanted and self.clock() - begin < LONGEST:
             chunk = min(CHUNK, wanted - done)
@@ -45,11 +45,11 @@ class Transport(Part):
             done += chunk
         self.pace.restart(self.simulator.t)
         if done < wanted:
-            raise SimulationError(f"{done} of {wanted} steps are done, which took {LONGEST:g} s; order the rest anew")
+            raise SimulationError(f"stopped after {LONGEST:g} s: {done} of {wanted} steps done; request the rest again")
         return {"time": self.simulator.t}
 
     def _speed(self, order: Order) -> Done:
-        """Change the factor; as fast as it can where there is none."""
+        """Change the factor; without one, run as fast as possible."""
         self.pace.factor = order.values.get("factor", inf)
         self.pace.restart(self.simulator.t)
         return None

@@ -1,11 +1,11 @@
-"""Curves on the page: any number in any message, from when a page wants it until none does."""
+"""Plots: send any number of any message while a page plots it."""
 
 from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.app.simulation.features.feature import Part
+from urdfkit.app.simulation.features.feature import Feature
 from urdfkit.app.simulation.features.message_values import number_at
 from urdfkit.errors import UsageError
 
@@ -17,22 +17,22 @@ if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
 
 FIELD = "field:"
-"""Begins the key of a curve, which goes on with the topic, a colon and the path in its messages."""
+"""Prefix of the key of a plot, followed by the topic, a colon and the path in its messages."""
 PERIOD = 0.05
-"""Seconds between two parts of a curve."""
+"""Seconds between two messages with samples."""
 MOST = 400
-"""Samples of a curve that are kept until the next part; of more every second is left out."""
+"""Maximum number of samples in a message; others are dropped."""
 
 
-class Curves(Part):
-    """Listens to the topics that pages plot numbers of."""
+class Plots(Feature):
+    """Subscribes to the topics that pages plot."""
 
     def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
         super().__init__(simulator, server, clock)
-        self._curves: dict[str, _Curve] = {}
+        self._curves: dict[str, _Plot] = {}
 
     def tick(self) -> None:
-        """Listen to what pages want, and send what has come."""
+        """Subscribe to the plotted topics, and send the samples."""
         if not self.is_due(PERIOD):
             return
         wanted = {key for key in self.server.hub.wanted if key.startswith(FIELD)}
@@ -41,24 +41,24 @@ class Curves(Part):
         for key in wanted:
             curve = self._curves.get(key)
             if curve is None:
-                curve = self._curves[key] = _Curve(self, key)
+                curve = self._curves[key] = _Plot(self, key)
             curve.send()
 
 
-class _Curve:
+class _Plot:
     """One number of one topic."""
 
-    def __init__(self, part: Curves, key: str) -> None:
+    def __init__(self, part: Plots, key: str) -> None:
         self._part, self._key = part, key
         topic, _, self._path = key.removeprefix(FIELD).partition(":")
         self._samples: list[tuple[float, float]] = []
         self._subscription: Subscription | None = None
         self._error: str | None = None
-        known = {each.name: each for each in part.simulator.bus.topics}
-        if topic not in known:
-            self._say(f"there is no topic {topic}")
+        topics = {each.name: each for each in part.simulator.bus.topics}
+        if topic not in topics:
+            self._report(f"unknown topic {topic}")
             return
-        self._subscription = part.simulator.bus.subscribe(topic, known[topic].type, self._take)
+        self._subscription = part.simulator.bus.subscribe(topic, topics[topic].type, self._take)
 
     def _take(self, message: Any) -> None:
         if self._error is not None:
@@ -66,18 +66,18 @@ class _Curve:
         try:
             value = number_at(message, self._path)
         except UsageError as error:
-            self._say(str(error))
+            self._report(str(error))
             return
         self._samples.append((self._part.simulator.t, value))
         if len(self._samples) > MOST:
             del self._samples[1::2]
 
-    def _say(self, error: str) -> None:
+    def _report(self, error: str) -> None:
         self._error = error
         self._part.server.stream(self._key, "samples", curve=self._key, error=error, t=[], values=[])
 
     def send(self) -> None:
-        """Send what has come since the last time; nothing where there is none."""
+        """Send the samples since the last call, if any."""
         samples, self._samples = self._samples, []
         if samples:
             self._part.server.stream(
@@ -90,6 +90,6 @@ class _Curve:
             )
 
     def close(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         if self._subscription is not None:
             self._subscription.close()

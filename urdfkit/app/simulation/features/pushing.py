@@ -1,11 +1,11 @@
-"""Hands: links that pages push, for as long as they hold them."""
+"""Pushing: forces on links while pages drag them."""
 
 from __future__ import annotations
 
 import contextlib
 from typing import TYPE_CHECKING
 
-from urdfkit.app.simulation.features.feature import Done, Part, Takes
+from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.errors import SimulationError
 from urdfkit.view.protocol.page_requests import Order, Schema, numbers, text
 
@@ -16,13 +16,13 @@ if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
 
 HOLD = 0.3
-"""Seconds of simulated time that a push lasts without another; pages repeat it twenty times a second."""
+"""Duration of a push in simulated time [s]; pages repeat it twenty times a second."""
 STRONGEST = 1e5
-"""[N], [N·m]"""
+"""Maximum force [N] and torque [N·m]."""
 
 
-class Hands(Part):
-    """Who pushes what."""
+class Pushing(Feature):
+    """ContactForces of each page."""
 
     def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
         super().__init__(simulator, server, clock)
@@ -30,7 +30,7 @@ class Hands(Part):
 
     @property
     def takes(self) -> Takes:
-        """The orders it takes."""
+        """The supported requests."""
         force, torque = numbers(3, bound=STRONGEST, unit="N"), numbers(3, bound=STRONGEST, unit="N·m")
         wrench = {"force": force, "torque": torque, "at": numbers(3, bound=1e3, unit="m")}
         return {
@@ -39,7 +39,7 @@ class Hands(Part):
         }
 
     def forget(self) -> None:
-        """Let go of everything."""
+        """Release all links."""
         self._held.clear()
 
     def _push(self, order: Order) -> Done:
@@ -56,5 +56,5 @@ class Hands(Part):
 
     def _release(self, client: int) -> None:
         if (link := self._held.pop(client, None)) is not None:
-            with contextlib.suppress(SimulationError):  # it may have been taken away meanwhile
+            with contextlib.suppress(SimulationError):  # its body may have been removed meanwhile
                 self.simulator.release(link)

@@ -1,4 +1,4 @@
-"""Tape: the motion of everything, kept in memory and shown again at any place and speed; and every topic as MCAP."""
+"""Replay: record all poses in memory, show them again at any time and speed; record topics as MCAP."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.app.simulation.features.feature import Done, Part, Takes
+from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.errors import SimulationError
 from urdfkit.view.protocol.page_requests import Order, Schema, choice, flag, number
 
@@ -23,20 +23,20 @@ if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
 
 MOST_BYTES = 96 * 1024 * 1024
-"""Of a tape; it stops there."""
+"""Maximum size of the recorded poses; the recording stops there."""
 MOST_HANDED = 48 * 1024 * 1024
-"""Largest recording that is given to the page; a larger one is left in the folder that urdfkit was started in."""
+"""Maximum size of a recording that is sent to the page; a larger one is saved in the working directory."""
 LARGE = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/PointCloud")
-"""Types of messages that are recorded only where that is asked for."""
+"""Types of messages that are recorded only on request."""
 FRAME_RATE = 60.0
-"""Frames of a simulated second that are kept [Hz]."""
+"""Recorded frames per simulated second [Hz]."""
 
 
-class Tape(Part):
-    """Records and replays.
+class Replay(Feature):
+    """Recording and replay.
 
     Attributes:
-        playing: whether what is shown comes from the tape.
+        playing: whether the page shows the recording.
     """
 
     def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
@@ -55,7 +55,7 @@ class Tape(Part):
 
     @property
     def takes(self) -> Takes:
-        """The orders it takes."""
+        """The supported requests."""
         replay = {"at": number(0), "speed": number(0.05, 20)}
         return {
             "record": (Schema({"on": flag}, {"topics": flag, "pictures": flag}), self._record),
@@ -63,7 +63,7 @@ class Tape(Part):
         }
 
     def show(self) -> None:
-        """Tell the pages how the tape stands."""
+        """Publish the state of the recording."""
         self.server.declare("tape", **self._state())
 
     def _state(self) -> dict[str, Any]:
@@ -82,11 +82,11 @@ class Tape(Part):
     # Recording
 
     def keep(self, t: float, poses: NDArray[np.float64], revision: int) -> None:
-        """Keep where everything is, while recording."""
+        """Record the poses, while recording."""
         if not self._recording or self.playing:
             return
         if revision != self._revision or (self._times and t < self._times[-1]):
-            self._stop("something came or went" if revision != self._revision else "time began anew")
+            self._stop("an entity was spawned or removed" if revision != self._revision else "the simulation was reset")
             return
         if self._times and t - self._times[-1] < 0.9 / FRAME_RATE:
             return
@@ -95,18 +95,18 @@ class Tape(Part):
         self._frames.append(frame)
         self._bytes += frame.nbytes + 64
         if self._bytes > MOST_BYTES:
-            self._stop(f"the tape is full after {self._times[-1] - self._times[0]:.0f} s")
+            self._stop(f"the memory limit was reached after {self._times[-1] - self._times[0]:.0f} s")
 
     def _record(self, order: Order) -> Done:
         if not order.values["on"]:
             if not self._recording:
                 raise SimulationError("nothing is being recorded")
-            found = self._end_topics(order)
+            response = self._end_topics(order)
             self._recording = False
             self.show()
-            return found
+            return response
         if self._recording:
-            raise SimulationError("a recording runs already")
+            raise SimulationError("a recording is running already")
         self._times, self._frames, self._bytes = [], [], 0
         self.playing, self._revision = False, self.simulator.revision
         if order.values.get("topics"):
@@ -119,9 +119,9 @@ class Tape(Part):
         self.show()
         return None
 
-    def _stop(self, why: str) -> None:
+    def _stop(self, reason: str) -> None:
         self._recording = False
-        self.server.tell("notice", text=f"the recording has ended: {why}", tone="")
+        self.server.tell("notice", text=f"the recording was stopped: {reason}", tone="")
         if self._recorder is not None:
             self._leave(self._recorder, f"ride-{self.simulator.name}.mcap")
         self.show()
@@ -142,7 +142,7 @@ class Tape(Part):
         return {"messages": recorder.count, "bytes": size}
 
     def _leave(self, recorder: Recorder, name: str) -> str:
-        """Put a recording into the folder that urdfkit was started in, under a name that is free; return it."""
+        """Move a recording to the working directory under an unused name; return the name."""
         import shutil
 
         recorder.look()
@@ -151,7 +151,8 @@ class Tape(Part):
         while Path(name).exists():
             name, k = f"{stem}-{k}.mcap", k + 1
         shutil.move(recorder.path, name)
-        self.server.tell("notice", text=f"the recording is in {name}, where urdfkit was started", tone="good")
+        text = f"the recording was saved as {name} in the folder in which urdfkit was started"
+        self.server.tell("notice", text=text, tone="good")
         self._recorder = None
         self._folder.close()
         return name
@@ -169,7 +170,7 @@ class Tape(Part):
         if not self._times:
             raise SimulationError("nothing has been recorded yet")
         if self.simulator.revision != self._revision:
-            raise SimulationError("things came or went since it was recorded: it cannot be shown any more")
+            raise SimulationError("the recording cannot be shown: entities were spawned or removed since")
         if not self.playing:
             self._at = self._times[0]
         if self._since is not None:
@@ -185,7 +186,7 @@ class Tape(Part):
         return None
 
     def picture(self) -> tuple[float, NDArray[np.float32]]:
-        """Return the time [s] and the frame of the tape that is to be seen now."""
+        """Return the time [s] and the frame of the recording to show now."""
         if self._since is not None:
             self._advance()
         index = int(np.searchsorted(self._times, self._at, side="right")) - 1
@@ -202,7 +203,7 @@ class Tape(Part):
             self.show()
 
     def tick(self) -> None:
-        """Look for topics that have come up, and tell how the recording goes."""
+        """Subscribe to new topics, and publish the state of the recording."""
         if self._recorder is not None:
             self._recorder.look()
         if self._recording and self.is_due(0.5):
@@ -213,17 +214,17 @@ class Tape(Part):
         self.playing, self._since = False, None
 
     def close(self) -> None:
-        """Keep what is being recorded, and clean up."""
+        """Save a running recording, and clean up."""
         if self._recorder is not None:
             self._leave(self._recorder, f"{self.simulator.name}.mcap")
         self._folder.close()
 
 
 class WithoutPictures:
-    """A bus as a recorder sees it that is to leave out what is large.
+    """View of a bus for a recorder, without topics of large messages.
 
     Args:
-        bus: the whole.
+        bus: the bus.
     """
 
     def __init__(self, bus: Bus) -> None:
@@ -232,5 +233,5 @@ class WithoutPictures:
 
     @property
     def topics(self) -> tuple[Topic, ...]:
-        """The others."""
+        """The topics without large messages."""
         return tuple(topic for topic in self._bus.topics if topic.type not in LARGE)

@@ -1,8 +1,8 @@
-"""What lidars and cameras see, on the page of ``sim teleop``: points in the scene, and small pictures.
+"""Sensor views on the page of ``sim teleop``: points of lidars in the scene, and small images of cameras.
 
-A sensor is looked at only while a page has it ticked and has shown what came before, the one that waited longest first,
-and no oftener than leaves the simulation most of the time: what a sensor's rate is does not matter to the page. Cameras
-take a small picture for it, so that whoever drives never waits for a large one.
+A sensor is read only while a page shows it and has received the last view; the sensor that has waited longest comes
+first. Views use a limited share of the time, whatever the rates of the sensors. Cameras render a small image for the
+page, so that the simulation never waits for a large one.
 """
 
 from __future__ import annotations
@@ -32,29 +32,29 @@ if TYPE_CHECKING:
 Array = NDArray[Any]
 
 PERIOD = 0.1
-"""Seconds between two looks of one sensor, at least."""
+"""Minimum seconds between two views of one sensor."""
 SHARE = 0.25
-"""Part of the time that looking may take."""
+"""Maximum share of the time for views."""
 WIDTH = 320
-"""Of a picture on the page [px], at most."""
+"""Maximum width of an image on the page [px]."""
 MOST_POINTS = 20_000
-"""Of one scan on the page; of larger ones every second point, every third, …"""
+"""Maximum points of a scan on the page; larger scans are subsampled."""
 CLOUDS = ("sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/PointCloud")
 OPTICAL = np.array([[0.0, 0, 1, 0], [-1, 0, 0, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
-"""A camera's optical frame in the sensor's: z forward, x right, y down."""
+"""Optical frame of a camera in the sensor's frame: z forward, x right, y down."""
 
 
 @dataclass
-class Sight:
-    """One topic that is shown.
+class SensorView:
+    """View of one topic.
 
     Attributes:
-        topic: where the sensor publishes.
-        sensor: that publishes there.
+        topic: topic of the sensor.
+        sensor: the sensor.
         kind: `POINTS`, `COLORED` or `PICTURE`.
-        exact: whether the picture's colours have a meaning, which a JPEG would blur.
-        due: when it may be looked at again [s of the clock].
-        shown: messages there had been when it was looked at last.
+        exact: whether the colours are labels, which a JPEG would blur.
+        due: earliest time of the next view [s of the clock].
+        shown: number of messages at the last view.
     """
 
     topic: Topic
@@ -66,11 +66,11 @@ class Sight:
 
     @property
     def key(self) -> str:
-        """What pages want it by."""
+        """Key of the stream."""
         return f"sensor:{self.topic.name}"
 
     def content(self, message: Any) -> bytes:
-        """Return what a page is sent of a message."""
+        """Return the view of a message."""
         if self.kind == PICTURE:
             return picture(message, exact=self.exact)
         frame = self.sensor.viewpoint
@@ -79,23 +79,23 @@ class Sight:
         return points(message, frame, colored=self.kind == COLORED)
 
 
-class Sights:
-    """The lidars and cameras of a simulation, on the page.
+class SensorViews:
+    """Views of the lidars and cameras of a simulation.
 
     Args:
-        simulator: whose robots' sensors.
+        simulator: the simulation.
         server: the page.
         clock: wall clock [s].
     """
 
     def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
         self._simulator, self._server, self._clock = simulator, server, clock
-        self._sights: list[Sight] = []
+        self._sights: list[SensorView] = []
         self._revision = -1
         self._free = 0.0
 
     def find(self) -> bool:
-        """Take note of the sensors there are, tell the page, and return whether there are any."""
+        """Find the sensors, publish their list, and return whether there are any."""
         self._revision = self._simulator.revision
         self._sights = []
         for robot in self._simulator.robots.values():
@@ -103,7 +103,7 @@ class Sights:
                 if isinstance(sensor, Mounted):
                     shown = smaller(sensor) if isinstance(sensor, Camera) else sensor
                     exact = isinstance(sensor, GzSegmentationCamera)
-                    self._sights += [Sight(topic, shown, kind, exact) for topic, kind in _shown(sensor)]
+                    self._sights += [SensorView(topic, shown, kind, exact) for topic, kind in _shown(sensor)]
         names = [
             {"topic": sight.topic.name, "picture": sight.kind == PICTURE, "camera": isinstance(sight.sensor, Camera)}
             for sight in self._sights
@@ -112,13 +112,13 @@ class Sights:
         return bool(self._sights)
 
     def prepare(self) -> None:
-        """Look once through each camera, so that nobody who drives waits for what the first look takes."""
+        """Render each camera once, so that the simulation does not wait for the first image."""
         for sensor in {id(sight.sensor): sight.sensor for sight in self._sights}.values():
             if isinstance(sensor, Camera):
                 sensor.glimpse(self._simulator.t)
 
     def show(self) -> float:
-        """Show what one sensor sees, if one is due and there is time; return how long that took [s]."""
+        """Send the view of one sensor, if one is due; return the time spent [s]."""
         if self._simulator.revision != self._revision:
             self.find()
         now = self._clock()
@@ -132,7 +132,7 @@ class Sights:
         if not waiting:
             return 0.0
         first = min(waiting, key=lambda pair: pair[1].due)[1]
-        together = [(k, each) for k, each in waiting if each.sensor is first.sensor]  # they share one look
+        together = [(k, each) for k, each in waiting if each.sensor is first.sensor]  # they share one rendering
         messages: dict[str, Callable[[], Any]] = {}
         if isinstance(first.sensor, Camera):
             names = (topic.name for topic in first.sensor.topics)
@@ -150,16 +150,16 @@ class Sights:
 
 
 def smaller(camera: Camera) -> Camera:
-    """Return a camera in the same place that takes pictures of the size that the page shows."""
-    found = copy(camera)
-    found.eyes = []
+    """Return a copy of a camera with the image size of the page."""
+    smaller_camera = copy(camera)
+    smaller_camera.eyes = []
     for eye in camera.eyes:
         lens = eye.optics.lens
         part = min(1.0, WIDTH / lens.width)
         small = replace(lens, width=round(part * lens.width), height=max(1, round(part * lens.height)))
-        found.eyes.append(replace(eye, optics=replace(eye.optics, lens=small)))
-    found.optics = found.eyes[0].optics
-    return found
+        smaller_camera.eyes.append(replace(eye, optics=replace(eye.optics, lens=small)))
+    smaller_camera.optics = smaller_camera.eyes[0].optics
+    return smaller_camera
 
 
 def _shown(sensor: Mounted) -> list[tuple[Topic, int]]:
@@ -172,12 +172,12 @@ def _shown(sensor: Mounted) -> list[tuple[Topic, int]]:
 
 
 def points(message: Any, viewpoint: Array, *, colored: bool = False) -> bytes:
-    """Return where the points of a scan are in the world [m], as little-endian float32.
+    """Return the points of a scan in the world [m], as little-endian float32.
 
     Args:
         message: a LaserScan, PointCloud2 or PointCloud in the coordinates of the sensor.
-        viewpoint: of the sensor; shape (4, 4).
-        colored: each with red, green, blue and 255 behind it, a byte each; of a PointCloud2 with ``rgb``.
+        viewpoint: pose of the sensor; shape (4, 4).
+        colored: append red, green, blue and 255 to each point, one byte each; for a PointCloud2 with ``rgb``.
     """
     colors = None
     if hasattr(message, "ranges"):
@@ -198,22 +198,22 @@ def points(message: Any, viewpoint: Array, *, colored: bool = False) -> bytes:
             colors = np.concatenate([blue_first[:, ::-1], np.full((len(rows), 1), 255, dtype=np.uint8)], axis=1)
     else:
         found = np.array([(each.x, each.y, each.z) for each in message.points], dtype=float).reshape(-1, 3)
-    known = np.isfinite(found).all(axis=1)
-    every = max(1, -(-int(known.sum()) // MOST_POINTS))
-    found = (found[known][::every] @ viewpoint[:3, :3].T + viewpoint[:3, 3]).astype("<f4")
+    finite = np.isfinite(found).all(axis=1)
+    every = max(1, -(-int(finite.sum()) // MOST_POINTS))
+    found = (found[finite][::every] @ viewpoint[:3, :3].T + viewpoint[:3, 3]).astype("<f4")
     if not colored:
         return bytes(found.tobytes())
     if colors is None:
-        colors = np.full((len(known), 4), 255, dtype=np.uint8)
-    return bytes(np.concatenate([found.view(np.uint8).reshape(-1, 12), colors[known][::every]], axis=1).tobytes())
+        colors = np.full((len(finite), 4), 255, dtype=np.uint8)
+    return bytes(np.concatenate([found.view(np.uint8).reshape(-1, 12), colors[finite][::every]], axis=1).tobytes())
 
 
 def picture(message: Any, *, exact: bool = False) -> bytes:
-    """Return an Image as a small JPEG; depths as grey, near ones bright.
+    """Return an Image as a small JPEG; depths in grey, near ones bright.
 
     Args:
         message: the Image.
-        exact: as a WebP that blurs nothing instead.
+        exact: return a lossless WebP instead.
     """
     from PIL import Image
 
@@ -223,8 +223,8 @@ def picture(message: Any, *, exact: bool = False) -> bytes:
         small = whole
         if whole.mode not in ("RGB", "L"):
             depth = np.asarray(whole, dtype=float)
-            known = depth[depth > 0]
-            far = float(known.max()) if len(known) else 1.0
+            valid = depth[depth > 0]
+            far = float(valid.max()) if len(valid) else 1.0
             small = Image.fromarray(np.where(depth > 0, 255 - 215 * depth / far, 0).astype(np.uint8))
         size = min(WIDTH, whole.width), max(1, round(whole.height * min(1.0, WIDTH / whole.width)))
         file = io.BytesIO()

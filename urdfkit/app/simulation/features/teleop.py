@@ -1,4 +1,4 @@
-"""The wheel: which robots can be driven, and by which keys."""
+"""Teleop: the robots that can be driven, and the keys."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from urdfkit.sim.world.simulated_robot import SimulatedRobot
 
 
-def wheel(simulator: Simulator) -> dict[str, Any]:
-    """Return what the page needs to drive: robots that take commands, key tables and first speeds."""
+def drive_controls(simulator: Simulator) -> dict[str, Any]:
+    """Return the controls of the page: robots that accept commands, key tables and initial speeds."""
     from urdfkit.teleop import HELD_LAYOUT, HELD_SPEEDS, Teleop
 
     start = Teleop()
@@ -33,13 +33,13 @@ def wheel(simulator: Simulator) -> dict[str, Any]:
 
 
 def command_topics(robot: SimulatedRobot) -> dict[str, str]:
-    """Return topic → type of the velocity commands that a robot's drives and running controllers listen to."""
+    """Return topic → type of the velocity commands of a robot's drives and running controllers."""
     topics = {topic: TWIST for drive in robot.plugins.drives for topic in drive.commands}
     return {**topics, **robot.controllers.command_topics}
 
 
 def command(simulator: Simulator, robot: SimulatedRobot, linear: Sequence[float], angular: Sequence[float]) -> None:
-    """Publish a velocity command [m/s, rad/s] to everything of a robot that drives."""
+    """Publish a velocity command [m/s, rad/s] to every drive and controller of a robot."""
     for topic, kind in command_topics(robot).items():
         message = twist(linear, angular)
         if kind == TWIST_STAMPED:

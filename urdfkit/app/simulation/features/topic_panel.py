@@ -1,4 +1,4 @@
-"""Topics on the page: the list with rates, the last message of one, and publishing."""
+"""Topics panel: the list with rates, the last message of a topic, and publishing."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import struct
 from collections import deque
 from typing import TYPE_CHECKING
 
-from urdfkit.app.simulation.features.feature import Done, Part, Takes
+from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.app.simulation.features.message_values import as_json, numbers_in
 from urdfkit.errors import UsageError, did_you_mean
 from urdfkit.view.protocol.page_requests import Order, Schema, text, tree
@@ -19,21 +19,21 @@ if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
 
 LIST, ECHO = "topics", "echo:"
-"""Keys that pages want the list by, and the last message of a topic."""
+"""Keys of the streams of the list, and of the last message of a topic."""
 PERIOD = 0.5
 """Seconds between two lists."""
 OFTEN = 0.2
-"""Seconds between two looks at one topic's last message, at least."""
+"""Minimum seconds between two messages of one topic."""
 SHARE = 0.1
-"""Part of the time that such looks may take: the last message of a camera is made by looking through it."""
+"""Maximum share of the time for these messages: reading the last message of a camera renders it."""
 NAME = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+", re.ASCII)
-"""Names of topics that ROS 1 and 2 both take; https://design.ros2.org/articles/topic_and_service_names.html."""
+"""Names of topics that ROS 1 and 2 accept; https://design.ros2.org/articles/topic_and_service_names.html."""
 SPAN = 6
-"""Lists over which rates are measured."""
+"""Number of lists over which rates are measured."""
 
 
-class Topics(Part):
-    """The list, and what somebody looks at."""
+class TopicPanel(Feature):
+    """The list, and the messages that pages show."""
 
     def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
         super().__init__(simulator, server, clock)
@@ -42,25 +42,25 @@ class Topics(Part):
 
     @property
     def takes(self) -> Takes:
-        """The orders it takes."""
+        """The supported requests."""
         return {
             "form": (Schema({"topic": text(), "type": text()}, changes=False), self._form),
             "publish": (Schema({"topic": text(), "type": text(), "message": tree}), self._publish),
         }
 
     def forget(self) -> None:
-        """Measure rates anew."""
+        """Restart the measurement of rates."""
         self._counts.clear()
 
     def tick(self) -> None:
-        """Send the list and the messages that pages look at."""
+        """Send the list and the messages that pages show."""
         wanted = self.server.hub.wanted
         if LIST in wanted and self.is_due(PERIOD):
             self._list()
         now = self.clock()
-        looked = {key for key in wanted if key.startswith(ECHO)}
-        self._echoes = {key: kept for key, kept in self._echoes.items() if key in looked}
-        for key in looked:
+        echoed = {key for key in wanted if key.startswith(ECHO)}
+        self._echoes = {key: kept for key, kept in self._echoes.items() if key in echoed}
+        for key in echoed:
             due, shown = self._echoes.get(key, (0.0, -1))
             if now >= due:
                 shown = self._echo(key, shown)
@@ -92,7 +92,7 @@ class Topics(Part):
         return topic.count
 
     def _form(self, order: Order) -> Done:
-        """Answer with an empty message of a topic's type, and the paths of the numbers in its last message."""
+        """Respond with an empty message of a topic's type, and the paths of the numbers in its last message."""
         from urdfkit.messages import from_fields, full_type_name
 
         name, kind = order.values["topic"], full_type_name(order.values["type"])
@@ -108,28 +108,28 @@ class Topics(Part):
 
         name, kind = order.values["topic"], full_type_name(order.values["type"])
         if len(absolute(name)) < 2:
-            raise UsageError("a topic has a name, such as /cmd_vel")
+            raise UsageError("the name of the topic is missing; enter a name such as /cmd_vel")
         _require_name(name, [topic.name for topic in self.simulator.bus.topics])
         self._require_message(absolute(name), kind)
         try:
             self.simulator.bus.publish(name, kind, from_fields(kind, order.values["message"]))
         except (ArithmeticError, LookupError, TypeError, ValueError, struct.error) as error:
-            # A number that its field cannot hold, or that a listener makes nothing of: no reason to end the simulation.
-            raise UsageError(f"`{name}` cannot take that message: {error}") from error
+            # A value that a field cannot hold or a subscriber cannot use must not stop the simulation.
+            raise UsageError(f"`{name}` does not accept this message: {error}") from error
         return None
 
     def _require_message(self, name: str, kind: str) -> None:
         if "/msg/" not in kind:
-            raise UsageError(f"`{kind}` is no message type, such as geometry_msgs/msg/Twist")
-        known = {topic.name: topic.type for topic in self.simulator.bus.topics}
-        if name in known and known[name] != kind:
-            raise UsageError(f"topic `{name}` carries {known[name]}, not {kind}{did_you_mean(kind, [known[name]])}")
+            raise UsageError(f"`{kind}` is not a message type, such as geometry_msgs/msg/Twist")
+        types = {topic.name: topic.type for topic in self.simulator.bus.topics}
+        if name in types and types[name] != kind:
+            raise UsageError(f"topic `{name}` carries {types[name]}, not {kind}{did_you_mean(kind, [types[name]])}")
 
 
-def _require_name(name: str, known: Sequence[str]) -> None:
-    """Refuse a new topic of a name that no ROS node could have; one that is there keeps its name."""
+def _require_name(name: str, existing: Sequence[str]) -> None:
+    """Reject a new topic with a name that is invalid in ROS; existing topics keep their names."""
     from urdfkit.bus import absolute
 
-    if absolute(name) not in known and not NAME.fullmatch(absolute(name)):
-        near = did_you_mean(absolute(name.replace(" ", "")), known)
-        raise UsageError(f"`{name}` is no name of a topic: letters, digits, _ and / between them, no blanks{near}")
+    if absolute(name) not in existing and not NAME.fullmatch(absolute(name)):
+        near = did_you_mean(absolute(name.replace(" ", "")), existing)
+        raise UsageError(f"`{name}` is not a topic name: use letters, digits and _, separated by /{near}")

@@ -1,10 +1,10 @@
-"""Listening: every message of a topic, for programs; when it came, how long it is, or what it says."""
+"""Topic streams: every message of a topic for programs, as its time, its size, or its content."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from urdfkit.app.simulation.features.feature import Part
+from urdfkit.app.simulation.features.feature import Feature
 from urdfkit.app.simulation.features.message_values import as_json
 
 if TYPE_CHECKING:
@@ -15,50 +15,50 @@ if TYPE_CHECKING:
     from urdfkit.view.server.server import Server
 
 TIMES, SIZES, EVERY, WHOLE = "times:", "sizes:", "every:", "whole:"
-"""Begin the key of a topic's messages: when each came; and how many bytes it has; what it says, cut; in full."""
+"""Prefixes of the keys: times of messages; times and sizes; content with long arrays cut; full content."""
 KEYS = (TIMES, SIZES, EVERY, WHOLE)
 SOME = 128
-"""Entries of an array in a message that is cut; the default of ros2 topic echo."""
+"""Maximum entries of an array in a cut message; the default of ros2 topic echo."""
 ALL = 4_000_000
-"""Entries of an array in a message in full."""
+"""Maximum entries of an array in a full message."""
 LATCHED = "tf_static"
-"""Last part of the names of topics whose last message comes to who begins to listen, as ROS latches it."""
+"""Last part of the names of topics whose last message is sent to new subscribers, as ROS latches it."""
 PERIOD = 0.05
-"""Seconds between two parts of a stream."""
+"""Seconds between two messages of a stream."""
 SHARE = 0.25
-"""Part of the time that putting messages into words may take. What there is no time for is counted as missed."""
+"""Maximum share of the time for converting messages. Messages beyond it are dropped and counted."""
 ADVANCE = 0.02
-"""Seconds of such work that may be done at once, where none was for a while."""
+"""Seconds of conversion that may be used at once after a pause."""
 MOST = 2000
-"""Messages that are kept until the next part; those of more are counted as missed."""
+"""Maximum number of messages in one part of a stream; others are dropped and counted."""
 
 
-class Listening(Part):
-    """Listens to the topics that somebody wants every message of, and to no others."""
+class TopicStreams(Feature):
+    """Subscribes to the topics that programs request, and to no others."""
 
     def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
         super().__init__(simulator, server, clock)
-        self._ears: dict[str, _Ear] = {}
+        self._streams: dict[str, _Stream] = {}
 
     def tick(self) -> None:
-        """Listen to what is wanted, and send what has come."""
+        """Subscribe to the requested topics, and send their messages."""
         wanted = {key for key in self.server.hub.wanted if key.startswith(KEYS)}
-        for key in [key for key in self._ears if key not in wanted]:
-            self._ears.pop(key).close()
-        topics = {topic.name: topic for topic in self.simulator.bus.topics} if wanted - self._ears.keys() else {}
-        for key in wanted - self._ears.keys():
-            # A topic that is not there yet may come.
+        for key in [key for key in self._streams if key not in wanted]:
+            self._streams.pop(key).close()
+        topics = {topic.name: topic for topic in self.simulator.bus.topics} if wanted - self._streams.keys() else {}
+        for key in wanted - self._streams.keys():
+            # An unknown topic may be advertised later.
             if (topic := topics.get(key.partition(":")[2])) is not None:
-                self._ears[key] = _Ear(self, key, topic)
+                self._streams[key] = _Stream(self, key, topic)
         if self.is_due(PERIOD):
-            for ear in self._ears.values():
-                ear.send()
+            for stream in self._streams.values():
+                stream.send()
 
 
-class _Ear:
-    """One topic, as one key wants it."""
+class _Stream:
+    """The stream of one topic for one key."""
 
-    def __init__(self, part: Listening, key: str, topic: Topic) -> None:
+    def __init__(self, part: TopicStreams, key: str, topic: Topic) -> None:
         self._part, self._key, self._type = part, key, topic.type
         self._kind = f"{key.partition(':')[0]}:"
         self._rows: list[list[Any]] = []
@@ -86,7 +86,7 @@ class _Ear:
         self._owed += self._part.clock() - begin
 
     def send(self) -> None:
-        """Send what has come since the last time; nothing where there is none."""
+        """Send the messages since the last call, if any."""
         if not self._rows and not self._missed:
             return
         rows, missed = self._rows, self._missed
@@ -96,5 +96,5 @@ class _Ear:
         self._owed += self._part.clock() - begin
 
     def close(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         self._subscription.close()

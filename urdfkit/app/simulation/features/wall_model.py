@@ -1,4 +1,4 @@
-"""Walls drawn on the page, with doors, as a model of SDF that does not move."""
+"""Walls drawn on the page, with doors, as a static SDF model."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from typing import Any
 from urdfkit.errors import SimulationError
 
 DOOR = 2.0
-"""How high a door is [m]; a wall that is higher goes on above it."""
+"""Height of a door [m]; a higher wall continues above it."""
 LEAST = 0.02
-"""Shortest piece of wall that is built [m]."""
+"""Shortest piece of a wall [m]."""
 MOST = 1000.0
-"""Farthest that a corner may be [m]."""
+"""Maximum coordinate of a corner [m]."""
 COLOR = "0.86 0.84 0.8 1"
 
 
@@ -29,20 +29,20 @@ def walls(
     """Return the SDF of walls along a line of corners.
 
     Args:
-        name: of the model.
+        name: name of the model.
         corners: x y of each [m]; the last may be the first again.
-        doors: each with ``segment`` (number of the wall it is in), ``at`` (its middle, from the wall's start [m]) and
+        doors: each with ``segment`` (index of its wall), ``at`` (position of its centre on the wall [m]) and
             ``width`` [m].
-        height: [m].
-        thickness: [m].
+        height: height of the walls [m].
+        thickness: thickness of the walls [m].
 
     Raises:
-        SimulationError: there is no wall, or a door does not fit.
+        SimulationError: the corners coincide, or a door does not fit.
     """
     boxes: list[tuple[float, float, float, float, float, float]] = []  # x, y, z, yaw, length, height
     lengths = [hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(corners)]
     if not any(length >= LEAST for length in lengths):
-        raise SimulationError("a wall needs two corners that are apart")
+        raise SimulationError("a wall needs two different corners")
     for door in doors:
         segment, at, width = int(door["segment"]), float(door["at"]), float(door["width"])
         if segment >= len(lengths):
@@ -58,7 +58,7 @@ def walls(
         gaps = sorted((d["at"] - d["width"] / 2, d["at"] + d["width"] / 2) for d in doors if d["segment"] == k)
         if any(after[0] < before[1] for before, after in pairwise(gaps)):
             raise SimulationError(f"two doors of wall {k} overlap")
-        # Walls meet at corners: each goes on by half its thickness.
+        # Walls overlap at corners: each is extended by half its thickness.
         pieces = _between(-thickness / 2, length + thickness / 2, gaps)
         spans = [(start, end, 0.0, height) for start, end in pieces]
         if height > DOOR:

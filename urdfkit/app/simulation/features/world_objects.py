@@ -1,4 +1,4 @@
-"""Objects: what can be put into the world from the page, moved about, taken away, walled in and saved."""
+"""World objects: spawn, move, remove and save the objects of the world, and draw walls."""
 
 from __future__ import annotations
 
@@ -7,23 +7,23 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from urdfkit.app.simulation.features.feature import Done, Part, Takes
+from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.app.simulation.features.wall_model import MOST, walls
 from urdfkit.errors import SimulationError
 from urdfkit.view.protocol.page_requests import Order, Schema, listing, number, numbers, record, text, whole
 
 NAME = 80
-"""Longest name [characters]."""
-MOST_THINGS = 500
-"""Most models and robots in a world that is built on the page."""
+"""Maximum length of a name [characters]."""
+MAX_OBJECTS = 500
+"""Maximum number of models and robots in a world that is built on the page."""
 
 
-class Objects(Part):
-    """The library, and what stands in the world."""
+class WorldObjects(Feature):
+    """The model library, and the entities of the world."""
 
     @property
     def takes(self) -> Takes:
-        """The orders it takes."""
+        """The supported requests."""
         pose = numbers(3, 7, bound=1e4)
         door = record(segment=whole(0, 200), at=number(0, MOST, unit="m"), width=number(0.2, 20, unit="m"))
         corners = listing(numbers(2, bound=MOST, unit="m"), 2, 200, "corners")
@@ -38,17 +38,17 @@ class Objects(Part):
         }
 
     def show(self) -> None:
-        """Tell the pages what there is, and what there could be."""
+        """Publish the entities of the world and the library."""
         from urdfkit.description.sdf import model_names
         from urdfkit.resources import robot_names
 
-        stage = self.simulator._stage
+        world = self.simulator._stage
         rows = []
-        for name in stage.names:
-            entry = stage.entry(name)
+        for name in world.names:
+            entry = world.entry(name)
             first = entry.thing is None
             robot = any(each.has_plugins for each in entry.robots)
-            rows.append({"name": name, "robot": robot or first, "first": first, "static": stage._stands(entry)})
+            rows.append({"name": name, "robot": robot or first, "first": first, "static": world._stands(entry)})
         self.server.declare(
             "objects",
             objects=rows,
@@ -59,15 +59,15 @@ class Objects(Part):
 
     def _spawn(self, order: Order) -> Done:
         name, model = order.values.get("name") or None, order.values["model"]
-        self._require_plain(model)  # by name only: no page may have a file of this machine read
-        if len(self.simulator._stage.names) >= MOST_THINGS:
-            raise SimulationError(f"there are {MOST_THINGS} things in the world; that is enough for a page")
+        self._require_plain(model)  # by name only: a page must not read files of this machine
+        if len(self.simulator._stage.names) >= MAX_OBJECTS:
+            raise SimulationError(f"the world has {MAX_OBJECTS} objects, the maximum; remove one first")
         pose = order.values.get("pose")
         from urdfkit.resources import robot_names
         from urdfkit.sim import Spawn
 
         if pose is not None and model in robot_names():
-            # On the ground, wherever that is for it.
+            # On the ground at this position.
             found = self.simulator.spawn(
                 model, Spawn(x=pose[0], y=pose[1], yaw=pose[-1] if len(pose) in (4, 6) else 0.0), name=name
             )
@@ -77,13 +77,13 @@ class Objects(Part):
 
     def _require_plain(self, model: str) -> None:
         if "/" in model or "\\" in model or "." in model or ":" in model:
-            raise SimulationError(f"`{model}` is no name of a model or robot of the library")
+            raise SimulationError(f"`{model}` is not the name of a model or robot of the library")
 
     def _place(self, order: Order) -> Done:
         name, pose = order.values["name"], order.values["pose"]
-        stage = self.simulator._stage
-        if name == stage.names[0] and not self.simulator.kinematics.floating_base:
-            raise SimulationError(f"`{name}` is bolted down")
+        world = self.simulator._stage
+        if name == world.names[0] and not self.simulator.kinematics.floating_base:
+            raise SimulationError(f"`{name}` has a fixed base and cannot be moved")
         self.simulator.place(name, pose)
         return None
 
@@ -101,7 +101,7 @@ class Objects(Part):
         values = order.values
         name = values.get("name") or self.simulator._free("walls")
         if not name.replace("_", "").replace("-", "").isalnum():
-            raise SimulationError(f"`{name}` is no name for walls: letters, digits, _ and -")
+            raise SimulationError(f"`{name}` is not a name for walls: use letters, digits, _ and -")
         document = walls(
             name,
             values["corners"],
