@@ -8,7 +8,7 @@ import pytest
 pytest.importorskip("meshcat")
 pytest.importorskip("numba")
 
-from urdfkit.app.page import told_of_faults
+from urdfkit.app.page import faults_on_page
 from urdfkit.app.simulation.placeholder import Placeholder
 from urdfkit.app.simulation.scene_bodies import SceneBodies
 from urdfkit.description.sdf import load_world
@@ -54,11 +54,11 @@ def test_it_stands_where_the_simulation_starts(name: str) -> None:
 
 
 def test_a_page_that_is_open_is_told_why_the_server_ends(monkeypatch) -> None:
-    monkeypatch.setattr("urdfkit.app.page.LAST_WORDS", 0.0)
+    monkeypatch.setattr("urdfkit.app.page.FAULT_DELAY", 0.0)
     page = Page()
 
     def fail() -> None:
-        with told_of_faults(page):
+        with faults_on_page(page):
             raise SimulationError("no such wheel")
 
     with pytest.raises(SimulationError):

@@ -199,7 +199,7 @@ def test_a_pdf_without_graphviz_names_what_works(
         (["simpletn", "a", "b"], "did you mean `simpleton`?"),
         (
             ["simpleton", "base_footprint"],
-            "a transform needs PARENT and CHILD; after `base_footprint` the CHILD is miss",
+            "a transform needs PARENT and CHILD; add the CHILD frame after `base_footprint`",
         ),
         (["simpleton", "a", "b", "c"], "expected one PARENT and one CHILD, got 3 frames: a b c"),
         (

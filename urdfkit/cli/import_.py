@@ -26,7 +26,7 @@ _OTHER_FORMATS = {
     **dict.fromkeys((".stl", ".dae", ".obj", ".gltf", ".glb", ".ply"), _MESH),
     **dict.fromkeys((".step", ".stp", ".sldasm", ".sldprt", ".f3d", ".fcstd"), "CAD: import the URDF exported from it"),
 }
-"""Suffix of a file that is not a URDF → what the file is, and what to do instead."""
+"""Suffix of a file that is not a URDF → kind of the file, and the alternative."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

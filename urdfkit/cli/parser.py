@@ -127,7 +127,7 @@ def add_model(parser: argparse.ArgumentParser, *, optional: bool = True) -> None
 
 
 def add_common(parser: argparse.ArgumentParser, *, nested: bool = False) -> None:
-    """Add the common options ``-q``, ``-v`` and ``--color``, except those that the command defines itself.
+    """Add the common options ``-q``, ``-v`` and ``--color``, unless the command defines its own.
 
     Args:
         parser: parser of the command; its subcommands get the options too.

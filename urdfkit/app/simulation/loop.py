@@ -155,7 +155,7 @@ class DriveLoop:
         self.pace.restart(simulator.t)
 
     def _stop(self) -> None:
-        """Send zero velocity to every drive, whoever sent the last command, and release the controls of all pages."""
+        """Send zero velocity to every drive, whichever page drives, and release the controls of all pages."""
         self.server.driver.stop()
         self.server.tell("stop")
         self._driven = ""

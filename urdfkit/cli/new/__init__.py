@@ -75,7 +75,7 @@ def _suggestion(parser: Parser, option: str) -> str:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Ask the questions, render the packages, check them, move them into place.
+    """Prompt for answers, render the packages, check them, move them into place.
 
     Args:
         arguments: from the command line.
@@ -109,25 +109,25 @@ def _written(arguments: argparse.Namespace) -> tuple[int, Path | None]:
                 question.option for question in template.questions if question.kind not in ("package", "world")
             )
             raise UsageError(f"--{option} is not available yet; available: {available}")
-    given = {
+    preset = {
         question.name: _joined(question, value) if isinstance(value, list) else value
         for question in template.questions
         if (value := getattr(arguments, question.name)) is not None
     }
     into = Path(arguments.into)
-    for name, answer in given.items():
+    for name, answer in preset.items():
         template.question(name).accept(answer)
     if arguments.update:
-        return update.run(template, given, into, arguments), None
+        return update.run(template, preset, into, arguments), None
     if arguments.diff:
         raise UsageError("--diff requires --update")
     template = update.with_relative_source(template, into)
     if arguments.recipe is not None:
-        given = read_recipe(template, Path(arguments.recipe), given)
-    given = {**identity(template), **given}
+        preset = read_recipe(template, Path(arguments.recipe), preset)
+    preset = {**identity(template), **preset}
     if not arguments.yes and sys.stdin.isatty() and sys.stderr.isatty():
-        given |= _with_preview(template, given, preview=not arguments.no_preview)
-    answers = template.answers(given, fresh=is_fresh(into))
+        preset |= _with_preview(template, preset, preview=not arguments.no_preview)
+    answers = template.answers(preset, fresh=is_fresh(into))
     answers |= computed(template.name, answers)
     answers |= {"year": str(datetime.now(timezone.utc).year), "into": into.as_posix()}
     finish = add_picture if answers.get("picture") == "yes" else None
@@ -140,31 +140,31 @@ def _written(arguments: argparse.Namespace) -> tuple[int, Path | None]:
     return 0, into / fill(template.teleop, answers, where="teleop") if teleop else None
 
 
-def _joined(question: Question, given: list[str]) -> str:
+def _joined(question: Question, preset: list[str]) -> str:
     """Return all values of a repeatable option as one answer."""
-    return " ".join(question.accept(value) if question.kind == "packages" else value for value in given)
+    return " ".join(question.accept(value) if question.kind == "packages" else value for value in preset)
 
 
-def _with_preview(template: Template, given: dict[str, str], *, preview: bool) -> dict[str, str]:
-    """Ask the unanswered questions, with a preview in the browser where possible."""
+def _with_preview(template: Template, preset: dict[str, str], *, preview: bool) -> dict[str, str]:
+    """Prompt for the unanswered questions, with a preview in the browser where possible."""
     from urdfkit.app.viewer.preview import Preview, can_preview
 
     if not preview or not can_preview(template):
-        return _prompt_all(template, given)
+        return _prompt_all(template, preset)
     with Preview(template) as shown:
-        shown.follow(given)
-        return _prompt_all(template, given, follow=shown.follow)
+        shown.follow(preset)
+        return _prompt_all(template, preset, follow=shown.follow)
 
 
 def _prompt_all(
-    template: Template, given: dict[str, str], *, follow: Callable[[Mapping[str, str]], None] = lambda _: None
+    template: Template, preset: dict[str, str], *, follow: Callable[[Mapping[str, str]], None] = lambda _: None
 ) -> dict[str, str]:
-    """Ask the unanswered questions on the terminal; Enter accepts the default."""
-    answers = dict(given)
+    """Prompt for the unanswered questions on the terminal; Enter accepts the default."""
+    answers = dict(preset)
     for question in template.questions:
         default = question.default_given(answers)
-        is_asked = question.ask and len(question.choices) != 1 and applies(question.when, answers)
-        if question.name in given or not is_asked:
+        is_open = question.ask and len(question.choices) != 1 and applies(question.when, answers)
+        if question.name in preset or not is_open:
             answers.setdefault(question.name, default or "")
             continue
         while question.name not in answers:

@@ -115,7 +115,7 @@ def _fill(kind: argparse.ArgumentParser, template: Template) -> None:
         "--from", dest="recipe", metavar="FILE", help="read answers from this urdfkit-new.toml; options override them"
     )
     kind.add_argument("--template", metavar="DIR", help="folder of your own template, used instead of the bundled one")
-    kind.add_argument("-y", "--yes", action="store_true", help="ask no questions; use defaults for missing options")
+    kind.add_argument("-y", "--yes", action="store_true", help="skip the questions; use defaults for missing options")
     shown = "do not show a preview in the browser" if template.teleop else argparse.SUPPRESS
     kind.add_argument("--no-preview", action="store_true", help=shown)
     kind.add_argument(

@@ -49,7 +49,7 @@ _COLOURS = {"+": "32", "-": "31", "@": "36"}
 
 def run(
     template: Template | None,
-    given: Mapping[str, str],
+    preset: Mapping[str, str],
     folder: Path,
     arguments: argparse.Namespace,
     *,
@@ -59,7 +59,7 @@ def run(
 
     Args:
         template: the template of the packages; None for the template that the recipe names.
-        given: answers that override those of the recipe.
+        preset: answers that override those of the recipe.
         folder: the folder that was written to, or a package in it.
         arguments: from the command line.
         own_template: folder of the user's own template.
@@ -73,7 +73,7 @@ def run(
     recipe, into = find_recipe(template, folder)
     made = read_made(recipe)
     template = with_relative_source(template, into) if template else _recipe_template(made, own_template, into)
-    before, answers = (template.answers(read_recipe(template, recipe, each)) for each in ({}, given))
+    before, answers = (template.answers(read_recipe(template, recipe, each)) for each in ({}, preset))
     answers |= computed(template.name, answers)
     answers |= {"into": into.as_posix()} | ({"year": made.year} if made.year else {})
     finish = add_picture if answers.get("picture") == "yes" else None

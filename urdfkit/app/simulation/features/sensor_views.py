@@ -90,30 +90,30 @@ class SensorViews:
 
     def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
         self._simulator, self._server, self._clock = simulator, server, clock
-        self._sights: list[SensorView] = []
+        self._views: list[SensorView] = []
         self._revision = -1
         self._free = 0.0
 
     def find(self) -> bool:
         """Find the sensors, publish their list, and return whether there are any."""
         self._revision = self._simulator.revision
-        self._sights = []
+        self._views = []
         for robot in self._simulator.robots.values():
             for sensor in robot.plugins.sensors:
                 if isinstance(sensor, Mounted):
                     shown = smaller(sensor) if isinstance(sensor, Camera) else sensor
                     exact = isinstance(sensor, GzSegmentationCamera)
-                    self._sights += [SensorView(topic, shown, kind, exact) for topic, kind in _shown(sensor)]
+                    self._views += [SensorView(topic, shown, kind, exact) for topic, kind in _shown(sensor)]
         names = [
-            {"topic": sight.topic.name, "picture": sight.kind == PICTURE, "camera": isinstance(sight.sensor, Camera)}
-            for sight in self._sights
+            {"topic": view.topic.name, "picture": view.kind == PICTURE, "camera": isinstance(view.sensor, Camera)}
+            for view in self._views
         ]
         self._server.declare("sensors", sensors=names)
-        return bool(self._sights)
+        return bool(self._views)
 
     def prepare(self) -> None:
         """Render each camera once, so that the simulation does not wait for the first image."""
-        for sensor in {id(sight.sensor): sight.sensor for sight in self._sights}.values():
+        for sensor in {id(view.sensor): view.sensor for view in self._views}.values():
             if isinstance(sensor, Camera):
                 sensor.glimpse(self._simulator.t)
 
@@ -126,7 +126,7 @@ class SensorViews:
             return 0.0
         waiting = [
             (k, each)
-            for k, each in enumerate(self._sights)
+            for k, each in enumerate(self._views)
             if each.due <= now and each.topic.count != each.shown and self._server.hub.takes(each.key)
         ]
         if not waiting:
@@ -137,14 +137,14 @@ class SensorViews:
         if isinstance(first.sensor, Camera):
             names = (topic.name for topic in first.sensor.topics)
             messages = dict(zip(names, first.sensor.glimpse(self._simulator.t), strict=False))
-        for index, sight in together:
-            sight.shown = sight.topic.count
-            message = messages[sight.topic.name]() if messages else sight.topic.latest
+        for index, view in together:
+            view.shown = view.topic.count
+            message = messages[view.topic.name]() if messages else view.topic.latest
             if message is not None:
-                self._server.sense(sight.key, index, self._simulator.t, sight.kind, sight.content(message))
+                self._server.sense(view.key, index, self._simulator.t, view.kind, view.content(message))
         cost = self._clock() - now
-        for _, sight in together:
-            sight.due = now + max(PERIOD, cost / SHARE)
+        for _, view in together:
+            view.due = now + max(PERIOD, cost / SHARE)
         self._free = now + cost / SHARE
         return cost
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from urdfkit.app.simulation.features.joint_sliders import Arm
+from urdfkit.app.simulation.features.joint_sliders import ControllerSliders
 from urdfkit.errors import UrdfkitError
 from urdfkit.messages import from_fields
 from urdfkit.sim import Simulator
@@ -111,8 +111,8 @@ def test_a_slider_tells_it(rig: Callable[..., Rig]) -> None:
     made = rig(gravity=(0, 0, 0))
     (robot,) = made.simulator.robots.values()
     (controller,) = (each for each in robot.plugins.controllers if each.loop is not None)
-    arm = Arm(robot, controller.loop.laws["grip"])
+    arm = ControllerSliders(robot, controller.loop.laws["grip"])
     assert arm.of == "position"
-    arm.tell(made.simulator.bus, "elbow", 0.3)
+    arm.command(made.simulator.bus, "elbow", 0.3)
     made.simulator.run(2.0)
     assert made.elbow == pytest.approx(0.3, abs=1e-2)
