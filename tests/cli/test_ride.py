@@ -283,11 +283,11 @@ def test_numbers_of_messages_by_path() -> None:
     assert "position[1]" in list(numbers_in(message))
     assert "name[0]" not in list(numbers_in(message))
     for path, line in (
-        ("position", "no number"),
-        ("name[0]", "no number"),
+        ("position", "not a number"),
+        ("name[0]", "not a number"),
         ("positon[0]", "did you mean"),
-        ("[x]", "no path"),
-        ("header[0]", "no array"),
+        ("[x]", "not the path"),
+        ("header[0]", "not an array"),
     ):
         with pytest.raises(UsageError, match=line):
             number_at(message, path)
