@@ -11,10 +11,7 @@ import jsonschema
 import pytest
 
 from urdfkit.description.xml.source import Span
-from urdfkit.lint.engine.run import (
-    Outcome,
-    run,
-)
+from urdfkit.lint.engine.run import Outcome, run
 from urdfkit.lint.finding import Finding
 from urdfkit.lint.project.entry_files import find_entries
 from urdfkit.lint.project.options import Options

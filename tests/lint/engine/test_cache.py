@@ -7,12 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from urdfkit.lint.engine import run as engine
+from urdfkit.lint.engine import checker
 from urdfkit.lint.engine.cache import folder
-from urdfkit.lint.engine.run import (
-    Outcome,
-    run,
-)
+from urdfkit.lint.engine.run import Outcome, run
 from urdfkit.lint.project.entry_files import find_entries
 from urdfkit.lint.project.options import Options
 
@@ -42,7 +39,7 @@ def codes(outcome: Outcome) -> list[str]:
 def test_the_second_run_gives_the_same_and_looks_at_nothing(package, monkeypatch):
     first = lint(package)
     assert (first.cached, codes(first)) == (0, ["E009", "T203", "G601"])
-    monkeypatch.setattr(engine, "model_of", None)
+    monkeypatch.setattr(checker, "model_of", None)
     second = lint(package)
     assert second.cached == 1
     assert second.findings == first.findings
@@ -163,7 +160,7 @@ def test_yaml_files_count(package):
 
 
 def test_several_processes_find_the_same(write, package, monkeypatch):
-    monkeypatch.setattr(engine, "_MIN_PARALLEL", 2)
+    monkeypatch.setattr("urdfkit.lint.engine.run._MIN_PARALLEL", 2)
     for number in range(5):
         write(f"p/urdf/{number}.urdf", f'<robot name="r{number}"><link name="a" kind="x"/></robot>')
     entries = find_entries(["p"])
@@ -181,7 +178,7 @@ def test_errors_come_back_from_other_processes(write, package, monkeypatch):
     from urdfkit.errors import ModelError
     from urdfkit.lint.project.entry_files import Entry
 
-    monkeypatch.setattr(engine, "_MIN_PARALLEL", 2)
+    monkeypatch.setattr("urdfkit.lint.engine.run._MIN_PARALLEL", 2)
     write("w.urdf", b"<sdf/>")
     with pytest.raises(ModelError, match="<sdf> is not a robot description"):
         run([Entry(package), Entry(Path("w.urdf"))], Options(), jobs=2)

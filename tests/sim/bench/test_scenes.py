@@ -8,11 +8,7 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 
-from urdfkit.sim.bench.correctness_checks import (
-    _motion,
-    resting_pose,
-    skid_rate,
-)
+from urdfkit.sim.bench.correctness_checks import _motion, resting_pose, skid_rate
 from urdfkit.sim.bench.engine_scene import InUrdfkit
 from urdfkit.sim.bench.scene import CALL, Check, Motor, Running, Scene, Servo
 from urdfkit.sim.bench.scenes import SCENES, robots

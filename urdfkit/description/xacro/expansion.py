@@ -23,18 +23,8 @@ from urdfkit.description.xacro.expressions.excess import (
 from urdfkit.description.xacro.faults import Fault, MacroDefinition, Warned
 from urdfkit.description.xacro.recursion import MAX_INCLUDE_DEPTH, MAX_MACRO_DEPTH, Endless, cycle
 from urdfkit.description.xacro.substitution import Substitution
-from urdfkit.description.xml.element import (
-    Element,
-    Stamp,
-    stamp_of,
-)
-from urdfkit.description.xml.reader import (
-    absolute,
-    element_of,
-    read_source,
-    shown_path,
-    stamped_document,
-)
+from urdfkit.description.xml.element import Element, Stamp, stamp_of
+from urdfkit.description.xml.reader import absolute, element_of, read_source, shown_path, stamped_document
 from urdfkit.description.xml.source import Expansion, Position, Source
 from urdfkit.errors import ResourceError
 

@@ -7,10 +7,7 @@ from pathlib import Path
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.xacro.fast.incremental import Memory
 from urdfkit.errors import UrdfkitError, bug
-from urdfkit.lint.engine.checker import (
-    Checker,
-    model_of,
-)
+from urdfkit.lint.engine.checker import Checker, model_of
 from urdfkit.lint.engine.run import merged
 from urdfkit.lint.project.entry_files import Entry, find_entries
 from urdfkit.lint.project.options import Options

@@ -12,10 +12,7 @@ from pathlib import Path
 
 from urdfkit.description.xml.source import Overlay
 from urdfkit.errors import ResourceError
-from urdfkit.lint.engine.run import (
-    Outcome,
-    run,
-)
+from urdfkit.lint.engine.run import Outcome, run
 from urdfkit.lint.fixes.regressions import Written, new_findings, unmatched
 from urdfkit.lint.project.options import Options
 from urdfkit.record import record

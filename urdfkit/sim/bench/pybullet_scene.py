@@ -11,14 +11,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from urdfkit.sim.bench.scene import (
-    DT,
-    GRAVITY,
-    Pose,
-    Running,
-    Scene,
-    Thing,
-)
+from urdfkit.sim.bench.scene import DT, GRAVITY, Pose, Running, Scene, Thing
 
 
 @dataclass(frozen=True, slots=True)

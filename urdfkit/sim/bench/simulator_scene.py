@@ -3,13 +3,7 @@
 from __future__ import annotations
 
 from urdfkit.sim.bench.parsed_urdf import read
-from urdfkit.sim.bench.scene import (
-    DT,
-    GRAVITY,
-    Pose,
-    Running,
-    Scene,
-)
+from urdfkit.sim.bench.scene import DT, GRAVITY, Pose, Running, Scene
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.simulator import Simulator
 

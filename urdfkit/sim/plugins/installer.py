@@ -16,11 +16,7 @@ from urdfkit.description.plugins.unknown_plugins import unknown
 from urdfkit.description.sdf.reader.world_plugins import NEEDLESS
 from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
 from urdfkit.errors import SimulationError, UsageError
-from urdfkit.sim.plugins.base import (
-    Controller,
-    Drive,
-    Sensor,
-)
+from urdfkit.sim.plugins.base import Controller, Drive, Sensor
 from urdfkit.sim.plugins.controllers import CONTROLLERS
 from urdfkit.sim.plugins.controllers.joints.joint_state_broadcaster import JointStatePublisher
 from urdfkit.sim.plugins.drives import DRIVES

@@ -11,12 +11,7 @@ from collections.abc import Awaitable
 from typing import TYPE_CHECKING, cast
 
 from tornado.iostream import StreamClosedError
-from tornado.websocket import (
-    WebSocketClosedError,
-    WebSocketHandler,
-    WebSocketProtocol,
-    WebSocketProtocol13,
-)
+from tornado.websocket import WebSocketClosedError, WebSocketHandler, WebSocketProtocol, WebSocketProtocol13
 
 from urdfkit.view.protocol import websocket_messages as protocol
 from urdfkit.view.server.authenticated_handler import Guarded

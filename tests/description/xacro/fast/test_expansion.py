@@ -11,10 +11,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from urdfkit.description.packages.resolver import Packages
-from urdfkit.description.xacro.expand import (
-    expand,
-    expand_leniently,
-)
+from urdfkit.description.xacro.expand import expand, expand_leniently
 from urdfkit.description.xacro.recovery import RecoveringRun
 from urdfkit.description.xacro.stock_xacro import recovered
 from urdfkit.description.xml.reader import MAX_MADE_DEPTH

@@ -16,10 +16,7 @@ from urdfkit.sim.engine.collision.support_points import HULL, MESH
 from urdfkit.sim.engine.contact_surface import Ground, Touching
 from urdfkit.sim.engine.contacts import ground_contacts
 from urdfkit.sim.engine.island_solver.conjugate_gradient import KEPT
-from urdfkit.sim.engine.layout.collision_shapes import (
-    box_of,
-    still_box,
-)
+from urdfkit.sim.engine.layout.collision_shapes import box_of, still_box
 from urdfkit.sim.engine.layout.tree_arrays import fill_free, fill_member
 
 Array = NDArray[np.float64]
