@@ -1,4 +1,4 @@
-"""What fits at a place: elements, attributes, names of what there is, values, files, parameters of plugins."""
+"""Completion: elements, attributes, existing names, values, files, plugin parameters."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ _OPEN = r"<([^\s/>=<!?\"']*)((?:[^<>\"']|\"[^\"<]*\"|'[^'<]*')*)([\"'][^\"'<>]*)
 
 @record
 class Fit:
-    """Something that fits.
+    """One completion item.
 
     Attributes:
-        label: what it is called, and what is written.
+        label: the displayed and inserted text.
         kind: ``element``, ``attribute``, ``name``, ``value``, ``file`` or ``parameter``.
-        detail: a few words on it.
-        typed: how many characters before the place it replaces.
+        detail: a short description.
+        typed: number of characters before the cursor that it replaces.
     """
 
     label: str
@@ -50,7 +50,7 @@ class Fit:
 
 
 def fits(model: Model, cursor: Cursor) -> list[Fit]:
-    """Return what fits where the cursor is."""
+    """Return the completion items at the cursor."""
     text = cursor.document.source.text[: cursor.offset]
     opened = text.rfind("<")
     tail = text[opened:] if opened >= 0 else ""
@@ -78,7 +78,7 @@ def fits(model: Model, cursor: Cursor) -> list[Fit]:
 
 
 def _around(cursor: Cursor) -> Tag | None:
-    """Return the element that what is being typed stands in."""
+    """Return the element around the text being typed."""
     start = cursor.document.source.text.rfind("<", 0, cursor.offset)
     tag = cursor.tag
     while tag is not None and tag.start >= start:
@@ -122,16 +122,16 @@ def _elements(model: Model, cursor: Cursor, typed: int) -> Iterator[Fit]:
 
 
 def _attributes(model: Model, name: str, written: str, typed: int) -> Iterator[Fit]:
-    known: Iterable[str] = _DIRECTIVES.get(name, URDF_ATTRIBUTES.get(name, ()))
+    names: Iterable[str] = _DIRECTIVES.get(name, URDF_ATTRIBUTES.get(name, ()))
     if name == "gazebo":
-        known = ("reference",)
+        names = ("reference",)
     elif name in ("plugin", "sensor"):
-        known = ("name", "filename") if name == "plugin" else ("name", "type")
+        names = ("name", "filename") if name == "plugin" else ("name", "type")
     macro = model.expanded.macros.get(name.removeprefix("xacro:"))
     if macro is not None and name not in _DIRECTIVES:
-        known = [parameter for parameter in macro.parameters if not parameter.startswith("*")]
+        names = [parameter for parameter in macro.parameters if not parameter.startswith("*")]
     present = set(re.findall(r"([^\s=\"']+)\s*=", written))
-    for attribute in known:
+    for attribute in names:
         if attribute not in present:
             optional = macro is not None and attribute in macro.defaults
             yield Fit(attribute, "attribute", "has a default" if optional else "", typed)
@@ -186,14 +186,14 @@ def _files(model: Model, cursor: Cursor, typed: str, suffixes: tuple[str, ...]) 
 
 
 def _packages(model: Model) -> list[str]:
-    """Return the names of the package and of those beside it."""
+    """Return the names of the package and of neighbouring packages."""
     from urdfkit.description.packages.related_files import neighbours
 
     return sorted(neighbours(model.package)) if model.package is not None else []
 
 
 def _in_text(model: Model, cursor: Cursor, tail: str) -> Iterator[Fit]:
-    """Yield what a plugin's parameter may name."""
+    """Yield the names that a plugin's parameter may refer to."""
     tag = cursor.tag
     if tag is None or tag.parent is None:
         return

@@ -1,4 +1,4 @@
-"""Cursor: what is written at a place of a file."""
+"""Cursor: the syntax element at an offset of a file."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _PARAMETER = r"[^\s:=,;]+"
 
 
 class Cursor:
-    """What is written at a place.
+    """The syntax element at an offset.
 
     Attributes:
         document: the file.

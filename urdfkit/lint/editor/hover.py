@@ -1,4 +1,4 @@
-"""What is shown of a place: findings with their rule's page, what an expression comes out as, masses and inertia."""
+"""Hover text: findings with their rule pages, values of expressions, masses and inertia."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ _MASSES = frozenset(("link", "inertial", "mass", "inertia"))
 def hover(
     model: Model, cursor: Cursor, findings: Iterable[Finding], probe: Callable[[int, str], list[str]]
 ) -> list[str]:
-    """Return what there is to say about a place, as pieces of Markdown.
+    """Return the hover text at a cursor, as pieces of Markdown.
 
     Args:
-        model: what the file is part of.
+        model: the model that the file belongs to.
         cursor: the place.
         findings: of the file.
-        probe: returns what a text comes out as where it is put at an offset, for each expansion.
+        probe: returns the values of a text inserted at an offset, one for each expansion.
     """
     pieces = [*_value(model, cursor, probe), *_macro(model, cursor), *_parameter(cursor), *_masses(model, cursor)]
     return [*pieces, *_rules(cursor, findings)]
 
 
 def _value(model: Model, cursor: Cursor, probe: Callable[[int, str], list[str]]) -> list[str]:
-    """Return what the expression, property or attribute under the cursor comes out as."""
+    """Return the value of the expression, property or attribute under the cursor."""
     within, tag, attribute = cursor.expression, cursor.tag, cursor.attribute
     if tag is None:
         return []

@@ -1,4 +1,4 @@
-"""Where something is defined, where it is used, and the edits that call it something else."""
+"""Definitions and references of symbols, and the edits that rename a symbol."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def at(model: Model, cursor: Cursor) -> list[Occurrence]:
-    """Return what is named where the cursor is: several where a macro is expanded several times."""
+    """Return the symbols under the cursor; several if a macro is expanded several times."""
     source = cursor.document.source
     here = [o for o in of_model(model) if o.span.file == source.file and _holds(source, o.span, cursor.offset)]
     inner = [o for o in here if o.kind not in EXPANDED]  # in ${…}: the property, not the name that comes of it
@@ -29,7 +29,7 @@ def at(model: Model, cursor: Cursor) -> list[Occurrence]:
 
 
 def definitions(model: Model, cursor: Cursor) -> list[Span]:
-    """Return where the things under the cursor are defined."""
+    """Return the definitions of the symbols under the cursor."""
     found: dict[Span, None] = {}
     source = cursor.document.source
     every = of_model(model)
@@ -46,7 +46,7 @@ def definitions(model: Model, cursor: Cursor) -> list[Span]:
 
 
 def file_at(model: Model, cursor: Cursor) -> Path | None:
-    """Return the file under the cursor: one that is included, or a mesh."""
+    """Return the included file or mesh file under the cursor."""
     from urdfkit.errors import ResourceError
     from urdfkit.lint.model.mesh_files import meshes, path_of
 
@@ -71,7 +71,7 @@ def file_at(model: Model, cursor: Cursor) -> Path | None:
 
 
 def references(models: Sequence[Model], cursor: Cursor, *, with_definition: bool = True) -> list[Span]:
-    """Return every place that names what is under the cursor, in all models that its file is part of."""
+    """Return all references to the symbol under the cursor, in all models that its file belongs to."""
     found: dict[Span, None] = {}
     if (parameter := _parameter_at(cursor)) is not None:
         return sorted(_of_parameter(models, cursor, *parameter, with_definition=with_definition))
@@ -121,23 +121,23 @@ def _of_parameter(
 
 
 def renamable(model: Model, cursor: Cursor) -> Occurrence | None:
-    """Return what can be called something else under the cursor; None where nothing can."""
+    """Return the symbol under the cursor if it can be renamed, else None."""
     found = [one for one in at(model, cursor) if one.kind != "file"]
     names = {(one.kind, one.name) for one in found}
     return found[0] if len(names) == 1 and found[0].written == found[0].name else None
 
 
 def rename(models: Sequence[Model], cursor: Cursor, name: str) -> list[Edit]:
-    """Return the edits that call what is under the cursor something else, in all files that name it.
+    """Return the edits that rename the symbol under the cursor in all files.
 
     Raises:
-        UsageError: it has no name of its own, the name is none or is taken, or some place makes it by an expression.
+        UsageError: the symbol has no name, the new name is invalid or in use, or an expression computes the name.
     """
     edits: dict[Edit, None] = {}
     for model in models:
         one = renamable(model, cursor)
         if one is None:
-            raise UsageError("nothing here can be renamed: it has no name, or one that an expression makes")
+            raise UsageError("nothing to rename here: no symbol, or its name is computed by an expression")
         pattern = r"[A-Za-z_]\w*" if one.kind in ("property", "macro", "argument") else r"[^\s\"'<>&$]+"
         if not re.fullmatch(pattern, name):
             raise UsageError(f"`{name}` is no name for a {one.kind}")

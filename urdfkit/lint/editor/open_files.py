@@ -29,7 +29,7 @@ class Analysis:
         model: what came out; None where the entry cannot be read.
         findings: in all of its files.
         files: name in findings → file, absolute.
-        failure: why there is no model, or which rule could not look at it.
+        failure: the reason why there is no model, or the rule that failed.
         is_ours: whether the failure is our fault.
         known: the model as it was when it could last be read: while a tag is typed, the names in it still count.
     """
@@ -43,7 +43,7 @@ class Analysis:
 
 
 class Project:
-    """The texts in an editor and what is known of them.
+    """The texts in an editor and their analyses.
 
     Args:
         options: how to lint.
@@ -70,14 +70,14 @@ class Project:
         self._analyses.clear()
 
     def forget(self) -> None:
-        """Look anew at what lies on disk: which models there are, which packages, what files hold."""
+        """Discard cached models, packages and file contents, so that they are read from disk again."""
         self._entries.clear()
         self._analyses.clear()
         self._memories.clear()
         self._packages = Packages(self.options.package_path)
 
     def entries(self, path: Path) -> Sequence[Entry]:
-        """Return the models that a file is part of: itself, or those that include it."""
+        """Return the models that a file belongs to: itself, or the models that include it."""
         if path not in self._entries:
             try:
                 found = find_entries([path])
@@ -91,7 +91,7 @@ class Project:
         return [self._analysis(entry) for entry in self.entries(path)]
 
     def findings(self, path: Path) -> dict[Path, list[Finding]]:
-        """Return what is found in each file of the models that a file is part of; files without findings too."""
+        """Return the findings of each file of the models that a file belongs to, including files without findings."""
         found: dict[Path, list[Finding]] = {path: []}
         every: list[Finding] = []
         files: dict[str, Path] = {}
@@ -106,11 +106,11 @@ class Project:
         return found
 
     def failures(self, path: Path) -> list[str]:
-        """Return what of the models that a file is part of could not be looked at by our own fault, one line each."""
+        """Return one line for each internal error in the models that a file belongs to."""
         return list(dict.fromkeys(one.failure for one in self.analyses(path) if one.is_ours))
 
     def probe(self, entry: Path, path: Path, offset: int, written: str) -> list[str]:
-        """Return what a text would come out as if it were written into a file: one value for each expansion.
+        """Return the values of a text inserted into a file, one for each expansion.
 
         Args:
             entry: the model to expand.

@@ -1,4 +1,4 @@
-"""Symbols: what in the files of a model has a name, where it is defined and where it is used.
+"""Symbols: the named entities in the files of a model, with their definitions and references.
 
 Links, joints and materials are known after expansion: a name made of ``${prefix}_wheel`` leads to the line in the
 macro. Macros, properties and arguments are known as they are written.
@@ -31,19 +31,19 @@ REFERENCES = {
     ("joint", "name"): "joint",
     ("material", "name"): "material",
 }
-"""Element and attribute → what it names; ``part`` is a link or a joint."""
+"""Element and attribute → kind of the named symbol; ``part`` is a link or a joint."""
 
 
 @record
 class Occurrence:
-    """One place that names something.
+    """One occurrence of a symbol.
 
     Attributes:
         kind: ``link``, ``joint``, ``material``, ``macro``, ``property``, ``argument`` or ``file``.
-        name: what it is called, after expansion where that changes it.
+        name: name of the symbol after expansion.
         span: the name as written, or the expression that makes it.
         defines: whether it is the definition.
-        written: what is written there.
+        written: the source text.
     """
 
     kind: str

@@ -70,7 +70,7 @@ class Named:
 
 
 def typed(source: Source) -> Iterator[Named]:
-    """Yield the types that a YAML file gives something: ``package/Class``."""
+    """Yield the plugin types in a YAML file: ``package/Class``."""
     for at in re.finditer(_WRITTEN_TYPE, uncommented(source)):
         yield Named(at[1], at.start(1))
 

@@ -1,4 +1,4 @@
-"""Settings of controllers in YAML, of ROS 1 and ROS 2: their types, their parameters, and those that are misspelt."""
+"""Controller settings in YAML for ROS 1 and ROS 2: types, parameters, misspelt parameters."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def _groups(node: Node, name: str, depth: int) -> Iterator[tuple[str, Node]]:
 
 
 def misspelt(source: Source) -> Iterator[tuple[Node, str, Settings]]:
-    """Yield the parameters of controllers that are nearly one that their type reads: the key, what is meant, whose."""
+    """Yield the misspelt parameters of controllers: key, suggested name, settings of the controller."""
     from urdfkit.lint.edits import nearest
 
     for one in settings(source):

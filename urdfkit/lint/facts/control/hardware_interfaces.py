@@ -40,20 +40,20 @@ _PARTS: dict[str, tuple[str, ...]] = {
     "ros2_control/sensor": ("state_interface", "param"),
     "ros2_control/gpio": ("command_interface", "state_interface", "param"),
 }
-"""What readers look for where (transmission_interface's parser; component_parser.cpp of hardware_interface)."""
+"""Valid child elements by path (transmission_interface's parser; component_parser.cpp of hardware_interface)."""
 
 _OTHERS = frozenset(("motor", "effort", "reduction", "joints", "sensors", "actuators", "types"))
-"""Names of somebody's own that are near."""
+"""Custom names that are not misspellings."""
 
 
 def misspelt_parts(element: Element, where: str) -> Iterator[tuple[Element, Element, str]]:
-    """Yield what is misspelt in a ``<transmission>`` or ``<ros2_control>``: parent, child, and how it is called.
+    """Yield the misspelt elements in a ``<transmission>`` or ``<ros2_control>``: parent, child, correct name.
 
     Both may hold elements of anybody's own; only what is nearly one of theirs is misspelt.
 
     Args:
         element: a transmission, a block of ros2_control, or a part of one.
-        where: its name, with that of what it is in.
+        where: path of element names.
     """
     from urdfkit.lint.edits import nearest
 
@@ -80,14 +80,14 @@ def written(robot: Robot) -> Iterator[tuple[str, Element, Transmission]]:
 
 
 def is_misspelt(name: str) -> bool:
-    """Whether a hardware interface, without its package, is nearly one that there is."""
+    """Return whether a hardware interface, without its package, is misspelt."""
     from urdfkit.lint.edits import nearest
 
     return name not in INTERFACES and nearest(name, INTERFACES, cutoff=0.85) is not None
 
 
 def meant_interface(name: str) -> str | None:
-    """Return the standard interface of ros2_control that a misspelt one must have meant; None where it is one."""
+    """Return the standard ros2_control interface that a misspelt name stands for; None for a valid name."""
     from urdfkit.lint.edits import nearest
 
     return nearest(name, STANDARD, cutoff=0.85) if name not in STANDARD else None

@@ -1,4 +1,4 @@
-"""Paths that launch files name in packages, read without running anything; what is computed is left alone."""
+"""Package paths in launch files, read without executing the files; computed paths are ignored."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _FIND = r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)/([^\s\"'<>$(){}:;,|&*]+)(?=[\s\"'<:;])"
 _USES = r"\$\(find(?:-pkg-share)?\s+([\w-]+)\)|<(?:node|composable_node)\b[^<>]*?\bpkg\s*=\s*[\"']([\w-]+)[\"']"
 _STARTS = frozenset(("Node", "LifecycleNode", "ComposableNode", "ComposableNodeContainer"))
-_ASKS = frozenset(("exists", "isfile", "isdir", "is_file", "is_dir"))
+_EXISTENCE_TESTS = frozenset(("exists", "isfile", "isdir", "is_file", "is_dir"))
 _SHARE = frozenset(("get_package_share_directory", "get_package_share_path", "FindPackageShare"))
 _JOINS = frozenset(("join", "PathJoinSubstitution"))
 
@@ -78,7 +78,7 @@ def uncommented(source: Source) -> str:
 
 
 def parsed(source: Source) -> ast.Module | None:
-    """Return the syntax tree of a launch file in Python; None where it is none."""
+    """Return the syntax tree of a Python launch file; None if it cannot be parsed."""
     import ast
     import warnings
 
@@ -108,11 +108,13 @@ def _in_python(source: Source) -> Iterator[PackagePath]:
 
     reader = Reader(tree)
     nodes = list(ast.walk(tree))
-    inner: set[ast.AST] = set()  # parts of a longer path, and what is only asked whether it is there
+    inner: set[ast.AST] = set()  # parts of a longer path, and paths that are only tested for existence
     for node in nodes:
-        if isinstance(node, ast.BinOp) or (isinstance(node, ast.Call) and name_of(node.func) in (*_JOINS, *_ASKS)):
+        if isinstance(node, ast.BinOp) or (
+            isinstance(node, ast.Call) and name_of(node.func) in (*_JOINS, *_EXISTENCE_TESTS)
+        ):
             inner.update(child for child in ast.walk(node) if child is not node)
-        elif isinstance(node, ast.Attribute) and node.attr in _ASKS:
+        elif isinstance(node, ast.Attribute) and node.attr in _EXISTENCE_TESTS:
             inner.update(ast.walk(node))
     for node in nodes:
         is_join = isinstance(node, ast.Call) and name_of(node.func) in _JOINS
@@ -147,7 +149,7 @@ class Reader:
         }
 
     def text(self, node: ast.expr, depth: int = 0) -> str | None:
-        """Return the constant text that an expression is; None where it is none."""
+        """Return the text of a constant expression; None for other expressions."""
         import ast
 
         if isinstance(node, ast.Constant):
@@ -157,7 +159,7 @@ class Reader:
         return None
 
     def share(self, node: ast.expr) -> str | None:
-        """Return the package whose share folder is asked for by this call; None where it is no such call."""
+        """Return the package whose share folder a call returns; None for other calls."""
         import ast
 
         if isinstance(node, ast.Call) and name_of(node.func) in _SHARE:
@@ -194,5 +196,5 @@ class Reader:
 
 
 def name_of(node: ast.expr) -> str:
-    """Return the last part of a dotted name; empty where it is none."""
+    """Return the last part of a dotted name; empty for other expressions."""
     return str(getattr(node, "attr", getattr(node, "id", "")))

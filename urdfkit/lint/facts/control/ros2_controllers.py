@@ -1,4 +1,4 @@
-"""Controllers of ROS 2 in YAML, the interfaces that they command and read, and those that hardware offers."""
+"""ROS 2 controllers in YAML, the interfaces they use, and the interfaces of the hardware."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Controller:
     Attributes:
         name: its own, without name spaces.
         kind: where its type is written.
-        settings: its parameters; None where there are none in the file.
+        settings: its parameters; None if the file has none.
     """
 
     name: str
@@ -35,7 +35,7 @@ class Controller:
 
 @record(eq=False)
 class Wanted:
-    """An interface that a controller wants of a joint.
+    """A joint interface that a controller requires.
 
     Attributes:
         joint: its name.
@@ -86,7 +86,7 @@ _GRIPPERS = {
 
 
 def wanted(controller: Controller) -> Iterator[Wanted]:
-    """Yield what a controller of ros2_controllers wants of joints, as far as its settings tell (Humble to Rolling)."""
+    """Yield the joint interfaces that a controller of ros2_controllers requires (Humble to Rolling)."""
     settings, kind = controller.settings, controller.kind.text
     if settings is None:
         return
@@ -96,8 +96,8 @@ def wanted(controller: Controller) -> Iterator[Wanted]:
         return [one for node in nodes if node is not None for one in (node, *node.items) if one.text]
 
     def each(names: list[Node], interfaces: str, is_command: bool) -> Iterator[Wanted]:
-        asked = settings.find(interfaces)
-        for interface in (asked, *asked.items) if asked is not None else ():
+        requested = settings.find(interfaces)
+        for interface in (requested, *requested.items) if requested is not None else ():
             if interface.text:
                 yield from (Wanted(name.text, interface.text, is_command, interface) for name in names)
 

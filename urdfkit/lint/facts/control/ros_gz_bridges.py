@@ -1,4 +1,4 @@
-"""What passes between Gazebo and ROS by ros_gz_bridge: its types, and what launch files and YAML tell it to pass."""
+"""ros_gz_bridge: message type pairs, and the bridges configured in launch files and YAML."""
 
 from __future__ import annotations
 
@@ -62,13 +62,13 @@ def pairs() -> dict[str, tuple[str, ...]]:
 
 @record(eq=False)
 class Bridged:
-    """One thing that is passed.
+    """One bridged topic.
 
     Attributes:
         topic: of Gazebo; None where it is not written.
         ros: its type there.
         gazebo: its type there.
-        direction: one of `DIRECTIONS`, or what is written.
+        direction: one of `DIRECTIONS`, or the source text.
     """
 
     topic: Named | None
@@ -78,7 +78,7 @@ class Bridged:
 
 
 def in_yaml(source: Source) -> Iterator[tuple[Bridged, tuple[Node, ...]]]:
-    """Yield what a file in YAML passes, with the names of what is written of each."""
+    """Yield the bridges in a YAML file, with the keys of each."""
     from urdfkit.lint.facts.control.yaml_tree import documents, span_of
 
     def named(entry: Node, *keys: str) -> Named | None:
@@ -98,7 +98,7 @@ def in_yaml(source: Source) -> Iterator[tuple[Bridged, tuple[Node, ...]]]:
 
 
 def in_launch(source: Source) -> Iterator[Bridged]:
-    """Yield what the arguments of bridges in a launch file pass: ``topic@ros_type[gz_type``."""
+    """Yield the bridges in the node arguments of a launch file: ``topic@ros_type[gz_type``."""
     from urdfkit.lint.facts.control.launched_nodes import started
 
     for node in started(source):

@@ -25,7 +25,7 @@ class Node:
     Attributes:
         kind: ``group``, ``list`` or ``text``.
         text: of a text; empty else.
-        entries: of a group: the name of each, as a node, and what it has.
+        entries: of a mapping: key and value nodes.
         items: of a list.
         line: where it begins, from 1.
         column: likewise.
@@ -41,7 +41,7 @@ class Node:
     is_plain: bool = False
 
     def find(self, name: str) -> Node | None:
-        """Return what a group has under a name; None where it has none, or is no group."""
+        """Return the value of a key in a mapping; None if there is none."""
         return next((value for key, value in self.entries if key.text == name), None)
 
     def texts(self) -> list[str]:

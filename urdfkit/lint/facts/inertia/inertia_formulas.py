@@ -41,7 +41,7 @@ class Slip:
 
 
 def has_slip(model: Model, element: Element) -> bool:
-    """Whether the formulas of an ``<inertia>``, as written, have one wrong moment: X119 says so."""
+    """Return whether the formulas of an ``<inertia>`` have one wrong moment, which X119 reports."""
     tag = model.tag(element.origin.position)
     return tag is not None and slip({name: attribute.value for name, attribute in tag.attributes.items()}) is not None
 

@@ -1,4 +1,4 @@
-"""What the shapes of a link weigh together: volume, middle and spread of their union, in plain Python.
+"""Union of the shapes of a link: volume, centroid and second moments, without numpy.
 
 Moments of single solids are closed forms, those of closed meshes sums over their triangles. Where primitives overlap,
 what is shared counts once: the share is found by evenly spread points in each of the shapes involved, every point

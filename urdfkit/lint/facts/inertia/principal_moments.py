@@ -25,9 +25,9 @@ def principal_moments(link: Link) -> Iterator[tuple[tuple[float, float, float], 
         return
     for element in link.inertial.element.find_all("inertia"):
         values = [number(element.attributes.get(name, "")) for name in _COMPONENTS]
-        known = [value for value in values if value is not None and isfinite(value)]
-        if len(known) == len(_COMPONENTS):
-            xx, xy, xz, yy, yz, zz = known
+        finite = [value for value in values if value is not None and isfinite(value)]
+        if len(finite) == len(_COMPONENTS):
+            xx, xy, xz, yy, yz, zz = finite
             yield eigenvalues(xx, xy, xz, yy, yz, zz), element
 
 
@@ -100,15 +100,15 @@ def reordered(element: Element) -> tuple[str, tuple[float, ...]] | None:
         element: the ``<inertia>``.
     """
     values = [number(element.attributes.get(name, "")) for name in _COMPONENTS]
-    known = [value for value in values if value is not None and isfinite(value)]
-    if len(known) < len(_COMPONENTS) or not any(known[1:3]) or is_possible(known):
+    finite = [value for value in values if value is not None and isfinite(value)]
+    if len(finite) < len(_COMPONENTS) or not any(finite[1:3]) or is_possible(finite):
         return None
     found: dict[tuple[tuple[float, ...], ...], tuple[str, tuple[float, ...]]] = {}
     for order, places in _ORDERS.items():
-        given = tuple(known[place] for place in places)
-        diagonal, products = (given[0], given[3], given[5]), (given[1], given[2], given[4])
-        if is_possible(given) and max(map(abs, products)) < 0.5 * min(diagonal):
-            found.setdefault((tuple(sorted(diagonal)), tuple(sorted(map(abs, products)))), (order, given))
+        reordered = tuple(finite[place] for place in places)
+        diagonal, products = (reordered[0], reordered[3], reordered[5]), (reordered[1], reordered[2], reordered[4])
+        if is_possible(reordered) and max(map(abs, products)) < 0.5 * min(diagonal):
+            found.setdefault((tuple(sorted(diagonal)), tuple(sorted(map(abs, products)))), (order, reordered))
     return next(iter(found.values())) if len(found) == 1 else None
 
 
@@ -120,7 +120,7 @@ def is_possible(values: Sequence[float]) -> bool:
 
 
 def shown(values: Sequence[float], *, digits: int = 3) -> list[str]:
-    """Return the values with as few significant digits (at least `digits`) as tell unlike sums of them apart."""
+    """Format the values with at least `digits` digits, and enough to preserve the triangle inequality."""
     first, second, third = values
     for enough in range(digits, 17):
         texts = [f"{value:.{enough}g}" for value in values]
@@ -135,6 +135,6 @@ def _padded(value: float, digits: int) -> str:
 
 
 def is_identity(element: Element) -> bool:
-    """Return whether an ``<inertia>`` is 1 on the diagonal and 0 beside it."""
+    """Return whether an ``<inertia>`` is the identity matrix."""
     values = [number(element.attributes.get(name, "")) for name in _COMPONENTS]
     return values == [1.0, 0.0, 0.0, 1.0, 0.0, 1.0]
