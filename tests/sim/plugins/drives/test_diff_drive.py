@@ -7,7 +7,7 @@ from collections.abc import Callable
 from importlib import import_module
 from inspect import isabstract
 from pathlib import Path
-from pkgutil import iter_modules
+from pkgutil import walk_packages
 from types import SimpleNamespace
 from typing import Any
 
@@ -24,15 +24,15 @@ PUBLISH = {"ros1": "", "ros2": "<publish_odom>true</publish_odom><publish_odom_t
 GENERATIONS = ("ros1", "ros2", "gz")
 
 
-@pytest.mark.parametrize(("room", "base"), [("drives", Drive), ("sensors", Sensor), ("controllers", Controller)])
-def test_every_class_of_a_room_is_in_its_tuple(room: str, base: type) -> None:
-    package = import_module(f"urdfkit.sim.{room}")
+@pytest.mark.parametrize(("package_name", "base"), [("drives", Drive), ("sensors", Sensor), ("controllers", Controller)])
+def test_every_class_of_a_package_is_in_its_tuple(package_name: str, base: type) -> None:
+    package = import_module(f"urdfkit.sim.plugins.{package_name}")
     found = set()
-    for module in iter_modules(package.__path__):
-        for value in vars(import_module(f"urdfkit.sim.{room}.{module.name}")).values():
+    for module in walk_packages(package.__path__, f"{package.__name__}."):
+        for value in vars(import_module(module.name)).values():
             if isinstance(value, type) and issubclass(value, base) and value is not base and not isabstract(value):
                 found.add(value)
-    assert found == set(getattr(package, room.upper()))
+    assert found == set(getattr(package, package_name.upper()))
 
 
 @pytest.mark.parametrize("generation", GENERATIONS)

@@ -72,11 +72,11 @@ WRONG = [
     (BLOCK.format(sensor(LASER.replace(">scan<", ">my scan!<"))), "`/my scan!` is no name of a topic"),
     (
         BLOCK.format(sensor(VELODYNE.format("<min_range>9</min_range><max_range>2</max_range>"))),
-        "what lies between <min_range> 9 m and <max_range> 2 m is nothing: the smaller is <min_range>; sensor `lidar`",
+        "the range from <min_range> 9 m to <max_range> 2 m is empty: <min_range> must be the smaller; sensor `lidar`",
     ),
     (
         BLOCK.format(sensor(KINECT, type="depth", inside=CAMERA)),
-        "what lies between <pointCloudCutoff> 4 m and <pointCloudCutoffMax> 2 m is nothing",
+        "the range from <pointCloudCutoff> 4 m to <pointCloudCutoffMax> 2 m is empty",
     ),
     (f"<gazebo>{GOOD}</gazebo>", "of a link; here is no reference"),
     (f'<gazebo reference="eyes">{GOOD}</gazebo>', "`eyes` is none; did you mean `eye`?"),
@@ -84,7 +84,7 @@ WRONG = [
     (BLOCK.format(sensor(LASER, rate=-1.0)), "<update_rate> is `-1.0`; it must be a finite number, 0 or greater"),
     (BLOCK.format(sensor(LASER, inside=scan(0))), "<horizontal> has 0 samples; it must be one or more"),
     (BLOCK.format(sensor(LASER, inside=scan(9, 1, -1))), "<horizontal> goes from 1 to -1 rad"),
-    (BLOCK.format(sensor(LASER, inside=scan(far=0.01))), "sees from 0.1 m to 0.01 m sees nothing"),
+    (BLOCK.format(sensor(LASER, inside=scan(far=0.01))), "the range of the lidar, 0.1 m to 0.01 m, is empty"),
     (
         BLOCK.format(sensor(LASER, inside=scan(noise="<noise><type>gaussian</type><stddev>-2</stddev></noise>"))),
         "<stddev> is `-2`",
