@@ -163,7 +163,7 @@ def test_steps_that_would_keep_everybody_waiting_are_done_in_part(ride, monkeypa
 
     monkeypatch.setattr(ride.simulator, "step", slow)
     ride.simulator.paused = True
-    with pytest.raises(SimulationError, match="100 of 300 steps are done"):
+    with pytest.raises(SimulationError, match="100 of 300 steps done"):
         do(ride, "step", steps=300)
 
 
@@ -227,11 +227,11 @@ def test_publishing_by_a_form(ride) -> None:
         ("/", "geometry_msgs/msg/Twist", {}, "the name of the topic is missing"),
         ("/cmd vel", "geometry_msgs/msg/Twist", {}, "`/cmd vel` is not a topic name"),
         (" simpleton/cmd_vel", "geometry_msgs/msg/Twist", {}, "did you mean `/simpleton/cmd_vel`"),
-        ("/1st", "geometry_msgs/msg/Twist", {}, "no name of a topic"),
-        ("/x\ty", "geometry_msgs/msg/Twist", {}, "no name of a topic"),
-        ("/grüße", "geometry_msgs/msg/Twist", {}, "no name of a topic"),
+        ("/1st", "geometry_msgs/msg/Twist", {}, "is not a topic name"),
+        ("/x\ty", "geometry_msgs/msg/Twist", {}, "is not a topic name"),
+        ("/grüße", "geometry_msgs/msg/Twist", {}, "is not a topic name"),
         ("/x", "std_msgs/msg/UInt8MultiArray", {"data": [2**40]}, "does not accept this message"),
-        ("/gazebo/delete_model", "gazebo_msgs/srv/DeleteModel_Request", {}, "no message type"),
+        ("/gazebo/delete_model", "gazebo_msgs/srv/DeleteModel_Request", {}, "is not a message type"),
     ):
         with pytest.raises(SimulationError, match=line):
             do(ride, "publish", topic=topic, type=kind, message=message)
@@ -320,9 +320,9 @@ def test_objects_come_move_and_go(ride) -> None:
         ("remove", {"name": "simpleton"}, "cannot be removed"),
         ("remove", {"name": "crait"}, "did you mean"),
         ("spawn", {"model": "crait"}, "did you mean `crate`"),
-        ("spawn", {"model": "../../etc/passwd"}, "no name of a model"),
-        ("spawn", {"model": "model://crate"}, "no name of a model"),
-        ("spawn", {"model": "/etc"}, "no name of a model"),
+        ("spawn", {"model": "../../etc/passwd"}, "is not the name of a model"),
+        ("spawn", {"model": "model://crate"}, "is not the name of a model"),
+        ("spawn", {"model": "/etc"}, "is not the name of a model"),
     ):
         with pytest.raises(SimulationError, match=line):
             do(ride, order, **values)
@@ -419,7 +419,7 @@ def test_arms_go_where_their_sliders_are_put(made) -> None:
     assert now == pytest.approx(0.5, abs=0.15)  # its PID has no integral: gravity pulls it a little off
     do(ride, "controller", controller=name, running=False)
     assert not {row["name"]: row for row in ride.page.said["arms"]["arms"]}[name]["running"]
-    with pytest.raises(SimulationError, match="no joint"):
+    with pytest.raises(SimulationError, match="unknown joint"):
         do(ride, "arm", controller=name, joint="nothing", value=0.5)
 
 

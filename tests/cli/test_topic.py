@@ -188,7 +188,7 @@ def test_a_simulation_that_is_starting_is_found_and_says_what_it_does(tmp_path: 
         assert main(["topic", "list"]) == 2
         first, second = capsys.readouterr().err.splitlines()
         assert first == "urdfkit: the simulation is starting: compiling …"
-        assert "is it still starting?" in second
+        assert "try again when it has started" in second
         server.declare("progress", label=None)
         server.declare("fault", message="no such wheel")
         assert main(["topic", "list"]) == 2

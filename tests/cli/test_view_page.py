@@ -61,7 +61,7 @@ def test_a_badge_leads_to_the_finding_and_its_fix_is_applied(serve, visits, unti
     until(lambda: page.evaluate(glow) != 0)  # what was selected still shines
     keep(page, "fixed")
     refused = page.evaluate("urdfkit.connection.order('fix', { finding: 1 }).catch((error) => error.message)")
-    assert "gone" in refused
+    assert "outdated" in refused
     for order, values_ in (("fix", {"finding": "../x"}), ("fix", {"finding": 1, "path": "x"}), ("write", {})):
         sent = page.evaluate(
             "([o, v]) => urdfkit.connection.order(o, v).then(() => 'done', (e) => e.message)", [order, values_]

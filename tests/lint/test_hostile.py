@@ -37,7 +37,7 @@ HOSTILE = {
     "text.xacro": (computed("'x' * 3 * 10**9"), "a text of more than 100,000 characters"),
     "list.xacro": (computed("[0] * 10**10"), "lists of more than 100,000 elements in all"),
     "range.xacro": (computed("list(range(10**9))"), "lists of more than 100,000 elements in all"),
-    "loops.xacro": (computed("[i for i in range(9999) for j in range(9999)]"), "more than 1,000,000 steps"),
+    "loops.xacro": (computed("[i for i in range(9999) for j in range(9999)]"), "exceed 1,000,000 steps"),
     "format.xacro": (computed("'%099999999d' % 1"), "a text of more than 100,000 characters"),
     "factorial.xacro": (computed("factorial(10**7)"), "it calls factorial() with more than 1,000"),
     "sum.xacro": (computed("python.sum(python.range(10**12))"), "lists of more than 100,000 elements in all"),

@@ -226,7 +226,7 @@ def test_nothing_is_overwritten(place, capsys):
     (place / "rover_control").rmdir()
     (folder / "urdf/control.xacro").write_text("<robot/>")
     assert new() == 2
-    assert "control.xacro is already there" in capsys.readouterr().err
+    assert "control.xacro exists already" in capsys.readouterr().err
     assert not (place / "rover_control").exists()
 
 

@@ -1,4 +1,7 @@
-"""Read robots and worlds: xacro, URDF and SDF in; links, joints and models with source positions out."""
+"""Read robots and worlds, without mathematics.
+
+xacro, URDF and SDF go in; links, joints and models with source positions come out.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`urdfkit sim`: simulate a robot. One module per subcommand."""
+"""`urdfkit sim`: simulate a robot.
+
+One module per subcommand reads its options and prints its result; `urdfkit.app.simulation` runs the simulation.
+"""
 
 from __future__ import annotations
 

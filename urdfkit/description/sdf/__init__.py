@@ -1,4 +1,7 @@
-"""Read and write worlds: SDF in; models and lights with resolved poses and source positions out."""
+"""Read and write worlds in SDF.
+
+Files go in; models and lights with resolved poses and source positions come out.
+"""
 
 from urdfkit.description.sdf.edit import add_model, move_model, remove_model
 from urdfkit.description.sdf.model import WorldAxis, WorldInertial, WorldJoint, WorldLink, WorldMimic, WorldModel

@@ -24,7 +24,9 @@ PUBLISH = {"ros1": "", "ros2": "<publish_odom>true</publish_odom><publish_odom_t
 GENERATIONS = ("ros1", "ros2", "gz")
 
 
-@pytest.mark.parametrize(("package_name", "base"), [("drives", Drive), ("sensors", Sensor), ("controllers", Controller)])
+@pytest.mark.parametrize(
+    ("package_name", "base"), [("drives", Drive), ("sensors", Sensor), ("controllers", Controller)]
+)
 def test_every_class_of_a_package_is_in_its_tuple(package_name: str, base: type) -> None:
     package = import_module(f"urdfkit.sim.plugins.{package_name}")
     found = set()
