@@ -88,7 +88,17 @@ def panel(page: Page, name: str) -> None:
 
 def sized(page: Page) -> None:
     """Wait until the camera has the shape of its pane, which changes one picture later when a panel opens."""
-    page.wait_for_function("urdfkit.stage.aspect === urdfkit.stage.pane.clientWidth / urdfkit.stage.pane.clientHeight")
+    # Not `wait_for_function`, which evaluates a string: the page's Content-Security-Policy forbids that.
+    page.evaluate(
+        """() => new Promise((done) => {
+          const check = () => {
+            const { aspect, pane } = urdfkit.stage;
+            if (aspect === pane.clientWidth / pane.clientHeight) done();
+            else requestAnimationFrame(check);
+          };
+          check();
+        })"""
+    )
 
 
 def drawn(page: Page) -> None:
