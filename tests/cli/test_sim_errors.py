@@ -325,12 +325,18 @@ def test_a_run_that_is_told_to_end_keeps_its_recording(tmp_path: Path, until, ho
     assert [path.name for path in tmp_path.iterdir()] == ["ride.mcap"]
 
 
-def test_a_reader_that_goes_away_is_no_error() -> None:
+@pytest.mark.parametrize("arguments", [("sim", "run", "simpleton", "-q", "--for", "0.01", "--json"), ("rule",)])
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_reader_that_goes_away_is_no_error(arguments: tuple[str, ...], unbuffered: str) -> None:
     read, write = os.pipe()
     os.close(read)
     try:
         done = subprocess.run(
-            command("simpleton", "-q", "--for", "0.01", "--json"), stdout=write, stderr=subprocess.PIPE, check=False
+            [sys.executable, "-m", "urdfkit", *arguments],
+            env=os.environ | {"PYTHONUNBUFFERED": unbuffered},
+            stdout=write,
+            stderr=subprocess.PIPE,
+            check=False,
         )
     finally:
         os.close(write)
@@ -338,10 +344,17 @@ def test_a_reader_that_goes_away_is_no_error() -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
-def test_an_output_that_takes_nothing_is_an_error() -> None:
+@pytest.mark.parametrize("arguments", [("sim", "run", "simpleton", "-q", "--for", "0.01"), ("rule",)])
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_an_output_that_takes_nothing_is_an_error(arguments: tuple[str, ...], unbuffered: str) -> None:
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            command("simpleton", "-q", "--for", "0.01"), stdout=full, stderr=subprocess.PIPE, text=True, check=False
+            [sys.executable, "-m", "urdfkit", *arguments],
+            env=os.environ | {"PYTHONUNBUFFERED": unbuffered},
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
         )
     assert done.returncode == 2
     assert done.stderr == "urdfkit: No space left on device\n"

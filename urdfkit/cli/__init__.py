@@ -60,17 +60,21 @@ def main(argv: Sequence[str] | None = None) -> int:
             from urdfkit.cli.completion import complete
 
             complete(parser_of)
-        return _run(arguments)
+        try:
+            return _run(arguments)
+        finally:
+            sys.stdout.flush()  # output that cannot be written is an error of the command, not of the interpreter
     except UrdfkitError as error:
         print(f"urdfkit: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
-        # The reader of the output closed the pipe (`| head`); prevent the interpreter's error message at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # The reader of the output closed the pipe (`| head`).
+        _discard_output()
         return 141
     except OSError as error:
+        _discard_output()
         place = f" {error.filename}:" if error.filename else ""
         print(f"urdfkit:{place} {error.strerror or error}", file=sys.stderr)
         return 2
@@ -97,12 +101,17 @@ def program() -> None:
     code = main()
     if not {"numpy", "threading", "atexit"}.isdisjoint(sys.modules):
         sys.exit(code)
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(code)
+
+
+def _discard_output() -> None:
+    """Discard what standard output still holds if it cannot be written, which the interpreter would report at exit."""
     try:
         sys.stdout.flush()
-        sys.stderr.flush()
     except OSError:
-        os._exit(code or 141)
-    os._exit(code)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _run(arguments: list[str]) -> int:
