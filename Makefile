@@ -31,7 +31,7 @@ test: $(VENV)/.test
 bench: $(VENV)/.bench
 	$(BIN)/python tests/bench/bench_lint.py
 	$(BIN)/python tests/bench/bench_lsp.py
-	$(BIN)/urdfkit sim bench $(ARGS)
+	$(BIN)/python -m tests.bench.peers $(ARGS)
 
 fidelity: $(VENV)/.bench
 	$(BIN)/python tests/bench/fidelity --write

@@ -13,7 +13,7 @@ from urdfkit.linear_algebra import inverse_placement, matmul, vector_norm
 from urdfkit.scene.placement import pose_matrices
 
 ROOMS = ("kinematics", "scene", "sim")
-APART = ("bench", "gl", "reference")
+APART = ("gl", "reference")
 """What computes nothing that is simulated or published: peers, OpenGL, and the reference engine."""
 
 

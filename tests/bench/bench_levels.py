@@ -119,11 +119,12 @@ def digest(engine: Any) -> str:
 
 def heap() -> Any:
     """Return 80 boxes above a tray."""
+    sys.path.insert(0, str(TESTS.parent))
+    from tests.bench.peers.engine_scene import NOBODY
+    from tests.bench.peers.parsed_urdf import read
     from urdfkit.description.urdf.robot import Box
     from urdfkit.kinematics import Kinematics
     from urdfkit.scene import Shape
-    from urdfkit.sim.bench.engine_scene import NOBODY
-    from urdfkit.sim.bench.parsed_urdf import read
     from urdfkit.sim.engine import Body, Engine, Ground, Piece
 
     def body(name: str, pose: tuple[float, ...], size: tuple[float, float, float], **options: Any) -> Any:

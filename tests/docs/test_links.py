@@ -44,4 +44,4 @@ def test_a_broken_link_is_found() -> None:
 @pytest.mark.parametrize("page", GUIDE, ids=lambda page: page.name)
 def test_a_page_opens_with_an_example(page: Path) -> None:
     introduction = page.read_text(encoding="utf-8").partition("\n## ")[0]
-    assert re.search(r"^```\w+\n(\$ )?(urdfkit|from|import) ", introduction, re.MULTILINE)
+    assert re.search(r"^```\w+\n(\$ )?(urdfkit|python|from|import) ", introduction, re.MULTILINE)

@@ -15,7 +15,6 @@ OTHER_NAMES = {
     **dict.fromkeys(("run", "play"), "sim run"),
     **dict.fromkeys(("simulate", "simulation", "simulator", "gazebo"), "sim"),
     "warmup": "sim warmup",
-    **dict.fromkeys(("bench", "benchmark"), "sim bench"),
     **dict.fromkeys(("echo", "pub", "hz", "bw"), "topic"),
     **dict.fromkeys(("create", "init", "scaffold", "generate"), "new"),
     **dict.fromkeys(("check", "fix", "validate", "check_urdf"), "lint"),

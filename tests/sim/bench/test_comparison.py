@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import pytest
 
-from urdfkit.sim.bench import peer_engines as module
-from urdfkit.sim.bench.comparison import Compared, Scaled, Speed
-from urdfkit.sim.bench.peer_engines import choose
-from urdfkit.sim.bench.scene import Check, Running, Scene
+from tests.bench.peers import peer_engines as module
+from tests.bench.peers.comparison import Compared, Scaled, Speed
+from tests.bench.peers.peer_engines import choose
+from tests.bench.peers.scene import Check, Running, Scene
 
 FINE = Check("speed", 1.0, 1.0, 0.1, "m/s")
 OFF = Check("speed", 0.5, 1.0, 0.1, "m/s")

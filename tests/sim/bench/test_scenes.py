@@ -8,10 +8,10 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 
-from urdfkit.sim.bench.correctness_checks import _motion, resting_pose, skid_rate
-from urdfkit.sim.bench.engine_scene import InUrdfkit
-from urdfkit.sim.bench.scene import CALL, Check, Motor, Running, Scene, Servo
-from urdfkit.sim.bench.scenes import SCENES, robots
+from tests.bench.peers.correctness_checks import _motion, resting_pose, skid_rate
+from tests.bench.peers.engine_scene import InUrdfkit
+from tests.bench.peers.scene import CALL, Check, Motor, Running, Scene, Servo
+from tests.bench.peers.scenes import SCENES, robots
 
 BY_NAME = {scene.name: scene for scene in SCENES}
 names = pytest.mark.parametrize("name", list(BY_NAME))
@@ -28,14 +28,14 @@ def changed(name: str, **changes: object) -> Scene:
 
 def in_mujoco(scene: Scene) -> Running:
     pytest.importorskip("mujoco")
-    from urdfkit.sim.bench.mujoco_scene import Mujoco, Settings
+    from tests.bench.peers.mujoco_scene import Mujoco, Settings
 
     return Mujoco().build(scene)(Settings())
 
 
 def in_pybullet(scene: Scene) -> Running:
     pytest.importorskip("pybullet")
-    from urdfkit.sim.bench.pybullet_scene import Pybullet, Settings
+    from tests.bench.peers.pybullet_scene import Pybullet, Settings
 
     return Pybullet().build(scene)(Settings())
 

@@ -13,7 +13,6 @@ from urdfkit.cli.parser import add_common
 SUBCOMMANDS = {
     "teleop": ("teleop", "drive a robot in real time, in the browser or the terminal"),
     "run": ("run_command", "simulate headless, faster than real time, and report the final state"),
-    "bench": ("bench", "compare the speed of urdfkit's engine with MuJoCo and PyBullet"),
     "warmup": ("warmup", "compile the physics kernel now, not on first use"),
 }
 """Subcommand → module that implements it, and its description. (A module `run` would hide the function.)"""

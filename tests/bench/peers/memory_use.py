@@ -1,4 +1,4 @@
-"""Memory of a running simulation, measured in a process of its own: ``python -m urdfkit.sim.bench.memory_use``."""
+"""Memory of a running simulation, measured in a process of its own: ``python -m tests.bench.peers.memory_use``."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ SECONDS = 10.0
 """Simulated time after which it is read [s]."""
 MOST = 350e6
 """What it may be [bytes]."""
+ROOT = Path(__file__).parents[3]
+"""Folder from which the modules of tests/ can be imported."""
 PATIENCE = 300.0
 """Wall seconds the process may take."""
 
@@ -34,9 +36,10 @@ def measure() -> Memory:
         SimulationError: the process failed, or the system does not tell.
     """
     done = subprocess.run(
-        [sys.executable, "-m", "urdfkit.sim.bench.memory_use"],
+        [sys.executable, "-m", "tests.bench.peers.memory_use"],
         capture_output=True,
         text=True,
+        cwd=ROOT,
         timeout=PATIENCE,
         check=False,
     )

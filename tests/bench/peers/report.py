@@ -7,9 +7,9 @@ from dataclasses import asdict, dataclass
 from statistics import median
 from typing import Any
 
-from urdfkit.sim.bench.comparison import COUNTS, OURS, SCALING, WHOLE, Compared, Scaled, Speed
-from urdfkit.sim.bench.memory_use import MOST, ROBOT, WORLD, Memory
-from urdfkit.sim.bench.scene import CALL, DT, Check
+from tests.bench.peers.comparison import COUNTS, OURS, SCALING, WHOLE, Compared, Scaled, Speed
+from tests.bench.peers.memory_use import MOST, ROBOT, WORLD, Memory
+from tests.bench.peers.scene import CALL, DT, Check
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Output of ``sim bench``: a table that fits narrow terminals and pipes."""
+"""Output of the benchmark: a table that fits narrow terminals and pipes."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import textwrap
 from statistics import median
 from typing import TYPE_CHECKING, Any
 
+from tests.bench.peers.report import as_json
 from urdfkit.cli.parser import columns
-from urdfkit.sim.bench.report import as_json
 
 if TYPE_CHECKING:
-    from urdfkit.sim.bench.report import Report
+    from tests.bench.peers.report import Report
 
 LABELS = {"urdfkit": "urdfkit", "Simulator": "in a Simulator", "mujoco": "MuJoCo", "pybullet": "PyBullet"}
 GREEN, RED, BOLD = "\x1b[32m", "\x1b[31m", "\x1b[1m"

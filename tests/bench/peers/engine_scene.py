@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from tests.bench.peers.parsed_urdf import read
+from tests.bench.peers.scene import DT, GRAVITY, Pose, Running, Scene, Thing
 from urdfkit.kinematics import Kinematics
 from urdfkit.scene import scene_of
-from urdfkit.sim.bench.parsed_urdf import read
-from urdfkit.sim.bench.scene import DT, GRAVITY, Pose, Running, Scene, Thing
 from urdfkit.sim.engine import Body, Engine, Ground, Member, Piece, Surface
 
 NOBODY = '<robot name="nobody"><link name="world"/></robot>'

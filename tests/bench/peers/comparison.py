@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from functools import partial
 from statistics import median
 
-from urdfkit.sim.bench.engine_scene import InUrdfkit
-from urdfkit.sim.bench.peer_engines import GLANCE, Choice, Peer, Trial, choose, rate
-from urdfkit.sim.bench.scene import Check, Running, Scene
-from urdfkit.sim.bench.scenes import robots
-from urdfkit.sim.bench.simulator_scene import InSimulator, fits
+from tests.bench.peers.engine_scene import InUrdfkit
+from tests.bench.peers.peer_engines import GLANCE, Choice, Peer, Trial, choose, rate
+from tests.bench.peers.scene import Check, Running, Scene
+from tests.bench.peers.scenes import robots
+from tests.bench.peers.simulator_scene import InSimulator, fits
 
 OURS, WHOLE = "urdfkit", "Simulator"
 """Our engine by itself, and in a `Simulator` that also publishes what a robot's topics tell."""

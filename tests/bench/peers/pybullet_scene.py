@@ -11,7 +11,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from urdfkit.sim.bench.scene import DT, GRAVITY, Pose, Running, Scene, Thing
+from tests.bench.peers.scene import DT, GRAVITY, Pose, Running, Scene, Thing
 
 
 @dataclass(frozen=True, slots=True)

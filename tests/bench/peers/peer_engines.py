@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from statistics import median
 from typing import Any, Protocol
 
-from urdfkit.sim.bench.mujoco_scene import Mujoco
-from urdfkit.sim.bench.pybullet_scene import Pybullet
-from urdfkit.sim.bench.scene import CALL, Check, Running, Scene
+from tests.bench.peers.mujoco_scene import Mujoco
+from tests.bench.peers.pybullet_scene import Pybullet
+from tests.bench.peers.scene import CALL, Check, Running, Scene
 
 GLANCE = 0.05
 """CPU seconds for which settings are tried."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Any
 
-from urdfkit.sim.bench.scene import DT, GRAVITY, Pose, Running, Scene, Thing
+from tests.bench.peers.scene import DT, GRAVITY, Pose, Running, Scene, Thing
 
 INTEGRATORS = ("implicitfast", "Euler", "discrete")
 """RK4 and implicit do more work a step; discrete came with MuJoCo 3.13."""

@@ -1,4 +1,4 @@
-"""`urdfkit sim bench` as a script and as a person see it."""
+"""The benchmark against other engines as a script and as a person see it."""
 
 from __future__ import annotations
 
@@ -9,15 +9,14 @@ from typing import Any
 
 import pytest
 
-from urdfkit.cli import main
-from urdfkit.cli.sim import bench
-from urdfkit.cli.sim.bench_table import table
-from urdfkit.sim.bench import memory_use, scenes
-from urdfkit.sim.bench.comparison import Compared, Scaled, Speed
-from urdfkit.sim.bench.memory_use import Memory
-from urdfkit.sim.bench.report import Report, as_json
-from urdfkit.sim.bench.scene import Check, Servo
-from urdfkit.sim.bench.scenes import SCENES
+from tests.bench.peers import memory_use, scenes
+from tests.bench.peers.command import THREADS, main
+from tests.bench.peers.comparison import Compared, Scaled, Speed
+from tests.bench.peers.memory_use import Memory
+from tests.bench.peers.report import Report, as_json
+from tests.bench.peers.scene import Check, Servo
+from tests.bench.peers.scenes import SCENES
+from tests.bench.peers.table import table
 
 Capture = pytest.CaptureFixture[str]
 QUICK = ("--seconds", "0.001", "--rounds", "1")
@@ -113,7 +112,7 @@ def example(*, right: bool = True) -> Report:
 
 def test_the_json_is_of_the_documented_shape(capsys: Capture) -> None:
     pytest.importorskip("mujoco")
-    assert main(["sim", "bench", "--scene", "diff-drive", "--json", *QUICK]) == 0
+    assert main(["--scene", "diff-drive", "--json", *QUICK]) == 0
     report = json.loads(capsys.readouterr().out)
     validate(report)
     (scene,) = report["scenes"]
@@ -149,7 +148,7 @@ def test_the_json_of_every_part_is_of_the_documented_shape() -> None:
 
 def test_missing_peers_are_named_and_left_out(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     without_peers(monkeypatch)
-    assert main(["sim", "bench", "--scene", "arm", "--json", *QUICK]) == 0
+    assert main(["--scene", "arm", "--json", *QUICK]) == 0
     out, err = capsys.readouterr()
     report = json.loads(out)
     validate(report)
@@ -164,12 +163,12 @@ def test_missing_peers_are_named_and_left_out(capsys: Capture, monkeypatch: pyte
 
 def test_progress_is_told_beside_the_results_unless_quiet(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     without_peers(monkeypatch)
-    assert main(["sim", "bench", "--scene", "diff-drive", *QUICK]) == 0
+    assert main(["--scene", "diff-drive", *QUICK]) == 0
     out, err = capsys.readouterr()
     assert "diff-drive: measuring" in err
     assert "measuring" not in out
     assert "\x1b" not in out + err
-    assert main(["sim", "bench", "--scene", "diff-drive", "--quiet", *QUICK]) == 0
+    assert main(["--scene", "diff-drive", "--quiet", *QUICK]) == 0
     assert "measuring" not in capsys.readouterr().err
 
 
@@ -178,16 +177,16 @@ def test_a_wrong_answer_of_ours_is_something_to_report(capsys: Capture, monkeypa
     thing = SCENES[3].things[0]
     weak = replace(thing, servos=dict.fromkeys(thing.servos, Servo(2000.0, 60.0, 5.0)))
     monkeypatch.setattr(scenes, "SCENES", (replace(SCENES[3], things=(weak,)),))
-    assert main(["sim", "bench", "--scene", "arm", *QUICK]) == 1
+    assert main(["--scene", "arm", *QUICK]) == 1
     assert "WRONG: off the pose" in capsys.readouterr().out
 
 
 def test_scenes_are_listed(capsys: Capture) -> None:
-    assert main(["sim", "bench", "--list"]) == 0
+    assert main(["--list"]) == 0
     lines = capsys.readouterr().out.splitlines()
     names = [*(scene.name for scene in SCENES), "scaling", "memory"]
     assert [line.split()[0] for line in lines] == names
-    assert main(["sim", "bench", "--list", "--json"]) == 0
+    assert main(["--list", "--json"]) == 0
     assert list(json.loads(capsys.readouterr().out)) == names
 
 
@@ -200,12 +199,12 @@ def test_scenes_are_listed(capsys: Capture) -> None:
         (["--seconds", "-1"], "`-1` must be greater than zero"),
     ],
 )
-def test_mistakes_are_one_line_with_the_nearest_right_thing(capsys: Capture, arguments: list[str], said: str) -> None:
-    assert main(["sim", "bench", *arguments]) == 2
+def test_mistakes_are_reported_with_the_nearest_right_name(capsys: Capture, arguments: list[str], said: str) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        main(arguments)
     out, err = capsys.readouterr()
     assert out == ""
-    (line,) = err.splitlines()
-    assert said in line
+    assert said in err.splitlines()[-1]
 
 
 def test_every_figure_has_its_target_and_its_answer_beside_it() -> None:
@@ -249,16 +248,16 @@ def test_memory_is_that_of_a_fresh_process() -> None:
 
 def test_memory_that_cannot_be_measured_is_left_out(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(memory_use.sys, "executable", "/bin/false")
-    assert main(["sim", "bench", "--scene", "memory", "--json"]) == 0
+    assert main(["--scene", "memory", "--json"]) == 0
     out, err = capsys.readouterr()
     assert json.loads(out)["memory"] is None
     assert "urdfkit: memory is skipped: the process whose memory was to be measured failed" in err
 
 
 def test_one_thread_is_asked_for(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in bench.THREADS:
+    for name in THREADS:
         monkeypatch.delenv(name, raising=False)
-    assert main(["sim", "bench", "--list"]) == 0
+    assert main(["--list"]) == 0
     import os
 
-    assert {os.environ[name] for name in bench.THREADS} == {"1"}
+    assert {os.environ[name] for name in THREADS} == {"1"}

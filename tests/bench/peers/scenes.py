@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from math import atan, cos, pi
 
-from urdfkit.sim.bench import urdf_models
-from urdfkit.sim.bench.correctness_checks import drives, drives_and_holds, holds, skid_rate, stands, turns_on_the_spot
-from urdfkit.sim.bench.scene import Motor, Scene, Servo, Thing
+from tests.bench.peers import urdf_models
+from tests.bench.peers.correctness_checks import drives, drives_and_holds, holds, skid_rate, stands, turns_on_the_spot
+from tests.bench.peers.scene import Motor, Scene, Servo, Thing
 
 DIFF_SPEEDS = (7.0, 9.0)
 """Of the left and the right wheel [rad/s]."""

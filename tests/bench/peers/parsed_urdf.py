@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 
+from tests.bench.peers.scene import GRAVITY
 from urdfkit.description import Robot, load
 from urdfkit.kinematics import Kinematics
-from urdfkit.sim.bench.scene import GRAVITY
 
 
 @lru_cache(maxsize=32)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from urdfkit.sim.bench.parsed_urdf import read
-from urdfkit.sim.bench.scene import DT, GRAVITY, Pose, Running, Scene
+from tests.bench.peers.parsed_urdf import read
+from tests.bench.peers.scene import DT, GRAVITY, Pose, Running, Scene
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.simulator import Simulator
 

@@ -1,4 +1,4 @@
-"""`urdfkit sim bench`: compare urdfkit's engine with MuJoCo and PyBullet in the same scenes."""
+"""Compare the speed of urdfkit's engine with MuJoCo and PyBullet in the same scenes."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ import sys
 from typing import TYPE_CHECKING
 
 from urdfkit.cli.sim import option_values
-from urdfkit.errors import SimulationError, UsageError, did_you_mean
+from urdfkit.errors import SimulationError, did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from urdfkit.sim.bench.peer_engines import Peer
-    from urdfkit.sim.bench.report import Report
+    from tests.bench.peers.peer_engines import Peer
+    from tests.bench.peers.report import Report
 
 SCALING, MEMORY = "scaling", "memory"
 ALSO = {
@@ -29,51 +29,41 @@ THREADS = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_
 """Variables that set the number of threads of libraries: one, so that CPU seconds are those of one core."""
 
 
-def configure(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments."""
-    add = parser.add_argument
-    add(
-        "--scene",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="measure only this scene (repeatable; --list prints all names)",
-    )
-    add(
-        "--seconds",
-        type=option_values.positive,
-        default=0.3,
-        metavar="S",
-        help="CPU seconds of each measurement (default: 0.3)",
-    )
-    add("--rounds", type=_count, default=5, metavar="N", help="rounds of all measurements (default: 5)")
-    add("--list", action="store_true", help="list the scenes and exit")
-    add("--json", action="store_true", help="print one JSON value")
-    parser.epilog = "examples:\n  urdfkit sim bench --scene diff-drive --scene arm\n  urdfkit sim bench --json"
-
-
-def run(arguments: argparse.Namespace) -> int:
-    """Measure and report; exit with status 1 where urdfkit's engine fails a check."""
+def main(argv: Sequence[str] | None = None) -> int:
+    """Measure and report; return 1 where urdfkit's engine fails a check, else 0."""
     for name in THREADS:
         os.environ.setdefault(name, "1")
     names = {**_scenes(), **ALSO}
+    parser = _parser()
+    arguments = parser.parse_args(argv)
     for name in arguments.scene:
         if name not in names:
-            raise UsageError(f"sim bench: unknown scene `{name}`{did_you_mean(name, names)}")
+            parser.error(f"unknown scene `{name}`{did_you_mean(name, names)}")
     if arguments.list:
         print(json.dumps(names, indent=1) if arguments.json else _listing(names))
         return 0
     wanted = list(dict.fromkeys(arguments.scene)) or list(names)
     report = measure(wanted, seconds=arguments.seconds, rounds=arguments.rounds, quiet=arguments.quiet)
-    if arguments.json:
-        from urdfkit.sim.bench.report import as_json
+    from tests.bench.peers.report import as_json
+    from tests.bench.peers.table import table
 
-        print(json.dumps(as_json(report), indent=1))
-    else:
-        from urdfkit.cli.sim.bench_table import table
-
-        print(table(report, color=arguments.color))
+    print(json.dumps(as_json(report), indent=1) if arguments.json else table(report, color=arguments.color))
     return 0 if report.right else 1
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m tests.bench.peers", description=__doc__, allow_abbrev=False)
+    add = parser.add_argument
+    scenes = "measure only this scene (repeatable; --list prints all names)"
+    add("--scene", action="append", default=[], metavar="NAME", help=scenes)
+    cpu = "CPU seconds of each measurement (default: 0.3)"
+    add("--seconds", type=option_values.positive, default=0.3, metavar="S", help=cpu)
+    add("--rounds", type=_count, default=5, metavar="N", help="rounds of all measurements (default: 5)")
+    add("--list", action="store_true", help="list the scenes and exit")
+    add("--json", action="store_true", help="print one JSON value")
+    add("--quiet", action="store_true", help="print no progress")
+    add("--color", choices=("auto", "always", "never"), default="auto", help="colours of the table (default: auto)")
+    return parser
 
 
 def measure(names: Sequence[str], *, seconds: float, rounds: int, quiet: bool = False) -> Report:
@@ -86,13 +76,13 @@ def measure(names: Sequence[str], *, seconds: float, rounds: int, quiet: bool = 
         quiet: print no progress.
     """
     prepare(names)
+    from tests.bench.peers import memory_use
+    from tests.bench.peers.comparison import OURS, Comparison
+    from tests.bench.peers.machine_description import machine
+    from tests.bench.peers.peer_engines import PEERS
+    from tests.bench.peers.report import Report
+    from tests.bench.peers.scenes import SCENES
     from urdfkit import __version__
-    from urdfkit.sim.bench import memory_use
-    from urdfkit.sim.bench.comparison import OURS, Comparison
-    from urdfkit.sim.bench.machine_description import machine
-    from urdfkit.sim.bench.peer_engines import PEERS
-    from urdfkit.sim.bench.report import Report
-    from urdfkit.sim.bench.scenes import SCENES
 
     engines, missing = {OURS: __version__}, {}
     peers: list[Peer] = []
@@ -124,7 +114,7 @@ def prepare(names: Sequence[str]) -> None:
     from urdfkit.app.simulation.kernel_compilation import prepare_kernel
 
     prepare_kernel(sys.stderr)
-    from urdfkit.sim.bench.scenes import SCENES
+    from tests.bench.peers.scenes import SCENES
 
     worlds = {SCALING, MEMORY, *(scene.name for scene in SCENES if scene.loose or len(scene.things) > 1)}
     if worlds & set(names):
@@ -132,7 +122,7 @@ def prepare(names: Sequence[str]) -> None:
 
 
 def _scenes() -> dict[str, str]:
-    from urdfkit.sim.bench.scenes import SCENES
+    from tests.bench.peers.scenes import SCENES
 
     return {scene.name: scene.title for scene in SCENES}
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from math import atan2, cos, hypot, pi, sin, sqrt
 
-from urdfkit.sim.bench.scene import DT, Check, Running, Thing
+from tests.bench.peers.scene import DT, Check, Running, Thing
 
 Checks = tuple[Check, ...]
 
@@ -96,7 +96,7 @@ def _extremes(running: Running) -> tuple[int, int]:
 
 def resting_pose(thing: Thing, goal: Mapping[str, float]) -> dict[str, float]:
     """Return where servos hold a thing that stands level: where stiffness·(goal − q) is what gravity demands."""
-    from urdfkit.sim.bench.parsed_urdf import Weight
+    from tests.bench.peers.parsed_urdf import Weight
 
     weight = Weight(thing.urdf)
     rest = dict(goal)
