@@ -13,8 +13,8 @@ from urdfkit.linear_algebra import inverse_placement, matmul, vector_norm
 from urdfkit.scene.placement import pose_matrices
 
 ROOMS = ("kinematics", "scene", "sim")
-APART = ("gl", "reference")
-"""What computes nothing that is simulated or published: peers, OpenGL, and the reference engine."""
+APART = ("gl",)
+"""What computes nothing that is simulated or published: OpenGL."""
 
 
 @pytest.mark.parametrize(

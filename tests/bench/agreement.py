@@ -13,11 +13,15 @@ import math
 import sys
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+sys.path.insert(0, str(Path(__file__).parents[2]))
+
+from tests.reference_engine import ENGINES
 from urdfkit.description import load
 from urdfkit.description.sdf import load_world
 from urdfkit.kinematics import Kinematics
@@ -25,7 +29,7 @@ from urdfkit.resources import find_model, robot_names
 from urdfkit.scene import lowest_point, scene_of
 from urdfkit.sim.construction.rigid_bodies import bodies_of
 from urdfkit.sim.construction.surface_parameters import surfaces_of
-from urdfkit.sim.engine import Engine, Ground
+from urdfkit.sim.engine import Ground
 from urdfkit.sim.state.quaternion import from_rpy
 
 Array = NDArray[np.float64]
@@ -89,15 +93,14 @@ class Pair:
         self.scene = scene_of(self.robot)
         bodies = () if world is None else bodies_of(load_world(world))
         self.engines = [
-            Engine(
+            engine(
                 self.kinematics,
                 self.scene.with_role("collision"),
                 surfaces=surfaces_of(self.robot),
                 ground=Ground(),
                 bodies=bodies,
-                provider=provider,
             )
-            for provider in ("compiled", "pinocchio")
+            for engine in ENGINES
         ]
         self.reach = 4.0 if bodies else 0.0
 

@@ -267,7 +267,6 @@ OPTIONS = {
     ("--joint-target", "left_wheel=1"): "did you mean `left_wheel_joint`?",
     ("--world", "hous"): "no world `hous`; did you mean `house`?",
     ("--wrld", "house"): "unrecognized arguments: --wrld house; did you mean `--world`?",
-    ("--engine", "pinochio"): "did you mean `pinocchio`?",
     ("--until", "height > 1"): "unknown name `height` (available: t, x, y,",
     (
         "--controllers",

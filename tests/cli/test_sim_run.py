@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.reference_engine import ReferenceEngine
 from urdfkit.cli import main
+from urdfkit.sim.world import world_builder
 
 Capture = pytest.CaptureFixture[str]
 
@@ -76,9 +78,11 @@ def test_two_runs_are_identical_but_for_the_times(capsys: Capture) -> None:
     assert texts[0] == texts[1]
 
 
-def test_pinocchio_agrees(capsys: Capture) -> None:
+def test_the_reference_engine_agrees(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     short = ["simpleton", "--for", "0.2", "--cmd-vel", "0.5,0,0.5", "--cmd-ramp", "0.1"]
-    ours, reference = run(capsys, *short), run(capsys, *short, "--engine", "pinocchio")
+    ours = run(capsys, *short)
+    monkeypatch.setattr(world_builder, "Engine", ReferenceEngine)
+    reference = run(capsys, *short)
     for key in ("position", "quaternion", "linear_velocity", "angular_velocity"):
         assert ours["base"][key] == pytest.approx(reference["base"][key], abs=1e-8)
 
@@ -238,7 +242,6 @@ def test_commands_that_are_not_finite_are_dropped_with_a_warning(capsys: Capture
         (["simpleton", "--for", "1", "--initial-joints", "camera_joint=1"], "joint `camera_joint` is fixed"),
         (["simpleton", "--for", "1", "--recrod", "x.mcap"], "unrecognized arguments: --recrod"),
         (["simpleton", "--for", "1", "--record", "x.bag"], "recordings are MCAP; call it x.mcap"),
-        (["simpleton", "--for", "1", "--engine", "bullet"], "invalid choice: 'bullet'"),
         (["simpleton", "--for", "1", "--until", "x >"], "--until: `x >` is not an expression"),
         (["simpleton", "--for", "1", "--until", "heading > 1"], "unknown name `heading`"),
         (["simpleton", "--for", "1", "--until", "velocity('left') > 1"], "unknown joint `left`"),

@@ -20,7 +20,6 @@ from urdfkit.scene import Scene
 from urdfkit.sim.construction.initial_overlap import note_overlaps
 from urdfkit.sim.construction.loading import load_robot, require_sense, the_world
 from urdfkit.sim.construction.spawn import Spawn
-from urdfkit.sim.engine.engine import Provider
 from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.publishers import Clock
 from urdfkit.sim.plugins.ros_distro import Distro
@@ -56,7 +55,6 @@ class Simulator(Population):
         name: what the robot is spawned as, for topics; its own name when None.
         gravity: [m/s²]; the world's when None.
         fixed_base: bolt the root link to the world. A root link called ``world`` always is.
-        engine: who computes the dynamics: the compiled kernel or Pinocchio (the reference, slow).
         sleep: let what is at rest sleep until something happens to it.
         ros_distro: the ROS distribution whose behaviour plugins are to have, such as ``kinetic``; the newest when None.
         controllers: parameter files of controllers, in place of those the robot's packages load.
@@ -91,7 +89,6 @@ class Simulator(Population):
         name: str | None = None,
         gravity: Sequence[float] | None = None,
         fixed_base: bool = False,
-        engine: Provider = "compiled",
         sleep: bool = True,
         ros_distro: str | None = None,
         controllers: Sequence[str | Path] = (),
@@ -101,7 +98,7 @@ class Simulator(Population):
         note: Callable[[str], None] | None = None,
     ) -> None:
         distro = Distro(ros_distro)
-        require_sense(engine, seed, spawn)
+        require_sense(seed, spawn)
         self.robot = robot if isinstance(robot, Robot) else load_robot(robot, package_path)
         found = the_world(world, gravity, package_path)
         self.dt = dt = found.physics.max_step_size if dt is None else number(dt, "the step", "s")
@@ -127,9 +124,7 @@ class Simulator(Population):
             scene=scene,
         )
         self.kinematics, self.scene = first.kinematics, first.scene
-        self._stage = Stage(
-            first, found, dt=dt, provider=engine, note=self.note, package_path=package_path, sleep=sleep
-        )
+        self._stage = Stage(first, found, dt=dt, note=self.note, package_path=package_path, sleep=sleep)
         self.state, self.motors = first.state, first.motors
         self._agenda = Agenda(self._stage, self.state, dt)
         message_type(TWIST)  # loads the types now, or says that they are missing
@@ -148,8 +143,7 @@ class Simulator(Population):
         for each in self.robots.values():
             each.publish_fixed()
         listen(self)
-        if engine == "compiled":
-            note_overlaps(self._stage.engine, self.kinematics.link_names, self.note)
+        note_overlaps(self._stage.engine, self.kinematics.link_names, self.note)
 
     # Time
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.reference_engine import ENGINES
 from urdfkit.description import load
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
@@ -15,6 +16,7 @@ from urdfkit.scene import scene_of
 from urdfkit.sim import Simulator, Spawn
 from urdfkit.sim.construction.link_options import self_colliding, weightless_links
 from urdfkit.sim.engine import Engine, Ground
+from urdfkit.sim.world import world_builder
 
 G = 9.81
 HINGE = """<joint name="hinge" type="continuous"><parent link="world"/><child link="rod"/><axis xyz="0 1 0"/></joint>"""
@@ -48,12 +50,15 @@ def simulate(folder: Path, *parts: str, **options: object) -> Simulator:
     return Simulator(write(folder, *parts), note=lambda text: None, **options)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
+@pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("word", ["<gravity>false</gravity>", "<gravity>0</gravity>", '<gravity value="false"/>'])
-def test_a_pendulum_without_gravity_keeps_its_speed(tmp_path: Path, engine: str, word: str) -> None:
+def test_a_pendulum_without_gravity_keeps_its_speed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, engine: type[Engine], word: str
+) -> None:
+    monkeypatch.setattr(world_builder, "Engine", engine)
     text = '<link name="world"/>' + link("rod", 1.0, at="0 0 -0.4") + HINGE + block(word, "rod")
     simulator = simulate(
-        tmp_path, text, world="void", engine=engine, spawn=Spawn(z=0, joints={"hinge": 0.5}, velocities={"hinge": 2.0})
+        tmp_path, text, world="void", spawn=Spawn(z=0, joints={"hinge": 0.5}, velocities={"hinge": 2.0})
     )
     simulator.run(0.5)
     assert simulator.state.velocity("hinge") == pytest.approx(2.0, abs=1e-12)
@@ -103,8 +108,8 @@ def test_both_engines_do_the_same_without_gravity(tmp_path: Path) -> None:
     robot = load(write(tmp_path, text, hinge, fixed("b", "c", "0.1 0.2 0.3")))
     kinematics = Kinematics(robot, floating_base=True)
     ends = []
-    for provider in ("compiled", "pinocchio"):
-        engine = Engine(kinematics, (), ground=None, weightless=("a", "c"), provider=provider)  # type: ignore[arg-type]
+    for engine_type in ENGINES:
+        engine = engine_type(kinematics, (), ground=None, weightless=("a", "c"))
         q, v = kinematics.neutral(), np.linspace(-1.0, 1.0, 7)
         engine.reset(q, v)
         engine.applied[6] = 0.3
@@ -121,7 +126,7 @@ SLIDERS = "".join(
 CUBE = '<collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision>'
 
 
-@pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
+@pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize(
     ("words", "stopped"),
     [
@@ -140,11 +145,14 @@ CUBE = '<collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision>'
         ),
     ],
 )
-def test_arms_that_would_pass_through_each_other_stop(tmp_path: Path, engine: str, words, stopped: bool) -> None:
+def test_arms_that_would_pass_through_each_other_stop(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, engine: type[Engine], words, stopped: bool
+) -> None:
+    monkeypatch.setattr(world_builder, "Engine", engine)
     text = '<link name="world"/>' + link("left", 1.0, shape=CUBE) + link("right", 3.0, shape=CUBE) + SLIDERS
     blocks = [block(*word) for word in words]
     spawn = Spawn(z=0, velocities={"left_joint": 1.0})
-    simulator = simulate(tmp_path, text, *blocks, world="void", gravity=(0, 0, 0), engine=engine, spawn=spawn)
+    simulator = simulate(tmp_path, text, *blocks, world="void", gravity=(0, 0, 0), spawn=spawn)
     simulator.run(0.6)
     speeds = [simulator.state.velocity(f"{name}_joint") for name in ("left", "right")]
     # 0.3 m apart, they meet after 0.3 s without rebound: 1 kg at 1 m/s becomes 4 kg at 0.25 m/s.

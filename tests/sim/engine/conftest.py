@@ -152,15 +152,15 @@ def texts() -> dict[str, str]:
 
 @pytest.fixture
 def engine_of(tmp_path: Path) -> EngineOf:
-    """Return a maker of engines: the name of a model here or the text of a URDF, and the engine's own options."""
+    """Return a maker of engines: a model here by name or the text of a URDF, the class of the engine, its options."""
 
-    def make(model: str, *, floating: bool | None = None, **options: object) -> Engine:
+    def make(model: str, *, engine: type[Engine] = Engine, floating: bool | None = None, **options: object) -> Engine:
         text = MODELS.get(model, model)
         path = tmp_path / "probe.urdf"
         path.write_text(text)
         written = load(path)
         bolted = '<link name="base"/>' in text
         kinematics = Kinematics(written, floating_base=not bolted if floating is None else floating)
-        return Engine(kinematics, scene_of(written).shapes, **options)  # type: ignore[arg-type]
+        return engine(kinematics, scene_of(written).shapes, **options)  # type: ignore[arg-type]
 
     return make

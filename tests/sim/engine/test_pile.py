@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.reference_engine import ENGINES
 from urdfkit.sim.engine.arrays import GUESSES
 
 SPEC = spec_from_file_location("worlds", Path(__file__).with_name("worlds.py"))
@@ -77,13 +78,13 @@ def test_a_wall_of_bricks_is_solved_by_blocks_and_stands(engine_of):
 
 def test_blocks_and_the_matrix_of_rows_agree(engine_of):
     states = []
-    for provider in ("compiled", "pinocchio"):
+    for engine_type in ENGINES:
         bricks = [
             cube(f"r{row}c{column}", (X + 0.2 * column + 0.11 * (row % 2), 0.003 * column, 0.1 + 0.2 * row))
             for row in range(2)
             for column in range(3 - row)
         ]
-        engine = rover(engine_of, bodies=bricks, sleep=False, provider=provider)
+        engine = rover(engine_of, bodies=bricks, sleep=False, engine=engine_type)
         engine.step(20)
         twists = [body.twist for body in engine.bodies.values()]
         states.append((np.array([body.pose for body in engine.bodies.values()]), np.array(twists)))

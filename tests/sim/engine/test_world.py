@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from tests.reference_engine import ENGINES
 from urdfkit.description.sdf import Plane
 from urdfkit.description.urdf.robot import Box, Sphere
 from urdfkit.errors import SimulationError
@@ -136,9 +137,9 @@ def test_robots_cannot_drive_through_each_other(engine_of):
 
 def test_the_reference_agrees_on_a_world(engine_of):
     states = []
-    for provider in ("compiled", "pinocchio"):
+    for engine_type in ENGINES:
         bodies = [cube(f"box{k}", (0.35 + 0.01 * k, 0.02 * k, 0.1 + 0.2 * k)) for k in range(2)]
-        engine = wheels(engine_of, bodies=[*bodies, ball("ball", (0.0, 0.0, 0.4))], provider=provider)
+        engine = wheels(engine_of, bodies=[*bodies, ball("ball", (0.0, 0.0, 0.4))], engine=engine_type)
         engine.motor_velocity[6:], engine.motor_effort[6:] = 6.0, 2.0
         engine.step(150)
         states.append(np.concatenate([engine.q, engine.v, *(body.pose for body in engine.bodies.values())]))

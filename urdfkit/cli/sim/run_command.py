@@ -125,12 +125,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     add_record(parser)
     add("--save-world", metavar="FILE", help="write the final world without the robot as SDF")
-    add(
-        "--engine",
-        choices=("compiled", "pinocchio"),
-        default="compiled",
-        help="dynamics engine (pinocchio: slow reference implementation)",
-    )
     add_distro(parser)
     add_controllers(parser)
     add_renderer(parser)
@@ -188,8 +182,7 @@ def load(arguments: argparse.Namespace) -> Simulator:
     robot = load_description(model.path, arguments=model.arguments, package_path=model.package_path)
     note_unused(model.arguments, robot.files, quiet=arguments.quiet)
     world = load_world(arguments.world)
-    if arguments.engine == "compiled":
-        prepare_kernel(sys.stderr)
+    prepare_kernel(sys.stderr)
     spawn = None
     if arguments.spawn or arguments.initial_twist or arguments.initial_joints:
         positions, velocities = arguments.initial_joints or ({}, {})
@@ -204,7 +197,6 @@ def load(arguments: argparse.Namespace) -> Simulator:
         spawn=spawn,
         gravity=arguments.gravity,
         fixed_base=arguments.fixed_base,
-        engine=arguments.engine,
         ros_distro=arguments.ros_distro,
         controllers=arguments.controllers,
         renderer=arguments.renderer,

@@ -19,10 +19,7 @@ from urdfkit.linear_algebra import matmul
 from urdfkit.resources import find_model
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.construction.validation import require_sound
-from urdfkit.sim.state.arguments import nearest, vector
-
-PROVIDERS = ("compiled", "pinocchio")
-"""Who can compute the dynamics."""
+from urdfkit.sim.state.arguments import vector
 
 STRONGEST = 1e4
 """Gravity beyond any that robots stand in [m/s²]: the Sun's is 274, and in a step of 1 ms it gives 10 m/s."""
@@ -41,14 +38,12 @@ def load_robot(model: str | Path, package_path: Sequence[str | Path] = ()) -> Ro
     return load(found.path, arguments=found.arguments, package_path=found.package_path)
 
 
-def require_sense(engine: str, seed: int, spawn: Spawn | None) -> None:
+def require_sense(seed: int, spawn: Spawn | None) -> None:
     """Refuse arguments of a simulation that are nothing of the kind.
 
     Raises:
         SimulationError: the first of them.
     """
-    if engine not in PROVIDERS:
-        raise SimulationError(f"no engine `{engine}`{nearest(str(engine), PROVIDERS)}")
     if not isinstance(seed, int) or seed < 0:
         raise SimulationError(f"`{seed}` is no seed; it must be a whole number, zero or more")
     if not isinstance(spawn, Spawn | None):

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
-from typing import Literal
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,6 @@ from urdfkit.sim.engine.layout.world_arrays import fill
 from urdfkit.sim.engine.state_conversion import contacts, turning
 
 Array = NDArray[np.float64]
-Provider = Literal["compiled", "pinocchio"]
 
 FLAT = Ground()
 """The ground where nothing else is said: at z = 0."""
@@ -46,13 +45,11 @@ class Engine(Part):
         ground: the plane under it; None for none.
         surfaces: link name → `Surface`; a link that is not named has mu 1.
         base: pose of the root link of a robot without floating base, x y z [m] and quaternion x y z w.
-        provider: who computes mass matrix, bias and Jacobians: the compiled kernel, or Pinocchio (the reference, slow).
         self_collide: the robot's links that touch its others, True for all; those with a joint between them never do.
         weightless: the robot's links that gravity does not pull.
         others: more robots.
         bodies: what else is there, free or not.
-        sleep: whether what is at rest may sleep, see `sleep.sleep`: it costs nothing then. One robot alone never does,
-            nor does anything with the provider ``pinocchio``.
+        sleep: whether what is at rest may sleep, see `sleep.sleep`: it costs nothing then. One robot alone never does.
 
     Raises:
         SimulationError: the robot or a body cannot be simulated, e.g. a link that must move has no mass.
@@ -73,7 +70,6 @@ class Engine(Part):
         ground: Ground | None = FLAT,
         surfaces: Mapping[str, Surface] | None = None,
         base: Sequence[float] | None = None,
-        provider: Provider = "compiled",
         self_collide: bool | Collection[str] = False,
         weightless: Collection[str] = (),
         others: Sequence[Member] = (),
@@ -102,16 +98,11 @@ class Engine(Part):
             dt=dt,
             gravity=gravity,
             ground=ground,
-            sleep=sleep and provider == "compiled",
+            sleep=sleep,
         )
         for member in self._members:
             require_inertia(member.kinematics)
-        if provider == "compiled":
-            self._advance = kernel() if alone and not self._arrays["numbers"][HAS_PAIRS] else world_kernel()
-        else:
-            from urdfkit.sim.engine.reference.pinocchio_engine import Reference
-
-            self._advance = Reference(self._members, self._free, self._arrays).advance
+        self._advance = self._step_function(alone=alone and not self._arrays["numbers"][HAS_PAIRS])
         self._floats, self._integers = self._arrays.floats, self._arrays.integers
         super().__init__(kinematics, self._arrays, 0)
         others_parts = [Part(each.kinematics, self._arrays, k) for k, each in enumerate(others, 1)]
@@ -203,6 +194,10 @@ class Engine(Part):
         self._evaluate()
         a, n = self._arrays, self.kinematics.model.njoints - 1
         return np.hstack([a["P"][0] + a["r"][:n], a["R"][:n]])
+
+    def _step_function(self, *, alone: bool) -> Callable[[Array, Any, int, bool], int]:
+        """Return the kernel for one robot without other bodies (`alone`), or for a world."""
+        return kernel() if alone else world_kernel()
 
     def _evaluate(self) -> None:
         """Compute poses, M and bias of the state as it is."""

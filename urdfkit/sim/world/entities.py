@@ -145,9 +145,8 @@ class Population:
         self._agenda.stir()
         engine = self._stage.engine
         engine._evaluate()
-        if self._stage.provider == "compiled":
-            links = [f"{each.name}::{link}" for each in entry.robots for link in each.kinematics.link_names]
-            note_overlaps(engine, {*links, *entry.offsets}, self.note, newcomer=thing.name)
+        links = [f"{each.name}::{link}" for each in entry.robots for link in each.kinematics.link_names]
+        note_overlaps(engine, {*links, *entry.offsets}, self.note, newcomer=thing.name)
         return thing.name
 
     def remove(self, name: str) -> None:

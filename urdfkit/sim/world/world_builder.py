@@ -15,7 +15,6 @@ from urdfkit.sim.construction.missing_meshes import without_broken
 from urdfkit.sim.construction.rigid_bodies import bodies_of_model, require_no_joints
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.engine import Body, Engine, Ground, Loose
-from urdfkit.sim.engine.engine import Provider
 from urdfkit.sim.engine.kernel_cache import announcement, warmup
 from urdfkit.sim.state.arguments import nearest
 from urdfkit.sim.world.included_models import Entries, Entry
@@ -30,7 +29,6 @@ class Assembly:
         first: the robot that the simulation is about.
         world: where it is.
         dt: length of a step [s].
-        provider: who computes the dynamics.
         sleep: whether what is at rest may sleep.
         note: tells the user something.
         package_path: folders to look for packages in.
@@ -41,7 +39,6 @@ class Assembly:
     Attributes:
         world: as it was read, with what was added and without what was removed.
         engine: what moves everything.
-        provider: who computes the dynamics.
         revision: how often it was made anew.
         still: body → pose, of those that do not move.
     """
@@ -58,14 +55,13 @@ class Assembly:
         world: World,
         *,
         dt: float,
-        provider: Provider,
         note: Callable[[str], None],
         package_path: Sequence[str | Path] = (),
         sleep: bool = True,
     ) -> None:
         require_no_joints(world)
         self.revision = 0
-        self._dt, self.provider, self._sleep, self._note = dt, provider, sleep, note
+        self._dt, self._sleep, self._note = dt, sleep, note
         self._make = Entries(note, package_path)
         models = tuple([without_broken(model, self._make.meshes, note) for model in world.models])
         self.world = world = replace(world, models=models)
@@ -221,9 +217,8 @@ class Assembly:
                 bodies += bodies_of_model(entry.thing, self._make.meshes, is_ground=is_ground)
         first = robots[0]
         together = bool(bodies or robots[1:] or first.self_collide)
-        if self.provider == "compiled":
-            about = announcement(world=together)
-            warmup(lambda count: None if count else self._note(about), world=together)
+        about = announcement(world=together)
+        warmup(lambda count: None if count else self._note(about), world=together)
         engine = Engine(
             first.kinematics,
             first.shapes,
@@ -232,7 +227,6 @@ class Assembly:
             ground=ground,
             surfaces=first.surfaces,
             base=first.base.tolist(),
-            provider=self.provider,
             self_collide=first.self_collide,
             weightless=first.weightless,
             others=[robot.member for robot in robots[1:]],

@@ -9,6 +9,8 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+from tests.reference_engine import ENGINES
+
 SPEC = spec_from_file_location("worlds", (Path(__file__).parents[1] / "worlds.py"))
 worlds = module_from_spec(SPEC)
 SPEC.loader.exec_module(worlds)
@@ -97,9 +99,9 @@ def test_a_ball_on_a_turntable_goes_in_a_circle(engine_of):
 @pytest.mark.parametrize("spin", [0.0, 4.0])
 def test_both_engines_swap_at_the_same_place(engine_of, spin):
     states = []
-    for provider in ("compiled", "pinocchio"):
+    for engine_type in ENGINES:
         bodies = [ball("one", (0.2, 0.1, 0.3499)), ball("other", (0.8, 0.0, 0.3499)), ball("top", (0.2, 0.15, 0.54))]
-        engine = turntable(engine_of, bodies=bodies, provider=provider, speed=spin)
+        engine = turntable(engine_of, bodies=bodies, engine=engine_type, speed=spin)
         one, other, top = engine.bodies.values()
         one.place(one.pose, (2.0, -0.3, 0.0, 1.0, 2.0, 3.0))
         other.place(other.pose, (-0.5, 0.2, -0.1, 0.0, 0.0, 2.0))

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from tests.reference_engine import ENGINES
 from urdfkit.description.urdf.robot import Box
 from urdfkit.scene import Shape
 from urdfkit.sim.engine import Body, Piece, Surface
@@ -86,9 +87,9 @@ def test_the_direction_of_the_smaller_coefficient_counts(engine_of, owner):
 
 def test_compiled_and_reference_agree(engine_of):
     states = []
-    for provider in ("compiled", "pinocchio"):
+    for engine_type in ENGINES:
         surface = Surface(0.2, 0.8, (1.0, 1.0, 0.0))
-        engine = sliding(engine_of, surface, 0.4, yaw=0.3, provider=provider)
+        engine = sliding(engine_of, surface, 0.4, yaw=0.3, engine=engine_type)
         engine.step(60)
         states.append(np.concatenate([engine.q, engine.v]))
     assert states[0] == pytest.approx(states[1], abs=1e-9)

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.reference_engine.shared_kernels import find_impulses
 from urdfkit.sim.engine import Surface
 from urdfkit.sim.engine.arrays import FOUND_ROWS, GUESSES, allocate
 from urdfkit.sim.engine.kernel_cache import load_compiled
-from urdfkit.sim.engine.reference.shared_kernels import find_impulses
 
 
 def solved(A, g, low, high, mu, before=None):

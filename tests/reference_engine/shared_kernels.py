@@ -1,4 +1,4 @@
-"""The parts of the step that the reference provider shares: contact geometry and the solver."""
+"""The parts of the step that the reference engine shares: contact geometry and the solver."""
 
 from __future__ import annotations
 

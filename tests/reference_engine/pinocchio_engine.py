@@ -13,6 +13,11 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
+from tests.reference_engine.contact_point_correction import exchange
+from tests.reference_engine.integration import go, inward, move, outward
+from tests.reference_engine.joint_servos import grow_integrals, servo_effort, servos, set_integral_parts
+from tests.reference_engine.pinocchio_models import Tree, free_model, model_of
+from tests.reference_engine.shared_kernels import find_candidates, find_contacts, find_impulses
 from urdfkit.errors import SimulationError
 from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_ROWS, GUESSES, ITERATED, STEPS, Arrays
 from urdfkit.sim.engine.bodies import Body, Member
@@ -22,11 +27,6 @@ from urdfkit.sim.engine.constraints.joint_limits import PASSING, WHIRLING
 from urdfkit.sim.engine.constraints.joint_servos import SERVO_ATTEMPTS
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE, PLANAR
 from urdfkit.sim.engine.kernel_cache import load_compiled, world_digest
-from urdfkit.sim.engine.reference.contact_point_correction import exchange
-from urdfkit.sim.engine.reference.integration import go, inward, move, outward
-from urdfkit.sim.engine.reference.joint_servos import grow_integrals, servo_effort, servos, set_integral_parts
-from urdfkit.sim.engine.reference.pinocchio_models import Tree, free_model, model_of
-from urdfkit.sim.engine.reference.shared_kernels import find_candidates, find_contacts, find_impulses
 from urdfkit.sim.engine.state_conversion import configuration, turning
 
 Array = NDArray[np.float64]
@@ -323,7 +323,7 @@ class Reference:
         if n == 0:
             return free
         if n > len(a["x"]) or n * n > len(a["A"]):
-            raise SimulationError(f"{n} rows at once are more than the reference engine solves; take the compiled one")
+            raise SimulationError(f"{n} rows at once are more than the reference engine solves")
         J = np.array([row.J[dofs] for row in rows])
         a["A"][: n * n] = (J @ np.linalg.solve(inertia, J.T)).ravel()
         a["g"][:n] = J @ free + [row.bias for row in rows]

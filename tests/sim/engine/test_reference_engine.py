@@ -1,4 +1,4 @@
-"""The compiled kernel and the Pinocchio provider do the same."""
+"""The compiled kernel and the reference engine do the same."""
 
 from __future__ import annotations
 
@@ -6,13 +6,14 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+from tests.reference_engine import ENGINES
 from urdfkit.sim.engine import Surface
 
 HEIGHTS = {"diff_drive": 0.06, "box": 0.051, "can": 0.16, "ball": 0.1, "capsule": 0.2}
 
 
 def pair(engine_of, model, **options):
-    return [engine_of(model, provider=provider, **options) for provider in ("compiled", "pinocchio")]
+    return [engine_of(model, engine=engine, **options) for engine in ENGINES]
 
 
 def state(engine):
