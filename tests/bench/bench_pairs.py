@@ -9,18 +9,22 @@ computes for these shapes; we find all that hold a body. Times are the least of 
 from __future__ import annotations
 
 import itertools
+import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import coal
 import numpy as np
 import trimesh
 
+sys.path.insert(0, str(Path(__file__).parents[2]))
+
+from tests.sim.engine.collision.pair_contacts import Placed, contacts
 from urdfkit.sim.engine.collision.collide_pair import MOST, WORK, WORK_INDICES, collide_pair
 from urdfkit.sim.engine.collision.convex_hull import convex_hull
 from urdfkit.sim.engine.collision.geometry_arrays import Geometry
-from urdfkit.sim.engine.collision.pair_contacts import Placed, contacts
 from urdfkit.sim.engine.collision.support_points import BOX, CAPSULE, CYLINDER, HULL, MESH, SPHERE
 from urdfkit.sim.engine.compilation import compiled
 from urdfkit.sim.engine.math.spatial_algebra import load_rotation, load_vector

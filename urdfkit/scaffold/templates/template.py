@@ -20,9 +20,6 @@ from urdfkit.scaffold.templates.template_schema import Check, Fact, Layer, Next,
 from urdfkit.scaffold.templates.questions import Question, When, applies, numbers
 from urdfkit.scaffold.templates.answer_suggestions import Goes, remedy
 
-BUILT_IN = ("year", "into")
-"""Placeholders that nobody is asked for: the year of a copyright, the folder that is written to."""
-
 FRESH = "fresh"
 """What a default may depend on beside answers: ``yes`` where the folder written to is new, empty or a fresh clone."""
 

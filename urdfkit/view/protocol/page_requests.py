@@ -17,8 +17,6 @@ from urdfkit.view.protocol.websocket_messages import MAX_MAGNITUDE, MAX_NAME, Do
 Check = Callable[[Any], Any]
 """Returns a value as it is to be used; raises `ProtocolError` where it makes no sense."""
 
-MAX_TEXT = 32 * 1024
-"""Longest text in an order [characters]."""
 DEPTH = 12
 """Deepest nesting of what is written freely."""
 

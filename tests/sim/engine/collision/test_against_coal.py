@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 import trimesh
 
+from tests.sim.engine.collision.pair_contacts import Contacts, Placed, contacts
 from urdfkit.sim.engine.collision.convex_hull import convex_hull
 from urdfkit.sim.engine.collision.geometry_arrays import Geometry
-from urdfkit.sim.engine.collision.pair_contacts import Contacts, Placed, contacts
 from urdfkit.sim.engine.collision.support_points import BOX, CAPSULE, CYLINDER, HULL, MESH, PLANE, SPHERE
 
 CONVEX = [SPHERE, BOX, CYLINDER, CAPSULE, HULL]

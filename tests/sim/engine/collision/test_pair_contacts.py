@@ -11,9 +11,9 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.sim.engine.collision.pair_contacts import Contacts, Placed, contacts
 from urdfkit.sim.engine.collision.convex_hull import convex_hull
 from urdfkit.sim.engine.collision.geometry_arrays import Geometry
-from urdfkit.sim.engine.collision.pair_contacts import Contacts, Placed, contacts
 from urdfkit.sim.engine.collision.support_points import BOX, CAPSULE, CYLINDER, HULL, MESH, PLANE, SPHERE, WHEEL
 
 MARGIN = 0.01
