@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 Rgba = tuple[float, float, float, float]
 
-_PLACES = frozenset(("position", "notes", "files", "element"))
+_PLACES = frozenset(("position", "notes", "files", "unknown_plugins", "element"))
 
 
 class Written:

@@ -94,6 +94,7 @@ class World(Written):
         kept: plugins, scene, gui and other elements.
         notes: notes for the user, one line each.
         files: all files that were read, the world first.
+        unknown_plugins: positions of the plugins that a note reports as unknown.
         position: source position.
     """
 
@@ -108,6 +109,7 @@ class World(Written):
     kept: tuple[Kept, ...] = ()
     notes: tuple[str, ...] = field(default=(), repr=False)
     files: tuple[Path, ...] = field(default=(), repr=False)
+    unknown_plugins: tuple[Position, ...] = field(default=(), repr=False)
     position: Position | None = field(default=None, repr=False)
 
     @cached_property

@@ -1,10 +1,9 @@
-"""From plugins as written to drives, sensors, controllers and publications at work."""
+"""Installation of a robot's plugins: choose a class for each element, configure it, report the ones left out."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
@@ -23,93 +22,111 @@ from urdfkit.sim.plugins.drives import DRIVES
 from urdfkit.sim.plugins.publishers import JointStates, all_joint_states, joint_states
 from urdfkit.sim.plugins.sensors import SENSORS
 from urdfkit.sim.plugins.setup import Setup
-from urdfkit.sim.plugins.unknown_tags import SharedTopics, misspelt, not_read, strange
+from urdfkit.sim.plugins.unknown_tags import SharedTopics, misspelt, not_read, unsupported_sensor
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """Decision to simulate a plugin.
+
+    Attributes:
+        made: the object that simulates it.
+    """
+
+    made: Drive | Sensor | Controller | JointStates
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """Decision to leave a plugin out.
+
+    Attributes:
+        reason: note for the user, with the position.
+    """
+
+    reason: str
+
+
+@dataclass(frozen=True)
+class Needless:
+    """Decision to skip a plugin whose function is built in, or which an earlier note reports."""
+
+
+Decision = Simulated | LeftOut | Needless
 
 
 @dataclass
 class Installed:
-    """The plugins of one robot, configured, in the order they are written."""
+    """The configured plugins of one robot, in the order of the description."""
 
     drives: list[Drive] = field(default_factory=list)
     sensors: list[Sensor] = field(default_factory=list)
     controllers: list[Controller] = field(default_factory=list)
     joint_states: list[JointStates] = field(default_factory=list)
 
+    def add(self, made: Drive | Sensor | Controller | JointStates) -> None:
+        """Add a plugin to the list of its kind."""
+        if isinstance(made, Drive):
+            self.drives.append(made)
+        elif isinstance(made, Sensor):
+            self.sensors.append(made)
+        elif isinstance(made, Controller):
+            self.controllers.append(made)
+        else:
+            self.joint_states.append(made)
+
+    @property
+    def publishes_joint_states(self) -> bool:
+        """Whether a plugin or a controller publishes joint states."""
+        loops = [controller.loop for controller in self.controllers if controller.loop is not None]
+        return bool(self.joint_states) or any(
+            isinstance(law, JointStatePublisher) for loop in loops for law in loop.laws.values()
+        )
+
 
 def install(robot: Robot, setup: Setup, *, seed: int) -> Installed:
-    """Configure every plugin of a robot that can be simulated, and note those that cannot, once each.
+    """Configure every plugin of a robot that can be simulated, and note each of the others once.
 
     Args:
         robot: the robot as written.
-        setup: what plugins may use; each gets a random generator of its own.
-        seed: the simulation's.
+        setup: what plugins may use; each gets its own random generator.
+        seed: seed of the simulation.
 
     Raises:
-        SimulationError: a parameter makes no sense, with its place.
+        SimulationError: a parameter is wrong, with its position.
     """
     installed, shared = Installed(), SharedTopics(setup.note)
-    for remark in misspelt(robot):
-        setup.note(remark)
-    rooms: tuple[tuple[Sequence[Any], list[Any]], ...] = (
-        ((*DRIVES, *registry.load("urdfkit.drives")), installed.drives),
-        ((*SENSORS, *registry.load("urdfkit.sensors")), installed.sensors),
-        ((*CONTROLLERS, *registry.load("urdfkit.controllers")), installed.controllers),
-    )
+    for warning in misspelt(robot):
+        setup.note(warning)
+    classes = (
+        *DRIVES, *registry.load("urdfkit.drives"),
+        *SENSORS, *registry.load("urdfkit.sensors"),
+        *CONTROLLERS, *registry.load("urdfkit.controllers"),
+    )  # fmt: skip
     for number, (plugin, sensor, link) in enumerate(_plugins(robot)):
         own = replace(setup, random=np.random.default_rng([seed, number]), sensor=sensor, link=link)
-        bare = sensor is not None and plugin.element is sensor.element
-        spec = BARE.get((sensor.type or "").strip()) if bare and sensor is not None else match(plugin)
-        if sensor is not None and (remark := strange(sensor, simulated=spec is not None or not bare)):
-            setup.note(remark)
-            continue
-        for remark in not_read(plugin, spec) if spec is not None and not bare else ():
-            setup.note(remark)
-        if spec is not None and spec.kind == "joint_state_publisher":
-            installed.joint_states.append(joint_states(plugin, spec, own))
-        elif (found := _choose(plugin, spec, rooms)) is not None:
-            made, works = found
-            try:
-                made.configure(own)
-            except (SimulationError, UsageError) as error:
-                if not isinstance(made, Sensor):
-                    raise
-                place = "" if error.position is not None else f"{plugin.element.origin.position}: "
-                left_out = sensor.name if sensor is not None else plugin.name
-                setup.note(f"{place}{error}; sensor `{left_out}` is left out")
-                continue
-            works.append(made)
-            if isinstance(made, Sensor):
-                told = (topic.name for topic in made.topics if not topic.type.endswith("/CameraInfo"))
-                shared.add(made.name or plugin.name or "", plugin.element, told)
-        elif stem(plugin.filename or "") not in NEEDLESS and not _noted_on_reading(plugin, setup):
-            brought = [
-                name for classes, _ in rooms for made in classes for table in made.specs for name in table.filenames
-            ]
-            setup.note(unknown(plugin, None if sensor is None else sensor.name or "", [*NEEDLESS, *brought]))
+        decision = _choose(plugin, own, classes)
+        if isinstance(decision, Simulated):
+            decision = _configure(decision.made, own)
+        if isinstance(decision, LeftOut):
+            setup.note(decision.reason)
+        elif isinstance(decision, Simulated):
+            installed.add(decision.made)
+            if isinstance(decision.made, Sensor):
+                shared.add(decision.made)
     if robot.ros2_control and not any(controller.kind == "ros2_control" for controller in installed.controllers):
         for block in robot.ros2_control:
             setup.note(
-                f"{block.element.origin.position}: no plugin runs ros2_control `{block.name or ''}`: "
-                "gz_ros2_control or gazebo_ros2_control would"
+                f"{block.element.origin.position}: no plugin runs ros2_control `{block.name or ''}`; "
+                "add gz_ros2_control or gazebo_ros2_control"
             )
-    if not installed.joint_states and not _publishes_joint_states(installed):
+    if not installed.publishes_joint_states:
         installed.joint_states.append(all_joint_states(setup))
     return installed
 
 
-def _noted_on_reading(plugin: Plugin, setup: Setup) -> bool:
-    """Whether nobody knew the plugin when its model was read from the world's file."""
-    notes = () if setup.surroundings is None else setup.surroundings.world.notes
-    return any(note.startswith(f"{plugin.element.origin.position}: unknown plugin") for note in notes)
-
-
-def _publishes_joint_states(installed: Installed) -> bool:
-    loops = [controller.loop for controller in installed.controllers if controller.loop is not None]
-    return any(isinstance(law, JointStatePublisher) for loop in loops for law in loop.laws.values())
-
-
 def _plugins(robot: Robot) -> Iterator[tuple[Plugin, SensorTag | None, str]]:
-    """Yield the plugins, each with the sensor and the link it is of; a sensor without any stands for itself."""
+    """Yield each plugin with its sensor and link; a sensor without a plugin stands for itself."""
     for block in robot.gazebo:
         link = block.reference or ""
         for plugin in block.plugins:
@@ -119,17 +136,47 @@ def _plugins(robot: Robot) -> Iterator[tuple[Plugin, SensorTag | None, str]]:
                 yield plugin, sensor, link
 
 
-def _choose(
-    plugin: Plugin, spec: PluginSpec | None, rooms: tuple[tuple[Sequence[Any], list[Any]], ...]
-) -> tuple[Any, list[Any]] | None:
-    """Return the plugin's class, instantiated, and the list it belongs to.
+def _choose(plugin: Plugin, setup: Setup, classes: tuple[type[Drive | Sensor | Controller], ...]) -> Decision:
+    """Decide about a plugin, and instantiate its class; note its unknown parameters.
 
-    A class is chosen by the kind of the plugin's table, or because it brings a table of its own for that file name.
+    A class is chosen by the kind of the plugin's table, or because it has its own table for the file name.
     """
+    sensor = setup.sensor
+    bare = sensor is not None and plugin.element is sensor.element
+    spec = BARE.get((sensor.type or "").strip()) if bare and sensor is not None else match(plugin)
+    if sensor is not None and (reason := unsupported_sensor(sensor, simulated=spec is not None or not bare)):
+        return LeftOut(reason)
+    for warning in not_read(plugin, spec) if spec is not None and not bare else ():
+        setup.note(warning)
+    if spec is not None and spec.kind == "joint_state_publisher":
+        return Simulated(joint_states(plugin, spec, setup))
     name = stem(plugin.filename or "")
-    for classes, works in rooms:
-        for made in classes:
-            own = next((table for table in made.specs if name in table.filenames), None)
-            if own is not None or (spec is not None and made.kind == spec.kind):
-                return made(plugin, own or spec), works
-    return None
+    for each in classes:
+        own: PluginSpec | None = next((table for table in each.specs if name in table.filenames), None)
+        chosen = own or (spec if spec is not None and each.kind == spec.kind else None)
+        if chosen is not None:
+            return Simulated(each(plugin, chosen))
+    noted = () if setup.surroundings is None else setup.surroundings.world.unknown_plugins
+    if name in NEEDLESS or plugin.element.origin.position in noted:
+        return Needless()
+    brought = [name for each in classes for table in each.specs for name in table.filenames]
+    return LeftOut(unknown(plugin, None if sensor is None else sensor.name or "", [*NEEDLESS, *brought]))
+
+
+def _configure(made: Drive | Sensor | Controller | JointStates, setup: Setup) -> Decision:
+    """Configure a plugin; a sensor with a wrong parameter is left out.
+
+    Raises:
+        SimulationError: a parameter of a drive or controller is wrong, with its position.
+    """
+    if isinstance(made, JointStates):
+        return Simulated(made)
+    try:
+        made.configure(setup)
+    except (SimulationError, UsageError) as error:
+        if not isinstance(made, Sensor):
+            raise
+        place = "" if error.position is not None else f"{made.plugin.element.origin.position}: "
+        name = setup.sensor.name if setup.sensor is not None else made.plugin.name
+        return LeftOut(f"{place}{error}; sensor `{name}` is left out")
+    return Simulated(made)

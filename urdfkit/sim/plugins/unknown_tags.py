@@ -1,8 +1,9 @@
-"""What to say of a robot's ``<gazebo>`` blocks: names that nobody reads, with the nearest right one."""
+"""Notes about a robot's ``<gazebo>`` blocks: unknown names with the nearest known one, sensors that share a topic."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
 
 from urdfkit.description.plugins import PluginSpec
 from urdfkit.description.plugins.gazebo_materials import unknown_materials
@@ -13,28 +14,30 @@ from urdfkit.description.urdf.robot import Plugin, Robot, SensorTag
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import did_you_mean
 
+if TYPE_CHECKING:
+    from urdfkit.sim.plugins.base import Sensor
+
 
 def misspelt(robot: Robot) -> Iterator[str]:
-    """Yield what is wrong with names of materials, and in sensors with those of elements."""
+    """Yield a note for each unknown material, and for each unknown element of a sensor."""
     for element, name, meant in unknown_materials(robot):
-        yield f"{element.origin.position}: no material `{name}`{_hint(meant)}; the link keeps its plain colour"
+        hint = "" if meant is None else f"; did you mean `{meant}`?"
+        yield f"{element.origin.position}: no material `{name}`{hint}; the link keeps its plain colour"
     for block in robot.gazebo:
         for sensor in block.sensors:
             for each in unknown_elements(sensor.element):
-                meant = None if each.meant is None else f"<{each.meant}>"
-                yield _ignored(each.element, f"unknown element <{each.element.tag}> in <{each.inside}>", meant)
+                yield _ignored(each.element, f"unknown element <{each.element.tag}> in <{each.inside}>", each.meant)
 
 
 def not_read(plugin: Plugin, spec: PluginSpec) -> Iterator[str]:
-    """Yield what is wrong with names of a plugin's parameters."""
+    """Yield a note for each parameter of a plugin that it does not read."""
     for each in unread(plugin, spec):
         if not each.promised:
-            meant = None if each.meant is None else f"<{each.meant}>"
-            yield _ignored(each.element, f"unknown parameter <{each.element.tag}> of `{plugin.filename}`", meant)
+            yield _ignored(each.element, f"unknown parameter <{each.element.tag}> of `{plugin.filename}`", each.meant)
 
 
-def strange(sensor: SensorTag, *, simulated: bool) -> str:
-    """Return why a sensor is left out before it is looked into: its place, and the nearest type; empty if it is not."""
+def unsupported_sensor(sensor: SensorTag, *, simulated: bool) -> str:
+    """Return why a sensor of this type is left out, with its position and the nearest type; empty if it is not."""
     place, kind = sensor.element.origin.position, (sensor.type or "").strip()
     left_out = f"sensor `{sensor.name or 'sensor'}` is left out"
     if not kind:
@@ -44,33 +47,31 @@ def strange(sensor: SensorTag, *, simulated: bool) -> str:
     if kind in INSTEAD:
         return f"{place}: sensors of type `{kind}` are not simulated: {INSTEAD[kind]}; {left_out}"
     if kind not in SENSOR_TYPES:
-        return f"{place}: no sensor is of type `{kind}`{did_you_mean(kind, SENSOR_TYPES)}; {left_out}"
+        return f"{place}: unknown sensor type `{kind}`{did_you_mean(kind, SENSOR_TYPES)}; {left_out}"
     return f"{place}: sensors of type `{kind}` are not simulated yet; {left_out}"
 
 
 class SharedTopics:
-    """Remarks on sensors that publish on one topic.
+    """Notes about sensors that publish on one topic. Only CameraInfo topics may be shared.
 
     Args:
-        note: tells the user.
+        note: reports a note to the user.
     """
 
     def __init__(self, note: Callable[[str], None]) -> None:
         self._note = note
-        self._known: dict[str, str] = {}
+        self._sensors: dict[str, Sensor] = {}
 
-    def add(self, sensor: str, place: Element, topics: Iterator[str]) -> None:
-        """Take note of where a sensor publishes; what tells about the sensor itself may be shared."""
-        for topic in dict.fromkeys(topics):
-            other = self._known.setdefault(topic, sensor)
+    def add(self, sensor: Sensor) -> None:
+        """Add the topics of a sensor; note each that another sensor publishes on."""
+        for topic in dict.fromkeys(topic.name for topic in sensor.topics if not topic.type.endswith("/CameraInfo")):
+            other = self._sensors.setdefault(topic, sensor)
             if other is not sensor:
-                self._note(f"{place.origin.position}: sensors `{other}` and `{sensor}` both publish on `{topic}`")
+                names = [each.name or each.plugin.name or "" for each in (other, sensor)]
+                place = sensor.plugin.element.origin.position
+                self._note(f"{place}: sensors `{names[0]}` and `{names[1]}` both publish on `{topic}`")
 
 
 def _ignored(element: Element, what: str, meant: str | None) -> str:
-    hint = "" if meant is None else f"; did you mean {meant}?"
+    hint = "" if meant is None else f"; did you mean <{meant}>?"
     return f"{element.origin.position}: {what} is ignored{hint}"
-
-
-def _hint(meant: str | None) -> str:
-    return "" if meant is None else f"; did you mean `{meant}`?"

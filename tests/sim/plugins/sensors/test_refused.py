@@ -42,10 +42,10 @@ KINECT = (
 CAMERA = "<camera><image><width>8</width><height>6</height></image></camera>"
 
 WRONG = [
-    (BLOCK.format(sensor(LASER, type="raay")), "no sensor is of type `raay`; did you mean `ray`?"),
+    (BLOCK.format(sensor(LASER, type="raay")), "unknown sensor type `raay`; did you mean `ray`?"),
     (
         BLOCK.format(sensor(type="rgbd_camra", inside="")),
-        "no sensor is of type `rgbd_camra`; did you mean `rgbd_camera`?",
+        "unknown sensor type `rgbd_camra`; did you mean `rgbd_camera`?",
     ),
     (BLOCK.format(sensor(LASER, type="")), "a sensor has no type"),
     (
@@ -125,7 +125,7 @@ def test_the_command_says_it_in_one_line_and_goes_on(robot, capsys: Any) -> None
     assert main(["sim", "run", str(file), "--world", "void", "--for", "0.01"]) == 0
     said = capsys.readouterr().err.splitlines()
     assert [line for line in said if "raay" in line] == [
-        f"urdfkit: {file}:4:25: no sensor is of type `raay`; did you mean `ray`?; sensor `lidar` is left out"
+        f"urdfkit: {file}:4:25: unknown sensor type `raay`; did you mean `ray`?; sensor `lidar` is left out"
     ]
 
 

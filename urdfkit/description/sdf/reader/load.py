@@ -82,8 +82,8 @@ def load_world(world: str | Path, *, package_path: Iterable[str | Path] = ()) ->
         raise root_error(root)
     for each in found.models:
         _require_masses(each, static=False)
-    note_unknown_plugins(context, found)
-    return replace(found, notes=tuple(context.notes), files=tuple(context.files))
+    unknown = note_unknown_plugins(context, found)
+    return replace(found, notes=tuple(context.notes), files=tuple(context.files), unknown_plugins=unknown)
 
 
 def load_model(

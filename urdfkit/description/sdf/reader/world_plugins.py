@@ -11,6 +11,7 @@ from urdfkit.description.sdf.reader.reading_state import Context
 from urdfkit.description.sdf.shapes import plugins_of
 from urdfkit.description.sdf.world import World
 from urdfkit.description.urdf.robot import Plugin
+from urdfkit.description.xml.source import Position
 
 NEEDLESS = frozenset(
     {
@@ -40,22 +41,28 @@ NEEDLESS = frozenset(
 """File stems of plugins whose function is built into the simulator."""
 
 
-def note_unknown_plugins(context: Context, world: World) -> None:
+def note_unknown_plugins(context: Context, world: World) -> tuple[Position, ...]:
     """Add a note for each unknown plugin of a world and its entities, with the nearest known name.
+
+    Returns:
+        Their positions.
 
     Args:
         context: the context of the world's file.
         world: the world.
     """
+    found = []
     for plugin, owner in _plugins(world):
         name = stem(plugin.filename or "").replace("ignition-gazebo", "gz-sim")
         if name in NEEDLESS or match(plugin) is not None:
             continue
+        found.append(plugin.element.origin.position)
         near = nearest(name, NEEDLESS)
         hint = f"; did you mean `{near}`?" if near else ""
         context.note(
             plugin.element, f"unknown plugin `{plugin.filename or plugin.name or ''}` in {owner} is left out{hint}"
         )
+    return tuple(found)
 
 
 def _plugins(world: World) -> Iterator[tuple[Plugin, str]]:
