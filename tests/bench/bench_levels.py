@@ -95,7 +95,7 @@ def here(scene: str, *, seconds: float, record: bool) -> dict[str, Any]:
         simulator.step(steps)
         spent += time.process_time() - t
     topics = {name: each.hexdigest()[:16] for name, each in sorted(heard.items())}
-    return {"cpu": spent, "level": level(), "state": digest(simulator._stage.engine), "topics": topics}
+    return {"cpu": spent, "level": level(), "state": digest(simulator.world.builder.engine), "topics": topics}
 
 
 def listen(bus: Any, heard: dict[str, Any]) -> None:
@@ -114,7 +114,7 @@ def listen(bus: Any, heard: dict[str, Any]) -> None:
 
 def digest(engine: Any) -> str:
     """Return a digest of positions and velocities."""
-    return hashlib.sha256(b"".join(engine._arrays[name].tobytes() for name in ("s", "v"))).hexdigest()[:16]
+    return hashlib.sha256(b"".join(engine.arrays[name].tobytes() for name in ("s", "v"))).hexdigest()[:16]
 
 
 def heap() -> Any:

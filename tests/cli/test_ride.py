@@ -338,10 +338,10 @@ def test_what_comes_and_goes_for_an_hour_leaves_nothing_behind() -> None:
         sizes = []
         for k in range(6):
             for model in ("coke_can", "chair", "crate"):
-                ride.simulator.spawn(model, (2.0, 0.3 * k, 0.0), name=model)
+                ride.simulator.world.spawn(model, (2.0, 0.3 * k, 0.0), name=model)
                 ride.tick()
             for model in ("coke_can", "chair", "crate"):
-                ride.simulator.remove(model)
+                ride.simulator.world.remove(model)
                 ride.tick()
             server._loop.call_soon(server._loop.stop)
             server._loop.run_forever()  # what was posted is done
@@ -403,7 +403,7 @@ def test_the_world_is_saved_as_it_is(ride, tmp_path) -> None:
     assert name == "my_world___.sdf"
     (tmp_path / name).write_bytes(content)
     again = Simulator("simpleton", world=tmp_path / name, note=lambda _: None)
-    assert again.pose("crate")[:2] == pytest.approx((1.0, 2.0), abs=0.01)
+    assert again.world.pose("crate")[:2] == pytest.approx((1.0, 2.0), abs=0.01)
 
 
 def test_arms_go_where_their_sliders_are_put(made) -> None:
@@ -454,17 +454,17 @@ def test_a_push_lasts_as_long_as_it_is_held(ride) -> None:
     name = do(ride, "spawn", model="ball", pose=[2.0, 0.0, 3.0])["name"]
     mass = next(row["mass"] for row in ride.page.said["screws"]["rows"] if row["name"] == name)
     do(ride, "gravity", gravity=[0, 0, 0])
-    before = ride.simulator.bodies[name].twist[0]
-    centre = list(ride.simulator.bodies[name].body.centre)
+    before = ride.simulator.world.bodies[name].twist[0]
+    centre = list(ride.simulator.world.bodies[name].body.centre)
     push = {"link": name, "force": [mass, 0, 0], "torque": [0, 0, 0], "at": centre}
     do(ride, "push", **push)
     spend(ride, 1.0)
-    gained = ride.simulator.bodies[name].twist[0] - before
+    gained = ride.simulator.world.bodies[name].twist[0] - before
     assert gained == pytest.approx(0.3, abs=0.005)  # 0.3 s of 1 m/s², then nobody held it any more
     do(ride, "push", **push)
     do(ride, "let_go")
     spend(ride, 0.5)
-    assert ride.simulator.bodies[name].twist[0] - before == pytest.approx(gained, abs=0.06)
+    assert ride.simulator.world.bodies[name].twist[0] - before == pytest.approx(gained, abs=0.06)
     with pytest.raises(SimulationError, match="did you mean"):
         do(ride, "push", link="chasis", force=[0, 0, 1], torque=[0, 0, 0], at=[0, 0, 0])
 
@@ -560,15 +560,15 @@ def test_topics_are_recorded_to_a_file_that_the_page_gets(ride, tmp_path, monkey
 def test_several_robots_are_driven_one_at_a_time(ride) -> None:
     name = do(ride, "spawn", model="mybot", pose=[2.0, 2.0, 0.0, 0.0])["name"]
     assert {robot["name"] for robot in ride.page.said["teleop"]["robots"]} == {"simpleton", name}
-    before = ride.simulator.pose(name)[0]
+    before = ride.simulator.world.pose(name)[0]
     for _ in range(60):
         ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0, name))
         spend(ride, FRAME)
-    assert ride.simulator.pose(name)[0] > before + 0.1
+    assert ride.simulator.world.pose(name)[0] > before + 0.1
     assert abs(ride.simulator.state.base_pose[0]) < 0.01
     ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0))
     spend(ride, 2.0)
-    assert abs(ride.simulator.robots[name].state.base_velocity[0]) < 0.02  # the other one was told to stop
+    assert abs(ride.simulator.world.robots[name].state.base_velocity[0]) < 0.02  # the other one was told to stop
     ride.page.driver.offer(1, Axes((1.0, 0.0, 0.0, 0.0), 0.4, 1.0, "nobody"))
     spend(ride, 0.1)  # harmless
 
@@ -587,7 +587,7 @@ def test_stop_ends_what_a_published_command_began(ride) -> None:
 def test_stop_holds_for_every_robot_whoever_drives(ride) -> None:
     name = do(ride, "spawn", model="mybot", pose=[2.0, 2.0, 0.0, 0.0])["name"]
     heard: dict[str, list[float]] = {}
-    for robot in ride.simulator.robots.values():
+    for robot in ride.simulator.world.robots.values():
         for topic, kind in loop.command_topics(robot).items():
             speeds = heard[robot.name] = []
             ride.simulator.subscribe(topic, kind, lambda sent, speeds=speeds: speeds.append(sent.linear.x))
@@ -650,7 +650,7 @@ def test_random_orders_never_break_the_loop(ride) -> None:
 
 
 def test_after_a_divergence_nothing_falls_over_and_reset_starts_again(ride) -> None:
-    ride.simulator._stage.engine._arrays["v"][:] = 1e200
+    ride.simulator.world.builder.engine.arrays["v"][:] = 1e200
     spend(ride, 0.1)
     assert "diverged" in ride.page.said["fault"]["message"]
     with pytest.raises(SimulationError, match="press Reset"):

@@ -104,7 +104,7 @@ def test_the_page_gets_what_the_laser_met(shown) -> None:
     assert (index, t, kind) == (0, pytest.approx(0.1), POINTS)
     found = xyz(content)
     assert len(found) > 50
-    where = np.array([pose[:2] for pose in simulator.body_poses().values()])
+    where = np.array([pose[:2] for pose in simulator.world.body_poses().values()])
     off = np.linalg.norm(found[:, None, :2] - where, axis=-1).min(axis=1)
     assert off.std() < 1e-4  # all as far from the axis of a cylinder as its radius
 
@@ -115,7 +115,7 @@ def test_what_no_page_wants_is_not_looked_at(shown) -> None:
     simulator.run(0.1)
     assert sights.show() == 0.0
     assert not page.sensed
-    assert not simulator._setup.surroundings.was_looked_at
+    assert not simulator.surroundings.was_looked_at
 
 
 def test_there_is_time_between_two_looks(shown) -> None:

@@ -373,9 +373,9 @@ def test_what_is_spawned_appears_on_the_page_and_what_is_removed_vanishes() -> N
 
         ride.show()
         assert shown() == set()
-        name = simulator.spawn("crate", (2.0, 0.0, 0.0))
+        name = simulator.world.spawn("crate", (2.0, 0.0, 0.0))
         assert shown() == {f"world%2F{name}"}
-        simulator.remove(name)
+        simulator.world.remove(name)
         assert shown() == set()
 
 

@@ -32,7 +32,7 @@ def test_wander_drives_about_and_touches_nothing(capsys: pytest.CaptureFixture[s
     x, y, *_ = simulator.state.base_pose
     assert capsys.readouterr().out == f"at x {x:.1f} m, y {y:.1f} m\n"
     assert np.hypot(x, y) > 2.0
-    links, bodies = set(simulator.kinematics.link_names), simulator.body_poses()
+    links, bodies = set(simulator.kinematics.link_names), simulator.world.body_poses()
     pairs = [{contact.a, contact.b} for contact in simulator.state.contacts]
     assert any(pair & links for pair in pairs)  # its wheels touch the ground
     assert not [pair for pair in pairs if pair & links and pair & set(bodies)]

@@ -19,7 +19,7 @@ class ReferenceEngine(Engine):
         super().__init__(*args, **{**options, "sleep": False})
 
     def _step_function(self, *, alone: bool) -> Callable[..., int]:
-        return Reference(self._members, self._free, self._arrays).advance
+        return Reference(self._members, self._free, self.arrays).advance
 
 
 ENGINES = (Engine, ReferenceEngine)

@@ -82,7 +82,7 @@ def test_parked_it_touches_the_ground_as_often_as_it_has_wheels():
         contacts = [contact for contact in simulator.state.contacts if contact.a in links and contact.force[2] > 0]
         assert len({contact.a for contact in contacts}) == count, name
         mass = sum(link.inertial.mass for link in simulator.robot.links if link.inertial is not None)
-        gravity = -simulator.world.gravity[2]
+        gravity = -simulator.world.description.gravity[2]
         assert sum(contact.force[2] for contact in contacts) == pytest.approx(mass * gravity, rel=1e-6)
 
 
@@ -127,11 +127,11 @@ def test_the_car_passes_the_gate_of_barriers(arguments):
 
 def test_the_droid_pushes_the_ball_away():
     simulator = at_home("artoo")
-    before = simulator.bodies["ball"].pose
+    before = simulator.world.bodies["ball"].pose
     for v, w, seconds in ((0.0, -1.0, 1.48), (0.6, 0.0, 6.0)):
         simulator.command((v, 0, 0), (0, 0, w))
         simulator.run(seconds)
-    after = simulator.bodies["ball"].pose
+    after = simulator.world.bodies["ball"].pose
     assert math.dist(before[:2], after[:2]) > 0.2
     assert after[2] == pytest.approx(0.15, abs=0.01)
 
@@ -139,12 +139,12 @@ def test_the_droid_pushes_the_ball_away():
 def test_the_arm_bends_over_its_shelf_and_the_things_stay_where_they_are():
     simulator = at_home("seven_dof_arm")
     simulator.run(1.0)
-    before = {name: body.pose for name, body in simulator.bodies.items()}
+    before = {name: body.pose for name, body in simulator.world.bodies.items()}
     topic = "/seven_dof_arm/joint4_position_controller/command"
     simulator.bus.publish(topic, FLOAT, from_fields(FLOAT, {"data": 1.0}))
     simulator.run(4.0)
     assert simulator.state.position("elbow_pitch_joint") == pytest.approx(1.0, abs=0.03)
-    for name, body in simulator.bodies.items():
+    for name, body in simulator.world.bodies.items():
         assert body.pose == pytest.approx(before[name], abs=1e-6)
 
 

@@ -82,7 +82,7 @@ def test_a_way_through_a_wall_is_seen_and_one_through_a_door_is_not(watched: Any
 
 def test_what_does_not_hold_is_seen(watched: Any) -> None:
     simulator = watched.simulator
-    simulator.bodies["crate"].place((60.0, 0.0, 0.3, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 90.0, 0.0, 0.0, 0.0))
+    simulator.world.bodies["crate"].place((60.0, 0.0, 0.3, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 90.0, 0.0, 0.0, 0.0))
     watched.look(quiet=False)
     watched.check()
     assert {"through a wall", "too fast", "escaped"} <= set(watched.found.wrong)
@@ -92,7 +92,7 @@ def test_what_does_not_hold_is_seen(watched: Any) -> None:
     watched.look(quiet=True)
     watched.check()
     assert watched.found.wrong == {}
-    simulator.bodies["ball"].place((-4.0, -1.8, 0.0, 0.0, 0.0, 0.0, 1.0), (0.5, 0.0, 0.0, 0.0, 0.0, 0.0))
+    simulator.world.bodies["ball"].place((-4.0, -1.8, 0.0, 0.0, 0.0, 0.0, 1.0), (0.5, 0.0, 0.0, 0.0, 0.0, 0.0))
     watched.look(quiet=True)
     assert set(watched.found.wrong) == {"energy from nothing"}
 
@@ -101,7 +101,7 @@ def test_what_a_robot_pushes_that_rolls_on_by_itself_is_no_energy_from_nothing()
     # A drive of Gazebo's may hold its wheels to a speed that nobody commands any more.
     simulator = Simulator("simpleton", world="house", note=lambda _: None)
     watch = module("watch").Watch(simulator, module("found").Found("simpleton"))
-    ball = simulator.bodies["ball"]
+    ball = simulator.world.bodies["ball"]
     x, y, _ = simulator.state.base_pose[:3]
     ball.place((x + 0.6, y, ball.pose[2], 0.0, 0.0, 0.0, 1.0))
     simulator.command((0.5, 0.0, 0.0), (0.0, 0.0, 0.0))

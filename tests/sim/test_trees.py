@@ -46,8 +46,8 @@ PENDULUM = f"""<model name="gallows"><pose>2 0 3 0 0 0</pose>
 
 def test_a_pendulum_hung_on_the_world_keeps_its_energy(tmp_path: Path) -> None:
     simulator = simulate(tmp_path, PENDULUM)
-    arm = simulator.robots["gallows"]
-    assert simulator.body_poses()["gallows::arm"][:3] == pytest.approx((2.3, 0.0, 3.0))
+    arm = simulator.world.robots["gallows"]
+    assert simulator.world.body_poses()["gallows::arm"][:3] == pytest.approx((2.3, 0.0, 3.0))
     start = sum(arm.state.energy)
     fastest = 0.0
     for _ in range(100):
@@ -65,13 +65,13 @@ def test_a_joint_moves_about_the_axis_at_the_place_that_the_file_says(tmp_path: 
     hinge = joint("revolute", "frame", "panel", axis, pose="0 0.5 0 0.3 0.2 0.1")
     wall = joint("fixed", "world", "frame").replace('name="joint"', 'name="bolt"')
     simulator = simulate(tmp_path, f'<model name="door"><pose>0 3 1 0 0 0</pose>{frame}{panel}{wall}{hinge}</model>')
-    door = simulator.robots["door"]
+    door = simulator.world.robots["door"]
     assert door.kinematics.limits("joint") == (-1.0, 0.5)
-    assert simulator.body_poses()["door::panel"][:3] == pytest.approx((1.0, 3.0, 1.0), abs=1e-12)
-    simulator.push("door::panel", (0.0, 50.0, 0.0), for_seconds=0.5)
+    assert simulator.world.body_poses()["door::panel"][:3] == pytest.approx((1.0, 3.0, 1.0), abs=1e-12)
+    simulator.world.push("door::panel", (0.0, 50.0, 0.0), for_seconds=0.5)
     simulator.run(0.5)
     assert door.state.position("joint") == pytest.approx(0.5, abs=1e-4)
-    x, y, z = simulator.body_poses()["door::panel"][:3]
+    x, y, z = simulator.world.body_poses()["door::panel"][:3]
     # The hinge is at (0.5, 3): the panel's origin stays half a metre from it, turned by 0.5 rad, level with it.
     assert (x - 0.5, y - 3.0, z - 1.0) == pytest.approx((0.5 * cos(0.5), 0.5 * sin(0.5), 0.0), abs=1e-4)
 
@@ -81,14 +81,14 @@ def test_a_drawer_slides_with_damping_and_stops(tmp_path: Path) -> None:
     desk = link("desk", mass=30.0) + link("drawer") + joint("prismatic", "desk", "drawer", axis)
     bolt = joint("fixed", "world", "desk").replace('name="joint"', 'name="bolt"')
     simulator = simulate(tmp_path, f'<model name="desk">{desk}{bolt}</model>')
-    simulator.push("desk::drawer", (1.0, 0.0, 0.0))
+    simulator.world.push("desk::drawer", (1.0, 0.0, 0.0))
     simulator.run(0.4)
     # v = F/d·(1 − exp(−d·t/m))
-    assert simulator.robots["desk"].state.velocity("joint") == pytest.approx(
+    assert simulator.world.robots["desk"].state.velocity("joint") == pytest.approx(
         0.5 * (1 - 2.718281828 ** (-0.8)), rel=2e-3
     )
     simulator.run(2.0)
-    assert simulator.robots["desk"].state.position("joint") == pytest.approx(0.3, abs=1e-4)
+    assert simulator.world.robots["desk"].state.position("joint") == pytest.approx(0.3, abs=1e-4)
 
 
 def test_joints_may_point_to_the_root(tmp_path: Path) -> None:
@@ -98,10 +98,10 @@ def test_joints_may_point_to_the_root(tmp_path: Path) -> None:
         joint("revolute", arm, "hub", "<xyz>0 0 1</xyz>").replace('name="joint"', f'name="{arm}_joint"') for arm in "ab"
     )
     simulator = simulate(tmp_path, f'<model name="fan"><pose>0 2 1 0 0 0</pose>{parts}{hinges}</model>')
-    fan = simulator.robots["fan"]
-    poses = simulator.body_poses()
+    fan = simulator.world.robots["fan"]
+    poses = simulator.world.body_poses()
     assert [poses[f"fan::{name}"][0] for name in ("hub", "a", "b")] == pytest.approx([0.0, 1.0, -1.0])
-    simulator.push("fan::a", (0.0, 0.5, 0.0), for_seconds=0.1)
+    simulator.world.push("fan::a", (0.0, 0.5, 0.0), for_seconds=0.1)
     simulator.run(0.1)
     # Arm a turns about +z; its joint counts how the hub, its child, turns in it.
     assert fan.state.velocity("a_joint") < -0.01
@@ -165,11 +165,11 @@ def test_a_robot_written_in_sdf_drives(tmp_path: Path, nested: bool) -> None:
     from urdfkit.messages import TWIST, twist
 
     simulator.run(0.3)
-    before = simulator.robots[name].state.base_pose
+    before = simulator.world.robots[name].state.base_pose
     assert before[0] == pytest.approx(1.0 if nested else 0.0, abs=1e-3)
     simulator.bus.publish("/cart/cmd_vel", TWIST, twist((0.2, 0, 0), (0, 0, 0)))
     simulator.run(2.0)
-    after = simulator.robots[name].state.base_pose
+    after = simulator.world.robots[name].state.base_pose
     assert after[1] - before[1] == pytest.approx(0.4, abs=5e-3)  # it looks along y
     assert after[0] == pytest.approx(before[0], abs=1e-3)
 
@@ -188,6 +188,6 @@ def test_a_urdf_in_a_world_runs_as_if_it_were_the_one(tmp_path: Path) -> None:
     simulator.bus.publish("/cart/cmd", TWIST, twist((0.5, 0, 0), (0, 0, 0)))
     simulator.run(1.0)
     # Of what the plugin sets in each step, friction takes mu·g·dt halfway through it.
-    assert simulator.robots["cart"].state.base_pose[0] == pytest.approx(0.5 - 0.5 * 9.81 * 0.001, abs=1e-5)
-    assert simulator.body_poses()["post::base"][0] == 3.0
-    assert "post" not in simulator.robots
+    assert simulator.world.robots["cart"].state.base_pose[0] == pytest.approx(0.5 - 0.5 * 9.81 * 0.001, abs=1e-5)
+    assert simulator.world.body_poses()["post::base"][0] == 3.0
+    assert "post" not in simulator.world.robots

@@ -33,8 +33,8 @@ BODY = "world/"
 """Goes before the names of the world's bodies: no link has a slash there."""
 
 
-class SeenRobot(Protocol):
-    """What sensors may know of a robot, see `SimulatedRobot`."""
+class SensedRobot(Protocol):
+    """The properties of a robot that sensors need, see `SimulatedRobot`."""
 
     @property
     def kinematics(self) -> Kinematics:
@@ -52,12 +52,12 @@ class SeenRobot(Protocol):
         ...
 
 
-class Populated(Protocol):
-    """What a simulation says of its world, see `Population`."""
+class SensedWorld(Protocol):
+    """The properties of a world that sensors need, see `LiveWorld`."""
 
     @property
-    def world(self) -> World:
-        """As it is at present."""
+    def description(self) -> World:
+        """The world as it is at present."""
         ...
 
     @property
@@ -66,12 +66,12 @@ class Populated(Protocol):
         ...
 
     @property
-    def robots(self) -> Mapping[str, SeenRobot]:
+    def robots(self) -> Mapping[str, SensedRobot]:
         """By name."""
         ...
 
     @property
-    def statues(self) -> tuple[tuple[str, Scene], ...]:
+    def static_robots(self) -> tuple[tuple[str, Scene], ...]:
         """Name and scene of the robots that do not move."""
         ...
 
@@ -89,18 +89,18 @@ class Layout:
     """What there was at a moment, and where: kept cheaply, and worked out when somebody looks.
 
     Attributes:
-        revision: of the population.
+        revision: of the world.
         world: its bodies.
         robots: name, scene and configuration of each robot.
         kept: returns where the world's bodies were.
-        statues: name and scene of robots that do not move; their links are among the bodies, as ``NAME::LINK``.
+        static_robots: name and scene of robots that do not move; their links are among the bodies, as ``NAME::LINK``.
     """
 
     revision: int
     world: World
     robots: tuple[tuple[str, Scene, Snapshot], ...]
     kept: Callable[[], Mapping[str, Sequence[float]]]
-    statues: tuple[tuple[str, Scene], ...] = ()
+    static_robots: tuple[tuple[str, Scene], ...] = ()
 
     @cached_property
     def bodies(self) -> Mapping[str, Sequence[float]]:
@@ -158,10 +158,10 @@ class View:
         for robot, scene, _ in layout.robots:
             bodies += [f"{robot}::{link}" for link in scene.bodies]
             shapes += [_of(robot, shape) for shape in scene.shapes]
-        links = [f"{name}::{link}" for name, scene in layout.statues for link in scene.bodies]
+        links = [f"{name}::{link}" for name, scene in layout.static_robots for link in scene.bodies]
         self._names += links
         self._start = np.vstack([self._start, np.tile([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], (len(links), 1))])
-        shapes += [_of(BODY + name, shape) for name, scene in layout.statues for shape in scene.shapes]
+        shapes += [_of(BODY + name, shape) for name, scene in layout.static_robots for shape in scene.shapes]
         still = (BODY + link for link in links)
         self.scene = Scene((*bodies, *world.bodies, *still), (*shapes, *world.shapes))
         self._lighting = lighting_of(layout.world)
@@ -200,10 +200,10 @@ class View:
 
 
 class Surroundings:
-    """What sensors look at.
+    """Scene of a simulation for its sensors.
 
     Args:
-        population: the world and what is in it.
+        world: its entities.
         note: tells the user something.
         renderer: who takes pictures, one of `RENDERERS`.
 
@@ -211,26 +211,26 @@ class Surroundings:
         SimulationError: there is no such renderer here.
     """
 
-    def __init__(self, population: Populated, note: Callable[[str], None], renderer: str = "ray") -> None:
+    def __init__(self, world: SensedWorld, note: Callable[[str], None], renderer: str = "ray") -> None:
         check(renderer, note=note)
         self._renderer = renderer
-        self._population = population
+        self._world = world
         self._note = note
         self._view: tuple[int, View] | None = None
 
     @property
     def world(self) -> World:
         """The world as it is at present."""
-        return self._population.world
+        return self._world.description
 
     @property
-    def robots(self) -> Mapping[str, SeenRobot]:
+    def robots(self) -> Mapping[str, SensedRobot]:
         """The robots by name."""
-        return self._population.robots
+        return self._world.robots
 
     def pushes_on(self, robot: str, links: Sequence[str]) -> tuple[tuple[Array, Array, Array], ...]:
         """Return force [N], torque [N·m] and point of attack [m], in the world, of what pushes links of a robot."""
-        return self._population.pushes_on(robot, links)
+        return self._world.pushes_on(robot, links)
 
     @property
     def was_looked_at(self) -> bool:
@@ -239,9 +239,9 @@ class Surroundings:
 
     def layout(self) -> Layout:
         """Return what there is now, and where."""
-        here = self._population
+        here = self._world
         robots = tuple((name, each.scene, each.state.snapshot()) for name, each in here.robots.items())
-        return Layout(here.revision, here.world, robots, here.keep_body_poses(), here.statues)
+        return Layout(here.revision, here.description, robots, here.keep_body_poses(), here.static_robots)
 
     def view(self, layout: Layout) -> View:
         """Return the scene of a layout."""

@@ -26,22 +26,23 @@ from urdfkit.sim.plugins.ros_distro import Distro
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.scene_view import Surroundings
 from urdfkit.sim.state.arguments import number, three
+from urdfkit.sim.state.notes import Notes
 from urdfkit.sim.state.ticks import Ticks
-from urdfkit.sim.world.entities import Population
 from urdfkit.sim.world.gazebo_services import ModelStates, listen
-from urdfkit.sim.world.live_world import Stage
-from urdfkit.sim.world.scheduler import Agenda
+from urdfkit.sim.world.live_world import LiveWorld
+from urdfkit.sim.world.scheduler import Scheduler
 from urdfkit.sim.world.simulated_robot import SimulatedRobot
+from urdfkit.sim.world.world_builder import WorldBuilder
 
 Array = NDArray[np.float64]
 
 LOG = logging.getLogger("urdfkit.sim")
 
 
-class Simulator(Population):
+class Simulator:
     """A robot in a world, advanced in simulated time by whoever holds it. One thread, no clock of its own.
 
-    What else is in the world, and how it comes, goes, moves and is pushed, is in `Population`.
+    Its `world` spawns, removes, places, pushes and saves entities.
 
     Same seed, same calls: the same numbers to the last bit. Several simulators may run in several threads.
 
@@ -67,6 +68,8 @@ class Simulator(Population):
         UrdfkitError: the robot or the world cannot be loaded or simulated; says why and where.
 
     Attributes:
+        surroundings: the scene of its sensors.
+        world: the live world; its other robots and its bodies.
         robot: the robot as written.
         kinematics: the robot's model.
         scene: its shapes.
@@ -74,6 +77,7 @@ class Simulator(Population):
         state: the present, read only.
         motors: velocity and position targets by joint name.
         controllers: the robot's controllers, to list, load, start, stop and switch.
+        note: reports a warning to the user, each text once.
         paused: `run` does not move while set; `step` does.
     """
 
@@ -106,13 +110,11 @@ class Simulator(Population):
             raise SimulationError(f"a step of {dt:g} s makes no sense; try 0.001")
         self.bus = Bus() if bus is None else bus
         self.paused = False
-        self._note = note or LOG.warning
-        self._noted: set[str] = set()
+        self.note = Notes(note or LOG.warning)
         for line in found.notes:
             self.note(line)
         if (wish := found.physics.max_step_size) not in (dt, Physics().max_step_size):
             self.note(f"world `{found.name}` asks for steps of {wish:g} s; they are {dt:g} s, as asked for here")
-        self._package_path = tuple(package_path)
         self.name = name or self.robot.name or "robot"
         first = SimulatedRobot(
             self.robot,
@@ -120,30 +122,30 @@ class Simulator(Population):
             spawn=spawn,
             ground=None if found.ground is None else found.ground.height,
             note=self.note,
-            bolted=fixed_base,
+            fixed_base=fixed_base,
             scene=scene,
         )
         self.kinematics, self.scene = first.kinematics, first.scene
-        self._stage = Stage(first, found, dt=dt, note=self.note, package_path=package_path, sleep=sleep)
+        builder = WorldBuilder(first, found, dt=dt, note=self.note, package_path=package_path, sleep=sleep)
         self.state, self.motors = first.state, first.motors
-        self._agenda = Agenda(self._stage, self.state, dt)
+        self._scheduler = Scheduler(builder, self.state, dt)
         message_type(TWIST)  # loads the types now, or says that they are missing
-        self._setup = Setup(
+        self.world = LiveWorld(builder, self._scheduler, note=self.note, seed=seed, package_path=package_path)
+        self.surroundings = Surroundings(self.world, self.note, renderer)
+        setup = Setup(
             self.bus, self.kinematics, self.name, found.name, dt, np.random.default_rng(seed), self.note, distro,
-            tuple(Path(file) for file in controllers), surroundings=Surroundings(self, self.note, renderer),
+            tuple(Path(file) for file in controllers), surroundings=self.surroundings,
         )  # fmt: skip
-        self._seed = seed
-        for each in self.robots.values():
-            self._install(each)
+        self.world.install(setup)
         self.controllers = first.controllers
-        if controllers and not any(each.plugins.controllers for each in self.robots.values() if each.has_plugins):
+        if controllers and not any(each.plugins.controllers for each in builder.robot_list if each.has_plugins):
             self.note(f"robot `{self.name}` has no plugin that runs controllers: {controllers[0]} configures nothing")
-        self._agenda.publications = Clock(self.bus, dt), ModelStates(self.bus, dt, self)
-        self._stage.reset()
-        for each in self.robots.values():
+        self._scheduler.publications = Clock(self.bus, dt), ModelStates(self.bus, dt, self.world)
+        self.world.reset()
+        for each in builder.robot_list:
             each.publish_fixed()
-        listen(self)
-        note_overlaps(self._stage.engine, self.kinematics.link_names, self.note)
+        listen(self.bus, self.world, self.at, self.note)
+        note_overlaps(builder.engine, self.kinematics.link_names, self.note)
 
     # Time
 
@@ -171,27 +173,27 @@ class Simulator(Population):
         """
         if not isinstance(n, int) or n < 0:
             raise SimulationError(f"`{n}` is no number of steps: a whole number, zero or more; `run` takes seconds")
-        state, agenda, stage = self.state, self._agenda, self._stage
+        state, scheduler, world = self.state, self._scheduler, self.world
         end = state.step + n
         while (step := state.step) < end:
-            if step >= agenda.write_due:
-                agenda.write()  # 1 drives and controllers write targets
+            if step >= scheduler.write_due:
+                scheduler.write()  # 1 drives and controllers write targets
             stop = end
-            if agenda.write_due < end or agenda.read_due < end:
-                stop = min(end, agenda.next_stop())
-            stage.advance(stop - step)  # 2 the engine advances; 3 frames: computed when somebody asks
-            if stop >= agenda.read_due:
-                agenda.read()  # 4 sensors that are due measure; 5 joint states, transforms, clock
+            if scheduler.write_due < end or scheduler.read_due < end:
+                stop = min(end, scheduler.next_stop())
+            world.advance(stop - step)  # 2 the engine advances; 3 frames: computed when somebody asks
+            if stop >= scheduler.read_due:
+                scheduler.read()  # 4 sensors that are due measure; 5 joint states, transforms, clock
 
     def reset(self) -> None:
         """Start again: robots, bodies and time; subscriptions and message counts stay, scheduled calls are dropped.
 
         What was spawned stays, where it was spawned; what was removed stays away.
         """
-        for robot in self.robots.values():
+        for robot in self.world.builder.robot_list:
             robot.reset()
-        self._agenda.reset()
-        self._stage.reset()
+        self._scheduler.reset()
+        self.world.reset()
 
     # Doing things at a time
 
@@ -216,13 +218,13 @@ class Simulator(Population):
     def _schedule(self, t: float, period: float, call: Callable[[], None]) -> None:
         if not isfinite(number(t, "the time of a call", "s")):
             raise SimulationError(f"nothing can be called at {t:g} s; it must be a finite number")
-        self._agenda.schedule(max(self.state.step, int(np.ceil(t / self.dt - 1e-6))), period, call)
+        self._scheduler.schedule(max(self.state.step, int(np.ceil(t / self.dt - 1e-6))), period, call)
 
     # Commands and looks
 
     @property
     def _drives(self) -> list[Drive]:
-        return self.robots[self.name].plugins.drives
+        return self.world.builder.robot_list[0].plugins.drives
 
     @property
     def command_topics(self) -> tuple[str, ...]:
@@ -266,9 +268,3 @@ class Simulator(Population):
             for frame, pose in estimate(self.state).items():
                 found.setdefault(frame, pose)
         return found
-
-    def note(self, text: str) -> None:
-        """Tell the user something; the same text only once."""
-        if text not in self._noted:
-            self._noted.add(text)
-            self._note(text)

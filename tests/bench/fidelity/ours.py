@@ -84,7 +84,7 @@ def _watch(scene: Scene, world: str, dt: float) -> list[Look]:
     for joint, effort in scene.efforts.items():
         simulator.motors.exert(joint, effort)
     if scene.push is not None:
-        simulator.bodies[scene.push[0]].push((scene.push[1], 0.0, 0.0))
+        simulator.world.bodies[scene.push[0]].push((scene.push[1], 0.0, 0.0))
     if scene.command is not None:
         raise ValueError("a scene with a command is run from the command line")
     looks = [_look(simulator)]
@@ -100,7 +100,7 @@ def _look(simulator: Simulator) -> Look:
     pose, twist = state.base_pose, state.base_velocity
     names = (*simulator.kinematics.joint_names, *simulator.kinematics.mimic_names)
     things = {}
-    for name, body in simulator.bodies.items():
+    for name, body in simulator.world.bodies.items():
         things[name] = Pose(body.pose[:3], body.pose[3:], body.twist[:3], body.twist[3:])
     return Look(
         state.t,

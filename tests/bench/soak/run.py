@@ -63,7 +63,7 @@ def soak(robot: str, *, minutes: float, seed: int, world: str = "house") -> Foun
             for values in (
                 simulator.state.q,
                 simulator.state.v,
-                *(b.pose + b.twist for b in simulator.bodies.values()),
+                *(b.pose + b.twist for b in simulator.world.bodies.values()),
             ):
                 digest.update(np.array(values).tobytes())
         if watch.is_lost() and not resting:

@@ -11,7 +11,7 @@ from soak.found import Found
 from soak.walls import Walls, matrix
 from urdfkit.scene import lowest_point
 from urdfkit.sim import Simulator
-from urdfkit.sim.engine import Loose
+from urdfkit.sim.engine import FreeBody
 
 Array = NDArray[np.float64]
 
@@ -83,7 +83,7 @@ class Watch:
         self._before = now
         self.glances = GLANCES if moved.max(initial=0.0) > FAST else 1
         energy = 0.0
-        for name, body in simulator.bodies.items():
+        for name, body in simulator.world.bodies.items():
             speed, its = _motion(body)
             energy += its
             found.fastest = max(found.fastest, speed)
@@ -101,7 +101,7 @@ class Watch:
         now = self._points() if now is None else now
         if np.array_equal(now, self._seen):
             return
-        names = [self.simulator.kinematics.link_names[i] for i in self._solid] + list(self.simulator.bodies)
+        names = [self.simulator.kinematics.link_names[i] for i in self._solid] + list(self.simulator.world.bodies)
         for point, wall in self.walls.crossed(self._seen, now):
             text = f"{names[point]} through {self.walls.names[wall]} at {now[point].round(3)}"
             self.found.fault("through a wall", self.simulator.t, text)
@@ -118,7 +118,7 @@ class Watch:
         if lowest is not None and lowest < -SUNK:
             found.fault("below the floor", t, f"the robot by {-1000 * lowest:.1f} mm")
         low, high = self.walls.low - ROOM, self.walls.high + ROOM
-        for name, body in simulator.bodies.items():
+        for name, body in simulator.world.bodies.items():
             x, y, z = body.pose[:3]
             if not (low[0] < x < high[0] and low[1] < y < high[1] and -SUNK - 1.0 < z < 5.0):
                 found.fault("escaped", t, f"{name} is at {x:.2f} {y:.2f} {z:.2f}")
@@ -132,7 +132,8 @@ class Watch:
                 pair = f"{contact.a} {1000 * contact.depth:.1f} mm in {contact.b}"
                 found.fault("deep", t, pair)
         if any(
-            contact.a in kinematics.link_names and contact.b in simulator.body_poses() for contact in state.contacts
+            contact.a in kinematics.link_names and contact.b in simulator.world.body_poses()
+            for contact in state.contacts
         ):
             found.touched += 1
         for name in kinematics.joint_names:
@@ -161,7 +162,7 @@ class Watch:
         """Return the middles of the robot's links that can touch something, then those of bodies; shape (n, 3)."""
         poses = self.simulator.link_poses()
         points = [(matrix(poses[i]) @ centre)[:3] for i, centre in zip(self._solid, self._centres, strict=True)]
-        for body in self.simulator.bodies.values():
+        for body in self.simulator.world.bodies.values():
             points.append((matrix(body.pose) @ np.array([*body.body.centre, 1.0]))[:3])
         return np.array(points)
 
@@ -170,7 +171,7 @@ class Watch:
         return np.array([*np.mean(own, axis=0), 1.0])
 
 
-def _motion(body: Loose) -> tuple[float, float]:
+def _motion(body: FreeBody) -> tuple[float, float]:
     """Return the speed of a body's middle [m/s] and its energy [J], at rest on the floor's height zero."""
     R = matrix(body.pose)[:3, :3]
     arm = R @ np.array(body.body.centre)

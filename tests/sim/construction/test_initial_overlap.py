@@ -57,7 +57,7 @@ def spawned(height: float) -> list[str]:
     simulator = Simulator("simpleton", note=notes.append)
     simulator.run(0.1)
     before = simulator.state.q.tobytes()
-    simulator.spawn("crate", (3.0, 0.0, height), name="box")
+    simulator.world.spawn("crate", (3.0, 0.0, height), name="box")
     assert simulator.state.q.tobytes() == before
     assert simulator.t == pytest.approx(0.1)
     return [note for note in notes if "deep" in note]
@@ -75,6 +75,6 @@ def test_a_body_that_is_put_on_the_ground() -> None:
 def test_a_robot_that_is_put_into_another(world: Path) -> None:
     notes: list[str] = []
     simulator = Simulator("simpleton", world=world, note=notes.append)
-    simulator.spawn("simpleton", Spawn(x=2.0), name="other")
+    simulator.world.spawn("simpleton", Spawn(x=2.0), name="other")
     (note,) = [note for note in notes if "deep" in note]
     assert re.fullmatch(r"`other::\w+` starts 200 mm deep in `wall`; put `other` elsewhere", note)

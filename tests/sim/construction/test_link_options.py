@@ -190,11 +190,11 @@ def test_a_model_of_the_world_says_it_in_sdf(tmp_path: Path) -> None:
         f'<model name="balloon"><pose>5 0 3 0 0 0</pose>{balloon}</model></world></sdf>'
     )
     simulator = Simulator("simpleton", world=world, spawn=Spawn(x=-5.0, z=0.0), note=lambda text: None)
-    robot = simulator.robots["arms"]
+    robot = simulator.world.robots["arms"]
     robot.motors.drive("left_joint", 0.2, 1e3)
     simulator.run(3.0)
     assert robot.state.velocity("right_joint") == pytest.approx(0.2, abs=1e-6)
-    assert simulator.body_poses()["balloon"][:3] == pytest.approx((5.0, 0.0, 3.0), abs=1e-12)
+    assert simulator.world.body_poses()["balloon"][:3] == pytest.approx((5.0, 0.0, 3.0), abs=1e-12)
 
 
 def test_what_is_written_is_read(tmp_path: Path) -> None:
@@ -240,7 +240,7 @@ def test_energy_of_a_robot_of_the_world_leaves_out_what_gravity_does_not_pull(tm
         f'<model name="arm"><pose>0 0 3 0 0 0</pose>{links}{joints}</model></world></sdf>'
     )
     simulator = Simulator("simpleton", world=world, spawn=Spawn(x=-5.0, z=0.0), note=lambda text: None)
-    arm = simulator.robots["arm"]
+    arm = simulator.world.robots["arm"]
     assert arm.state.energy == pytest.approx((0.0, 2.0 * G * 3.0), abs=1e-9)
     simulator.run(0.3)
     assert sum(arm.state.energy) == pytest.approx(2.0 * G * 3.0, abs=1e-4)

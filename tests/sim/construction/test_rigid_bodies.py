@@ -37,35 +37,35 @@ def world(tmp_path: Path):
 def test_bodies_fall_are_placed_pushed_and_put_back(world) -> None:
     simulator = Simulator("simpleton", world=world(box("box", "2 0 1 0 0 0")), spawn=Spawn(x=-2.0))
     simulator.run(0.3)
-    assert simulator.bodies["box"].pose[2] == pytest.approx(1.0 - 0.5 * 9.81 * 0.09, abs=1e-9)
+    assert simulator.world.bodies["box"].pose[2] == pytest.approx(1.0 - 0.5 * 9.81 * 0.09, abs=1e-9)
     simulator.run(1.0)
-    assert simulator.bodies["box"].pose[2] == pytest.approx(0.1, abs=1e-6)
-    simulator.bodies["box"].push((9.81 + 2.0, 0.0, 0.0))
+    assert simulator.world.bodies["box"].pose[2] == pytest.approx(0.1, abs=1e-6)
+    simulator.world.bodies["box"].push((9.81 + 2.0, 0.0, 0.0))
     simulator.run(0.5)
-    assert simulator.bodies["box"].twist[0] == pytest.approx(1.0, rel=1e-2)
-    simulator.bodies["box"].place((3.0, 1.0, 0.1, 0.0, 0.0, 0.0, 1.0))
-    simulator.bodies["box"].release()
+    assert simulator.world.bodies["box"].twist[0] == pytest.approx(1.0, rel=1e-2)
+    simulator.world.bodies["box"].place((3.0, 1.0, 0.1, 0.0, 0.0, 0.0, 1.0))
+    simulator.world.bodies["box"].release()
     simulator.run(0.5)
-    assert simulator.bodies["box"].pose[:3] == pytest.approx((3.0, 1.0, 0.1), abs=1e-6)
+    assert simulator.world.bodies["box"].pose[:3] == pytest.approx((3.0, 1.0, 0.1), abs=1e-6)
     simulator.reset()
-    assert simulator.bodies["box"].pose[:3] == (2.0, 0.0, 1.0)
+    assert simulator.world.bodies["box"].pose[:3] == (2.0, 0.0, 1.0)
 
 
 def test_the_only_link_of_a_model_is_pushed_by_its_scoped_name(world) -> None:
     simulator = Simulator("simpleton", world=world(box("box", "2 0 0.1 0 0 0")), spawn=Spawn(x=-2.0))
-    (link,) = [link.name for model in simulator.world.models for link in model.links if model.name == "box"]
-    simulator.push(f"box::{link}", force=(0.0, 0.0, 30.0))
+    (link,) = [link.name for model in simulator.world.description.models for link in model.links if model.name == "box"]
+    simulator.world.push(f"box::{link}", force=(0.0, 0.0, 30.0))
     simulator.run(0.1)
-    assert simulator.bodies["box"].twist[2] > 0.5
+    assert simulator.world.bodies["box"].twist[2] > 0.5
     with pytest.raises(SimulationError, match="no body or link `box::lnk`"):
-        simulator.push("box::lnk", force=(0.0, 0.0, 30.0))
+        simulator.world.push("box::lnk", force=(0.0, 0.0, 30.0))
 
 
 def test_furniture_stays_where_it_stands() -> None:
     simulator = Simulator("simpleton", world="house")
-    before = simulator.body_poses()
+    before = simulator.world.body_poses()
     simulator.run(0.5)
-    for name, pose in simulator.body_poses().items():
+    for name, pose in simulator.world.body_poses().items():
         assert pose == pytest.approx(before[name], abs=1e-4), name
 
 
@@ -75,7 +75,7 @@ def test_links_held_by_fixed_joints_are_one_body(world) -> None:
         '<joint name="glue" type="fixed"><parent>link</parent><child>top</child></joint>'
     )
     simulator = Simulator("simpleton", world=world(box("post", "3 0 0.1 0 0 0", more=more)))
-    body = simulator.bodies["post"].body
+    body = simulator.world.bodies["post"].body
     assert body.mass == 4.0
     assert body.centre == pytest.approx((0.0, 0.0, 0.375))
 
@@ -105,17 +105,17 @@ def test_a_mimic_joint_of_sdf_follows_also_when_it_was_saved(world, tmp_path: Pa
     notes: list[str] = []
     simulator = Simulator("simpleton", world=world(box("door", "3 0 0.1 0 0 0", more=more)), note=notes.append)
     assert not [each for each in notes if "mimic" in each]
-    simulator.robots["door"].motors.drive("j", 0.5, 10.0)
+    simulator.world.robots["door"].motors.drive("j", 0.5, 10.0)
     simulator.run(2.0)
-    state = simulator.robots["door"].state
+    state = simulator.world.robots["door"].state
     j, k = state.position("j"), state.position("k")
     assert 0.8 < j < 1.0
     assert k == pytest.approx(2.0 * (j - 0.1), abs=1e-6)
-    simulator.save_world(tmp_path / "after.sdf")
+    simulator.world.save(tmp_path / "after.sdf")
     again = Simulator("simpleton", world=tmp_path / "after.sdf", note=notes.append)
-    again.robots["door"].motors.drive("j", -0.5, 10.0)
+    again.world.robots["door"].motors.drive("j", -0.5, 10.0)
     again.run(1.0)
-    state = again.robots["door"].state
+    state = again.world.robots["door"].state
     # Both are zero where they were saved.
     assert state.position("k") == pytest.approx(2.0 * state.position("j"), abs=1e-6)
 
@@ -139,11 +139,11 @@ def test_a_robot_pushes_what_slides(world) -> None:
     simulator.command((0.3, 0, 0), (0, 0, 0))
     simulator.run(3.0)
     before = simulator.link_poses()[0][0]
-    gap = simulator.bodies["crate"].pose[0] - before
+    gap = simulator.world.bodies["crate"].pose[0] - before
     simulator.run(1.0)
     robot = simulator.link_poses()[0]
     assert robot[0] - before == pytest.approx(0.3, abs=1e-4)
-    assert simulator.bodies["crate"].pose[0] - robot[0] == pytest.approx(gap, abs=1e-4)
+    assert simulator.world.bodies["crate"].pose[0] - robot[0] == pytest.approx(gap, abs=1e-4)
     assert abs(robot[1]) < 1e-4
 
 

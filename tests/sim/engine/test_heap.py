@@ -41,7 +41,7 @@ def test_a_knocked_stack_slips_and_stands_and_needs_no_matrix_of_rows(engine_of)
         top.place(top.pose, (0.02 * sign, 0.0, 0.0, 0.0, 0.0, 0.0))
         sign = -sign
         engine.step(60)
-        assert engine._arrays["counts"][GUESSES] == 1
+        assert engine.arrays["counts"][GUESSES] == 1
     for k in range(5):
         assert engine.bodies[f"box{k}"].pose[:3] == pytest.approx((X, 0.0, 0.1 + 0.2 * k), abs=1e-6)
 

@@ -82,9 +82,9 @@ def test_wrong_states_are_refused(engine_of):
 
 
 def test_a_cylinder_that_turns_about_its_axis_is_a_wheel(engine_of):
-    kinds = [touch.kind for touch in engine_of("diff_drive")._touches]
+    kinds = [touch.kind for touch in engine_of("diff_drive").collision_shapes]
     assert kinds == [ground_contacts.BOX, ground_contacts.SPHERE, ground_contacts.WHEEL, ground_contacts.WHEEL]
-    assert [touch.kind for touch in engine_of("can")._touches] == [ground_contacts.CYLINDER]
+    assert [touch.kind for touch in engine_of("can").collision_shapes] == [ground_contacts.CYLINDER]
 
 
 MESH = """<robot name="m"><link name="base"><inertial><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0"

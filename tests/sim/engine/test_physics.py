@@ -235,7 +235,7 @@ def test_joint_limits_hold(engine_of):
 
 def test_dry_friction_holds_a_joint_still(engine_of):
     engine = engine_of("pendulum")
-    engine._arrays["friction"][0] = 6.0
+    engine.arrays["friction"][0] = 6.0
     engine.reset(engine.kinematics.configuration({"hinge": 0.6}))
     engine.step(2000)
     assert engine.positions[0] == pytest.approx(0.6, abs=1e-9)

@@ -68,7 +68,7 @@ def test_a_wall_of_bricks_is_solved_by_blocks_and_stands(engine_of):
     ]
     engine = rover(engine_of, bodies=bricks, sleep=False)
     engine.step(1000)
-    assert 0 < engine._arrays["counts"][GUESSES] < 3
+    assert 0 < engine.arrays["counts"][GUESSES] < 3
     assert engine.iterated == 0
     for brick in bricks:
         assert engine.bodies[brick.name].pose == pytest.approx(brick.pose, abs=1e-6)

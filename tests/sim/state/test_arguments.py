@@ -10,7 +10,7 @@ import pytest
 from urdfkit.errors import SimulationError, UnknownNameError, UrdfkitError
 from urdfkit.resources import robots_dir
 from urdfkit.sim import Simulator, Spawn
-from urdfkit.sim.state.arguments import Named, nearest, number, vector
+from urdfkit.sim.state.arguments import ByName, nearest, number, vector
 
 
 @pytest.fixture(scope="module")
@@ -21,16 +21,16 @@ def town() -> Simulator:
 @pytest.mark.parametrize(
     ("ask", "message"),
     [
-        (lambda s: s.bodies["crt"], "no body `crt` in the simulation; did you mean `crate`?"),
-        (lambda s: s.robots["arto"], "no robot `arto` in the simulation; did you mean `artoo`?"),
+        (lambda s: s.world.bodies["crt"], "no body `crt` in the simulation; did you mean `crate`?"),
+        (lambda s: s.world.robots["arto"], "no robot `arto` in the simulation; did you mean `artoo`?"),
         (lambda s: s.state.position("hed"), "no joint `hed` in robot `artoo`"),
         (
             lambda s: s.state.velocity("left_wheel_joint"),
             "no joint `left_wheel_joint` in robot `artoo`; did you mean `rear_left_wheel_joint`?",
         ),
         (lambda s: s.state.effort("camera_joint"), "joint `camera_joint` is fixed: it has no one position"),
-        (lambda s: s.push("crt"), "no body or link `crt` in the simulation; did you mean `crate`?"),
-        (lambda s: s.pose("town"), "no model or robot `town` in world `town`; did you mean `town_hall`?"),
+        (lambda s: s.world.push("crt"), "no body or link `crt` in the simulation; did you mean `crate`?"),
+        (lambda s: s.world.pose("town"), "no model or robot `town` in world `town`; did you mean `town_hall`?"),
     ],
 )
 def test_a_name_that_is_not_there(town: Simulator, ask: Callable[[Simulator], Any], message: str) -> None:
@@ -43,15 +43,15 @@ def test_a_name_that_is_not_there(town: Simulator, ask: Callable[[Simulator], An
 
 def test_what_there_is_is_listed_where_nothing_is_near(town: Simulator) -> None:
     with pytest.raises(SimulationError, match=r"no body or link `xyz` .*\(there are \w+, \w+, "):
-        town.push("xyz")
+        town.world.push("xyz")
     assert nearest("box", []) == "; there is none"
     assert nearest("box", ["unit_box", "sphere"]) == "; did you mean `unit_box`?"
 
 
 def test_names_are_a_mapping_all_the_same(town: Simulator) -> None:
-    assert town.bodies.get("crt") is None
-    assert "crt" not in town.bodies
-    assert Named("thing", {"a": 1})["a"] == 1
+    assert town.world.bodies.get("crt") is None
+    assert "crt" not in town.world.bodies
+    assert ByName("thing", {"a": 1})["a"] == 1
 
 
 @pytest.mark.parametrize(
@@ -81,8 +81,11 @@ def test_an_argument_that_makes_no_sense(ask: Callable[[], Any], message: str) -
         (lambda s: s.run("x"), r"the time to run for is 'x'"),
         (lambda s: s.at("x", print), r"the time of a call is 'x'"),
         (lambda s: s.every(0.0, print), r"a period of 0 s makes no sense"),
-        (lambda s: s.bodies["crate"].place((0, 0, 0), twist=3), r"the velocity is 3; it must be six finite numbers"),
-        (lambda s: s.place("crate", (0, 0, 0), twist=3), r"the velocity is 3; it must be six finite numbers"),
+        (
+            lambda s: s.world.bodies["crate"].place((0, 0, 0), twist=3),
+            r"the velocity is 3; it must be six finite numbers",
+        ),
+        (lambda s: s.world.place("crate", (0, 0, 0), twist=3), r"the velocity is 3; it must be six finite numbers"),
     ],
 )
 def test_a_call_that_makes_no_sense(town: Simulator, ask: Callable[[Simulator], Any], message: str) -> None:

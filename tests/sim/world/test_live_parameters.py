@@ -26,7 +26,7 @@ def box(tmp_path):
 
 
 def test_gravity_pulls_as_told_and_wakes_what_sleeps(box) -> None:
-    tuning = Tuning(box)
+    tuning = Tuning(box.world)
     assert tuning.gravity == (0.0, 0.0, -9.81)
     tuning.set_gravity((0.0, 0.0, 1.5))
     z = box.state.base_pose[2]
@@ -39,12 +39,12 @@ def test_gravity_pulls_as_told_and_wakes_what_sleeps(box) -> None:
 
 
 def test_a_heavier_link_is_pushed_less_far_and_turns_less(box) -> None:
-    tuning = Tuning(box)
+    tuning = Tuning(box.world)
     tuning.set_gravity((0.0, 0.0, 0.0))
 
     def pushed() -> tuple[float, float]:
-        box.place("box", (0.0, 0.0, 5.0))
-        box.push("body", force=(4.0, 0.0, 0.0), torque=(0.0, 0.0, 0.02), for_seconds=0.5)
+        box.world.place("box", (0.0, 0.0, 5.0))
+        box.world.push("body", force=(4.0, 0.0, 0.0), torque=(0.0, 0.0, 0.02), for_seconds=0.5)
         box.step(500)
         return box.state.base_velocity[0], box.state.base_velocity[5]
 
@@ -53,21 +53,21 @@ def test_a_heavier_link_is_pushed_less_far_and_turns_less(box) -> None:
     assert speed == pytest.approx(1.0, rel=1e-6)
     tuning.set_mass("box", 8.0, "body")
     assert [each.mass for each in tuning.links("box")] == [8.0]
-    box.place("box", (0.0, 0.0, 5.0))
+    box.world.place("box", (0.0, 0.0, 5.0))
     assert pushed() == (pytest.approx(speed / 4, rel=1e-6), pytest.approx(rate / 4, rel=1e-6))
     tuning.set_mass("box", 2.0, "body")
     assert pushed()[0] == pytest.approx(speed, rel=1e-9)  # and back
 
 
 def test_friction_decides_whether_it_slides(box) -> None:
-    tuning = Tuning(box)
+    tuning = Tuning(box.world)
     assert [each.mu for each in tuning.links("box")] == [1.0]
     tuning.set_mu("box", 0.1, "body")
-    box.push("body", force=(0.5 * 2 * 9.81, 0.0, 0.0), for_seconds=0.2)
+    box.world.push("body", force=(0.5 * 2 * 9.81, 0.0, 0.0), for_seconds=0.2)
     box.step(200)
     sliding = 0.2 * (0.5 - 0.1) * 9.81
     assert box.state.base_velocity[0] == pytest.approx(sliding, rel=1e-3)
-    found = slips(box, box.state.contacts)
+    found = slips(box.world, box.state.contacts)
     assert len(found) >= 3
     for slip in found:
         assert slip.link == "body"
@@ -79,25 +79,25 @@ def test_friction_decides_whether_it_slides(box) -> None:
 
 
 def test_the_worlds_models_are_turned_too_and_stay_so(box) -> None:
-    tuning = Tuning(box)
-    name = box.spawn("crate", (2.0, 0.0, 0.0))
+    tuning = Tuning(box.world)
+    name = box.world.spawn("crate", (2.0, 0.0, 0.0))
     box.step(200)
     before = {each.name: each for each in tuning.models}[name]
-    pose, revision = box.pose(name), box.revision
+    pose, revision = box.world.pose(name), box.world.revision
     tuning.set_mass(name, 3 * before.mass)
     tuning.set_mu(name, 0.05)
     tuning.set_mu("ground_plane", 0.5)
-    assert box.revision == revision
-    assert np.allclose(box.pose(name), pose, atol=1e-9)
+    assert box.world.revision == revision
+    assert np.allclose(box.world.pose(name), pose, atol=1e-9)
     after = {each.name: each for each in tuning.models}
     assert after[name].mass == pytest.approx(3 * before.mass)
     assert (after[name].mu, after["ground_plane"].mu) == (0.05, 0.5)
-    box.spawn("ball", (4.0, 0.0, 1.0))  # makes the engine anew
+    box.world.spawn("ball", (4.0, 0.0, 1.0))  # makes the engine anew
     assert {each.name: each for each in tuning.models}[name].mu == 0.05
-    box.push(name, force=(60.0, 0.0, 0.0), for_seconds=0.1)
+    box.world.push(name, force=(60.0, 0.0, 0.0), for_seconds=0.1)
     box.step(100)
     weight = 3 * before.mass
-    assert box.bodies[name].twist[0] == pytest.approx(0.1 * (60.0 / weight - 0.05 * 9.81), abs=2e-3)
+    assert box.world.bodies[name].twist[0] == pytest.approx(0.1 * (60.0 / weight - 0.05 * 9.81), abs=2e-3)
 
 
 @pytest.mark.parametrize(
@@ -113,13 +113,13 @@ def test_the_worlds_models_are_turned_too_and_stay_so(box) -> None:
 )
 def test_what_makes_no_sense_is_refused_in_a_line(box, change, line: str) -> None:
     with pytest.raises(SimulationError, match=line) as caught:
-        change(Tuning(box))
+        change(Tuning(box.world))
     assert "\n" not in str(caught.value)
 
 
 def test_gains_of_a_running_controller_change_what_it_does() -> None:
     simulator = Simulator("rrbot", note=lambda _: None)
-    tuning = Tuning(simulator)
+    tuning = Tuning(simulator.world)
     path = next(path for path in tuning.gains if path.endswith("joint1"))
     simulator.step(200)
     topic = next(t.name for t in simulator.bus.topics if "joint1" in t.name and t.name.endswith("/command"))
@@ -153,7 +153,7 @@ GZ_ARM = """<robot name="bar"><link name="base">
 def test_gains_of_a_plugin_that_commands_by_itself_are_turned_too(tmp_path) -> None:
     (tmp_path / "bar.urdf").write_text(GZ_ARM.format(""))
     simulator = Simulator(load(tmp_path / "bar.urdf"), note=lambda _: None)
-    tuning = Tuning(simulator)
+    tuning = Tuning(simulator.world)
     (path,) = tuning.gains
     assert path == "bar/joint_position_controller/lift"
     simulator.step(5000)
@@ -165,4 +165,4 @@ def test_gains_of_a_plugin_that_commands_by_itself_are_turned_too(tmp_path) -> N
 
 def test_a_plugin_whose_gains_do_nothing_offers_none(tmp_path) -> None:
     (tmp_path / "bar.urdf").write_text(GZ_ARM.format("<use_velocity_commands>true</use_velocity_commands>"))
-    assert Tuning(Simulator(load(tmp_path / "bar.urdf"), note=lambda _: None)).gains == {}
+    assert Tuning(Simulator(load(tmp_path / "bar.urdf"), note=lambda _: None).world).gains == {}

@@ -26,7 +26,7 @@ def told(robot: str, act: Callable[[Simulator], None], *, asking: bool) -> list[
         if k == WHEN:
             act(simulator)
         if asking:
-            simulator._agenda.stir()
+            simulator.world.scheduler.invalidate()
         simulator.step()
         if k % 7 == 0 or (k > WHEN and k % 3 == 0):
             found += [(topic.name, topic.count) for topic in simulator.bus.topics]
@@ -73,17 +73,17 @@ def switch(simulator: Simulator) -> None:
 
 
 def gains(simulator: Simulator) -> None:
-    tuning = Tuning(simulator)
+    tuning = Tuning(simulator.world)
     tuning.set_gains(next(iter(tuning.gains)), Gains(30.0, 0.0, 1.0))
 
 
 def spawn(simulator: Simulator) -> None:
-    simulator.spawn("simpleton", (3, 0, 0), name="newcomer")
+    simulator.world.spawn("simpleton", (3, 0, 0), name="newcomer")
     simulator.bus.publish("/newcomer/cmd_vel", TWIST, twist((0.2, 0, 0), (0, 0, 0)))
 
 
 def push(simulator: Simulator) -> None:
-    simulator.push(simulator.name, (5, 0, 0), for_seconds=0.0335)
+    simulator.world.push(simulator.name, (5, 0, 0), for_seconds=0.0335)
 
 
 def reset(simulator: Simulator) -> None:
@@ -119,10 +119,10 @@ def test_nothing_is_missed(tmp_path: Path, robot: str, act: Callable[[Simulator]
 def test_what_may_be_due_sooner_is_looked_at(robot: str, act: Callable[[Simulator], None]) -> None:
     simulator = Simulator(robot, note=lambda text: None)
     simulator.step(WHEN)
-    simulator._agenda.write_due = simulator._agenda.read_due = NEVER
+    simulator.world.scheduler.write_due = simulator.world.scheduler.read_due = NEVER
     act(simulator)
-    assert simulator._agenda.write_due <= WHEN
-    assert simulator._agenda.read_due <= WHEN
+    assert simulator.world.scheduler.write_due <= WHEN
+    assert simulator.world.scheduler.read_due <= WHEN
 
 
 def test_between_what_is_due_nobody_is_asked(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -130,8 +130,10 @@ def test_between_what_is_due_nobody_is_asked(monkeypatch: pytest.MonkeyPatch) ->
     simulator.run(0.1)
     asked: list[int] = []
     for phase in ("write", "read"):
-        ask = getattr(simulator._agenda, phase)
-        monkeypatch.setattr(simulator._agenda, phase, lambda ask=ask: (asked.append(simulator.state.step), ask()))
+        ask = getattr(simulator.world.scheduler, phase)
+        monkeypatch.setattr(
+            simulator.world.scheduler, phase, lambda ask=ask: (asked.append(simulator.state.step), ask())
+        )
     for _ in range(60):
         simulator.step()
     # Odometry and clock at 100 Hz, the laser at 30: nothing else, and nothing in between.

@@ -31,34 +31,34 @@ def running(tmp_path: Path) -> Simulator:
     path = tmp_path / "probe.world"
     path.write_text(WORLD)
     simulator = Simulator("simpleton", world=path, spawn=Spawn(x=-5.0), note=lambda _: None)
-    simulator.spawn("crate", (0.0, 3.0, 0.5, 0.4))
-    simulator.spawn("wall", (6.0, 0.0, 0.0))
-    simulator.place("wall", (7.0, 0.0, 0.0, 1.0))
+    simulator.world.spawn("crate", (0.0, 3.0, 0.5, 0.4))
+    simulator.world.spawn("wall", (6.0, 0.0, 0.0))
+    simulator.world.place("wall", (7.0, 0.0, 0.0, 1.0))
     cart = tmp_path / "cart.urdf"
     cart.write_text(
         '<robot name="cart"><link name="base"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" '
         'iyz="0" izz="1"/></inertial><collision><geometry><sphere radius="0.1"/></geometry></collision></link></robot>'
     )
-    simulator.spawn(cart, (0.0, -3.0, 0.1))
-    simulator.bodies["pair::b"].place((-1.0, 1.0, 0.1, 0.0, 0.0, 0.2, 0.9797958971132712))
-    simulator.push("door::leaf::panel", (0.0, 5.0, 0.0), for_seconds=0.3)
+    simulator.world.spawn(cart, (0.0, -3.0, 0.1))
+    simulator.world.bodies["pair::b"].place((-1.0, 1.0, 0.1, 0.0, 0.0, 0.2, 0.9797958971132712))
+    simulator.world.push("door::leaf::panel", (0.0, 5.0, 0.0), for_seconds=0.3)
     simulator.run(0.5)
     return simulator
 
 
 def test_what_is_read_back_is_where_it_was(running: Simulator, tmp_path: Path) -> None:
     path = tmp_path / "after.sdf"
-    running.save_world(path)
+    running.world.save(path)
     again = Simulator("simpleton", world=path, spawn=Spawn(x=-5.0), note=lambda _: None)
-    before, after = running.body_poses(), again.body_poses()
+    before, after = running.world.body_poses(), again.world.body_poses()
     assert set(after) == set(before)
     for name, pose in before.items():
         assert after[name] == pytest.approx(pose, abs=1e-9) or after[name][3:] == pytest.approx(
             tuple(-part for part in pose[3:]), abs=1e-9
         ), name
-    opened = running.robots["door"].state.position("hinge")
+    opened = running.world.robots["door"].state.position("hinge")
     assert opened > 0.05
-    lower, upper = again.robots["door"].kinematics.limits("hinge")
+    lower, upper = again.world.robots["door"].kinematics.limits("hinge")
     assert (lower, upper) == pytest.approx((-0.1 - opened, 1.5 - opened), abs=1e-12)
 
 
@@ -66,11 +66,11 @@ def test_the_real_sdformat_reads_it_and_puts_everything_there(
     running: Simulator, tmp_path: Path, sdformat: Sdformat
 ) -> None:
     path = tmp_path / "after.sdf"
-    running.save_world(path)
+    running.world.save(path)
     lines = sdformat(path)
     assert [line for line in lines if line[0] == "error"] == []
     theirs = {line[1]: [float(word) for word in line[2].split()] for line in lines if line[0] == "link"}
-    ours = running.body_poses()
+    ours = running.world.body_poses()
     for name, theirs_name in (
         ("door::leaf::panel", "door::leaf::panel"),
         ("pair::b", "pair::b"),
@@ -82,7 +82,7 @@ def test_the_real_sdformat_reads_it_and_puts_everything_there(
 def test_what_sdf_cannot_include_is_left_out_and_noted(tmp_path: Path) -> None:
     remarks: list[str] = []
     simulator = Simulator("simpleton", note=remarks.append)
-    simulator.spawn("simpleton", (0.0, 3.0, 0.0))
-    simulator.save_world(tmp_path / "after.sdf")
+    simulator.world.spawn("simpleton", (0.0, 3.0, 0.0))
+    simulator.world.save(tmp_path / "after.sdf")
     assert load_world(tmp_path / "after.sdf").robots == ()
     assert "robot `simpleton_1` is not saved: SDF includes .urdf files, not xacro" in remarks

@@ -85,7 +85,7 @@ class DriveLoop:
         self._orders: deque[Order] = deque()
         self._reported = -math.inf
         self._warnings: list[str] = []
-        self._log, simulator._note = simulator._note, self._warn
+        self._log, simulator.note.report = simulator.note.report, self._warn
         self.look: Callable[[], None] = lambda: None  # subscribes a recording to new topics
         self.pace = ClockRate(simulator.dt, clock)
         self.sensor_views = SensorViews(simulator, server, clock)
@@ -159,7 +159,7 @@ class DriveLoop:
         self.server.driver.stop()
         self.server.tell("stop")
         self._driven = ""
-        for name, robot in self.simulator.robots.items():
+        for name, robot in self.simulator.world.robots.items():
             if command_topics(robot):
                 self._command(name, STOP)
 
@@ -178,7 +178,7 @@ class DriveLoop:
                 answer["remarks"] = list(self._warnings)
             self.server.answer(order, **answer)
         # A repeated request gets the same warnings again.
-        self.simulator._noted.difference_update(self._warnings)
+        self.simulator.note.forget(self._warnings)
         self._warnings.clear()
 
     def _warn(self, text: str) -> None:
@@ -205,7 +205,7 @@ class DriveLoop:
 
     def _drive(self) -> None:
         """Publish the command of the driver; zero once when the driver releases the controls."""
-        held, robots = self.server.driver.axes, self.simulator.robots
+        held, robots = self.server.driver.axes, self.simulator.world.robots
         driven, motion = "", None
         if held is not None:
             x, y, z, turn = held.axes
@@ -221,14 +221,14 @@ class DriveLoop:
             self._driven = driven
 
     def _command(self, name: str, motion: Motion) -> None:
-        if name in self.simulator.robots:
-            command(self.simulator, self.simulator.robots[name], *motion)
+        if name in self.simulator.world.robots:
+            command(self.simulator, self.simulator.world.robots[name], *motion)
 
     def _report(self) -> None:
         simulator, now = self.simulator, self._clock()
         if self._failed:
             return
-        if simulator.revision != self.scene_bodies.revision:  # an entity was spawned or removed
+        if simulator.world.revision != self.scene_bodies.revision:  # an entity was spawned or removed
             self.show()
         poses = self.scene_bodies.poses()
         if self.replay.playing:
@@ -236,7 +236,7 @@ class DriveLoop:
             self.server.publish(t, shown)
         else:
             self.server.publish(simulator.t, poses)
-            self.replay.keep(simulator.t, poses, simulator.revision)
+            self.replay.keep(simulator.t, poses, simulator.world.revision)
         self.pace.looked = self.sensor_views.show()
         for part in self.features:
             part.tick()
@@ -248,7 +248,7 @@ class DriveLoop:
     def _status(self, poses: NDArray[Any]) -> dict[str, Any]:
         simulator, factor = self.simulator, self.pace.factor
         robots = {}
-        for name, robot in simulator.robots.items():
+        for name, robot in simulator.world.robots.items():
             if robot.has_plugins or name == simulator.name:
                 velocity = robot.state.base_twist
                 robots[name] = {**_pose(robot.state.base_pose), "speed": velocity[0], "turn": velocity[5]}

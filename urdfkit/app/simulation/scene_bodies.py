@@ -48,13 +48,13 @@ class SceneBodies:
         from urdfkit.view.content.scene_changes import draw_more, forget_others
 
         simulator, first = self._simulator, self.revision < 0
-        drawn = tuple(simulator.body_poses())
+        drawn = tuple(simulator.world.body_poses())
         shapes: dict[str, list[Shape]] = {}
-        for shape in simulator.looks():
+        for shape in simulator.world.body_shapes():
             shapes.setdefault(shape.body, []).append(replace(shape, body=f"{BODY}{shape.body}"))
         looks = {name: tuple(map(_look, shapes.get(name, ()))) for name in drawn}
         same = drawn == self._drawn and looks == self._shown
-        before, self._drawn, self.revision = self._shown, drawn, simulator.revision
+        before, self._drawn, self.revision = self._shown, drawn, simulator.world.revision
         self._shown = looks
         if same and not first:  # only poses of static bodies have changed
             return
@@ -92,7 +92,7 @@ class SceneBodies:
         poses = self._simulator.link_poses()
         if not self._drawn:
             return poses
-        others = self._simulator.body_poses()
+        others = self._simulator.world.body_poses()
         return np.vstack([poses, np.array([others[name] for name in self._drawn])])
 
     @property

@@ -161,7 +161,7 @@ def run(arguments: argparse.Namespace) -> int:
     for file, content in [*image_files.contents(simulator, images), *scan_files.contents(simulator, ranges)]:
         write_bytes(file, content)
     if arguments.save_world is not None:
-        simulator.save_world(arguments.save_world)
+        simulator.world.save(arguments.save_world)
     print(json.dumps(as_json(simulator, spent), indent=1) if arguments.json else as_text(simulator, spent))
     return 0
 

@@ -60,7 +60,7 @@ def as_json(simulator: Simulator, spent: Effort) -> dict[str, Any]:
         },
         "bodies": {
             name: {"position": list(pose[:3]), "quaternion": list(pose[3:])}
-            for name, pose in simulator.body_poses().items()
+            for name, pose in simulator.world.body_poses().items()
         },
         "contacts": [
             {

@@ -41,7 +41,7 @@ def note_overlaps(engine: Engine, links: Collection[str], note: Callable[[str], 
 
 def touching(engine: Engine) -> tuple[Contact, ...]:
     """Return what touches at present, which a step finds out; what the step did is undone."""
-    blocks = engine._arrays.floats, engine._arrays.integers
+    blocks = engine.arrays.floats, engine.arrays.integers
     kept = [_in_use(block) for block in blocks]
     try:
         engine.step()

@@ -6,7 +6,7 @@ Robots, bodies and targets go in; configurations, velocities and contacts after 
 from urdfkit.sim.engine.bodies import Body, Member, Piece
 from urdfkit.sim.engine.contact_surface import Contact, Ground, Surface
 from urdfkit.sim.engine.engine import Engine
-from urdfkit.sim.engine.free_body import Loose
+from urdfkit.sim.engine.free_body import FreeBody
 from urdfkit.sim.engine.kernel_cache import warmup
 
-__all__ = ["Body", "Contact", "Engine", "Ground", "Loose", "Member", "Piece", "Surface", "warmup"]
+__all__ = ["Body", "Contact", "Engine", "FreeBody", "Ground", "Member", "Piece", "Surface", "warmup"]

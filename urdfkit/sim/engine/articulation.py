@@ -1,4 +1,4 @@
-"""One robot of an engine: its targets and its state."""
+"""One articulated robot of an engine: its targets and its state."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from urdfkit.sim.engine.state_conversion import configuration, positions, set_co
 Array = NDArray[np.float64]
 
 
-class Part:
+class Articulation:
     """A robot of an engine. Per-dof arrays are in the order of ``kinematics.model``'s ``v``.
 
     Args:
@@ -28,6 +28,8 @@ class Part:
         tree: its number among the engine's robots.
 
     Attributes:
+        arrays: the engine's, of all robots and bodies.
+        tree: its number among the engine's robots.
         motor_velocity: target of the velocity motor of each dof [rad/s or m/s]; shape (nv,).
         motor_effort: what that motor can do [N·m or N]; 0 is no motor; shape (nv,).
         applied: effort added to each dof [N·m or N]; shape (nv,).
@@ -46,8 +48,8 @@ class Part:
 
     def __init__(self, kinematics: Kinematics, arrays: Arrays, tree: int) -> None:
         self.kinematics = kinematics
-        self._arrays = arrays
-        self._tree = tree
+        self.arrays = arrays
+        self.tree = tree
         first, beyond = arrays["tree_dof"][tree : tree + 2].tolist()
         a = {name: arrays[name][first:beyond] for name in _PER_DOF}
         self.motor_velocity, self.motor_effort, self.applied = a["motor_velocity"], a["motor_effort"], a["applied"]
@@ -63,7 +65,7 @@ class Part:
     @property
     def q(self) -> Array:
         """Configuration in the layout of ``kinematics.model``, a copy; shape (nq,). Set it by `put`."""
-        return configuration(self.kinematics.model, self._arrays, self._tree)
+        return configuration(self.kinematics.model, self.arrays, self.tree)
 
     @property
     def v(self) -> Array:
@@ -73,18 +75,18 @@ class Part:
     @property
     def positions(self) -> Array:
         """Position of each dof [rad or m], continuous joints not wrapped; NaN for those of floating joints; (nv,)."""
-        return positions(self._arrays, self._tree)
+        return positions(self.arrays, self.tree)
 
     @property
     def weightless(self) -> tuple[Array, Array]:
         """Mass [kg] of each body that gravity does not pull, and its centre in the body [m]; shapes (n,), (n, 3)."""
-        bodies = slice(*self._arrays["tree_body"][self._tree : self._tree + 2].tolist())
-        return self._arrays["weightless"][bodies], self._arrays["weightless_centre"][bodies]
+        bodies = slice(*self.arrays["tree_body"][self.tree : self.tree + 2].tolist())
+        return self.arrays["weightless"][bodies], self.arrays["weightless_centre"][bodies]
 
     @property
     def asleep(self) -> bool:
         """Whether it is at rest and left alone until something happens to it or is asked of it."""
-        return bool(self._arrays["asleep"][self._tree])
+        return bool(self.arrays["asleep"][self.tree])
 
     @property
     def effort(self) -> Array:
@@ -112,7 +114,7 @@ class Part:
         v = np.array(twist, dtype=float)
         step, given = self._counts[STEPS], self._given
         if given is not None and given[0] == step - 1 and self._met_something():
-            dt = float(self._arrays["numbers"][DT])
+            dt = float(self.arrays["numbers"][DT])
             # Linear velocities stay constant in space while the base turns.
             linear = matmul(pin.exp3(-dt * given[1][3:]), given[1][:3])
             taken = np.concatenate([linear, given[1][3:]]) - self._own_v[:6]
@@ -125,15 +127,15 @@ class Part:
         n = self._counts[FOUND_CONTACTS]
         if max(self._against[:n].tolist(), default=-1) < 0:
             return False
-        a = self._arrays
+        a = self.arrays
         tree_of = np.append(a["body_tree"], -1)
-        mine = (tree_of[a["contact_body"][:n]] == self._tree) | (tree_of[a["contact_other"][:n]] == self._tree)
+        mine = (tree_of[a["contact_body"][:n]] == self.tree) | (tree_of[a["contact_other"][:n]] == self.tree)
         return bool((mine & (a["contact_against"][:n] >= 0)).any())
 
     def _shift_base(self, by: Array) -> None:
         """Move the floating base in its own axes [m, rad]."""
-        at = int(self._arrays["tree_s"][self._tree])
-        s = self._arrays["s"][at : at + 7]
+        at = int(self.arrays["tree_s"][self.tree])
+        s = self.arrays["s"][at : at + 7]
         rotation = pin.Quaternion(s[3:].copy())
         s[:3] += matmul(rotation.matrix(), by[:3])
         s[3:] = (rotation * pin.Quaternion(pin.exp3_quat(by[3:]))).normalized().coeffs()
@@ -147,10 +149,10 @@ class Part:
         model = self.kinematics.model
         q = self.kinematics.neutral() if q is None else _checked("q", q, model.nq)
         v = np.zeros(model.nv) if v is None else _checked("v", v, model.nv)
-        set_configuration(model, self._arrays, q, self._tree)
+        set_configuration(model, self.arrays, q, self.tree)
         self._own_v[:] = v
         self._own_effort[:] = self._own_tau[:] = self.integral[:] = 0.0
-        self._arrays["still"][self._tree] = 0.0
+        self.arrays["still"][self.tree] = 0.0
 
 
 _PER_DOF = (

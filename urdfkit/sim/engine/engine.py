@@ -14,10 +14,10 @@ from urdfkit.kinematics.model import Kinematics
 from urdfkit.linear_algebra import matmul
 from urdfkit.scene import Shape
 from urdfkit.sim.engine.arrays import HAS_PAIRS, ITERATED, OVERFULL, STEPS
-from urdfkit.sim.engine.articulation import Part
+from urdfkit.sim.engine.articulation import Articulation
 from urdfkit.sim.engine.bodies import AT_ORIGIN, Body, Member
 from urdfkit.sim.engine.contact_surface import Contact, Ground, Surface
-from urdfkit.sim.engine.free_body import Loose
+from urdfkit.sim.engine.free_body import FreeBody
 from urdfkit.sim.engine.kernel_cache import kernel, world_kernel
 from urdfkit.sim.engine.layout.collision_shapes import touching
 from urdfkit.sim.engine.layout.validation import require_inertia
@@ -30,7 +30,7 @@ FLAT = Ground()
 """The ground where nothing else is said: at z = 0."""
 
 
-class Engine(Part):
+class Engine(Articulation):
     """A robot on the ground, and whatever else is in its world, advanced in steps of `dt`.
 
     Velocities, efforts and all per-dof arrays are in the order of ``kinematics.model``'s ``v``; a floating base has its
@@ -56,8 +56,9 @@ class Engine(Part):
 
     Attributes:
         dt: [s].
-        robots: all robots, each a `Part`; the first is this one.
-        bodies: name → `Loose`, for each body that is free.
+        robots: all robots; the first is this one.
+        bodies: name → `FreeBody`, for each body that is free.
+        collision_shapes: the shapes that can touch, by their numbers in the engine.
     """
 
     def __init__(
@@ -90,11 +91,11 @@ class Engine(Part):
             raise SimulationError(f"there are two bodies called `{twice}`; give each a name of its own")
         alone = not (others or bodies or self_collide)
         # What does not move meets only what moves: nothing does where there is but one robot.
-        self._touches = [each for each in touching(self._members, bodies) if each.body >= 0 or not alone]
-        self._arrays = fill(
+        self.collision_shapes = [each for each in touching(self._members, bodies) if each.body >= 0 or not alone]
+        self.arrays = fill(
             self._members,
             bodies,
-            self._touches,
+            self.collision_shapes,
             dt=dt,
             gravity=gravity,
             ground=ground,
@@ -102,13 +103,13 @@ class Engine(Part):
         )
         for member in self._members:
             require_inertia(member.kinematics)
-        self._advance = self._step_function(alone=alone and not self._arrays["numbers"][HAS_PAIRS])
-        self._floats, self._integers = self._arrays.floats, self._arrays.integers
-        super().__init__(kinematics, self._arrays, 0)
-        others_parts = [Part(each.kinematics, self._arrays, k) for k, each in enumerate(others, 1)]
-        self.robots: tuple[Part, ...] = (self, *others_parts)
+        self._advance = self._step_function(alone=alone and not self.arrays["numbers"][HAS_PAIRS])
+        self._floats, self._integers = self.arrays.floats, self.arrays.integers
+        super().__init__(kinematics, self.arrays, 0)
+        others_parts = [Articulation(each.kinematics, self.arrays, k) for k, each in enumerate(others, 1)]
+        self.robots: tuple[Articulation, ...] = (self, *others_parts)
         self.bodies = {
-            body.name: Loose(body, self._arrays, tree) for tree, body in enumerate(self._free, len(self._members))
+            body.name: FreeBody(body, self.arrays, tree) for tree, body in enumerate(self._free, len(self._members))
         }
         for part in others_parts:
             part.put()
@@ -128,7 +129,7 @@ class Engine(Part):
     @property
     def iterated(self) -> int:
         """How many steps since `reset` needed the iterative contact solver."""
-        return int(self._arrays["counts"][ITERATED])
+        return int(self.arrays["counts"][ITERATED])
 
     def reset(self, q: Array | None = None, v: Array | None = None) -> None:
         """Put the robot at `q`, `v` (neutral, zero) at t = 0, forgetting contacts; bodies go back, targets stay.
@@ -139,11 +140,11 @@ class Engine(Part):
         self.put(q, v)
         for body in self.bodies.values():
             body.put_back()
-        a = self._arrays
+        a = self.arrays
         a["memory"][:] = a["effort"][:] = a["tau"][:] = 0.0
         a["counts"][:] = a["asleep"][:] = 0
         a["still"][:] = 0.0
-        self._evaluate()
+        self.evaluate()
 
     def step(self, n: int = 1) -> None:
         """Advance by `n` steps of `dt` in one compiled call that releases the GIL.
@@ -157,18 +158,18 @@ class Engine(Part):
 
     def wake(self) -> None:
         """Wake all that sleeps, as must be done when what they lie on is taken away."""
-        a = self._arrays
+        a = self.arrays
         # What they asked for was nothing: this is something else.
         a["asked"][np.repeat(a["asleep"], np.diff(a["tree_dof"])) != 0] = np.nan
 
     def contacts(self) -> tuple[Contact, ...]:
         """Return what touched in the last step; of what sleeps, in the last before it fell asleep."""
-        return contacts(self._arrays, self._touches, self.ground.name if self.ground else "", self.dt)
+        return contacts(self.arrays, self.collision_shapes, self.ground.name if self.ground else "", self.dt)
 
     def energy(self) -> tuple[float, float]:
         """Return kinetic and potential energy of the robot [J], the latter zero at the world's origin."""
         M = self.mass_matrix()
-        a = self._arrays
+        a = self.arrays
         n = self.kinematics.model.njoints - 1
         places, axes = a["P"][0] + a["r"][:n], a["R"][:n].reshape(-1, 3, 3)
         moment = sum(
@@ -179,32 +180,32 @@ class Engine(Part):
 
     def mass_matrix(self) -> Array:
         """Return M(q) of the robot [kg, kg·m or kg·m²]; shape (nv, nv)."""
-        self._evaluate()
+        self.evaluate()
         n = self.kinematics.model.nv
-        M = np.tril(self._arrays["M"][: n * n].reshape(n, n))
+        M = np.tril(self.arrays["M"][: n * n].reshape(n, n))
         return np.array(M + np.tril(M, -1).T)
 
     def bias_forces(self) -> Array:
         """Return h(q, v): what gravity and motion demand of each dof at zero acceleration [N or N·m]; shape (nv,)."""
-        a, n = self._arrays, self.kinematics.model.nv
+        a, n = self.arrays, self.kinematics.model.nv
         return np.array(matmul(self.mass_matrix(), turning(a, a["v"])[:n]) + a["bias"][:n])
 
     def body_poses(self) -> Array:
         """Return where Pinocchio's joints are: x y z [m] and rotation matrix row by row; shape (njoints - 1, 12)."""
-        self._evaluate()
-        a, n = self._arrays, self.kinematics.model.njoints - 1
+        self.evaluate()
+        a, n = self.arrays, self.kinematics.model.njoints - 1
         return np.hstack([a["P"][0] + a["r"][:n], a["R"][:n]])
 
     def _step_function(self, *, alone: bool) -> Callable[[Array, Any, int, bool], int]:
         """Return the kernel for one robot without other bodies (`alone`), or for a world."""
         return kernel() if alone else world_kernel()
 
-    def _evaluate(self) -> None:
+    def evaluate(self) -> None:
         """Compute poses, M and bias of the state as it is."""
-        self._advance(self._arrays.floats, self._arrays.integers, 1, True)
+        self._advance(self.arrays.floats, self.arrays.integers, 1, True)
 
     def _divergence(self) -> str:
-        a = self._arrays
+        a = self.arrays
         when = f"at t = {self.t + self.dt:.6g} s"
         if a["counts"][OVERFULL]:
             return f"{when} more touches at once than there is room for: too much in one heap"

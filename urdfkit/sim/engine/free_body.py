@@ -16,7 +16,7 @@ from urdfkit.sim.engine.layout.tree_arrays import place_free
 Array = NDArray[np.float64]
 
 
-class Loose:
+class FreeBody:
     """A free body of an engine.
 
     Args:

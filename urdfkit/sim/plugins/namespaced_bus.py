@@ -13,19 +13,19 @@ class OwnBus(Bus):
 
     Args:
         bus: everybody's.
-        stir: called with each message that they hear, before they do: something may be due sooner now.
+        invalidate: called with each message that they hear, before they do: something may be due sooner now.
     """
 
-    def __init__(self, bus: Bus, stir: Callable[[], None]) -> None:
+    def __init__(self, bus: Bus, invalidate: Callable[[], None]) -> None:
         self._topics = bus._topics
         self._subscriptions: list[Subscription] = []
-        self._stir = stir
+        self._invalidate = invalidate
 
     def subscribe(self, name: str, type: str, callback: Callable[[Any], None]) -> Subscription:
         """Call `callback` with every message published from now on."""
 
         def receive(message: Any) -> None:
-            self._stir()
+            self._invalidate()
             callback(message)
 
         found = super().subscribe(name, type, receive)

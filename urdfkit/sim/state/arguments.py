@@ -54,8 +54,8 @@ def three(values: Any, what: str, unit: str) -> tuple[float, ...]:
     return found
 
 
-class Named(dict[str, Found]):
-    """Things of a simulation by name.
+class ByName(dict[str, Found]):
+    """Entities of a simulation by name.
 
     Args:
         kind: what they are, for the error.

@@ -67,7 +67,7 @@ class Motors:
         set_base_velocity: sets the floating base's twist in the base's own axes, linear first.
 
     Attributes:
-        stir: called when a joint is sent somewhere, so that somebody looks after it on its way.
+        invalidate: called when a joint is sent somewhere, so that somebody looks after it on its way.
     """
 
     def __init__(
@@ -85,7 +85,7 @@ class Motors:
         self._index = {name: kinematics.velocity_index(name) for name in names}
         self._limits = {name: effort_limit(joint) for name, joint in kinematics.robot.joint_by_name.items()}
         self._goals: dict[str, float] = {}
-        self.stir: Callable[[], None] = lambda: None
+        self.invalidate: Callable[[], None] = lambda: None
 
     def attach(
         self,
@@ -130,7 +130,7 @@ class Motors:
                 f"joint `{joint}` cannot go to {position:g} {unit}: its limits are {lower:g} … {upper:g} {unit}"
             )
         self._goals[joint] = position
-        self.stir()
+        self.invalidate()
 
     def exert(self, joint: str, effort: float) -> None:
         """Apply an effort [N·m] or [N] to a joint, beside its motor, until the next call.

@@ -77,7 +77,7 @@ def energy_of(
         v: velocity; shape (nv,).
         base: pose of the root link of a robot that is bolted down; None for one that floats.
         gravity: [m/s²]; shape (3,).
-        weightless: see `Part.weightless`.
+        weightless: see `Articulation.weightless`.
     """
     import pinocchio
 

@@ -18,7 +18,7 @@ from urdfkit.sim.state.quaternion import product, rotate
 
 if TYPE_CHECKING:
     from urdfkit.sim.engine import Contact, Engine
-    from urdfkit.sim.engine.articulation import Part
+    from urdfkit.sim.engine.articulation import Articulation
 
 Array = NDArray[np.float64]
 Placement = tuple[tuple[float, float, float], tuple[float, float, float, float]]
@@ -30,7 +30,7 @@ class Snapshot:
     Args:
         kinematics: the robot's model.
         t: simulated time [s].
-        part: which of the engine's robots it is; its coordinates are copied.
+        articulation: which of the engine's robots it is; its coordinates are copied.
         base: pose of the root link of a robot that is bolted down; None for one that floats.
 
     Attributes:
@@ -38,11 +38,11 @@ class Snapshot:
         coordinates: everybody's, as the engine has them.
     """
 
-    def __init__(self, kinematics: Kinematics, t: float, part: Part, base: Array | None) -> None:
+    def __init__(self, kinematics: Kinematics, t: float, articulation: Articulation, base: Array | None) -> None:
         self._kinematics = kinematics
         self.t = t
-        self._arrays, self._tree = part._arrays, part._tree
-        self.coordinates: Array = part._arrays["s"].copy()
+        self._arrays, self._tree = articulation.arrays, articulation.tree
+        self.coordinates: Array = articulation.arrays["s"].copy()
         self._base = base
         self._poses: Array | None = None
 
@@ -73,31 +73,33 @@ class State:
         kinematics: the robot's model.
         engine: what moves it.
         base: pose of the root link of a robot that is bolted down; None for one that floats.
-        part: which of the engine's robots it is; the first when None.
+        articulation: which of the engine's robots it is; the first when None.
 
     Attributes:
         step: steps since the start.
     """
 
-    def __init__(self, kinematics: Kinematics, engine: Engine, base: Array | None, part: Part | None = None) -> None:
+    def __init__(
+        self, kinematics: Kinematics, engine: Engine, base: Array | None, articulation: Articulation | None = None
+    ) -> None:
         self._kinematics = kinematics
         self._base = base
         self.step = 0
         names = (*kinematics.joint_names, *kinematics.mimic_names)
         self._index = {name: kinematics.velocity_index(name) for name in names}
-        self.attach(engine, part)
+        self.attach(engine, articulation)
 
-    def attach(self, engine: Engine, part: Part | None = None) -> None:
+    def attach(self, engine: Engine, articulation: Articulation | None = None) -> None:
         """Look at another engine from now on: one for the same robot in a world that has changed."""
         self._engine = engine
-        self._part: Part = engine if part is None else part
+        self._articulation: Articulation = engine if articulation is None else articulation
         self._snapshot: Snapshot | None = None
         self._pose: tuple[float, ...] | None = None
-        arrays, tree = engine._arrays, self._part._tree
+        arrays, tree = engine.arrays, self._articulation.tree
         dof = int(arrays["tree_dof"][tree])
         self._at = {name: int(arrays["dof_s"][dof + k]) for name, k in self._index.items()}
-        self._coordinates, self._velocities = numbers(arrays["s"]), numbers(self._part.v)
-        self._efforts, self._applied = numbers(self._part.effort), numbers(self._part.applied)
+        self._coordinates, self._velocities = numbers(arrays["s"]), numbers(self._articulation.v)
+        self._efforts, self._applied = numbers(self._articulation.effort), numbers(self._articulation.applied)
         self._root = int(arrays["tree_s"][tree])
 
     def advance(self, steps: int) -> None:
@@ -113,17 +115,17 @@ class State:
     @property
     def q(self) -> Array:
         """Configuration, in the order of `Kinematics`, read-only; shape (nq,)."""
-        return self._part.q
+        return self._articulation.q
 
     @property
     def v(self) -> Array:
         """Velocity, a floating base's twist in its own axes and linear first, read-only; shape (nv,)."""
-        return self._part.v
+        return self._articulation.v
 
     @property
     def tau(self) -> Array:
         """All effort of the last step but contacts and limits [N·m] or [N], read-only; shape (nv,)."""
-        return self._part.tau
+        return self._articulation.tau
 
     @property
     def contacts(self) -> tuple[Contact, ...]:
@@ -133,10 +135,10 @@ class State:
     @property
     def energy(self) -> tuple[float, float]:
         """Kinetic and potential energy of the robot [J], the latter zero at the world's origin."""
-        if self._part is self._engine:
+        if self._articulation is self._engine:
             return self._engine.energy()
-        part, gravity = self._part, self._engine._arrays["gravity"]
-        return energy_of(self._kinematics, part.q, part.v, self._base, gravity, part.weightless)
+        own, gravity = self._articulation, self._engine.arrays["gravity"]
+        return energy_of(self._kinematics, own.q, own.v, self._base, gravity, own.weightless)
 
     def position(self, joint: str) -> float:
         """Return a joint's position [rad] or [m]; that of a continuous joint counts its turns.
@@ -228,8 +230,8 @@ class State:
         Args:
             joints: names of joints that move in one degree of freedom.
         """
-        coordinates, velocities = self.snapshot().coordinates, self._part.v.copy()
-        efforts = self._part.effort + self._part.applied
+        coordinates, velocities = self.snapshot().coordinates, self._articulation.v.copy()
+        efforts = self._articulation.effort + self._articulation.applied
         at, index = self._at, self._index
 
         def build() -> tuple[Array, Array, Array]:
@@ -241,7 +243,7 @@ class State:
     def snapshot(self) -> Snapshot:
         """Return this moment, kept; the same object for everybody who asks before the next step."""
         if self._snapshot is None:
-            self._snapshot = Snapshot(self._kinematics, self.t, self._part, self._base)
+            self._snapshot = Snapshot(self._kinematics, self.t, self._articulation, self._base)
         return self._snapshot
 
     def link_poses(self) -> Array:

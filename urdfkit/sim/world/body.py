@@ -1,85 +1,66 @@
-"""One rigid body of a simulation's world, as its user holds it: it stays valid whatever comes and goes."""
+"""Handle to one rigid body of the world; stays valid while other entities are spawned or removed."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.sim.state.poses import pose_of
+from urdfkit.sim.world.entity_poses import AT_REST, move_body
+from urdfkit.sim.world.external_forces import ZERO, ExternalForces
 
 if TYPE_CHECKING:
     from urdfkit.sim.engine import Body
-    from urdfkit.sim.world.live_world import Stage
-
-ZERO = (0.0, 0.0, 0.0)
+    from urdfkit.sim.world.world_builder import WorldBuilder
 
 
-class Population(Protocol):
-    """What bodies are in, see `urdfkit.sim.world.entities.Population`."""
-
-    _stage: Stage
-
-    def push(
-        self,
-        name: str,
-        force: Sequence[float] = ZERO,
-        torque: Sequence[float] = ZERO,
-        *,
-        at: Sequence[float] = ZERO,
-        for_seconds: float | None = None,
-    ) -> None:
-        """Push a body."""
-
-    def release(self, name: str) -> None:
-        """End all pushes on a body."""
-
-
-class Thing:
-    """A rigid body of the world.
+class RigidBody:
+    """Rigid body of the world.
 
     Args:
-        population: what it is in.
-        name: what it is called there.
+        builder: the world's.
+        forces: the world's.
+        name: of the body.
     """
 
-    def __init__(self, population: Population, name: str) -> None:
-        self._population = population
+    def __init__(self, builder: WorldBuilder, forces: ExternalForces, name: str) -> None:
+        self._builder, self._forces = builder, forces
         self.name = name
 
     @property
     def body(self) -> Body:
-        """It as the engine was given it: mass, inertia and shapes, and where it was put first.
+        """Mass, inertia, shapes and initial pose, as the engine got them.
 
         Raises:
-            SimulationError: it is no longer there.
+            UnknownNameError: the body was removed.
         """
-        return self._population._stage.body(self.name)
+        return self._builder.body(self.name)
 
     @property
     def pose(self) -> tuple[float, ...]:
-        """Where it is: x y z [m] and quaternion x y z w."""
-        loose = self._population._stage.loose
-        return loose[self.name].pose if self.name in loose else tuple(self.body.pose)
+        """Pose in the world: x y z [m] and quaternion x y z w."""
+        free = self._builder.free_bodies
+        return free[self.name].pose if self.name in free else tuple(self.body.pose)
 
     @property
     def twist(self) -> tuple[float, ...]:
-        """Velocity of its origin [m/s] and angular velocity [rad/s], along the world's axes."""
-        loose = self._population._stage.loose
-        if self.name in loose:
-            return loose[self.name].twist
-        self.body  # noqa: B018 - raises where it is gone
-        return (0.0,) * 6
+        """Velocity of the body's origin [m/s] and angular velocity [rad/s], along the world's axes."""
+        free = self._builder.free_bodies
+        if self.name in free:
+            return free[self.name].twist
+        self.body  # noqa: B018 - raises if the body was removed
+        return AT_REST
 
     @property
     def asleep(self) -> bool:
-        """Whether it is free to move, but at rest and left alone until something happens to it."""
-        loose = self._population._stage.loose
-        return self.name in loose and loose[self.name].asleep
+        """Whether the body is free to move, but at rest and not simulated until something wakes it."""
+        free = self._builder.free_bodies
+        return self.name in free and free[self.name].asleep
 
-    def place(self, pose: Pose | Sequence[float], twist: Sequence[float] = (0.0,) * 6) -> None:
-        """Put it somewhere, see `Population.place`."""
-        self._population._stage.move_body(self.name, pose_of(pose), twist)
+    def place(self, pose: Pose | Sequence[float], twist: Sequence[float] = AT_REST) -> None:
+        """Place the body, see `LiveWorld.place`."""
+        move_body(self._builder, self.name, pose_of(pose), twist)
 
     def push(
         self,
@@ -89,9 +70,9 @@ class Thing:
         at: Sequence[float] = ZERO,
         for_seconds: float | None = None,
     ) -> None:
-        """Push it, see `Population.push`."""
-        self._population.push(self.name, force, torque, at=at, for_seconds=for_seconds)
+        """Push the body, see `LiveWorld.push`."""
+        self._forces.push(self.name, force, torque, at=at, for_seconds=for_seconds)
 
     def release(self) -> None:
-        """End all pushes on it."""
-        self._population.release(self.name)
+        """End all pushes on the body."""
+        self._forces.release(self.name)

@@ -7,7 +7,7 @@ else in the engine does, so that a constant force on a spinning body is constant
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
@@ -15,19 +15,24 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.errors import SimulationError
+from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.linear_algebra import matmul, vector_norm
+from urdfkit.sim.construction.rigid_bodies import parts_of
+from urdfkit.sim.state.arguments import nearest
 from urdfkit.sim.state.quaternion import product, rotate
 
 if TYPE_CHECKING:
-    from urdfkit.sim.engine import Engine, Loose
+    from urdfkit.sim.engine import Engine, FreeBody
     from urdfkit.sim.world.simulated_robot import SimulatedRobot
+    from urdfkit.sim.world.world_builder import WorldBuilder
+    from urdfkit.sim.world.world_entity import WorldEntity
 
 Array = NDArray[np.float64]
 Target = tuple["SimulatedRobot | None", str]
 """A robot and the name of its link, or None and the name of a free body."""
 
 NO_WRENCH = (0.0,) * 6
+ZERO = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,37 +54,49 @@ class Push:
     until: float
 
 
-class Pushes:
-    """What pushes at present.
+class ExternalForces:
+    """Forces and torques that act on the bodies and links of a world at present.
 
-    Attributes:
-        acting: each push.
+    Args:
+        builder: the world's.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, builder: WorldBuilder) -> None:
+        self._builder = builder
         self.acting: list[Push] = []
 
-    def add(
+    def push(
         self,
-        target: Target,
-        force: Sequence[float],
-        torque: Sequence[float],
-        at: Sequence[float],
+        name: str,
+        force: Sequence[float] = ZERO,
+        torque: Sequence[float] = ZERO,
         *,
-        step: int,
-        steps: float,
+        at: Sequence[float] = ZERO,
+        for_seconds: float | None = None,
     ) -> None:
-        """Push something from a step on, for so many steps.
+        """Push a body or a link from now on; pushes add up. See `LiveWorld.push`."""
+        engine = self._builder.engine
+        target, steps = target_of(self._builder, name), _steps(for_seconds, engine.dt)
+        values = _three("force", force), _three("torque", torque), _three("point of attack", at)
+        self.acting.append(Push(target, *values, engine.steps + steps))
+
+    def release(self, name: str) -> None:
+        """End all pushes on a body or link.
 
         Raises:
-            SimulationError: a number is not finite, or there are not three.
+            UnknownNameError: unknown name.
         """
-        three = _three("force", force), _three("torque", torque), _three("point of attack", at)
-        self.acting.append(Push(target, *three, step + steps))
+        robot, link = target_of(self._builder, name)
+        self.acting = [push for push in self.acting if push.target[0] is not robot or push.target[1] != link]
 
-    def forget(self, wanted: Callable[[Target], bool]) -> None:
-        """End the pushes on some targets."""
-        self.acting = [push for push in self.acting if not wanted(push.target)]
+    def forget(self, entity: WorldEntity) -> None:
+        """End all pushes on an entity that is removed."""
+        gone = {id(robot) for robot in entity.robots}
+        self.acting = [
+            push
+            for push in self.acting
+            if not ((id(push.target[0]) in gone) if push.target[0] else push.target[1] in entity.offsets)
+        ]
 
     def on(self, robot: SimulatedRobot, links: Sequence[str]) -> tuple[tuple[Array, Array, Array], ...]:
         """Return force [N], torque [N·m] and point of attack [m], in the world, of what pushes links of a robot."""
@@ -106,9 +123,9 @@ class Pushes:
                 loose[name] = loose.get(name, np.zeros(6)) + _on_body(engine.bodies[name], push, engine.dt)
             else:
                 touched.append((robot, _on_link(robot, name, push, engine.dt)))
-        before = [(robot.part.applied, robot.part.applied.copy()) for robot, _ in touched]
+        before = [(robot.articulation.applied, robot.articulation.applied.copy()) for robot, _ in touched]
         for robot, effort in touched:
-            robot.part.applied += effort
+            robot.articulation.applied += effort
         for name, wrench in loose.items():
             engine.bodies[name].push(wrench.tolist())
         try:
@@ -120,7 +137,46 @@ class Pushes:
                 engine.bodies[name].push(NO_WRENCH)
 
 
-def steps_of(seconds: float | None, dt: float) -> float:
+def target_of(builder: WorldBuilder, name: str) -> Target:
+    """Return the free body or the link that a name denotes.
+
+    Raises:
+        SimulationError: unknown name, or the body does not move.
+    """
+    if name in builder.free_bodies:
+        return None, name
+    robots = builder.robots
+    first = builder.robot_list[0]
+    if name in first.kinematics.link_names:
+        return first, name
+    if name in robots:
+        return robots[name], robots[name].kinematics.root
+    for robot in robots.values():
+        link = name.removeprefix(f"{robot.name}::")
+        if link != name and link in robot.kinematics.link_names:
+            return robot, link
+    body = _body_of(builder, name)
+    if body in builder.free_bodies:
+        return None, body
+    if name in builder.static_poses or body in builder.static_poses:
+        raise SimulationError(f"body `{name}` does not move; nothing can push it")
+    known = [*builder.free_bodies, *first.kinematics.link_names]
+    known += [f"{each.name}::{link}" for each in robots.values() for link in each.kinematics.link_names]
+    raise UnknownNameError(f"no body or link `{name}` in the simulation{nearest(name, known)}")
+
+
+def _body_of(builder: WorldBuilder, scoped: str) -> str:
+    """Return the body that a link of a model in the world, ``MODEL::LINK``, is part of; "" if there is none."""
+    name, _, link = scoped.partition("::")
+    for model in builder.description.models:
+        if link and model.name == name:
+            for body, _, links in parts_of(model):
+                if any(link == each[0] for each in links):
+                    return body
+    return ""
+
+
+def _steps(seconds: float | None, dt: float) -> float:
     """Return for how many steps a push lasts; None is for ever, and what is shorter than a step is a step.
 
     Raises:
@@ -133,7 +189,7 @@ def steps_of(seconds: float | None, dt: float) -> float:
     return max(1, round(seconds / dt)) if seconds > 0 else 0
 
 
-def _on_body(body: Loose, push: Push, dt: float) -> Array:
+def _on_body(body: FreeBody, push: Push, dt: float) -> Array:
     """Return the wrench at the origin of a free body, along its own axes half a step ahead."""
     pose, twist = body.pose, body.twist
     turned = _half_a_step_later(pose[3:], twist[3:], dt)
@@ -161,7 +217,7 @@ def _on_link(robot: SimulatedRobot, link: str, push: Push, dt: float) -> Array:
     if not kinematics.floating_base:
         x, y, z, w = robot.base[3:]
         force, torque = rotate((-x, -y, -z, w), force), rotate((-x, -y, -z, w), torque)
-    q = pin.integrate(model, robot.part.q, 0.5 * dt * robot.part.v)
+    q = pin.integrate(model, robot.articulation.q, 0.5 * dt * robot.articulation.v)
     frame = kinematics.frame(link)
     jacobian = pin.computeFrameJacobian(model, data, q, frame, pin.LOCAL_WORLD_ALIGNED)
     arm = matmul(data.oMf[frame].rotation, np.array(push.at))

@@ -7,7 +7,7 @@ noted, and nothing else happens, as when a service answers with an error.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from urdfkit.errors import SimulationError, UrdfkitError
 from urdfkit.messages import message_type, vector
@@ -26,90 +26,30 @@ from urdfkit.messages.simulation import (
 from urdfkit.sim.plugins.publishers import Publication
 from urdfkit.sim.state.poses import pose_from
 from urdfkit.sim.state.quaternion import product, rotate
-from urdfkit.sim.world.spawn_requests import Arrival, arrival, arrival_of_text
+from urdfkit.sim.world.spawn_requests import SpawnRequest, spawn_request, spawn_request_of_text
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from pathlib import Path
-
     from urdfkit.bus import Bus
-    from urdfkit.description.sdf import World
-    from urdfkit.description.urdf.robot import Pose
     from urdfkit.sim.state.robot_state import State
-    from urdfkit.sim.world.body import Thing
-    from urdfkit.sim.world.external_forces import Target
-    from urdfkit.sim.world.live_world import Stage
+    from urdfkit.sim.world.live_world import LiveWorld
+
+Note = Callable[[str], None]
 
 MODEL_STATES_RATE = 100.0
 """[Hz]; Gazebo publishes them every step."""
 
 
-class Simulation(Protocol):
-    """What the services act on, see `urdfkit.sim.simulator.Simulator`."""
+def listen(bus: Bus, world: LiveWorld, call_at: Callable[[float, Callable[[], None]], None], note: Note) -> None:
+    """Subscribe to the topics of the services.
 
-    bus: Bus
-    dt: float
-    _package_path: tuple[str | Path, ...]
-    _stage: Stage
-
-    @property
-    def t(self) -> float:
-        """Simulated time [s]."""
-        ...
-
-    @property
-    def world(self) -> World:
-        """The world as it is."""
-        ...
-
-    @property
-    def bodies(self) -> Mapping[str, Thing]:
-        """The world's rigid bodies by name."""
-        ...
-
-    def note(self, text: str) -> None:
-        """Tell the user something."""
-
-    def at(self, t: float, call: Callable[[], None]) -> None:
-        """Call `call` at simulated time `t` [s]."""
-
-    def spawn(self, model: Arrival, pose: Pose, *, name: str | None) -> str:
-        """Put a model or a robot into the world."""
-        ...
-
-    def remove(self, name: str) -> None:
-        """Take something out of the world."""
-
-    def place(self, name: str, pose: Pose, twist: Sequence[float] = ...) -> None:
-        """Put something elsewhere."""
-
-    def pose(self, name: str) -> tuple[float, ...]:
-        """Return where something is."""
-        ...
-
-    def push(
-        self,
-        name: str,
-        force: Sequence[float],
-        torque: Sequence[float],
-        *,
-        at: Sequence[float] = ...,
-        for_seconds: float | None = None,
-    ) -> None:
-        """Push a body or a link."""
-
-    def release(self, name: str) -> None:
-        """End all pushes on a body or link."""
-
-    def _free(self, name: str) -> str: ...
-
-    def _target(self, name: str) -> Target: ...
-
-
-def listen(simulator: Simulation) -> None:
-    """Do what the topics of this module ask for."""
-    heard = _Heard(simulator)
-    world = f"/world/{simulator.world.name}"
+    Args:
+        bus: of the simulation.
+        world: to change.
+        call_at: calls a function at a simulated time [s].
+        note: reports a failed request to the user.
+    """
+    heard = _Services(world, call_at)
+    prefix = f"/world/{world.name}"
     for topic, type, act in (
         ("/gazebo/set_model_state", MODEL_STATE, heard.set_model_state),
         ("/gazebo/spawn_sdf_model", SPAWN, heard.spawn_model),
@@ -117,29 +57,29 @@ def listen(simulator: Simulation) -> None:
         ("/gazebo/delete_model", DELETE, heard.delete_model),
         ("/gazebo/apply_body_wrench", WRENCH, heard.apply_body_wrench),
         ("/gazebo/clear_body_wrenches", CLEAR, heard.clear_body_wrenches),
-        (f"{world}/create", CREATE, heard.create),
-        (f"{world}/remove", ENTITY, heard.remove),
-        (f"{world}/set_pose", SET_POSE, heard.set_pose),
-        (f"{world}/wrench", WRENCH_ENTITY, heard.wrench),
-        (f"{world}/wrench/persistent", WRENCH_ENTITY, heard.persistent_wrench),
-        (f"{world}/wrench/clear", ENTITY, heard.clear_wrench),
+        (f"{prefix}/create", CREATE, heard.create),
+        (f"{prefix}/remove", ENTITY, heard.remove),
+        (f"{prefix}/set_pose", SET_POSE, heard.set_pose),
+        (f"{prefix}/wrench", WRENCH_ENTITY, heard.wrench),
+        (f"{prefix}/wrench/persistent", WRENCH_ENTITY, heard.persistent_wrench),
+        (f"{prefix}/wrench/clear", ENTITY, heard.clear_wrench),
     ):
-        simulator.bus.subscribe(topic, type, _noting(simulator, topic, act))
+        bus.subscribe(topic, type, _reporting(note, topic, act))
 
 
-def _noting(simulator: Simulation, topic: str, act: Callable[[Any], None]) -> Callable[[Any], None]:
+def _reporting(note: Note, topic: str, act: Callable[[Any], None]) -> Callable[[Any], None]:
     def receive(message: Any) -> None:
         try:
             act(message)
         except UrdfkitError as error:
-            simulator.note(f"{topic}: {error}")
+            note(f"{topic}: {error}")
 
     return receive
 
 
-class _Heard:
-    def __init__(self, simulator: Simulation) -> None:
-        self._simulator = simulator
+class _Services:
+    def __init__(self, world: LiveWorld, call_at: Callable[[float, Callable[[], None]], None]) -> None:
+        self._world, self._call_at = world, call_at
 
     def set_model_state(self, message: Any) -> None:
         """Put a model somewhere, with a velocity; in the frame of a model or link where one is named."""
@@ -150,11 +90,11 @@ class _Heard:
             turn = around[3:]
             pose = _composed(around, pose)
             twist = (*rotate(turn, twist[:3]), *rotate(turn, twist[3:]))
-        self._simulator.place(message.model_name, pose_from(pose), twist)
+        self._world.place(message.model_name, pose_from(pose), twist)
 
     def spawn_model(self, message: Any) -> None:
         """Spawn what a document describes."""
-        found = arrival_of_text(message.model_xml, self._simulator._package_path)
+        found = spawn_request_of_text(message.model_xml, self._world.package_path)
         pose = _seven(message.initial_pose)
         if message.reference_frame not in ("", "world", "map"):
             pose = _composed(self._pose(message.reference_frame), pose)
@@ -162,11 +102,11 @@ class _Heard:
 
     def delete_model(self, message: Any) -> None:
         """Remove a model."""
-        self._simulator.remove(message.model_name)
+        self._world.remove(message.model_name)
 
     def apply_body_wrench(self, message: Any) -> None:
         """Push a body at a time, for a time; in the axes and at a point of another where one is named."""
-        simulator, frame = self._simulator, message.reference_frame
+        world, frame = self._world, message.reference_frame
         force, torque, point = (
             _three(message.wrench.force),
             _three(message.wrench.torque),
@@ -188,16 +128,16 @@ class _Heard:
         lasts = None if seconds < 0 else seconds
 
         def push() -> None:
-            simulator.push(message.body_name, force, torque, at=point, for_seconds=lasts)
+            world.push(message.body_name, force, torque, at=point, for_seconds=lasts)
 
-        if start > simulator.t:
-            simulator.at(start, push)
+        if start > world.builder.engine.t:
+            self._call_at(start, push)
         else:
             push()
 
     def clear_body_wrenches(self, message: Any) -> None:
         """End the pushes on a body."""
-        self._simulator.release(message.body_name)
+        self._world.release(message.body_name)
 
     def create(self, message: Any) -> None:
         """Spawn an SDF or URDF, by text or file."""
@@ -205,24 +145,24 @@ class _Heard:
             raise SimulationError("`relative_to` is not read; give the pose in the world")
         if not (message.sdf or message.sdf_filename):
             raise SimulationError("neither `sdf` nor `sdf_filename` says what to create (clones are not made)")
-        where = self._simulator._package_path
-        found = arrival_of_text(message.sdf, where) if message.sdf else arrival(message.sdf_filename, where)
-        name = message.name or found.thing.name
+        where = self._world.package_path
+        found = spawn_request_of_text(message.sdf, where) if message.sdf else spawn_request(message.sdf_filename, where)
+        name = message.name or found.source.name
         if message.allow_renaming:
-            name = self._simulator._free(name)
+            name = self._world.free_name(name)
         self._spawn(found, name, _seven(message.pose))
 
     def remove(self, message: Any) -> None:
         """Remove a model."""
-        self._simulator.remove(message.name)
+        self._world.remove(message.name)
 
     def set_pose(self, message: Any) -> None:
         """Put a model somewhere; its velocity stays, as in gz."""
-        self._simulator.place(message.entity.name, pose_from(_seven(message.pose)))
+        self._world.place(message.entity.name, pose_from(_seven(message.pose)))
 
     def wrench(self, message: Any) -> None:
         """Push a link for one step."""
-        self._push(message, self._simulator.dt)
+        self._push(message, self._world.builder.engine.dt)
 
     def persistent_wrench(self, message: Any) -> None:
         """Push a link until told otherwise."""
@@ -230,33 +170,26 @@ class _Heard:
 
     def clear_wrench(self, message: Any) -> None:
         """End the pushes on a link."""
-        self._simulator.release(message.name)
+        self._world.release(message.name)
 
     def _push(self, message: Any, seconds: float | None) -> None:
         force, torque = _three(message.wrench.force), _three(message.wrench.torque)
-        self._simulator.push(message.entity.name, force, torque, for_seconds=seconds)
+        self._world.push(message.entity.name, force, torque, for_seconds=seconds)
 
-    def _spawn(self, found: Arrival, name: str, pose: Sequence[float]) -> None:
-        self._simulator.spawn(found, pose_from(pose), name=name or None)
+    def _spawn(self, found: SpawnRequest, name: str, pose: Sequence[float]) -> None:
+        self._world.spawn(found, pose_from(pose), name=name or None)
 
     def _pose(self, name: str) -> Sequence[float]:
         """Return where a model, robot, body or link is."""
-        simulator = self._simulator
-        if name in simulator._stage.names:
-            return simulator.pose(name)
-        robot, link = simulator._target(name)
-        if robot is None:
-            return simulator.bodies[link].pose
-        row = robot.kinematics.link_names.index(link)
-        return tuple(robot.state.link_poses()[row].tolist())
+        return self._world.pose(name) if name in self._world.names else self._world.link_pose(name)
 
 
 class ModelStates(Publication):
     """``/gazebo/model_states``: where every model and robot is, and how it moves; only while somebody listens."""
 
-    def __init__(self, bus: Bus, dt: float, simulator: Simulation) -> None:
+    def __init__(self, bus: Bus, dt: float, world: LiveWorld) -> None:
         super().__init__(bus.advertise("/gazebo/model_states", MODEL_STATES), MODEL_STATES_RATE, dt)
-        self._simulator = simulator
+        self._world = world
 
     def catch_up(self, state: State) -> None:
         """Publish what has fallen due, if anybody listens."""
@@ -267,9 +200,9 @@ class ModelStates(Publication):
 
     def message(self, state: State) -> Callable[[], Any]:
         """Return what builds the message of this moment, also later."""
-        simulator = self._simulator
-        names = simulator._stage.names
-        found = [(simulator.pose(name), simulator._stage.twist_of(name)) for name in names]
+        world = self._world
+        names = world.names
+        found = [(world.pose(name), world.twist(name)) for name in names]
 
         def build() -> Any:
             poses = [_pose_message(pose) for pose, _ in found]

@@ -1,4 +1,4 @@
-"""Turning the screws while a simulation runs: friction, masses, gravity, gains of controllers.
+"""Live parameters of a running simulation: friction, masses, gravity, gains of controllers.
 
 What is written stays as it is; only the simulation changes. Masses and friction make the engine anew, of the same
 things where they are, as spawning does: what moves goes on. They stay through a reset.
@@ -21,7 +21,7 @@ from urdfkit.sim.state.pid import Gains
 
 if TYPE_CHECKING:
     from urdfkit.sim.plugins.controllers.joint_handle import Follower
-    from urdfkit.sim.world.entities import Population
+    from urdfkit.sim.world.live_world import LiveWorld
     from urdfkit.sim.world.simulated_robot import SimulatedRobot
 
 LEAST_MASS = 1e-6
@@ -44,14 +44,14 @@ class Tuned:
 
 
 class Tuning:
-    """The screws of a simulation.
+    """Live parameters of a simulation.
 
     Args:
-        population: the simulation.
+        world: whose parameters.
     """
 
-    def __init__(self, population: Population) -> None:
-        self._population = population
+    def __init__(self, world: LiveWorld) -> None:
+        self._world = world
         self._masses: dict[tuple[int, str], float] = {}
 
     # Gravity
@@ -59,7 +59,7 @@ class Tuning:
     @property
     def gravity(self) -> tuple[float, float, float]:
         """What pulls at everything [m/s²]."""
-        x, y, z = self._population._stage.world.gravity
+        x, y, z = self._world.description.gravity
         return x, y, z
 
     def set_gravity(self, gravity: Sequence[float]) -> None:
@@ -69,9 +69,9 @@ class Tuning:
             SimulationError: these are not three finite numbers, or too large: see `sound_gravity`.
         """
         x, y, z = sound_gravity(gravity)
-        stage = self._population._stage
-        stage.world = replace(stage.world, gravity=(x, y, z))
-        stage.engine._arrays["gravity"][:] = x, y, z
+        builder = self._world.builder
+        builder.description = replace(builder.description, gravity=(x, y, z))
+        builder.engine.arrays["gravity"][:] = x, y, z
 
     # Links and models
 
@@ -81,7 +81,7 @@ class Tuning:
         Raises:
             SimulationError: there is no such robot.
         """
-        found = self._population.robots[robot]
+        found = self._world.robots[robot]
         touches = {shape.body for shape in found.shapes}
         return tuple(
             Tuned(
@@ -97,12 +97,12 @@ class Tuning:
     @property
     def models(self) -> tuple[Tuned, ...]:
         """What can be changed of the world's models."""
-        stage = self._population._stage
+        builder = self._world.builder
         found = []
-        for model in stage.world.models:
+        for model in builder.description.models:
             links = [link for _, _, link in model.all_links()]
             touching = [shape.surface.mu for link in links for shape in link.collisions]
-            heavy = not model.static and not stage.entry(model.name).robots
+            heavy = not model.static and not builder.entity(model.name).robots
             mass = sum(link.inertial.mass for link in links) if heavy else None
             found.append(Tuned(model.name, mass, min(touching, default=None)))
         return tuple(found)
@@ -125,7 +125,7 @@ class Tuning:
             factor = mass / self._known(self._model(name).mass, f"the mass of `{name}`")
             self._change(name, lambda model: _heavier(model, factor))
             return
-        robot = self._population.robots[name]
+        robot = self._world.robots[name]
         before = self._known(self._link(name, link).mass, f"the mass of link `{link}`")
         model, own = robot.kinematics.model, spatial_inertia(robot.robot.link_by_name[link])
         frame = model.frames[robot.kinematics.frame(link)]
@@ -134,7 +134,7 @@ class Tuning:
         joint = frame.parentJoint
         model.inertias[joint] = type(own).FromDynamicParameters(model.inertias[joint].toDynamicParameters() + part)
         self._masses[id(robot), link] = mass
-        self._population._stage.rebuild()
+        self._world.builder.rebuild()
 
     def set_mu(self, name: str, mu: float, link: str = "") -> None:
         """Change how a robot's link, or a model of the world, rubs: alike in all directions of the surface.
@@ -157,12 +157,12 @@ class Tuning:
             self._change(name, lambda model: _rougher(model, mu))
             return
         self._known(self._link(name, link).mu, f"the friction of link `{link}`")
-        robot = self._population.robots[name]
+        robot = self._world.robots[name]
         surface = robot.surfaces.get(link, Surface())
         # Wheels with rollers keep that they slip one way.
         scale = surface.mu2 / surface.mu1 if surface.mu1 > 0 and surface.fdir1 is not None else 1.0
         robot.surfaces = {**robot.surfaces, link: replace(surface, mu1=mu, mu2=mu * scale)}
-        self._population._stage.rebuild()
+        self._world.builder.rebuild()
 
     # Gains
 
@@ -186,14 +186,14 @@ class Tuning:
         for follower in known[path]:
             follower.gains = follower.integral.gains = gains
             follower.integral.reset()
-        for robot in self._population.robots.values():
+        for robot in self._world.robots.values():
             for controller in robot.plugins.controllers:
                 controller.wake()
-        self._population._agenda.stir()
+        self._world.scheduler.invalidate()
 
     def _followers(self) -> dict[str, list[Follower]]:
         found: dict[str, list[Follower]] = {}
-        for robot in self._population.robots.values():
+        for robot in self._world.robots.values():
             for controller in robot.plugins.controllers:
                 for path, follower in controller.followers():
                     found.setdefault(f"{robot.name}/{path}", []).append(follower)
@@ -226,15 +226,17 @@ class Tuning:
 
     def _change(self, name: str, change: Any) -> None:
         """Replace a model by what `change` makes of it."""
-        stage = self._population._stage
-        entry = stage.entry(name)
-        if entry.robots:
+        builder = self._world.builder
+        entity = builder.entity(name)
+        if entity.robots:
             raise SimulationError(f"`{name}` has joints that move: it cannot be changed while it runs")
-        world: World = stage.world
-        changed = {model.name: change(model) for model in world.models if model.name == name}
-        stage.world = replace(world, models=tuple(changed.get(model.name, model) for model in world.models))
-        entry.thing = changed[name]
-        stage.rebuild()
+        description: World = builder.description
+        changed = {model.name: change(model) for model in description.models if model.name == name}
+        builder.description = replace(
+            description, models=tuple(changed.get(model.name, model) for model in description.models)
+        )
+        entity.source = changed[name]
+        builder.rebuild()
 
 
 def _moves(robot: SimulatedRobot, link: str) -> bool:

@@ -18,7 +18,7 @@ from urdfkit.sim.construction.missing_meshes import remark_left_out
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.construction.surface_parameters import surfaces_of
 from urdfkit.sim.engine import Engine, Ground, Member, Surface
-from urdfkit.sim.engine.articulation import Part
+from urdfkit.sim.engine.articulation import Articulation
 from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.controllers.controller_switching import Controllers
 from urdfkit.sim.plugins.installer import Installed, install
@@ -50,7 +50,7 @@ class SimulatedRobot:
         spawn: where and how it starts.
         ground: height of what is below it [m]; None for nothing.
         note: tells the user something.
-        bolted: its root link is bolted to the world. A root link called ``world`` always is.
+        fixed_base: its root link is fixed to the world. A root link called ``world`` always is.
         scene: its shapes; those written when None.
         surfaces: how its links rub; as written when None.
         self_collide: names of its links that touch its others; as written when None.
@@ -69,12 +69,12 @@ class SimulatedRobot:
         motors: velocity and position targets by joint name; from `attach` on.
         plugins: its drives, sensors and controllers; from `install` on.
         controllers: to list, load, start, stop and switch; from `install` on.
-        part: which of the engine's robots it is; from `attach` on.
+        articulation: which of the engine's robots it is; from `attach` on.
     """
 
     state: State
     motors: Motors
-    part: Part
+    articulation: Articulation
 
     def __init__(
         self,
@@ -84,7 +84,7 @@ class SimulatedRobot:
         spawn: Spawn | None,
         ground: float | None,
         note: Callable[[str], None],
-        bolted: bool = False,
+        fixed_base: bool = False,
         scene: Scene | None = None,
         surfaces: Mapping[str, Surface] | None = None,
         self_collide: Collection[str] | None = None,
@@ -95,7 +95,7 @@ class SimulatedRobot:
         self._is_robot = is_robot
         self._setup: Setup | None = None
         on_world = robot.roots()[0].name == "world"
-        self.kinematics = Kinematics(robot, floating_base=not (bolted or on_world))
+        self.kinematics = Kinematics(robot, floating_base=not (fixed_base or on_world))
         self.scene = scene_of(robot, strict=False) if scene is None else scene
         remark_left_out(self.scene, note)
         self.spawn = spawn or Spawn(z=0.0 if on_world else None)
@@ -127,45 +127,45 @@ class SimulatedRobot:
         base = self.base.tolist()
         return Member(self.kinematics, self.shapes, self.surfaces, base, self.self_collide, self.name, self.weightless)
 
-    def attach(self, engine: Engine, part: Part) -> None:
+    def attach(self, engine: Engine, articulation: Articulation) -> None:
         """Be one of an engine's robots from now on."""
-        self.part = part
+        self.articulation = articulation
         floats = self.kinematics.floating_base
         handles = (
-            part.motor_velocity,
-            part.motor_effort,
-            part.applied,
-            Servos(*(getattr(part, name) for name in SERVO_ARRAYS)),
-            part.set_base_velocity,
+            articulation.motor_velocity,
+            articulation.motor_effort,
+            articulation.applied,
+            Servos(*(getattr(articulation, name) for name in SERVO_ARRAYS)),
+            articulation.set_base_velocity,
         )
         if hasattr(self, "state"):
-            self.state.attach(engine, part)
+            self.state.attach(engine, articulation)
             self.motors.attach(*handles)
         else:
-            self.state = State(self.kinematics, engine, None if floats else self.base, part)
+            self.state = State(self.kinematics, engine, None if floats else self.base, articulation)
             self.state.step = engine.steps
             self.motors = Motors(self.kinematics, *handles)
         self._approach = Ticks(APPROACH_RATE, engine.dt)
 
-    def install(self, setup: Setup, *, seed: int, stir: Callable[[], None]) -> None:
+    def install(self, setup: Setup, *, seed: int, invalidate: Callable[[], None]) -> None:
         """Set its plugins to work, and publish what nobody has to ask for.
 
         Args:
             setup: what they may use.
             seed: of what is random.
-            stir: called when something of it may be due sooner than it has said.
+            invalidate: called when something of it may be due sooner than it has said.
 
         Raises:
             SimulationError: a parameter makes no sense, with its place.
         """
-        bus = self._bus = OwnBus(setup.bus, stir)
+        bus = self._bus = OwnBus(setup.bus, invalidate)
         setup = self._setup = replace(setup, bus=bus)
         self.plugins = install(self.robot, setup, seed=seed)
         self._drives = [(d, Ticks(d.write_rate, setup.dt), Ticks(d.read_rate, setup.dt)) for d in self.plugins.drives]
         for sensor in self.plugins.sensors:
             sensor.schedule(setup.dt, self.state.step)
         self._sensors = [(sensor, type(sensor).catch_up is Sensor.catch_up) for sensor in self.plugins.sensors]
-        self.controllers = Controllers([c.loop for c in self.plugins.controllers if c.loop is not None], stir)
+        self.controllers = Controllers([c.loop for c in self.plugins.controllers if c.loop is not None], invalidate)
         for controller in self.plugins.controllers:
             controller.schedule(setup.dt)
             if controller.initial_positions:
@@ -182,7 +182,7 @@ class SimulatedRobot:
 
     def begin(self) -> None:
         """Stand where it starts, at the engine's present step."""
-        self.part.put(*self.spawn.configuration(self.kinematics, self.base))
+        self.articulation.put(*self.spawn.configuration(self.kinematics, self.base))
         self.state.advance(0)
         for controller in self.plugins.controllers:
             controller.begin(self.state)

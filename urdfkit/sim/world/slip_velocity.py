@@ -13,7 +13,7 @@ from urdfkit.linear_algebra import matmul, vector_norm
 if TYPE_CHECKING:
     from urdfkit.sim.engine import Contact
     from urdfkit.sim.plugins.sensors.point_motion import Motion
-    from urdfkit.sim.world.entities import Population
+    from urdfkit.sim.world.live_world import LiveWorld
     from urdfkit.sim.world.simulated_robot import SimulatedRobot
 
 Array = NDArray[np.float64]
@@ -39,14 +39,14 @@ class Slip:
         return vector_norm(self.velocity)
 
 
-def slips(population: Population, contacts: tuple[Contact, ...]) -> list[Slip]:
+def slips(world: LiveWorld, contacts: tuple[Contact, ...]) -> list[Slip]:
     """Return how each contact of a robot's links slides.
 
     Args:
-        population: the simulation.
+        world: of the simulation.
         contacts: of its last step.
     """
-    motions = _Motions(population)
+    motions = _Motions(world)
     found = []
     for contact in contacts:
         if (one := motions.of(contact.a)) is None:
@@ -63,12 +63,12 @@ def slips(population: Population, contacts: tuple[Contact, ...]) -> list[Slip]:
 class _Motions:
     """How the links of robots move, each worked out once."""
 
-    def __init__(self, population: Population) -> None:
+    def __init__(self, world: LiveWorld) -> None:
         self._links: dict[str, tuple[SimulatedRobot, str]] = {}
-        for k, robot in enumerate(population.robots.values()):
+        for k, robot in enumerate(world.robots.values()):
             for link in robot.kinematics.link_names:
                 self._links[f"{robot.name}::{link}" if k else link] = robot, link
-        self._loose = population._stage.loose
+        self._free = world.builder.free_bodies
         self._known: dict[str, Motion | tuple[Array, Array]] = {}
 
     def of(self, name: str) -> Motion | tuple[Array, Array] | None:
@@ -78,8 +78,8 @@ class _Motions:
 
                 robot, link = self._links[name]
                 self._known[name] = Moment(robot.kinematics, robot.state).motion(link, np.eye(4))
-            elif name in self._loose:
-                body = self._loose[name]
+            elif name in self._free:
+                body = self._free[name]
                 self._known[name] = np.array(body.pose[:3]), np.array(body.twist)
             else:
                 return None

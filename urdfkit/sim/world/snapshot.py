@@ -16,47 +16,48 @@ from urdfkit.description.sdf.poses import IDENTITY, between, compose, inverse
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.sim.construction.rigid_bodies import parts_of, trees_of
 from urdfkit.sim.state.poses import pose_from
+from urdfkit.sim.world.entity_poses import pose_of
 
 if TYPE_CHECKING:
-    from urdfkit.sim.world.included_models import Entry
-    from urdfkit.sim.world.live_world import Stage
+    from urdfkit.sim.world.world_builder import WorldBuilder
+    from urdfkit.sim.world.world_entity import WorldEntity
 
 SMALL = 1e-12
 """A pose that differs less from the written one is the written one [m, rad]."""
 
 
-def as_it_is(stage: Stage, note: Callable[[str], None]) -> World:
+def current_description(builder: WorldBuilder, note: Callable[[str], None]) -> World:
     """Return the world as it is now, without the robot that the simulation is about.
 
     Args:
-        stage: what is in it.
+        builder: what is in it.
         note: told about what cannot be saved.
     """
-    world = stage.world
-    models = [_model(stage, stage.entry(model.name), model, note) for model in world.models]
-    robots = [saved for robot in world.robots if (saved := _robot(stage, robot, note)) is not None]
+    world = builder.description
+    models = [_model(builder, builder.entity(model.name), model, note) for model in world.models]
+    robots = [saved for robot in world.robots if (saved := _robot(builder, robot, note)) is not None]
     return replace(world, models=tuple(models), robots=tuple(robots))
 
 
-def _robot(stage: Stage, robot: WorldRobot, note: Callable[[str], None]) -> WorldRobot | None:
+def _robot(builder: WorldBuilder, robot: WorldRobot, note: Callable[[str], None]) -> WorldRobot | None:
     if not robot.file.endswith(".urdf"):
         why = "it was spawned from text" if not robot.file else "SDF includes .urdf files, not xacro"
         note(f"robot `{robot.name}` is not saved: {why}")
         return None
-    return replace(robot, pose=_unless_near(stage.pose_of(robot.name), robot.pose))
+    return replace(robot, pose=_unless_near(pose_of(builder, robot.name), robot.pose))
 
 
-def _model(stage: Stage, entry: Entry, model: WorldModel, note: Callable[[str], None]) -> WorldModel:
-    if not entry.robots and not any(name in stage.loose for name in entry.offsets):
+def _model(builder: WorldBuilder, entity: WorldEntity, model: WorldModel, note: Callable[[str], None]) -> WorldModel:
+    if not entity.robots and not any(name in builder.free_bodies for name in entity.offsets):
         return model
-    whole = stage.pose_of(model.name)
+    whole = pose_of(builder, model.name)
     where: dict[str, Pose] = {}
     turned: dict[str, float] = {}
     for name, static, links in parts_of(model):
         if not static:
-            shift = compose(between(whole, pose_from(stage.loose[name].pose)), inverse(links[0][1]))
+            shift = compose(between(whole, pose_from(builder.free_bodies[name].pose)), inverse(links[0][1]))
             where |= {link: compose(shift, pose) for link, pose, _ in links}
-    for tree, robot in zip(trees_of(model), entry.robots, strict=True):
+    for tree, robot in zip(trees_of(model), entity.robots, strict=True):
         root = between(whole, pose_from(robot.state.base_pose))
         if robot.has_plugins:
             shift = compose(root, inverse(tree.root))

@@ -1,4 +1,4 @@
-"""What is to be put into a running world: a model or robot by name, by file, as text, or loaded already."""
+"""Requests to spawn: a model or robot by name, by file, as text, or loaded already."""
 
 from __future__ import annotations
 
@@ -16,32 +16,34 @@ _ROBOTS = (".urdf", ".xacro")
 
 
 @dataclass(frozen=True)
-class Arrival:
-    """What is to come.
+class SpawnRequest:
+    """A model or robot to spawn.
 
     Attributes:
-        thing: a model, or where a robot is to be found again.
-        robot: the robot, where it is one.
+        source: the model, or the file of the robot.
+        robot: the loaded robot; None for a model.
     """
 
-    thing: WorldModel | WorldRobot
+    source: WorldModel | WorldRobot
     robot: Robot | None = None
 
 
-def arrival(model: str | Path | WorldModel | Robot | Arrival, package_path: Sequence[str | Path] = ()) -> Arrival:
-    """Return what is meant.
+def spawn_request(
+    model: str | Path | WorldModel | Robot | SpawnRequest, package_path: Sequence[str | Path] = ()
+) -> SpawnRequest:
+    """Return the model or robot to spawn.
 
     Args:
-        model: see `Population.spawn`.
+        model: see `LiveWorld.spawn`.
         package_path: folders to look for models and packages in first.
 
     Raises:
         UrdfkitError: there is none, or it is broken; says why, where, and what is near.
     """
-    if isinstance(model, Arrival):
+    if isinstance(model, SpawnRequest):
         return model
     if isinstance(model, WorldModel):
-        return Arrival(model)
+        return SpawnRequest(model)
     if isinstance(model, Robot):
         return _robot(model)
     text = str(model)
@@ -49,13 +51,13 @@ def arrival(model: str | Path | WorldModel | Robot | Arrival, package_path: Sequ
     if path.suffix in _ROBOTS or (path.is_dir() and not (path / "model.config").is_file()):
         return _robot(load_robot(path, package_path))
     if path.is_dir():
-        return Arrival(load_model(f"model://{path.name}", package_path=[path.parent, *package_path]))
+        return SpawnRequest(load_model(f"model://{path.name}", package_path=[path.parent, *package_path]))
     if path.suffix in (".sdf", ".world") or text.startswith("model://"):
-        return Arrival(load_model(text, package_path=package_path))
+        return SpawnRequest(load_model(text, package_path=package_path))
     if path.suffix or "/" in text:
         raise ResourceError(f"`{text}` is no model: an .sdf, .urdf or .xacro file, or the name of one we ship")
     try:
-        return Arrival(load_model(text, package_path=package_path))
+        return SpawnRequest(load_model(text, package_path=package_path))
     except ResourceError as error:
         if error.position is not None:
             raise
@@ -69,7 +71,7 @@ def arrival(model: str | Path | WorldModel | Robot | Arrival, package_path: Sequ
     return _robot(load_robot(text, package_path))
 
 
-def arrival_of_text(text: str, package_path: Sequence[str | Path] = ()) -> Arrival:
+def spawn_request_of_text(text: str, package_path: Sequence[str | Path] = ()) -> SpawnRequest:
     """Return what an SDF or URDF document describes.
 
     Raises:
@@ -84,14 +86,14 @@ def arrival_of_text(text: str, package_path: Sequence[str | Path] = ()) -> Arriv
         path = Path(folder) / f"spawned{suffix}"
         path.write_text(text, encoding="utf-8")
         try:
-            found = arrival(path, package_path)
+            found = spawn_request(path, package_path)
         except UrdfkitError as error:
             raise DescriptionError(str(error).replace(f"{folder}/", "")) from None
-    if isinstance(found.thing, WorldRobot):
-        return replace(found, thing=replace(found.thing, uri="", file=""))
+    if isinstance(found.source, WorldRobot):
+        return replace(found, source=replace(found.source, uri="", file=""))
     return found
 
 
-def _robot(robot: Robot) -> Arrival:
+def _robot(robot: Robot) -> SpawnRequest:
     file = str(robot.files[0]) if robot.files else ""
-    return Arrival(WorldRobot(robot.name or "robot", f"file://{file}" if file else "", file), robot)
+    return SpawnRequest(WorldRobot(robot.name or "robot", f"file://{file}" if file else "", file), robot)

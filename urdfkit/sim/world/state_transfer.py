@@ -40,8 +40,8 @@ _PER_DOF = (
 
 
 @dataclass(frozen=True)
-class Made:
-    """What an engine is made of, by name, in the engine's order.
+class EngineLayout:
+    """Names of the trees and shapes of an engine, in its order.
 
     Attributes:
         trees: robots, then free bodies.
@@ -52,8 +52,8 @@ class Made:
     owners: Sequence[str]
 
 
-def carry_over(before: Engine, old: Made, after: Engine, new: Made) -> None:
-    """Bring an engine to where another one is, for what both have. What is new stays where it was put.
+def transfer_state(before: Engine, old: EngineLayout, after: Engine, new: EngineLayout) -> None:
+    """Copy the state of one engine to another, for the trees and shapes of both. New ones stay where they were put.
 
     Args:
         before: the engine so far.
@@ -61,7 +61,7 @@ def carry_over(before: Engine, old: Made, after: Engine, new: Made) -> None:
         after: the engine to go on with.
         new: what that is made of; what both have comes in the same order in both.
     """
-    a, b = before._arrays, after._arrays
+    a, b = before.arrays, after.arrays
     trees = [(old.trees.index(name), k) for k, name in enumerate(new.trees) if name in old.trees]
     for i, j in trees:
         for name in _PER_DOF:
@@ -69,32 +69,32 @@ def carry_over(before: Engine, old: Made, after: Engine, new: Made) -> None:
         b["s"][_span(b, "tree_s", j)] = a["s"][_span(a, "tree_s", i)]
         b["still"][j] = 0.0 if a["asleep"][i] else a["still"][i]
     shapes = _shapes(before, old, after, new)
-    _remember(a, b, trees, shapes)
-    _remember_pairs(a, b, shapes)
+    _transfer_impulses(a, b, trees, shapes)
+    _transfer_pair_impulses(a, b, shapes)
     for count in (STEPS, ITERATED):
         b["counts"][count] = a["counts"][count]
-    after._evaluate()
+    after.evaluate()
 
 
 def _span(arrays: Arrays, starts: str, k: int) -> slice:
     return slice(int(arrays[starts][k]), int(arrays[starts][k + 1]))
 
 
-def _shapes(before: Engine, old: Made, after: Engine, new: Made) -> dict[int, int]:
+def _shapes(before: Engine, old: EngineLayout, after: Engine, new: EngineLayout) -> dict[int, int]:
     """Return number before → number after of the shapes that stay."""
     known, wanted = _by_owner(before, old), _by_owner(after, new)
     return {k: j for key, was in known.items() for k, j in zip(was, wanted.get(key, ()), strict=False)}
 
 
-def _by_owner(engine: Engine, part: Made) -> dict[tuple[str, bool], list[int]]:
+def _by_owner(engine: Engine, part: EngineLayout) -> dict[tuple[str, bool], list[int]]:
     """Return owner, and whether the shape stays where it is → numbers of shapes in their order."""
     found: dict[tuple[str, bool], list[int]] = {}
-    for k, touch in enumerate(engine._touches):
+    for k, touch in enumerate(engine.collision_shapes):
         found.setdefault((part.owners[touch.owner], touch.body < 0), []).append(k)
     return found
 
 
-def _remember(a: Arrays, b: Arrays, trees: Sequence[tuple[int, int]], shapes: dict[int, int]) -> None:
+def _transfer_impulses(a: Arrays, b: Arrays, trees: Sequence[tuple[int, int]], shapes: dict[int, int]) -> None:
     """Carry over the impulses of motors, limits, mimic joints and contacts with the ground."""
     n, m = int(a["tree_dof"][-1]), int(b["tree_dof"][-1])
     for i, j in trees:
@@ -118,7 +118,7 @@ def _feature_ends(arrays: Arrays) -> list[int]:
     return [*arrays["shape_feature"][1:].tolist(), last]
 
 
-def _remember_pairs(a: Arrays, b: Arrays, shapes: dict[int, int]) -> None:
+def _transfer_pair_impulses(a: Arrays, b: Arrays, shapes: dict[int, int]) -> None:
     """Carry over the impulses of contacts of pairs, those of sleepers too, in the order of their pairs."""
     room = len(b["contact_gap"])
     known = [

@@ -1,4 +1,4 @@
-"""Assembly: everything in a simulation, and the engine made of it."""
+"""Builder of a world: its entities, and the engine that simulates them."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from urdfkit.scene import Scene
 from urdfkit.sim.construction.missing_meshes import without_broken
 from urdfkit.sim.construction.rigid_bodies import bodies_of_model, require_no_joints
 from urdfkit.sim.construction.spawn import Spawn
-from urdfkit.sim.engine import Body, Engine, Ground, Loose
+from urdfkit.sim.engine import Body, Engine, FreeBody, Ground
 from urdfkit.sim.engine.kernel_cache import announcement, warmup
 from urdfkit.sim.state.arguments import nearest
-from urdfkit.sim.world.included_models import Entries, Entry
 from urdfkit.sim.world.simulated_robot import SimulatedRobot, ground_height
-from urdfkit.sim.world.state_transfer import Made, carry_over
+from urdfkit.sim.world.state_transfer import EngineLayout, transfer_state
+from urdfkit.sim.world.world_entity import EntityFactory, WorldEntity
 
 
-class Assembly:
-    """The robots and bodies of a world, and the engine that is made of them; made anew when something comes or goes.
+class WorldBuilder:
+    """Entities of a world, and the engine built from them; built again after every spawn or removal.
 
     Args:
         first: the robot that the simulation is about.
@@ -37,17 +37,17 @@ class Assembly:
         UrdfkitError: something in the world cannot be simulated.
 
     Attributes:
-        world: as it was read, with what was added and without what was removed.
+        description: the world as it was read, with what was added and without what was removed.
         engine: what moves everything.
         revision: how often it was made anew.
-        still: body → pose, of those that do not move.
+        static_poses: name → pose of the bodies that do not move.
     """
 
     engine: Engine
-    still: dict[str, tuple[float, ...]]
+    static_poses: dict[str, tuple[float, ...]]
     _robots: list[SimulatedRobot]
     _bodies: list[Body]
-    _made: Made
+    _layout: EngineLayout
 
     def __init__(
         self,
@@ -62,50 +62,52 @@ class Assembly:
         require_no_joints(world)
         self.revision = 0
         self._dt, self._sleep, self._note = dt, sleep, note
-        self._make = Entries(note, package_path)
-        models = tuple([without_broken(model, self._make.meshes, note) for model in world.models])
-        self.world = world = replace(world, models=models)
-        self._entries: dict[str, Entry] = {first.name: Entry(None, (first,), {first.name: IDENTITY})}
-        things: list[WorldModel | WorldRobot] = [*world.models, *world.robots]
-        for thing in things:
-            if thing.name == first.name:
+        self._factory = EntityFactory(note, package_path)
+        models = tuple([without_broken(model, self._factory.meshes, note) for model in world.models])
+        self.description = world = replace(world, models=models)
+        self.entities: dict[str, WorldEntity] = {first.name: WorldEntity(None, (first,), {first.name: IDENTITY})}
+        sources: list[WorldModel | WorldRobot] = [*world.models, *world.robots]
+        for source in sources:
+            if source.name == first.name:
                 raise SimulationError(
-                    f"the world has a model `{thing.name}` already; give the robot another name",
-                    position=thing.position,
+                    f"the world has a model `{source.name}` already; give the robot another name",
+                    position=source.position,
                 )
-            self._entries[thing.name] = self._entry(thing)
-        self._build()
+            self.entities[source.name] = self._make(source)
+        self.build()
 
     # What there is
 
     @property
     def robots(self) -> dict[str, SimulatedRobot]:
         """Robots by name, the first one first."""
-        return {robot.name: robot for entry in self._entries.values() for robot in entry.robots}
+        return {robot.name: robot for entity in self.entities.values() for robot in entity.robots}
 
     @property
-    def everybody(self) -> Sequence[SimulatedRobot]:
+    def robot_list(self) -> Sequence[SimulatedRobot]:
         """The robots, the first one first."""
         return self._robots
 
     @property
-    def statues(self) -> tuple[tuple[str, Scene], ...]:
+    def static_robots(self) -> tuple[tuple[str, Scene], ...]:
         """Name and scene of each robot that does not move; its links are bodies called ``NAME::LINK``."""
-        return tuple((name, entry.statue) for name, entry in self._entries.items() if entry.statue is not None)
+        return tuple(
+            (name, entity.static_scene) for name, entity in self.entities.items() if entity.static_scene is not None
+        )
 
     @property
     def names(self) -> tuple[str, ...]:
         """The models and robots, the first robot first."""
-        return tuple(self._entries)
+        return tuple(self.entities)
 
     @property
     def ground(self) -> Ground | None:
         """What the engine stands on."""
-        found = self.world.ground
+        found = self.description.ground
         return None if found is None else Ground(found.height, found.mu, found.name)
 
     @property
-    def loose(self) -> dict[str, Loose]:
+    def free_bodies(self) -> dict[str, FreeBody]:
         """The bodies that are free to move."""
         return self.engine.bodies
 
@@ -125,55 +127,55 @@ class Assembly:
         """The bodies, free ones or not."""
         return tuple(body.name for body in self._bodies)
 
-    def entry(self, name: str) -> Entry:
+    def entity(self, name: str) -> WorldEntity:
         """Return a model or robot.
 
         Raises:
             SimulationError: there is none.
         """
-        if name not in self._entries:
-            hint = nearest(name, self._entries)
-            raise UnknownNameError(f"no model or robot `{name}` in world `{self.world.name}`{hint}")
-        return self._entries[name]
+        if name not in self.entities:
+            hint = nearest(name, self.entities)
+            raise UnknownNameError(f"no model or robot `{name}` in world `{self.description.name}`{hint}")
+        return self.entities[name]
 
     # Coming and going
 
     def add(
         self,
-        thing: WorldModel | WorldRobot,
+        source: WorldModel | WorldRobot,
         robot: Robot | None = None,
         spawn: Spawn | None = None,
         *,
-        bolted: bool = False,
-    ) -> Entry:
+        fixed_base: bool = False,
+    ) -> WorldEntity:
         """Put a model or robot into the world, where it says.
 
         Args:
-            thing: what to add; its name must be free.
-            robot: as loaded; from the file of `thing` when None.
-            spawn: how a robot starts; at rest where `thing` says when None.
-            bolted: bolt a robot's root link to the world.
+            source: what to add; its name must be free.
+            robot: as loaded; from the file of `source` when None.
+            spawn: how a robot starts; at rest where `source` says when None.
+            fixed_base: fix a robot's root link to the world.
 
         Raises:
             UrdfkitError: the name is taken, or it cannot be simulated.
         """
-        if thing.name in self._entries:
-            free = next(n for k in range(1, 10_000) if (n := f"{thing.name}_{k}") not in self._entries)
-            raise SimulationError(f"world `{self.world.name}` has a `{thing.name}` already; call it `{free}`")
-        world = self.world
-        if isinstance(thing, WorldModel):
-            thing = without_broken(thing, self._make.meshes, self._note)
-            self.world = add_model(world, thing)
+        if source.name in self.entities:
+            free = next(n for k in range(1, 10_000) if (n := f"{source.name}_{k}") not in self.entities)
+            raise SimulationError(f"world `{self.description.name}` has a `{source.name}` already; call it `{free}`")
+        world = self.description
+        if isinstance(source, WorldModel):
+            source = without_broken(source, self._factory.meshes, self._note)
+            self.description = add_model(world, source)
         else:
-            self.world = replace(world, robots=(*world.robots, thing))
+            self.description = replace(world, robots=(*world.robots, source))
         try:
-            self._entries[thing.name] = self._entry(thing, robot, spawn, bolted=bolted)
-            self._build()
+            self.entities[source.name] = self._make(source, robot, spawn, fixed_base=fixed_base)
+            self.build()
         except BaseException:
-            self.world = world
-            self._entries.pop(thing.name, None)
+            self.description = world
+            self.entities.pop(source.name, None)
             raise
-        return self._entries[thing.name]
+        return self.entities[source.name]
 
     def remove(self, name: str) -> None:
         """Take a model or robot out of the world.
@@ -181,40 +183,40 @@ class Assembly:
         Raises:
             SimulationError: there is none, or it is the robot that the simulation is about.
         """
-        entry = self.entry(name)
-        if entry.thing is None:
+        entity = self.entity(name)
+        if entity.source is None:
             raise SimulationError(f"`{name}` is the robot that is simulated; it cannot be removed")
-        self.world = remove_model(self.world, name)
-        del self._entries[name]
-        for robot in entry.robots:
+        self.description = remove_model(self.description, name)
+        del self.entities[name]
+        for robot in entity.robots:
             robot.retire()
-        self._build()
+        self.build()
 
-    def _entry(
+    def _make(
         self,
-        thing: WorldModel | WorldRobot,
+        source: WorldModel | WorldRobot,
         robot: Robot | None = None,
         spawn: Spawn | None = None,
-        bolted: bool = False,
-    ) -> Entry:
-        return self._make.entry(thing, robot, spawn, ground=ground_height(self.ground), bolted=bolted)
+        fixed_base: bool = False,
+    ) -> WorldEntity:
+        return self._factory.make(source, robot, spawn, ground=ground_height(self.ground), fixed_base=fixed_base)
 
     def rebuild(self) -> None:
-        """Make the engine anew of the same things, whose properties have changed."""
+        """Make the engine anew of the same sources, whose properties have changed."""
         revision = self.revision
-        self._build()
+        self.build()
         self.revision = revision  # nobody who looks has to look anew
 
-    def _build(self) -> None:
+    def build(self) -> None:
         """Make the engine anew, and bring it to where the last one was."""
         ground = self.ground
-        robots = [robot for entry in self._entries.values() for robot in entry.robots]
+        robots = [robot for entity in self.entities.values() for robot in entity.robots]
         bodies: list[Body] = []
-        for entry in self._entries.values():
-            bodies += entry.still
-            if isinstance(entry.thing, WorldModel):
-                is_ground = ground is not None and entry.thing.name == ground.name
-                bodies += bodies_of_model(entry.thing, self._make.meshes, is_ground=is_ground)
+        for entity in self.entities.values():
+            bodies += entity.static_bodies
+            if isinstance(entity.source, WorldModel):
+                is_ground = ground is not None and entity.source.name == ground.name
+                bodies += bodies_of_model(entity.source, self._factory.meshes, is_ground=is_ground)
         first = robots[0]
         together = bool(bodies or robots[1:] or first.self_collide)
         about = announcement(world=together)
@@ -223,7 +225,7 @@ class Assembly:
             first.kinematics,
             first.shapes,
             dt=self._dt,
-            gravity=self.world.gravity,
+            gravity=self.description.gravity,
             ground=ground,
             surfaces=first.surfaces,
             base=first.base.tolist(),
@@ -235,17 +237,19 @@ class Assembly:
         )
         free = [body.name for body in bodies if not body.static]
         names = [f"robot {robot.name}" for robot in robots]
-        made = Made([*names, *(f"body {name}" for name in free)], [*names, *(f"body {each.name}" for each in bodies)])
-        for robot, part in zip(robots, engine.robots, strict=True):
-            known = hasattr(robot, "part")
-            robot.attach(engine, part)
+        made = EngineLayout(
+            [*names, *(f"body {name}" for name in free)], [*names, *(f"body {each.name}" for each in bodies)]
+        )
+        for robot, articulation in zip(robots, engine.robots, strict=True):
+            known = hasattr(robot, "articulation")
+            robot.attach(engine, articulation)
             if not known:
-                part.put(*robot.spawn.configuration(robot.kinematics, robot.base))
+                articulation.put(*robot.spawn.configuration(robot.kinematics, robot.base))
         if self.revision:
-            carry_over(self.engine, self._made, engine, made)
+            transfer_state(self.engine, self._layout, engine, made)
         for robot in robots:
             robot.state.step = engine.steps
             robot.state.advance(0)
-        self.engine, self._made, self._bodies, self._robots = engine, made, bodies, robots
-        self.still = {body.name: tuple(body.pose) for body in bodies if body.static}
+        self.engine, self._layout, self._bodies, self._robots = engine, made, bodies, robots
+        self.static_poses = {body.name: tuple(body.pose) for body in bodies if body.static}
         self.revision += 1

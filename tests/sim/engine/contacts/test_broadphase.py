@@ -42,7 +42,7 @@ def test_pairs_are_those_whose_boxes_meet(engine_of, seed):
     engine = rover(engine_of, bodies=scatter(seed), sleep=False)
     for _ in range(3):
         engine.step(1)
-        a = engine._arrays
+        a = engine.arrays
         count = int(a["counts"][FOUND_PAIRS])
         found = list(zip(a["pair_a"][:count].tolist(), a["pair_b"][:count].tolist(), strict=True))
         moving = int(a["tree_shape"][-1])
@@ -69,7 +69,7 @@ def test_boxes_hold_their_shapes_and_no_more(engine_of):
         ]
         engine = rover(engine_of, bodies=bodies, sleep=False, gravity=(0.0, 0.0, 0.0))
         engine.step(1)
-        reach = engine._arrays["shape_reach"][-4:]
+        reach = engine.arrays["shape_reach"][-4:]
         import pinocchio as pin
 
         R = pin.Quaternion(np.array(pose)).matrix()
@@ -86,7 +86,7 @@ def test_a_wall_is_near_only_what_stands_at_it(engine_of):
     wall = slab("wall", (0.0, 2.0, 1.0), (10.0, 0.1, 2.0), static=True)
     engine = rover(engine_of, bodies=[wall])
     engine.step(1)
-    assert engine._arrays["counts"][FOUND_PAIRS] == 0
+    assert engine.arrays["counts"][FOUND_PAIRS] == 0
 
 
 def test_pairs_and_rows_of_many_robots_grow_with_their_number(engine_of):
@@ -94,7 +94,7 @@ def test_pairs_and_rows_of_many_robots_grow_with_their_number(engine_of):
     for count in (2, 50):
         engine = rovers(engine_of, count)
         engine.step(200)
-        counts = engine._arrays["counts"]
+        counts = engine.arrays["counts"]
         found[count] = counts[FOUND_PAIRS] / count, counts[FOUND_ROWS] / count
     assert found[50] == found[2]
 
@@ -105,5 +105,5 @@ def test_a_hull_off_its_origin_is_where_it_is(engine_of):
     hull = Piece(Shape("collision", "hull", "collision", Mesh("hull.stl"), np.eye(4), mesh=mesh))
     engine = rover(engine_of, bodies=[Body("hull", (0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 1.0), [hull])], sleep=False)
     engine.step(1)
-    assert engine._arrays["shape_at"][-1] == pytest.approx([5.0, 0.0, 3.0], abs=1e-4)
-    assert engine._arrays["shape_reach"][-1] == pytest.approx([0.1] * 3, abs=1e-3)
+    assert engine.arrays["shape_at"][-1] == pytest.approx([5.0, 0.0, 3.0], abs=1e-4)
+    assert engine.arrays["shape_reach"][-1] == pytest.approx([0.1] * 3, abs=1e-3)

@@ -28,7 +28,7 @@ def test_every_round_has_its_stiffness_and_balance():
 
 def test_a_robot_stalled_against_a_pillar_is_solved_as_quickly_as_one_that_drives():
     simulator = Simulator("artoo", world="cylinders")
-    engine = simulator._stage.engine
+    engine = simulator.world.builder.engine
     for _ in range(80):
         simulator.command((0.5, 0.0, 0.0), (0.0, 0.0, 0.3))
         simulator.step(100)
@@ -51,7 +51,7 @@ def test_a_knocked_stack_is_never_only_nearly_solved(engine_of):
         guesses = []
         for _ in range(30):
             engine.step()
-            guesses.append(int(engine._arrays["counts"][GUESSES]))
+            guesses.append(int(engine.arrays["counts"][GUESSES]))
         assert min(guesses) > IN_VAIN
         assert sum(each < 0 for each in guesses) <= 6
         assert set(guesses[15:]) == {1}

@@ -56,7 +56,7 @@ def heights(engine):
 
 def cone_excess(engine):
     """Return by how much impulses leave their cones, over the largest of them."""
-    a = engine._arrays
+    a = engine.arrays
     n = int(a["counts"][FOUND_ROWS])
     mu, x = a["mu"][:n], a["x"][:n]
     normals = np.flatnonzero(mu > 0.0)
@@ -74,7 +74,7 @@ def all_asleep(engine, seconds):
 
 def test_sweeps_are_bounded_and_leave_impulses_in_their_cones(engine_of):
     engine = rover(engine_of, bodies=tray(80, 0.4))
-    counts = engine._arrays["counts"]
+    counts = engine.arrays["counts"]
     swept = 0
     for _ in range(80):
         engine.step(10)
@@ -125,7 +125,7 @@ def test_a_heap_that_stays_awake_does_not_sink(engine_of):
 def test_what_touches_with_another_feature_goes_on_with_its_impulse(engine_of):
     engine = rover(engine_of, bodies=[cube(f"box{k}", (X, 0.0, 0.1 + 0.2 * k)) for k in range(3)], sleep=False)
     engine.step(50)
-    arrays = engine._arrays
+    arrays = engine.arrays
     loads = np.array([contact.force for contact in engine.contacts() if contact.b.startswith("box")])
     assert len(loads) == 8
     arrays["last_feature"][:8] += 1000
@@ -140,7 +140,7 @@ def test_an_island_of_more_rows_than_have_room_for_their_matrix_is_swept(engine_
     plate = slab("plate", (X + 1.25, 1.25, 0.21), (2.8, 2.8, 0.02))
     engine = rover(engine_of, bodies=[*grid, plate], sleep=False)
     engine.step(60)
-    assert int(engine._arrays["counts"][FOUND_ROWS]) > MOST_DENSE
+    assert int(engine.arrays["counts"][FOUND_ROWS]) > MOST_DENSE
     assert engine.bodies["plate"].pose[2] == pytest.approx(0.21, abs=1e-4)
     assert max(contact.depth for contact in engine.contacts()) < 1e-4
     on_plate = sum(contact.force[2] * (1 if contact.a == "plate" else -1) for contact in engine.contacts()
@@ -162,7 +162,7 @@ def test_a_robot_that_lies_on_hundreds_of_points_lies(tmp_path):
     kinematics = Kinematics(load(tmp_path / "bed.urdf"), floating_base=True)
     engine = Engine(kinematics, scene_of(kinematics.robot).shapes)
     engine.step(20)
-    counts = engine._arrays["counts"]
+    counts = engine.arrays["counts"]
     assert (counts[FOUND_CONTACTS], counts[FOUND_ROWS]) == (600, 1800)
     assert engine.q[:3] == pytest.approx((0.0, 0.0, 0.0), abs=1e-6)
     assert sum(contact.force[2] for contact in engine.contacts()) == pytest.approx(5 * 9.81, rel=1e-6)

@@ -50,7 +50,7 @@ def test_a_stack_falls_asleep_and_stays_where_it_is(engine_of):
     assert [body.pose for body in engine.bodies.values()] == poses
     assert engine.bodies["box0"].twist == (0.0,) * 6
     assert engine.t == pytest.approx(11.0)
-    assert engine._arrays["counts"][FOUND_ROWS] == 0
+    assert engine.arrays["counts"][FOUND_ROWS] == 0
 
 
 def test_the_contacts_of_what_sleeps_are_still_told(engine_of):
@@ -69,7 +69,7 @@ def test_without_sleep_nothing_sleeps(engine_of):
     engine = rover(engine_of, bodies=stack(), sleep=False)
     engine.step(1500)
     assert not sleeping(engine)
-    assert engine._arrays["counts"][FOUND_CONTACTS] == 15
+    assert engine.arrays["counts"][FOUND_CONTACTS] == 15
 
 
 def test_waking_changes_nothing_that_rests(engine_of):
@@ -130,7 +130,7 @@ def test_what_lost_its_support_falls(engine_of):
 def test_gravity_wakes(engine_of):
     engine = rover(engine_of, bodies=stack())
     engine.step(1000)
-    engine._arrays["gravity"][:] = 0.0, 0.0, 1.0
+    engine.arrays["gravity"][:] = 0.0, 0.0, 1.0
     engine.step(100)
     assert not sleeping(engine)
     assert engine.bodies["box2"].pose[2] > 0.504
@@ -185,7 +185,7 @@ def test_before_anything_sleeps_it_is_the_same_to_the_last_bit(engine_of):
         engine = rover(engine_of, bodies=[*stack(), slab("board", (0.0, 0.0, 0.4), (0.5, 0.3, 0.02))], sleep=sleep)
         engine.step(450)
         assert not sleeping(engine)
-        states.append(engine._arrays["s"].tobytes())
+        states.append(engine.arrays["s"].tobytes())
     assert states[0] == states[1]
 
 
@@ -196,7 +196,7 @@ def test_sleep_is_the_same_twice_to_the_last_bit(engine_of):
         engine.step(1200)
         engine.bodies["box2"].push((5.0, 0.0, 0.0, 0.0, 0.0, 0.0))
         engine.step(800)
-        states.append(engine._arrays["s"].tobytes())
+        states.append(engine.arrays["s"].tobytes())
     assert states[0] == states[1]
 
 
@@ -214,7 +214,7 @@ def test_a_world_of_sleeping_robots_takes_no_rows(engine_of):
         robot.motor_velocity[6:] = 0.0
     engine.step(1000)
     assert all(robot.asleep for robot in engine.robots)
-    assert engine._arrays["counts"][FOUND_ROWS] == 0
+    assert engine.arrays["counts"][FOUND_ROWS] == 0
 
 
 def lying_can(name, at):

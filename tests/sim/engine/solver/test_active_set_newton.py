@@ -46,7 +46,7 @@ def violation(A, g, low, high, mu, x):
 
 
 def rows_of(engine):
-    a = engine._arrays
+    a = engine.arrays
     n = int(a["counts"][FOUND_ROWS])
     A = a["A"][: n * n].reshape(n, n)
     return A, a["g"][:n], a["low"][:n], a["high"][:n], a["mu"][:n], a["x"][:n]
@@ -214,5 +214,5 @@ def test_turning_on_the_spot_takes_no_sweeps(engine_of):
     for _ in range(50):
         engine.step()
         violations.append(violation(*rows_of(engine)))
-        assert 0 < engine._arrays["counts"][GUESSES] <= 2
+        assert 0 < engine.arrays["counts"][GUESSES] <= 2
     assert max(violations) < 1e-9

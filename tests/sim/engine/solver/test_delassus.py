@@ -30,7 +30,7 @@ def test_rows_are_whitened_by_the_masses(engine_of, joints):
     start = np.random.default_rng(joints).normal(scale=0.1, size=joints)
     engine.reset(None, start)
     engine.step()
-    a = engine._arrays
+    a = engine.arrays
     assert a["counts"][FOUND_ROWS] == joints
     # Each row is the velocity of one joint.
     M = np.tril(a["M"][: joints**2].reshape(joints, joints))

@@ -99,7 +99,7 @@ def test_efforts_stay_within_the_limit_and_windup_within_the_clamp(make: Make) -
     # 3 s of a large error would have wound the integral up; its clamp lets it turn round at once.
     error = 1.2 - simulator.state.position("shoulder")
     assert abs(error) > 0.2
-    engine = simulator._stage.engine
+    engine = simulator.world.builder.engine
     assert engine.ki[0] == 50.0
     assert 0.0 < abs(engine.integral[0]) <= 3.0 / 50.0 + 1e-12
 

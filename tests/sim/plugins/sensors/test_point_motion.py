@@ -52,7 +52,9 @@ def four(quaternion) -> tuple[float, ...]:
 def test_at_rest_it_feels_the_ground_push_against_gravity(brick) -> None:
     simulator = brick(imu(ROS_1.format("")), world="empty")
     message = heard(simulator, "/brick/imu_data", 0.5)[-1]
-    assert three(message.linear_acceleration) == pytest.approx((0, 0, -simulator.world.gravity[2]), abs=1e-6)
+    assert three(message.linear_acceleration) == pytest.approx(
+        (0, 0, -simulator.world.description.gravity[2]), abs=1e-6
+    )
     assert three(message.angular_velocity) == pytest.approx((0, 0, 0), abs=1e-6)
     assert four(message.orientation) == pytest.approx((0, 0, np.sqrt(0.5), np.sqrt(0.5)), abs=1e-6)
     assert message.header.frame_id == "corner"
@@ -91,7 +93,7 @@ def test_a_message_nobody_waited_for_can_be_had(brick) -> None:
     simulator.run(0.5)
     simulator.run(0.01)
     felt = simulator.bus.latest("/n/imu/out").linear_acceleration
-    assert three(felt) == pytest.approx((0, 0, -simulator.world.gravity[2]), abs=1e-6)
+    assert three(felt) == pytest.approx((0, 0, -simulator.world.description.gravity[2]), abs=1e-6)
 
 
 def test_the_new_gazebos_orientation_is_relative_to_the_start(brick) -> None:

@@ -33,7 +33,7 @@ class ContactForces(Feature):
         if slides:
             from urdfkit.sim.world.slip_velocity import slips
 
-            found = slips(simulator, contacts)
+            found = slips(simulator.world, contacts)
             rows = np.array([(*each.position, *each.velocity) for each in found]).reshape(-1, 6)
             self.server.sense(SLIPS, 1, simulator.t, ARROWS, _packed(rows))
             fastest: dict[str, float] = {}
@@ -43,7 +43,7 @@ class ContactForces(Feature):
 
     def _links(self) -> set[str]:
         """Return the names of the links of robots in contacts: without the robot's name for the first robot."""
-        robots = list(self.simulator.robots.values())
+        robots = list(self.simulator.world.robots.values())
         found = set(robots[0].kinematics.link_names)
         for robot in robots[1:]:
             if robot.has_plugins:

@@ -144,7 +144,7 @@ class JointSliders(Feature):
     def show(self) -> None:
         """Publish the sliders."""
         before, self._arms = self._arms, {}
-        for robot in self.simulator.robots.values():
+        for robot in self.simulator.world.robots.values():
             for controller in robot.plugins.controllers:
                 if controller.loop is None:
                     continue
@@ -161,7 +161,7 @@ class JointSliders(Feature):
         self.server.declare("arms", arms=[arm.row() for arm in self._arms.values()])
 
     def _now(self) -> list[tuple[str, str]]:
-        robots = self.simulator.robots.values()
+        robots = self.simulator.world.robots.values()
         return [(f"{robot.name}/{each.name}", each.state) for robot in robots for each in robot.controllers.list()]
 
     def forget(self) -> None:

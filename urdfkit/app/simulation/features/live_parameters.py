@@ -22,7 +22,7 @@ class LiveParameters(Feature):
 
     def __init__(self, simulator: Simulator, server: Server, clock: Callable[[], float]) -> None:
         super().__init__(simulator, server, clock)
-        self._tuning = Tuning(self.simulator)
+        self._tuning = Tuning(self.simulator.world)
 
     @property
     def takes(self) -> Takes:
@@ -39,8 +39,8 @@ class LiveParameters(Feature):
     def show(self) -> None:
         """Publish all parameters with their values."""
         tuning, rows = self._tuning, []
-        for name, robot in self.simulator.robots.items():
-            if robot.has_plugins or robot is self.simulator._stage.everybody[0]:
+        for name, robot in self.simulator.world.robots.items():
+            if robot.has_plugins or name == self.simulator.name:
                 links = [(name, each.name, each.mass, each.mu) for each in tuning.links(name)]
                 rows += [_row(name, link, mass, mu) for name, link, mass, mu in links]
         rows += [_row(each.name, "", each.mass, each.mu) for each in tuning.models]

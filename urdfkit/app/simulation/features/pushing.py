@@ -45,7 +45,7 @@ class Pushing(Feature):
     def _push(self, order: Order) -> Done:
         values = order.values
         self._release(order.client)
-        self.simulator.push(values["link"], values["force"], values["torque"], at=values["at"], for_seconds=HOLD)
+        self.simulator.world.push(values["link"], values["force"], values["torque"], at=values["at"], for_seconds=HOLD)
         self._held[order.client] = values["link"]
         self.server.driver.touch(order.client)
         return None
@@ -57,4 +57,4 @@ class Pushing(Feature):
     def _release(self, client: int) -> None:
         if (link := self._held.pop(client, None)) is not None:
             with contextlib.suppress(SimulationError):  # its body may have been removed meanwhile
-                self.simulator.release(link)
+                self.simulator.world.release(link)

@@ -108,7 +108,7 @@ class Replay(Feature):
         if self._recording:
             raise SimulationError("a recording is running already")
         self._times, self._frames, self._bytes = [], [], 0
-        self.playing, self._revision = False, self.simulator.revision
+        self.playing, self._revision = False, self.simulator.world.revision
         if order.values.get("topics"):
             from urdfkit.bridges.recorder import Recorder
 
@@ -169,7 +169,7 @@ class Replay(Feature):
             raise SimulationError("stop the recording first")
         if not self._times:
             raise SimulationError("nothing has been recorded yet")
-        if self.simulator.revision != self._revision:
+        if self.simulator.world.revision != self._revision:
             raise SimulationError("the recording cannot be shown: entities were spawned or removed since")
         if not self.playing:
             self._at = self._times[0]

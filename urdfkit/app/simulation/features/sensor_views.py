@@ -96,9 +96,9 @@ class SensorViews:
 
     def find(self) -> bool:
         """Find the sensors, publish their list, and return whether there are any."""
-        self._revision = self._simulator.revision
+        self._revision = self._simulator.world.revision
         self._views = []
-        for robot in self._simulator.robots.values():
+        for robot in self._simulator.world.robots.values():
             for sensor in robot.plugins.sensors:
                 if isinstance(sensor, Mounted):
                     shown = smaller(sensor) if isinstance(sensor, Camera) else sensor
@@ -119,7 +119,7 @@ class SensorViews:
 
     def show(self) -> float:
         """Send the view of one sensor, if one is due; return the time spent [s]."""
-        if self._simulator.revision != self._revision:
+        if self._simulator.world.revision != self._revision:
             self.find()
         now = self._clock()
         if now < self._free:

@@ -19,7 +19,7 @@ def drive_controls(simulator: Simulator) -> dict[str, Any]:
     start = Teleop()
     robots = [
         {"name": name, "drives": bool(command_topics(robot))}
-        for name, robot in simulator.robots.items()
+        for name, robot in simulator.world.robots.items()
         if robot.has_plugins or name == simulator.name
     ]
     return {

@@ -42,25 +42,24 @@ class WorldObjects(Feature):
         from urdfkit.description.sdf import model_names
         from urdfkit.resources import robot_names
 
-        world = self.simulator._stage
+        world = self.simulator.world
         rows = []
         for name in world.names:
-            entry = world.entry(name)
-            first = entry.thing is None
-            robot = any(each.has_plugins for each in entry.robots)
-            rows.append({"name": name, "robot": robot or first, "first": first, "static": world._stands(entry)})
+            first = name == self.simulator.name
+            robot = first or any(each.has_plugins for each in world.builder.entity(name).robots)
+            rows.append({"name": name, "robot": robot, "first": first, "static": world.is_static(name)})
         self.server.declare(
             "objects",
             objects=rows,
             models=[name for name in model_names() if name not in ("sun", "ground_plane")],
             robots=robot_names(),
-            world=self.simulator.world.name,
+            world=world.name,
         )
 
     def _spawn(self, order: Order) -> Done:
         name, model = order.values.get("name") or None, order.values["model"]
         self._require_plain(model)  # by name only: a page must not read files of this machine
-        if len(self.simulator._stage.names) >= MAX_OBJECTS:
+        if len(self.simulator.world.names) >= MAX_OBJECTS:
             raise SimulationError(f"the world has {MAX_OBJECTS} objects, the maximum; remove one first")
         pose = order.values.get("pose")
         from urdfkit.resources import robot_names
@@ -68,11 +67,11 @@ class WorldObjects(Feature):
 
         if pose is not None and model in robot_names():
             # On the ground at this position.
-            found = self.simulator.spawn(
+            found = self.simulator.world.spawn(
                 model, Spawn(x=pose[0], y=pose[1], yaw=pose[-1] if len(pose) in (4, 6) else 0.0), name=name
             )
         else:
-            found = self.simulator.spawn(model, pose, name=name)
+            found = self.simulator.world.spawn(model, pose, name=name)
         return {"name": found}
 
     def _require_plain(self, model: str) -> None:
@@ -81,25 +80,25 @@ class WorldObjects(Feature):
 
     def _place(self, order: Order) -> Done:
         name, pose = order.values["name"], order.values["pose"]
-        world = self.simulator._stage
+        world = self.simulator.world
         if name == world.names[0] and not self.simulator.kinematics.floating_base:
             raise SimulationError(f"`{name}` has a fixed base and cannot be moved")
-        self.simulator.place(name, pose)
+        self.simulator.world.place(name, pose)
         return None
 
     def _remove(self, order: Order) -> Done:
-        self.simulator.remove(order.values["name"])
+        self.simulator.world.remove(order.values["name"])
         return None
 
     def _where(self, order: Order) -> Done:
-        pose = self.simulator.pose(order.values["name"])
+        pose = self.simulator.world.pose(order.values["name"])
         return {"pose": [*pose[:3], *_angles(pose[3:])]}
 
     def _walls(self, order: Order) -> Done:
-        from urdfkit.sim.world.spawn_requests import arrival_of_text
+        from urdfkit.sim.world.spawn_requests import spawn_request_of_text
 
         values = order.values
-        name = values.get("name") or self.simulator._free("walls")
+        name = values.get("name") or self.simulator.world.free_name("walls")
         if not name.replace("_", "").replace("-", "").isalnum():
             raise SimulationError(f"`{name}` is not a name for walls: use letters, digits, _ and -")
         document = walls(
@@ -109,14 +108,14 @@ class WorldObjects(Feature):
             height=values.get("height", 2.5),
             thickness=values.get("thickness", 0.15),
         )
-        return {"name": self.simulator.spawn(arrival_of_text(document))}
+        return {"name": self.simulator.world.spawn(spawn_request_of_text(document))}
 
     def _save(self, order: Order) -> Done:
         name = order.values.get("name") or self.simulator.world.name or "world"
         safe = "".join(each if each.isalnum() or each in "-_" else "_" for each in name) or "world"
         with TemporaryDirectory() as folder:
             file = Path(folder) / f"{safe}.sdf"
-            self.simulator.save_world(file)
+            self.simulator.world.save(file)
             content = file.read_bytes()
         self.server.hand_over(order, file.name, content)
         return {"bytes": len(content)}

@@ -20,15 +20,15 @@ class Controllers:
 
     Args:
         loops: the control loops, one per plugin.
-        stir: called when something of them may be due sooner than it was.
+        invalidate: called when something of them may be due sooner than it was.
 
     Attributes:
         each_publications: per loop, what its loaded controllers publish while they run.
     """
 
-    def __init__(self, loops: Sequence[ControlLoop], stir: Callable[[], None] = lambda: None) -> None:
+    def __init__(self, loops: Sequence[ControlLoop], invalidate: Callable[[], None] = lambda: None) -> None:
         self._loops = tuple(loops)
-        self._stir = stir
+        self._invalidate = invalidate
         self.each_publications: tuple[Sequence[Publication], ...] = tuple(loop.publications for loop in self._loops)
 
     @property
@@ -58,7 +58,7 @@ class Controllers:
             UrdfkitError: there is none of that name, or its parameters make no sense.
         """
         loop, own = self._find(name)
-        self._stir()
+        self._invalidate()
         if not loop.load(own):
             raise SimulationError(f"controller `{name}`: its type is not simulated")
 
@@ -69,7 +69,7 @@ class Controllers:
             SimulationError: there is none of that name, or it runs.
         """
         loop, own = self._find(name)
-        self._stir()
+        self._invalidate()
         loop.unload(own)
 
     def start(self, *names: str) -> None:
@@ -99,7 +99,7 @@ class Controllers:
             for name in names:
                 loop, own = self._find(name)
                 wanted.setdefault(self._loops.index(loop), (set(), set()))[side].add(own)
-        self._stir()
+        self._invalidate()
         for number, (starting, stopping) in wanted.items():
             self._loops[number].switch(start=starting, stop=stopping)
 

@@ -109,7 +109,7 @@ def test_a_joint_is_needed(rig: Callable[..., Rig]) -> None:
 
 def test_a_slider_tells_it(rig: Callable[..., Rig]) -> None:
     made = rig(gravity=(0, 0, 0))
-    (robot,) = made.simulator.robots.values()
+    (robot,) = made.simulator.world.robots.values()
     (controller,) = (each for each in robot.plugins.controllers if each.loop is not None)
     arm = ControllerSliders(robot, controller.loop.laws["grip"])
     assert arm.of == "position"

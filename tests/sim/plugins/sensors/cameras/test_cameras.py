@@ -67,7 +67,7 @@ def test_what_is_written_about_intrinsics_is_told(post) -> None:
 def test_nobody_looks_for_camera_info(post) -> None:
     simulator = post(eye(ros1()), room=ROOM)
     heard(simulator, "/cam/camera_info", 0.5)
-    assert not simulator._setup.surroundings.was_looked_at
+    assert not simulator.surroundings.was_looked_at
 
 
 @pytest.mark.parametrize("form", ["L8", "L16", "R16G16B16", "B8G8R8", "BAYER_RGGB8", "BAYER_GRBG8"])

@@ -68,17 +68,17 @@ def test_every_lidar_that_comes_along_is_simulated() -> None:
 def test_what_comes_and_goes_is_seen_as_long_as_it_is_there(post) -> None:
     simulator = post(sensor(LASER, inside=scan(1, 0, 0), rate=100), room="")
     assert np.isinf(heard(simulator, "/scan", 0.05)[-1].ranges[0])
-    simulator.spawn("unit_box", (4.0, 0.0, 0.5), name="thing")
+    simulator.world.spawn("unit_box", (4.0, 0.0, 0.5), name="thing")
     assert heard(simulator, "/scan", 0.05)[-1].ranges[0] == pytest.approx(3.5, abs=1e-3)
-    simulator.place("thing", (6.0, 0.0, 0.5))
+    simulator.world.place("thing", (6.0, 0.0, 0.5))
     assert heard(simulator, "/scan", 0.05)[-1].ranges[0] == pytest.approx(5.5, abs=1e-3)
-    simulator.remove("thing")
+    simulator.world.remove("thing")
     assert np.isinf(heard(simulator, "/scan", 0.05)[-1].ranges[0])
 
 
 def test_another_robot_is_seen_and_sees(post) -> None:
     simulator = post(sensor(LASER, inside=scan(1, 0, 0), rate=100), room="")
-    simulator.spawn("rrbot", (5.0, 0.0, 0.0, np.pi), name="other")
+    simulator.world.spawn("rrbot", (5.0, 0.0, 0.0, np.pi), name="other")
     mine = heard(simulator, "/scan", 0.05)[-1].ranges[0]
     assert 4.5 < mine < 5.0  # the foot of the other robot
     assert heard(simulator, "/rrbot/laser/scan", 0.05)
@@ -111,9 +111,9 @@ def test_a_robot_that_the_world_includes_is_seen(post, tmp_path, static: bool) -
     simulator = post(lidars, room=f"</model>{included}<model name='rest'><static>true</static><link name='l'/>")
     assert heard(simulator, "/scan")[-1].ranges[0] == pytest.approx(2.8, abs=0.02)
     assert heard(simulator, "/seen")[-1].ranges[0] == pytest.approx(2.8, abs=0.02)
-    assert {shape.body for shape in simulator.looks()} >= {"tower::arm"}
+    assert {shape.body for shape in simulator.world.body_shapes()} >= {"tower::arm"}
     if static:
-        simulator.place("tower", (5.0, 0.0, 0.0))
+        simulator.world.place("tower", (5.0, 0.0, 0.0))
         assert heard(simulator, "/scan")[-1].ranges[0] == pytest.approx(4.8, abs=1e-3)
-        simulator.remove("tower")
+        simulator.world.remove("tower")
         assert np.isinf(heard(simulator, "/seen")[-1].ranges[0])

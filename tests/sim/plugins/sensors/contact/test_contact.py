@@ -55,7 +55,7 @@ def test_at_rest_the_ground_carries_the_weight(crate, plugin: str, topic: str, f
     simulator.run(0.5)
     message = heard(simulator, topic, 0.1)[-1]
     (state,) = message.states
-    weight = -MASS * simulator.world.gravity[2]
+    weight = -MASS * simulator.world.description.gravity[2]
     assert message.header.frame_id == frame
     assert (message.header.stamp.sec, message.header.stamp.nanosec) == (0, 600_000_000)
     assert state.collision1_name == "crate::base::base_collision"
@@ -82,9 +82,9 @@ def test_in_the_air_nothing_is_told_by_the_bumpers_and_nothing_said_by_the_new_g
 def test_a_push_off_centre_turns_the_crate_by_what_the_torque_says(crate) -> None:
     simulator = crate(bumper(ROS_1.format("")))
     simulator.run(0.5)
-    simulator.push("crate", force=(0, 0, -10.0), at=(0.1, 0.0, 0.1))
+    simulator.world.push("crate", force=(0, 0, -10.0), at=(0.1, 0.0, 0.1))
     state = heard(simulator, "/bump", 0.2)[-1].states[0]
-    assert state.total_wrench.force.z == pytest.approx(10.0 - MASS * simulator.world.gravity[2], rel=1e-6)
+    assert state.total_wrench.force.z == pytest.approx(10.0 - MASS * simulator.world.description.gravity[2], rel=1e-6)
     assert state.total_wrench.torque.y == pytest.approx(-0.1 * 10.0, abs=1e-6)  # balances the push
 
 
@@ -92,14 +92,14 @@ def test_a_short_touch_between_two_messages_is_told(crate) -> None:
     simulator = crate(bumper(ROS_1.format(""), rate=2.0), spawn=Spawn(z=0.15))
     messages = heard(simulator, "/bump", 0.5)  # it falls for 0.1 s and lies from then on
     assert messages[0].states
-    simulator.place("crate", (0.0, 0.0, 9.0))
+    simulator.world.place("crate", (0.0, 0.0, 9.0))
     (message,) = heard(simulator, "/bump", 0.5)
     assert not message.states
 
 
 def test_what_it_drives_against_is_named_and_pushes_back(crate) -> None:
     simulator = crate(bumper(ROS_1.format(""), rate=200.0), spawn=Spawn(twist=(1.0, 0, 0, 0, 0, 0)))
-    simulator.spawn("unit_box", (0.75, 0.0, 0.5), name="thing")
+    simulator.world.spawn("unit_box", (0.75, 0.0, 0.5), name="thing")
     states = [state for message in heard(simulator, "/bump", 0.2) for state in message.states]
     against = [state for state in states if state.collision2_name.startswith("thing::link::")]
     assert against
@@ -137,7 +137,7 @@ def test_which_collision_of_a_body_was_touched_is_told(crate, tmp_path: Path) ->
         f"{felt.format('far', 1.5)}{felt.format('under', 0)}</link></model></sdf>"
     )
     simulator = crate(bumper(ROS_1.format("")), spawn=Spawn(z=0.21))
-    simulator.spawn(tmp_path / "mat.sdf")
+    simulator.world.spawn(tmp_path / "mat.sdf")
     simulator.run(0.5)
     assert {state.collision2_name for state in heard(simulator, "/bump", 0.1)[-1].states} == {"mat::l::under"}
 
@@ -150,7 +150,7 @@ def test_the_new_gazebo_tells_contacts_with_both_wrenches(crate) -> None:
     (contact,) = messages[-1].contacts
     assert (contact.collision1.name, contact.collision1.type) == ("crate::base::base_collision", 5)
     up = sum(wrench.body_1_wrench.force.z for wrench in contact.wrenches)
-    assert up == pytest.approx(-MASS * simulator.world.gravity[2], abs=1e-6)
+    assert up == pytest.approx(-MASS * simulator.world.description.gravity[2], abs=1e-6)
     assert up == pytest.approx(-sum(wrench.body_2_wrench.force.z for wrench in contact.wrenches))
 
 
@@ -159,25 +159,29 @@ def test_nothing_is_looked_at_for_nobody_but_the_last_one_can_be_had(crate) -> N
     simulator.run(1.0)
     topic = next(each for each in simulator.bus.topics if each.name == "/bump")
     assert topic.count == 50
-    assert topic.latest.states[0].total_wrench.force.z == pytest.approx(-MASS * simulator.world.gravity[2], abs=1e-6)
+    assert topic.latest.states[0].total_wrench.force.z == pytest.approx(
+        -MASS * simulator.world.description.gravity[2], abs=1e-6
+    )
 
 
 def test_another_robots_bumper_hears_its_own_link_and_names_the_first_one(crate, tmp_path: Path) -> None:
     simulator = crate(bumper(ROS_1.format("")), spawn=Spawn(z=0.1))
     text = (tmp_path / "crate.urdf").read_text().replace("bump<", "second<")
     (tmp_path / "second.urdf").write_text(text)
-    simulator.spawn(tmp_path / "second.urdf", (0.0, 0.0, 0.31), name="upper")
+    simulator.world.spawn(tmp_path / "second.urdf", (0.0, 0.0, 0.31), name="upper")
     simulator.run(0.5)
     (state,) = heard(simulator, "/second", 0.1)[-1].states
     assert state.collision1_name == "upper::base::base_collision"
     assert state.collision2_name == "crate::base::base_collision"
-    assert state.total_wrench.force.z == pytest.approx(-MASS * simulator.world.gravity[2], rel=1e-4)
+    assert state.total_wrench.force.z == pytest.approx(-MASS * simulator.world.description.gravity[2], rel=1e-4)
     lower = {each.collision2_name: each for each in heard(simulator, "/bump", 0.1)[-1].states}
     assert lower["upper::base::base_collision"].total_wrench.force.z == pytest.approx(
-        MASS * simulator.world.gravity[2], rel=1e-4
+        MASS * simulator.world.description.gravity[2], rel=1e-4
     )
     assert np.isclose(
-        lower["ground_plane::link::collision"].total_wrench.force.z, -2 * MASS * simulator.world.gravity[2], rtol=1e-4
+        lower["ground_plane::link::collision"].total_wrench.force.z,
+        -2 * MASS * simulator.world.description.gravity[2],
+        rtol=1e-4,
     )
 
 
@@ -206,13 +210,13 @@ def test_a_models_own_bumper_in_a_world_goes_by_the_names_of_its_file(crate, tmp
         "</link></model></sdf>"
     )
     simulator = crate("", spawn=Spawn(z=0.21))
-    simulator.spawn(tmp_path / "mat.sdf")
+    simulator.world.spawn(tmp_path / "mat.sdf")
     simulator.run(0.5)
     contacts = {each.collision2.name: each for each in heard(simulator, "/mat", 0.01)[-1].contacts}
     on_it = contacts["crate::base::base_collision"]
     assert on_it.collision1.name == "mat::l::felt"
     down = sum(each.body_1_wrench.force.z for each in on_it.wrenches)
-    assert down == pytest.approx(MASS * simulator.world.gravity[2], rel=1e-4)
+    assert down == pytest.approx(MASS * simulator.world.description.gravity[2], rel=1e-4)
 
 
 def test_who_listens_changes_nothing(crate) -> None:
@@ -238,7 +242,7 @@ def test_the_touch_plugin_says_so_once_and_when_it_is_asked_again(crate) -> None
     when: list[float] = []
     simulator.subscribe("/goal/touched", "std_msgs/msg/Bool", lambda message: when.append(simulator.t))
     simulator.run(1.0)
-    falls = np.sqrt(2 * 0.1 / -simulator.world.gravity[2])
+    falls = np.sqrt(2 * 0.1 / -simulator.world.description.gravity[2])
     assert when == [pytest.approx(falls + 0.2, abs=0.005)]
     simulator.bus.publish("/goal/enable", "std_msgs/msg/Bool", message_type("std_msgs/msg/Bool")(True))
     simulator.run(0.5)

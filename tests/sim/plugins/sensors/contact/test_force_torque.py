@@ -144,7 +144,7 @@ def test_what_lies_on_the_ground_and_what_is_pushed_counts(arm) -> None:
     simulator = arm(ROS_1, shoulder="continuous", world="empty", height=0.25)
     simulator.run(3.0)  # the hand lies on the ground, the arm leans on it
     assert simulator.state.contacts
-    simulator.push("hand", force=(0.0, 3.0, 0.0))
+    simulator.world.push("hand", force=(0.0, 3.0, 0.0))
     force = wrench(heard(simulator, "/ft", 0.05)[-1])[0]
     ground = sum(np.array(contact.force) for contact in simulator.state.contacts)
     in_world = np.array(rotate(simulator.link_poses()[1][3:], force))

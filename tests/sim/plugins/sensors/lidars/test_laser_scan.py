@@ -81,7 +81,7 @@ def test_nothing_is_done_for_nobody_but_the_last_one_can_be_had(post) -> None:
     simulator.run(1.0)
     topic = simulator.bus.advertise("/scan", "sensor_msgs/msg/LaserScan")
     assert topic.count == 10
-    surroundings = simulator._setup.surroundings
+    surroundings = simulator.surroundings
     assert not surroundings.was_looked_at
     assert np.allclose(topic.latest.ranges, distances(np.linspace(-0.5, 1.5, 181)), rtol=1e-6)
     assert surroundings.was_looked_at

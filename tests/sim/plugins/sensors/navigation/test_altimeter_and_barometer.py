@@ -116,7 +116,7 @@ def test_a_logical_camera_lists_the_models_in_its_frustum(drone) -> None:
         "far": (0, 6.0, 1.5),
         "high": (0, 3, 2.8),
     }.items():
-        simulator.spawn("unit_box", place, name=name)
+        simulator.world.spawn("unit_box", place, name=name)
     message = heard(simulator, "/t", 0.02)[-1]
     (model,) = message.model
     assert model.name == "ahead"

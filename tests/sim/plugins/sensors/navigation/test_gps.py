@@ -81,9 +81,9 @@ def test_a_square_closes(drone) -> None:
     start = heard(simulator, topic, 0.1)[-1]
     for velocity in ((2.0, 0, 0), (0, 2.0, 0), (-2.0, 0, 0), (0, -2.0, 0)):
         pose = simulator.state.base_pose
-        simulator._stage.move("drone", simulator_pose(pose), (*velocity, 0, 0, 0))
+        simulator.world.place("drone", simulator_pose(pose), (*velocity, 0, 0, 0))
         simulator.run(1.0)
-    simulator._stage.move("drone", simulator_pose(simulator.state.base_pose))
+    simulator.world.place("drone", simulator_pose(simulator.state.base_pose))
     end = heard(simulator, topic, 0.1)[-1]
     assert (end.latitude, end.longitude) == pytest.approx((start.latitude, start.longitude), abs=1e-10)
 

@@ -1,4 +1,4 @@
-"""Models and robots of a world, as they are simulated: bodies, and robots."""
+"""Entities of a world, models and robots, as the bodies and robots that the engine simulates."""
 
 from __future__ import annotations
 
@@ -20,26 +20,26 @@ from urdfkit.sim.world.simulated_robot import SimulatedRobot
 
 
 @dataclass
-class Entry:
+class WorldEntity:
     """A model or robot of the world.
 
     Attributes:
-        thing: as written; None for the robot that the simulation is about.
+        source: as written; None for the robot that the simulation is about.
         robots: what of it is simulated as robots are.
         offsets: body or robot → pose of its frame in the model.
-        still: shapes of a robot that does not move, as bodies.
-        statue: the scene of a robot that does not move.
+        static_bodies: shapes of a robot that does not move, as bodies.
+        static_scene: the scene of a robot that does not move.
     """
 
-    thing: WorldModel | WorldRobot | None
+    source: WorldModel | WorldRobot | None
     robots: tuple[SimulatedRobot, ...] = ()
     offsets: dict[str, Pose] = field(default_factory=dict)
-    still: tuple[Body, ...] = ()
-    statue: Scene | None = None
+    static_bodies: tuple[Body, ...] = ()
+    static_scene: Scene | None = None
 
 
-class Entries:
-    """Makes them.
+class EntityFactory:
+    """Makes the entities of a world.
 
     Args:
         note: tells the user something.
@@ -53,35 +53,39 @@ class Entries:
         self._note, self._package_path = note, tuple(package_path)
         self.meshes = MeshLoader()
 
-    def entry(
+    def make(
         self,
-        thing: WorldModel | WorldRobot,
+        source: WorldModel | WorldRobot,
         robot: Robot | None,
         spawn: Spawn | None = None,
         *,
         ground: float | None = None,
-        bolted: bool = False,
-    ) -> Entry:
+        fixed_base: bool = False,
+    ) -> WorldEntity:
         """Return what a model or robot of the world is simulated as.
 
         Args:
-            thing: as written.
+            source: as written.
             robot: as loaded; from its file when None.
-            spawn: how a robot starts; at rest where `thing` says when None.
+            spawn: how a robot starts; at rest where `source` says when None.
             ground: height of what is below it [m]; None for nothing.
-            bolted: bolt a robot's root link to the world.
+            fixed_base: fix a robot's root link to the world.
 
         Raises:
             UrdfkitError: it cannot be simulated; says why and where.
         """
-        if isinstance(thing, WorldRobot):
+        if isinstance(source, WorldRobot):
             return self._robot_entry(
-                thing, robot or load_robot(thing.file, self._package_path), spawn, ground, bolted=bolted or thing.static
+                source,
+                robot or load_robot(source.file, self._package_path),
+                spawn,
+                ground,
+                fixed_base=fixed_base or source.static,
             )
-        offsets = {name: links[0][1] for name, _, links in parts_of(thing)}
+        offsets = {name: links[0][1] for name, _, links in parts_of(source)}
         robots = []
-        for tree in trees_of(thing):
-            start = _spawn_at(compose(thing.pose, tree.root))
+        for tree in trees_of(source):
+            start = _spawn_at(compose(source.pose, tree.root))
             robots.append(
                 SimulatedRobot(
                     tree.robot,
@@ -89,7 +93,7 @@ class Entries:
                     spawn=start,
                     ground=None,
                     note=self._note,
-                    bolted=tree.bolted,
+                    fixed_base=tree.bolted,
                     scene=scene_of_tree(tree, self.meshes),
                     surfaces=surfaces_of_tree(tree, self._note),
                     self_collide=tree.self_collide,
@@ -98,23 +102,23 @@ class Entries:
                 )
             )
             offsets[tree.name] = tree.root
-        if thing.static:
-            self._remark_still(thing)
-        return Entry(thing, tuple(robots), offsets)
+        if source.static:
+            self._warn_static(source)
+        return WorldEntity(source, tuple(robots), offsets)
 
     def _robot_entry(
-        self, thing: WorldRobot, robot: Robot, spawn: Spawn | None, ground: float | None, *, bolted: bool
-    ) -> Entry:
+        self, source: WorldRobot, robot: Robot, spawn: Spawn | None, ground: float | None, *, fixed_base: bool
+    ) -> WorldEntity:
         made = SimulatedRobot(
             robot,
-            name=thing.name,
-            spawn=spawn or _spawn_at(thing.pose),
+            name=source.name,
+            spawn=spawn or _spawn_at(source.pose),
             ground=ground,
             note=self._note,
-            bolted=bolted,
+            fixed_base=fixed_base,
         )
-        if not thing.static:
-            return Entry(thing, (made,), {thing.name: IDENTITY})
+        if not source.static:
+            return WorldEntity(source, (made,), {source.name: IDENTITY})
         poses = dict(
             zip(made.kinematics.link_names, made.kinematics.link_poses(made.kinematics.neutral()), strict=True)
         )
@@ -125,11 +129,11 @@ class Entries:
                 for shape in made.shapes
                 if shape.body == link
             )
-            pose = compose(thing.pose, pose_from(poses[link]))
-            bodies.append(Body(f"{thing.name}::{link}", seven(pose), pieces, static=True))
-        return Entry(thing, (), {}, tuple(bodies), made.scene)
+            pose = compose(source.pose, pose_from(poses[link]))
+            bodies.append(Body(f"{source.name}::{link}", seven(pose), pieces, static=True))
+        return WorldEntity(source, (), {}, tuple(bodies), made.scene)
 
-    def _remark_still(self, model: WorldModel) -> None:
+    def _warn_static(self, model: WorldModel) -> None:
         if any(has_plugins(model, group) for group in groups_of(model)):
             self._note(f"{model.position}: model `{model.name}` is static: its plugins and sensors do not run")
 
