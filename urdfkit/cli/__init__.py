@@ -63,7 +63,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         try:
             return _run(arguments)
         finally:
-            sys.stdout.flush()  # output that cannot be written is an error of the command, not of the interpreter
+            if not sys.stdout.closed:  # the language server closes it
+                sys.stdout.flush()  # output that cannot be written is an error of the command, not of the interpreter
     except UrdfkitError as error:
         print(f"urdfkit: {error}", file=sys.stderr)
         return 2
@@ -101,8 +102,9 @@ def program() -> None:
     code = main()
     if not {"numpy", "threading", "atexit"}.isdisjoint(sys.modules):
         sys.exit(code)
-    sys.stdout.flush()
-    sys.stderr.flush()
+    for stream in (sys.stdout, sys.stderr):
+        if not stream.closed:
+            stream.flush()
     os._exit(code)
 
 
