@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.description.sdf import World
-from urdfkit.description.sdf.poses import compose
+from urdfkit.description.urdf.geometry import compose
 from urdfkit.linear_algebra import inverse_placement, matmul
 from urdfkit.scene import MeshLoader, Role, Scene, Shape
 from urdfkit.scene.lights import lighting_of

@@ -11,9 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from urdfkit.description import load
+from urdfkit.description.urdf.geometry import box_around, rotation_of, unit
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Pose, Sphere
 from urdfkit.lint.facts.gazebo.drive_wheels import same_turn
-from urdfkit.lint.model.placement import Extent, Frame, box_around, rotation, unit
+from urdfkit.lint.model.placement import Extent, Frame
 
 angles = st.tuples(*[st.floats(-7, 7)] * 3)
 points = st.tuples(*[st.floats(-2, 2)] * 3)
@@ -53,7 +54,7 @@ def surface(shape) -> np.ndarray:
 @given(shapes, points, angles, points)
 def test_boxes_and_reach_are_those_of_the_surface(shape, xyz, rpy, point):
     pose = Pose(xyz, rpy)
-    there = surface(shape) @ np.array(rotation(rpy)).T + xyz
+    there = surface(shape) @ np.array(rotation_of(rpy)).T + xyz
     low, high = box_around(shape, pose)
     np.testing.assert_allclose(low, there.min(axis=0), atol=2e-4)
     np.testing.assert_allclose(high, there.max(axis=0), atol=2e-4)

@@ -25,6 +25,7 @@ from urdfkit.app.simulation.features.topic_stream import TopicStreams
 from urdfkit.app.simulation.features.world_objects import WorldObjects
 from urdfkit.app.simulation.scene_bodies import SceneBodies
 from urdfkit.errors import SimulationError, UrdfkitError
+from urdfkit.sim.state.quaternion import yaw_of
 from urdfkit.teleop import STOP, Motion, Teleop
 
 if TYPE_CHECKING:
@@ -263,16 +264,11 @@ class DriveLoop:
             "fixed": not simulator.kinematics.floating_base,
             "tip": self.scene_bodies.tip,
             "robots": robots,
-            "odometry": {frame: [*pose[:2], _yaw(turn)] for frame, (pose, turn) in simulator.odometry().items()},
+            "odometry": {frame: [*pose[:2], yaw_of(turn)] for frame, (pose, turn) in simulator.odometry().items()},
             "driver": self.server.driver.holder,
             "watchers": self.server.hub.watchers,
         }
 
 
 def _pose(pose: Sequence[float]) -> dict[str, float]:
-    return {"x": float(pose[0]), "y": float(pose[1]), "yaw": _yaw(pose[3:])}
-
-
-def _yaw(quaternion: Sequence[float]) -> float:
-    x, y, z, w = quaternion
-    return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    return {"x": float(pose[0]), "y": float(pose[1]), "yaw": yaw_of(pose[3:])}

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from urdfkit.description.sdf.poses import IDENTITY, between, compose, inverse
 from urdfkit.description.sdf.values import RawPose
+from urdfkit.description.urdf.geometry import IDENTITY, between, compose, inverse
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.description.xml.source import Position
 from urdfkit.errors import DescriptionError, did_you_mean

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from functools import cached_property
 from math import inf
 
-from urdfkit.description.sdf.poses import compose
 from urdfkit.description.sdf.shapes import Kept, Light, WorldShape, Written, plugins_of
+from urdfkit.description.urdf.geometry import compose
 from urdfkit.description.urdf.robot import Plugin, Pose, Vector
 from urdfkit.description.xml.source import Position
 from urdfkit.record import field, record

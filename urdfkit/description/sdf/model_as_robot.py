@@ -11,8 +11,8 @@ from collections.abc import Callable, Sequence
 from math import isinf
 
 from urdfkit.description.sdf.model import WorldAxis, WorldJoint, WorldLink, WorldModel
-from urdfkit.description.sdf.poses import IDENTITY, between, compose
 from urdfkit.description.sdf.shapes import Kept
+from urdfkit.description.urdf.geometry import IDENTITY, between, compose
 from urdfkit.description.urdf.robot import (
     Dynamics,
     GazeboBlock,

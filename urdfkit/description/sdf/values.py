@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import isfinite, radians
 
-from urdfkit.description.sdf.poses import rpy_of_quaternion
 from urdfkit.description.sdf.shapes import Rgba
+from urdfkit.description.urdf.geometry import rpy_of_quaternion
 from urdfkit.description.urdf.robot import Pose, Vector
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.numbers import numbers, why_not

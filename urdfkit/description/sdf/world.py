@@ -6,8 +6,8 @@ from functools import cached_property
 from pathlib import Path
 
 from urdfkit.description.sdf.model import WorldJoint, WorldModel
-from urdfkit.description.sdf.poses import compose, rotate, rotation_of
 from urdfkit.description.sdf.shapes import Kept, Light, Plane, Written, plugins_of
+from urdfkit.description.urdf.geometry import compose, rotate, rotation_of
 from urdfkit.description.urdf.robot import Plugin, Pose, Vector
 from urdfkit.description.xml.source import Position
 from urdfkit.record import field, record
@@ -137,6 +137,6 @@ def ground_of(model: WorldModel) -> Ground | None:
         for shape in link.collisions:
             if isinstance(shape.geometry, Plane):
                 placed = compose(compose(model.pose, pose), shape.pose)
-                if rotate(rotation_of(placed), shape.geometry.normal)[2] > 1 - 1e-12:
+                if rotate(rotation_of(placed.rpy), shape.geometry.normal)[2] > 1 - 1e-12:
                     return Ground(model.name, placed.xyz[2], shape.surface.mu)
     return None

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.geometry import UNROTATED, rotation_of
 from urdfkit.errors import ResourceError, UrdfkitError
 from urdfkit.lint.facts.inertia.inertia_tensor import COMPONENTS
 from urdfkit.lint.facts.inertia.link_solids import of_primitive, union
 from urdfkit.lint.finding import Edit
-from urdfkit.lint.model.placement import rotation
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -92,7 +92,7 @@ def compute_inertial(
         mass = density * whole.volume if density is not None else written
     if mass is None or mass <= 0.0:
         raise ResourceError(f"link `{link.name}` has no mass to compute with: pass --mass or --density")
-    frame = rotation(link.inertial.origin.rpy) if link.inertial is not None else rotation((0.0, 0.0, 0.0))
+    frame = rotation_of(link.inertial.origin.rpy) if link.inertial is not None else UNROTATED
     return ComputedInertial(
         kind, len(items), whole.volume, shared, mass, whole.middle, whole.tensor(mass, frame), tuple(notes)
     )

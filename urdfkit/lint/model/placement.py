@@ -1,9 +1,18 @@
-"""Poses of links and shapes without numpy: rotations, link frames at zero joint positions, bounding boxes."""
+"""Link frames at zero joint positions, and the extent of the shapes of a link."""
 
 from __future__ import annotations
 
-from math import cos, hypot, pi, sin, sqrt
+from math import hypot, sqrt
 
+from urdfkit.description.urdf.geometry import (
+    UNROTATED,
+    box_around,
+    box_around_all,
+    product,
+    rotate,
+    rotation_of,
+    volume_of,
+)
 from urdfkit.description.urdf.queries import tree_order
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
 from urdfkit.record import record
@@ -12,55 +21,22 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from urdfkit.description.urdf.geometry import Rotation
     from urdfkit.description.urdf.robot import Collision, Geometry, Link, Pose, Robot, Vector, Visual
-
-Matrix = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
-IDENTITY: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-
-
-def rotation(rpy: Vector) -> Matrix:
-    """Return Rz(yaw) · Ry(pitch) · Rx(roll) for fixed-axis angles [rad]."""
-    if rpy == (0.0, 0.0, 0.0):
-        return IDENTITY
-    (sr, sp, sy), (cr, cp, cy) = map(sin, rpy), map(cos, rpy)
-    return (
-        (cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr),
-        (sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr),
-        (-sp, cp * sr, cp * cr),
-    )
-
-
-def rotated(matrix: Matrix, vector: Vector) -> Vector:
-    """Return matrix · vector."""
-    x, y, z = (row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2] for row in matrix)
-    return x, y, z
-
-
-def product(first: Matrix, second: Matrix) -> Matrix:
-    """Return first · second."""
-    columns = [rotated(first, (second[0][k], second[1][k], second[2][k])) for k in range(3)]
-    a, b, c = ((columns[0][i], columns[1][i], columns[2][i]) for i in range(3))
-    return a, b, c
-
-
-def unit(vector: Vector) -> Vector | None:
-    """Return the vector with length 1, None where it has none."""
-    length = sqrt(sum(value * value for value in vector))
-    return (vector[0] / length, vector[1] / length, vector[2] / length) if length > 1e-12 else None
 
 
 @record
 class Frame:
     """Rotation and translation [m] of a frame in another one."""
 
-    rotation: Matrix = IDENTITY
+    rotation: Rotation = UNROTATED
     translation: Vector = (0.0, 0.0, 0.0)
 
     def moved(self, pose: Pose) -> Frame:
         """Return the frame at a pose that is given in this one."""
-        offset = rotated(self.rotation, pose.xyz)
+        offset = rotate(self.rotation, pose.xyz)
         x, y, z = (a + b for a, b in zip(self.translation, offset, strict=True))
-        return Frame(product(self.rotation, rotation(pose.rpy)), (x, y, z))
+        return Frame(product(self.rotation, rotation_of(pose.rpy)), (x, y, z))
 
 
 def frames(robot: Robot) -> dict[str, Frame]:
@@ -144,11 +120,9 @@ def extent(link: Link, box_of: Callable[[Mesh], tuple[Vector, Vector] | None]) -
         return None
     if len(shapes) == 1 or all(other == shapes[0] for other in shapes):
         low, high = box_around(*shapes[0])
-        return Extent(low, high, tuple(shapes), tuple(volumes))
-    corners = [box_around(geometry, pose) for geometry, pose in shapes]
-    a, b, c = (min(corner[0][i] for corner in corners) for i in range(3))
-    d, e, f = (max(corner[1][i] for corner in corners) for i in range(3))
-    return Extent((a, b, c), (d, e, f), tuple(shapes), tuple(volumes))
+    else:
+        low, high = box_around_all([box_around(geometry, pose) for geometry, pose in shapes])
+    return Extent(low, high, tuple(shapes), tuple(volumes))
 
 
 def _is_impossible(shape: Geometry) -> bool:
@@ -160,44 +134,11 @@ def _is_impossible(shape: Geometry) -> bool:
     return isinstance(shape, Sphere) and shape.radius < 0.0
 
 
-def volume_of(shape: Geometry) -> float:
-    """Return the volume of a shape [m³]; 0 for a mesh."""
-    if isinstance(shape, Box):
-        return abs(shape.size[0] * shape.size[1] * shape.size[2])
-    if isinstance(shape, Sphere):
-        return 4.0 / 3.0 * pi * shape.radius**3
-    if isinstance(shape, Cylinder):
-        return pi * shape.radius**2 * shape.length
-    if isinstance(shape, Capsule):
-        return pi * shape.radius**2 * (shape.length + 4.0 / 3.0 * shape.radius)
-    return 0.0
-
-
-def box_around(shape: Geometry, pose: Pose) -> tuple[Vector, Vector]:
-    """Return the lowest and highest corner of the box along the axes around a shape at a pose [m]."""
-    rows = rotation(pose.rpy)
-    half: list[float] = []
-    if rows is IDENTITY and isinstance(shape, Box):
-        half = [abs(size) / 2.0 for size in shape.size]
-        rows = ()  # type: ignore[assignment]
-    for row in rows:
-        if isinstance(shape, Box):
-            half.append(sum(abs(a * size) / 2.0 for a, size in zip(row, shape.size, strict=True)))
-        elif isinstance(shape, Cylinder):
-            half.append(abs(row[2]) * shape.length / 2.0 + shape.radius * sqrt(max(0.0, 1.0 - row[2] ** 2)))
-        elif isinstance(shape, Capsule):
-            half.append(abs(row[2]) * shape.length / 2.0 + shape.radius)
-        else:
-            half.append(shape.radius if isinstance(shape, Sphere) else 0.0)
-    x, y, z = pose.xyz
-    return (x - half[0], y - half[1], z - half[2]), (x + half[0], y + half[1], z + half[2])
-
-
 def _farthest(shape: Geometry, pose: Pose, point: Vector) -> float:
-    rows = rotation(pose.rpy)
+    rows = rotation_of(pose.rpy)
     offset = (point[0] - pose.xyz[0], point[1] - pose.xyz[1], point[2] - pose.xyz[2])
     x, y, z = offset
-    if rows is not IDENTITY:
+    if rows is not UNROTATED:
         x, y, z = (sum(rows[i][k] * offset[i] for i in range(3)) for k in range(3))
     if isinstance(shape, Box):
         return sqrt(sum((abs(a) + abs(size) / 2.0) ** 2 for a, size in zip((x, y, z), shape.size, strict=True)))

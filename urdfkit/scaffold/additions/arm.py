@@ -10,13 +10,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from urdfkit.description import load
+from urdfkit.description.urdf.geometry import box_around_all
 from urdfkit.description.urdf.robot import Pose, Robot, Vector
 from urdfkit.description.xacro.expand import expand
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.resources import templates_dir
 from urdfkit.scaffold.additions.file_changes import Alteration
 from urdfkit.scaffold.additions.free_placement import Part
-from urdfkit.scaffold.additions.link_boxes import Boxes, whole
+from urdfkit.scaffold.additions.link_boxes import Boxes
 from urdfkit.scaffold.additions.mounting import exact, extent, mount, parent_link, written
 from urdfkit.scaffold.additions.package_manifest import package_of, with_installed
 from urdfkit.scaffold.additions.xml_insertion import insert_before_end, xacro_prefix
@@ -103,7 +104,7 @@ def _part(arm: Robot, rpy: Vector) -> Part:
     boxes = Boxes(arm)
     foot, at = arm.link_by_name["arm_foot"], Pose(rpy=rpy)
     whole_arm = [box for name, box in boxes.seen_from(foot, at) if name in _branch(arm)[0]]
-    return Part(tuple(whole_arm), whole(boxes.of(foot, at) or whole_arm))
+    return Part(tuple(whole_arm), box_around_all(boxes.of(foot, at) or whole_arm))
 
 
 def _changes(path: Path, name: str, lines: list[str], parent: str, origin: str) -> list[Alteration]:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import sqrt
 
-from urdfkit.description.sdf.poses import compose, rotate, rotation_of, transpose
-from urdfkit.description.urdf.queries import tree_order
-from urdfkit.description.urdf.robot import Inertia, Joint, Pose, Robot, Vector
+from urdfkit.description.urdf.geometry import compose, link_poses, rotate, rotation_of, transpose, unit
+from urdfkit.description.urdf.robot import Inertia, Joint, Robot, Vector
 
 _GRAVITY = 9.81
 _PULL = 20.0
@@ -43,14 +42,10 @@ def gains(robot: Robot, joint: Joint) -> Gains:
 
 def _carried(robot: Robot, joint: Joint) -> tuple[float, float]:
     """Return the inertia about the axis [kg m²] and the greatest moment of the weight [N m]; of slides in kg and N."""
-    places = {joint.child: Pose()}
-    for other in tree_order(robot):
-        if other.parent in places and other.child is not None and other.child not in places:
-            places[other.child] = compose(places[other.parent], other.origin)
-    length = sqrt(sum(part * part for part in joint.axis)) or 1.0
-    axis = tuple(part / length for part in joint.axis)
+    places = link_poses(robot, joint.child) if joint.child is not None else {}
+    axis = unit(joint.axis) or joint.axis
     inertia = weight = 0.0
-    for link in (robot.link_by_name[name] for name in places if name is not None):
+    for link in (robot.link_by_name[name] for name in places):
         if link.inertial is None or not (mass := link.inertial.mass or 0.0):
             continue
         if joint.type == "prismatic":
@@ -59,7 +54,7 @@ def _carried(robot: Robot, joint: Joint) -> tuple[float, float]:
         middle = compose(places[link.name], link.inertial.origin)
         along = sum(a * b for a, b in zip(axis, middle.xyz, strict=True))
         arm = max(sum(part * part for part in middle.xyz) - along * along, 0.0)
-        own = rotate(transpose(rotation_of(middle)), (axis[0], axis[1], axis[2]))
+        own = rotate(transpose(rotation_of(middle.rpy)), axis)
         inertia += mass * arm + _about(own, link.inertial.inertia)
         weight += mass * _GRAVITY * sqrt(arm)
     return inertia, weight

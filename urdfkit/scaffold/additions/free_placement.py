@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from urdfkit.description.urdf.geometry import Bounds, box_around_all
 from urdfkit.description.urdf.robot import Vector
-from urdfkit.scaffold.additions.link_boxes import Bounds, gap, moved, whole
+from urdfkit.scaffold.additions.link_boxes import gap, moved
 
 _CLEARANCE = 0.005
 """What is left between a new part and what is there [m]."""
@@ -42,7 +43,7 @@ def spot(own: list[Bounds], part: Part) -> Vector:
         own: the boxes around the link's shapes.
         part: what is mounted.
     """
-    low, high = whole(own)
+    low, high = box_around_all(own)
     x, y, z = ((a + b) / 2 for a, b in zip(low, high, strict=True))
     if part.where == "front":
         x, z = high[0] - part.foot[0][0], high[2] - part.foot[1][2]
@@ -104,7 +105,7 @@ def _hit(part: Part, place: Vector, boxes: list[Bounds], allowed: float = -_CLEA
 
 def _room(part: Part, place: Vector, others: list[Bounds]) -> float:
     """Return how far the nearest thing is that a part at this place has beside it [m]."""
-    about = moved(whole(list(part.boxes)), place)
+    about = moved(box_around_all(list(part.boxes)), place)
     beside = [box for box in others if box[0][2] < about[1][2] and about[0][2] < box[1][2]]
     return round(min((gap(about, box) for box in beside), default=0.0), 4)
 
@@ -126,7 +127,7 @@ def _above(first: float) -> Iterator[Vector]:
 
 def _places(own: list[Bounds], part: Part, usual: Vector) -> Iterator[Vector]:
     """Yield places all over the top or the front of a link, or in it, from the left front top on."""
-    low, high = whole(own)
+    low, high = box_around_all(own)
     (ax, ay, az), (bx, by, bz) = part.foot
     along = [
         sorted({*_row(low[k] - a, high[k] - b), round(usual[k], 4)}, reverse=True)

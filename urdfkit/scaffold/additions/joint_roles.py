@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from urdfkit.description.sdf.poses import compose, rotate, rotation_of
+from urdfkit.description.urdf.geometry import compose, rotate, rotation_of
 from urdfkit.description.urdf.robot import Cylinder, Joint, Link, Pose, Robot, Sphere
 from urdfkit.scaffold.additions.existing_hardware import KINDS, Hardware, hardware
 
@@ -140,7 +140,7 @@ def _rolls(joint: Joint, robot: Robot, parents: dict[str | None, Joint]) -> bool
         return False
     if any(joint in _above(other, parents) for other in robot.joints if other.type in _MOVED):
         return False
-    across = rotate(rotation_of(_placement(joint, parents)), joint.axis)[1]
+    across = rotate(rotation_of(_placement(joint, parents).rpy), joint.axis)[1]
     length = sum(axis * axis for axis in joint.axis) ** 0.5
     return bool(length > 0 and abs(across) / length > 0.99)
 

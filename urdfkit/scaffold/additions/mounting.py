@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.geometry import box_around_all
 from urdfkit.description.urdf.robot import Link, Robot, Vector
 from urdfkit.errors import ResourceError, did_you_mean
 from urdfkit.scaffold.additions.free_placement import Part, free_place, inside, spot
-from urdfkit.scaffold.additions.link_boxes import Boxes, whole
+from urdfkit.scaffold.additions.link_boxes import Boxes
 
 
 def parent_link(robot: Robot, name: str | None) -> Link:
@@ -42,7 +43,7 @@ def extent(robot: Robot, link: Link) -> Vector | None:
     own = Boxes(robot).of(link)
     if not own:
         return None
-    x, y, z = (high - low for low, high in zip(*whole(own), strict=True))
+    x, y, z = (high - low for low, high in zip(*box_around_all(own), strict=True))
     return x, y, z
 
 
@@ -103,5 +104,5 @@ def _listed(robot: Robot) -> str:
 
 
 def _size(part: Part) -> str:
-    low, high = whole(list(part.boxes))
+    low, high = box_around_all(list(part.boxes))
     return " × ".join(f"{b - a:.2g}" for a, b in zip(low, high, strict=True))

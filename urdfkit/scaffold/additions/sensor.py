@@ -9,12 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from urdfkit.description import load
+from urdfkit.description.urdf.geometry import box_around_all
 from urdfkit.description.urdf.robot import Robot, Vector
 from urdfkit.description.xacro.expand import expand
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.scaffold.additions.file_changes import Alteration
 from urdfkit.scaffold.additions.free_placement import Part
-from urdfkit.scaffold.additions.link_boxes import Boxes, whole
+from urdfkit.scaffold.additions.link_boxes import Boxes
 from urdfkit.scaffold.additions.mounting import exact, mount, parent_link, written
 from urdfkit.scaffold.additions.package_manifest import bridges, package_of, with_dependency, with_installed
 from urdfkit.scaffold.additions.sensor_macro import GENERATIONS, KINDS, bridge_entries, sensor_macro, topic_of
@@ -125,7 +126,7 @@ def _part(macro: str, request: Request, name: str) -> Part:
         robot = load(_called(macro, call, folder))
     boxes = [box for _, box in Boxes(robot).seen_from(robot.link_by_name[_BARE])]
     kind = KINDS[request.kind]
-    return Part(tuple(boxes), whole(boxes), kind.spot, apart=kind.looks_about)
+    return Part(tuple(boxes), box_around_all(boxes), kind.spot, apart=kind.looks_about)
 
 
 def _name(robot: Robot, request: Request) -> str:

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from math import inf, sqrt
 from typing import Literal
 
-from urdfkit.description.sdf.poses import Rotation, compose, rotate, rotation_of, transpose
-from urdfkit.description.urdf.queries import tree_order
-from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Pose, Robot, Sphere, Vector
+from urdfkit.description.urdf.geometry import Rotation, compose, link_poses, rotate, rotation_of, transpose
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Robot, Sphere, Vector
 
 _GREY = (0.7, 0.7, 0.7)
 
@@ -48,10 +47,7 @@ def solids_of(robot: Robot) -> list[Solid]:
     Args:
         robot: a tree.
     """
-    poses = {root.name: Pose() for root in robot.roots()}
-    for joint in tree_order(robot):
-        if joint.parent in poses and joint.child is not None:
-            poses[joint.child] = compose(poses[joint.parent], joint.origin)
+    poses = link_poses(robot)
     named = {material.name: material.rgba for material in robot.materials if material.rgba is not None}
     found = []
     for link in robot.link_by_name_in_order():
@@ -62,7 +58,7 @@ def solids_of(robot: Robot) -> list[Solid]:
             pose = compose(poses[link.name], visual.origin)
             material = visual.material
             rgba = (material.rgba or named.get(material.name)) if material else None
-            found.append(Solid(kind, half, rotation_of(pose), pose.xyz, rgba[:3] if rgba else _GREY))
+            found.append(Solid(kind, half, rotation_of(pose.rpy), pose.xyz, rgba[:3] if rgba else _GREY))
     return found
 
 

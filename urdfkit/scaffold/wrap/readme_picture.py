@@ -10,7 +10,7 @@ import zlib
 from collections.abc import Iterable
 from math import hypot
 
-from urdfkit.description.sdf.poses import rotate
+from urdfkit.description.urdf.geometry import rotate
 from urdfkit.description.urdf.robot import Robot, Vector
 from urdfkit.scaffold.wrap.picture_solids import Beam, Solid, solids_of
 

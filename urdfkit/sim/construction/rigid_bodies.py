@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from urdfkit.description.plugins import match
 from urdfkit.description.sdf import Cone, Ellipsoid, Plane, World, WorldLink, WorldModel, WorldShape
 from urdfkit.description.sdf.model_as_robot import Group, Tree, all_kept, groups_of, tree_of
-from urdfkit.description.sdf.poses import compose
 from urdfkit.description.sdf.shapes import plugins_of
+from urdfkit.description.urdf.geometry import compose
 from urdfkit.description.urdf.robot import Geometry, Mesh, Pose
 from urdfkit.errors import SimulationError
-from urdfkit.linear_algebra import inverse_placement, matmul, vector_norm
+from urdfkit.linear_algebra import inverse_placement, matmul
 from urdfkit.scene import MeshLoader, Scene, Shape
 from urdfkit.scene.colors import DEFAULT, GAZEBO
-from urdfkit.scene.placement import pose_matrix
+from urdfkit.scene.placement import pose_matrix, upright
 from urdfkit.scene.scene_table import Role
 from urdfkit.sim.construction.convex_hulls import hull_of
 from urdfkit.sim.construction.validation import impossible
@@ -271,7 +271,7 @@ def _shape(shape: WorldShape, name: str, body: str, role: Role, frame: Array, me
     placement = matmul(frame, pose_matrix(shape.pose))
     mesh = None
     if isinstance(geometry, Plane):
-        placement[:3, :3] = matmul(placement[:3, :3], _upright(np.array(geometry.normal)))
+        placement[:3, :3] = matmul(placement[:3, :3], upright(geometry.normal))
     elif isinstance(geometry, (Cone, Ellipsoid)):
         mesh, geometry = hull_of(geometry), Mesh("")
     elif isinstance(geometry, Mesh):
@@ -281,11 +281,3 @@ def _shape(shape: WorldShape, name: str, body: str, role: Role, frame: Array, me
         name, body, role, cast("Geometry", geometry), placement, rgba or DEFAULT, rgba is not None, mesh,
         shape.laser_retro,
     )  # fmt: skip
-
-
-def _upright(normal: Array) -> Array:
-    """Return a rotation that takes z to a unit vector."""
-    across = np.eye(3)[int(np.argmin(np.abs(normal)))]
-    x = np.cross(across, normal)
-    x /= vector_norm(x)
-    return np.column_stack([x, np.cross(normal, x), normal])

@@ -7,7 +7,7 @@ from math import isfinite
 
 import numpy as np
 
-from urdfkit.description.sdf.poses import rpy_of_quaternion
+from urdfkit.description.urdf.geometry import rpy_of_quaternion
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.errors import SimulationError
 from urdfkit.scene.placement import pose_matrix

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.description.sdf.poses import IDENTITY, compose, inverse
+from urdfkit.description.urdf.geometry import IDENTITY, compose, inverse
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.errors import SimulationError
 from urdfkit.linear_algebra import matmul

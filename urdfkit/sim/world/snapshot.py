@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from urdfkit.description.sdf import World, WorldJoint, WorldModel, WorldRobot
-from urdfkit.description.sdf.poses import IDENTITY, between, compose, inverse
+from urdfkit.description.urdf.geometry import IDENTITY, between, compose, inverse
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.sim.construction.rigid_bodies import parts_of, trees_of
 from urdfkit.sim.state.poses import pose_from

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from urdfkit.description.sdf import World, WorldModel, WorldRobot, add_model, remove_model
-from urdfkit.description.sdf.poses import IDENTITY
+from urdfkit.description.urdf.geometry import IDENTITY
 from urdfkit.description.urdf.robot import Robot
 from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.scene import Scene

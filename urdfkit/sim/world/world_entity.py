@@ -8,7 +8,7 @@ from pathlib import Path
 
 from urdfkit.description.sdf import WorldModel, WorldRobot
 from urdfkit.description.sdf.model_as_robot import groups_of
-from urdfkit.description.sdf.poses import IDENTITY, compose
+from urdfkit.description.urdf.geometry import IDENTITY, compose
 from urdfkit.description.urdf.robot import Pose, Robot
 from urdfkit.scene import MeshLoader, Scene
 from urdfkit.sim.construction.loading import load_robot

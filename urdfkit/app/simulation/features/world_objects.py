@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from math import asin, atan2, copysign, pi
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
 from urdfkit.app.simulation.features.wall_model import MOST, walls
 from urdfkit.errors import SimulationError
+from urdfkit.sim.state.quaternion import to_rpy
 from urdfkit.view.protocol.page_requests import Order, Schema, listing, number, numbers, record, text, whole
 
 NAME = 80
@@ -92,7 +91,7 @@ class WorldObjects(Feature):
 
     def _where(self, order: Order) -> Done:
         pose = self.simulator.world.pose(order.values["name"])
-        return {"pose": [*pose[:3], *_angles(pose[3:])]}
+        return {"pose": [*pose[:3], *to_rpy(pose[3:])]}
 
     def _walls(self, order: Order) -> Done:
         from urdfkit.sim.world.spawn_requests import spawn_request_of_text
@@ -119,15 +118,3 @@ class WorldObjects(Feature):
             content = file.read_bytes()
         self.server.hand_over(order, file.name, content)
         return {"bytes": len(content)}
-
-
-def _angles(quaternion: Any) -> tuple[float, float, float]:
-    """Return roll, pitch and yaw [rad] of a quaternion x y z w."""
-    x, y, z, w = quaternion
-    sine = 2 * (w * y - z * x)
-    pitch = copysign(pi / 2, sine) if abs(sine) >= 1 else asin(sine)
-    return (
-        atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),
-        pitch,
-        atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
-    )

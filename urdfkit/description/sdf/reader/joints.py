@@ -6,11 +6,11 @@ from math import inf
 
 from urdfkit.description.sdf.frame_graph import Scope
 from urdfkit.description.sdf.model import WorldAxis, WorldJoint, WorldMimic
-from urdfkit.description.sdf.poses import compose, rotate, rotation_of, transpose
 from urdfkit.description.sdf.reader.reading_state import Context
 from urdfkit.description.sdf.reader.vocabulary import note_unknown_elements
 from urdfkit.description.sdf.shapes import keep
 from urdfkit.description.sdf.values import boolean, name_of, raw_pose, scalar, text, vector, wrong
+from urdfkit.description.urdf.geometry import compose, rotate, rotation_of, transpose
 from urdfkit.description.urdf.robot import Pose, Vector
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import did_you_mean
@@ -116,8 +116,8 @@ def _direction(context: Context, element: Element, scope: Scope, child: str, pos
     if not base:
         return xyz
     joint = compose(scope.pose(child), pose)
-    turned = rotate(rotation_of(scope.pose(base, (written or element).origin.position)), xyz)
-    return rotate(transpose(rotation_of(joint)), turned)
+    turned = rotate(rotation_of(scope.pose(base, (written or element).origin.position).rpy), xyz)
+    return rotate(transpose(rotation_of(joint.rpy)), turned)
 
 
 def _limit(value: float) -> float:

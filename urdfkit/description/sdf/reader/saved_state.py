@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from urdfkit.description.sdf.model import WorldLink, WorldModel
-from urdfkit.description.sdf.poses import between, compose, difference
 from urdfkit.description.sdf.reader.reading_state import Context
 from urdfkit.description.sdf.shapes import Cone, Ellipsoid, Light, Plane, WorldGeometry
 from urdfkit.description.sdf.values import name_of, raw_pose, vector, wrong
+from urdfkit.description.urdf.geometry import between, compose, difference
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Pose, Sphere, Vector
 from urdfkit.description.xml.element import Element
 from urdfkit.errors import did_you_mean

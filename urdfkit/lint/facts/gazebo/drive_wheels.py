@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.geometry import rotate, rotation_of
 from urdfkit.description.urdf.robot import Cylinder, Sphere
 from urdfkit.lint.edits import nearest, new_text
 from urdfkit.lint.facts.gazebo.plugins import is_foreign, plugins, spec_of
-from urdfkit.lint.model.placement import Frame, rotated, rotation, shapes_of
+from urdfkit.lint.model.placement import Frame, shapes_of
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -168,7 +169,7 @@ def wheel_of(model: Model, joint: Joint, element: Element | None, *, named: str 
         element,
         joint.name if named is None else named,
         frame.translation,
-        rotated(frame.rotation, joint.axis),
+        rotate(frame.rotation, joint.axis),
         round_ones if len(round_ones) == len(shapes) else (),
         (frame.translation, *middles),
     )
@@ -192,7 +193,9 @@ def track(left: Wheel, right: Wheel, distances: Iterable[float]) -> tuple[float,
 def same_turn(first: Vector, second: Vector) -> float:
     """Return the largest difference between the rotation matrices of two triples of angles."""
     return max(
-        abs(a - b) for rows in zip(rotation(first), rotation(second), strict=True) for a, b in zip(*rows, strict=True)
+        abs(a - b)
+        for rows in zip(rotation_of(first), rotation_of(second), strict=True)
+        for a, b in zip(*rows, strict=True)
     )
 
 

@@ -9,17 +9,23 @@ from __future__ import annotations
 
 from math import cos, hypot, pi, sin, sqrt
 
+from urdfkit.description.urdf.geometry import (
+    UNROTATED,
+    box_around,
+    rotated_tensor,
+    rotation_of,
+    second_moments,
+    volume_of,
+)
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
-from urdfkit.lint.facts.inertia.inertia_tensor import Rows, squares
-from urdfkit.lint.model.placement import IDENTITY, box_around, rotation, volume_of
 from urdfkit.record import record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from urdfkit.description.urdf.geometry import Rotation
     from urdfkit.description.urdf.robot import Geometry, Pose, Vector
-    from urdfkit.lint.model.placement import Matrix
 
 POINTS = 20_000
 """Points in each shape that overlaps another: the share comes out to about a thousandth of itself."""
@@ -48,7 +54,7 @@ class Moments:
         x, y, z = (value / self.volume for value in self.first)
         return x, y, z
 
-    def tensor(self, mass: float, frame: Matrix = IDENTITY) -> tuple[float, ...]:
+    def tensor(self, mass: float, frame: Rotation = UNROTATED) -> tuple[float, ...]:
         """Return ixx, ixy, ixz, iyy, iyz, izz [kg·m²] about the middle for a mass [kg], along the axes of a frame."""
         density, (x, y, z) = mass / self.volume, self.middle
         xx, xy, xz, yy, yz, zz = (
@@ -56,13 +62,8 @@ class Moments:
             for value, shift in zip(self.second, (x * x, x * y, x * z, y * y, y * z, z * z), strict=True)
         )
         xy, xz, yz = 0.0 - xy, 0.0 - xz, 0.0 - yz  # not -0
-        rows: Rows = [[yy + zz, xy, xz], [xy, xx + zz, yz], [xz, yz, xx + yy]]
-        if frame is not IDENTITY:
-            rows = [
-                [sum(frame[k][i] * rows[k][n] * frame[n][j] for k in range(3) for n in range(3)) for j in range(3)]
-                for i in range(3)
-            ]
-        return rows[0][0], rows[0][1], rows[0][2], rows[1][1], rows[1][2], rows[2][2]
+        rows = [[yy + zz, xy, xz], [xy, xx + zz, yz], [xz, yz, xx + yy]]
+        return rotated_tensor(rows, frame)
 
 
 def total(parts: Sequence[Moments]) -> Moments:
@@ -74,7 +75,7 @@ def total(parts: Sequence[Moments]) -> Moments:
 
 def placed(moments: Moments, pose: Pose) -> Moments:
     """Return the moments in the frame that `pose` is given in."""
-    rows, volume = rotation(pose.rpy), moments.volume
+    rows, volume = rotation_of(pose.rpy), moments.volume
     own = moments.second
     square = ((own[0], own[1], own[2]), (own[1], own[3], own[4]), (own[2], own[4], own[5]))
     shift, turned = pose.xyz, [sum(row[k] * moments.first[k] for k in range(3)) for row in rows]
@@ -89,7 +90,7 @@ def placed(moments: Moments, pose: Pose) -> Moments:
 def of_primitive(shape: Geometry) -> Moments:
     """Return the moments of a box, cylinder, sphere or capsule about its middle."""
     volume = volume_of(shape)
-    x, y, z = squares(shape)
+    x, y, z = second_moments(shape)
     return Moments(volume, (0.0, 0.0, 0.0), (volume * x, 0.0, 0.0, volume * y, 0.0, volume * z))
 
 
@@ -128,8 +129,8 @@ def _meet(first: tuple[Vector, Vector], second: tuple[Vector, Vector]) -> bool:
 
 def _shared(shape: Geometry, pose: Pose, near: list[tuple[Geometry, Pose]], volume: float) -> Moments:
     """Return the part of a shape that others have a share in, weighed by what is theirs: 1 − 1/(number of owners)."""
-    rows, (a, b, c) = rotation(pose.rpy), pose.xyz
-    others = [(other, where.xyz, tuple(zip(*rotation(where.rpy), strict=True))) for other, where in near]
+    rows, (a, b, c) = rotation_of(pose.rpy), pose.xyz
+    others = [(other, where.xyz, tuple(zip(*rotation_of(where.rpy), strict=True))) for other, where in near]
     sums = [0.0] * 10
     count = 0
     for u, v, w in _spread(shape):

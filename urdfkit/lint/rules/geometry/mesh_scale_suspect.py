@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from math import dist, sqrt
 
+from urdfkit.description.urdf.geometry import box_around
 from urdfkit.description.urdf.robot import Mesh
 from urdfkit.lint.edits import more_attributes, new_value
 from urdfkit.lint.facts.inertia.principal_moments import principal_moments
 from urdfkit.lint.model.mesh_files import meshes
-from urdfkit.lint.model.placement import box_around, shapes_of
+from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.geometry import rotation_of, unit
 from urdfkit.description.urdf.robot import Cylinder, Sphere
 from urdfkit.lint.edits import new_value
-from urdfkit.lint.model.placement import rotation, unit
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -84,7 +84,7 @@ class WheelOffItsAxis(RobotRule):
             shape, offset = visual.geometry, visual.origin.xyz
             axis = unit(joint.axis) if joint.type is not None or joint.element.find("axis") is not None else None
             if isinstance(shape, Cylinder) and shape.length < 2.0 * shape.radius and axis is not None:
-                along = tuple(row[2] for row in rotation(visual.origin.rpy))
+                along = tuple(row[2] for row in rotation_of(visual.origin.rpy))
                 if abs(sum(a * b for a, b in zip(along, axis, strict=True))) < 0.985:
                     continue  # A swivel caster, or reported by J414.
             elif not isinstance(shape, Sphere) or any(c.origin.xyz == offset for c in wheel.collisions):

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.geometry import rotate, rotation_of, unit
 from urdfkit.description.urdf.robot import Cylinder
 from urdfkit.description.xml.numbers import numbers
-from urdfkit.lint.model.placement import rotated, rotation, shapes_of, unit
+from urdfkit.lint.model.placement import shapes_of
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -81,7 +82,7 @@ class AxisNotAlongWheel(RobotRule):
             if axis_element is not None and len(numbers(axis_element.get("xyz") or "1 0 0") or ()) != 3:
                 continue  # The axis is malformed: reported by bad-number or wrong-arity.
             discs = [
-                tuple(row[2] for row in rotation(shape.origin.rpy))
+                tuple(row[2] for row in rotation_of(shape.origin.rpy))
                 for shape in shapes_of(wheel)
                 if isinstance(shape.geometry, Cylinder) and shape.geometry.length < 2.0 * shape.geometry.radius
             ]
@@ -107,6 +108,6 @@ def _forward_axis(model: Model, joint: Joint, axis: tuple[float, ...]) -> Vector
     x, y, z = axis
     parent = model.frames.get(joint.parent or "")
     frame = parent.moved(joint.origin) if parent is not None else None
-    axis_in_root = rotated(frame.rotation, (x, y, z)) if frame is not None else (x, y, z)
+    axis_in_root = rotate(frame.rotation, (x, y, z)) if frame is not None else (x, y, z)
     largest = max(axis_in_root, key=abs)
     return (x, y, z) if largest > 0.0 else (-x, -y, -z)

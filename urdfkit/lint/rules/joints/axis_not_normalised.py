@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.geometry import unit
 from urdfkit.lint.edits import new_value
-from urdfkit.lint.model.placement import unit
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False

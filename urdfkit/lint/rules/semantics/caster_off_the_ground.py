@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from math import degrees, hypot, sqrt
 
+from urdfkit.description.urdf.geometry import rotate, unit
 from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Mesh, Sphere
 from urdfkit.lint.facts.gazebo.drive_wheels import drives
-from urdfkit.lint.model.placement import rotated, unit
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False
@@ -184,7 +184,7 @@ def _is_rigid(model: Model, parent_joint: dict[str | None, Joint], link: Link) -
         seen.add(name)
         joint = parent_joint[name]
         frame = model.frames.get(name or "")
-        axis = unit(rotated(frame.rotation, joint.axis)) if frame is not None else None
+        axis = unit(rotate(frame.rotation, joint.axis)) if frame is not None else None
         if joint.is_movable and (axis is None or abs(axis[2]) < _UPRIGHT):
             shapes = [shape.geometry for shape in link.collisions or link.visuals]
             is_wheel = joint.type == "continuous" and name == link.name

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from urdfkit.description.urdf.geometry import unit
 from urdfkit.lint.facts.gazebo.drive_wheels import drives, mismatch, track, written
-from urdfkit.lint.model.placement import unit
 from urdfkit.lint.rule import NOT_GAZEBO, RobotRule
 
 TYPE_CHECKING = False

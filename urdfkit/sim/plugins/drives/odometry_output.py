@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import atan2, cos, sin
+from math import cos, sin
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.errors import SimulationError
 from urdfkit.messages import ODOMETRY, TF, header, message_type, transform, twist
+from urdfkit.sim.state.quaternion import yaw_of
 
 if TYPE_CHECKING:
     from urdfkit.bus import Bus, Topic
@@ -194,7 +195,7 @@ def from_world(pose: tuple[float, ...], velocity: tuple[float, ...]) -> Estimate
         velocity: of the root link along and about the world's axes, linear first.
     """
     x, y, z, qx, qy, qz, qw = pose
-    yaw = atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
+    yaw = yaw_of(pose[3:])
     vx, vy = velocity[0], velocity[1]
     return Estimate(
         (x, y, z),
