@@ -5,9 +5,14 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 
+import numba
+import numpy as np
+
 import urdfkit
+from urdfkit.compilation import load, whole_program
 from urdfkit.compilation.level import level
 
 SCRIPT = """
@@ -84,3 +89,24 @@ def test_what_was_compiled_for_more_than_the_processor_has_is_not_loaded(tmp_pat
     assert run(tmp_path, digest, NUMBA_ENABLE_AVX="0")[0] == ("1.5" if level() == "x86-64-v2" else "compiling work")
     # Both are kept.
     assert run(tmp_path, digest) == run(tmp_path, digest, NUMBA_ENABLE_AVX="0") == ["1.5", "below zero"]
+
+
+def test_an_untested_version_of_numba_compiles_in_its_standard_way(monkeypatch, caplog):
+    def doubled(values):
+        return 2.0 * values[0]
+
+    def refuse(entry):
+        raise AssertionError(entry)
+
+    monkeypatch.setattr(whole_program, "whole_program", refuse)
+    monkeypatch.setattr(load, "TESTED_VERSIONS", ("0.1",))
+    arguments = (numba.float64[::1],)
+    with caplog.at_level("INFO", "urdfkit.compilation"):
+        dispatcher = load._compile(doubled, arguments)
+    assert dispatcher(np.array([1.5])) == 3.0
+    assert "is untested" in caplog.text
+    monkeypatch.setattr(load, "TESTED_VERSIONS", (numba.__version__,))
+    asked = []
+    monkeypatch.setattr(whole_program, "whole_program", lambda entry: asked.append(entry) or nullcontext())
+    load._compile(doubled, arguments)
+    assert len(asked) == 1

@@ -36,7 +36,7 @@ def test_wander_drives_about_and_touches_nothing(capsys: pytest.CaptureFixture[s
     pairs = [{contact.a, contact.b} for contact in simulator.state.contacts]
     assert any(pair & links for pair in pairs)  # its wheels touch the ground
     assert not [pair for pair in pairs if pair & links and pair & set(bodies)]
-    for name, pose in Simulator("rrbot", world="house").body_poses().items():
+    for name, pose in Simulator("rrbot", world="house").world.body_poses().items():
         assert np.abs(np.array(bodies[name][:3]) - pose[:3]).max() < 1e-3, name  # nothing was pushed
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import re
 import sys
 from collections.abc import Callable, Mapping
@@ -14,6 +15,9 @@ import numba
 
 from urdfkit.compilation.level import LEVELS, NATIVE, level
 
+LOG = logging.getLogger("urdfkit.compilation")
+TESTED_VERSIONS = ("0.68.1",)
+"""Versions of numba that functions are compiled with as one program: `whole_program` depends on numba's internals."""
 BROKEN_CACHE = (RuntimeError, OSError, EOFError, ValueError, TypeError, AttributeError)
 """Errors that numba raises when its cache is not writable or broken."""
 
@@ -46,19 +50,23 @@ def compile_or_load(
 
 
 def _compile(named: FunctionType, arguments: tuple[Any, ...], **options: Any) -> Any:
-    """Compile as one program for a fixed level; in numba's standard way if this version of numba is incompatible."""
-    try:
-        from urdfkit.compilation.target import fixed_level
-        from urdfkit.compilation.whole_program import whole_program
+    """Compile as one program for a fixed level; in numba's standard way with an untested version of numba."""
+    dispatcher = numba.njit(named, **options)
+    if numba.__version__ in TESTED_VERSIONS:
+        try:
+            from urdfkit.compilation.target import fixed_level
+            from urdfkit.compilation.whole_program import whole_program
 
-        dispatcher = numba.njit(named, **options)
-        with fixed_level(), whole_program(named.__qualname__):
-            dispatcher.compile(arguments)
-    except OSError:
-        raise  # the cache could not be written; the compilation itself is valid
-    except Exception:  # any error of numba's internals; an error in `named` is raised again below
-        dispatcher = numba.njit(named, **options)
-        dispatcher.compile(arguments)
+            with fixed_level(), whole_program(named.__qualname__):
+                dispatcher.compile(arguments)
+            return dispatcher
+        except OSError:
+            raise  # the cache could not be written; the compilation itself is valid
+        except Exception:  # any error of numba's internals; an error in `named` is raised again below
+            dispatcher = numba.njit(named, **options)
+    else:
+        LOG.info("numba %s is untested: compilation takes longer than with %s", numba.__version__, TESTED_VERSIONS[-1])
+    dispatcher.compile(arguments)
     return dispatcher
 
 

@@ -8,8 +8,8 @@ In addition, the signature of an operator or a numba function is resolved once p
 thousands of calls, and garbage collection is off: most objects live as long as the compilation.
 
 numba itself is unchanged; only three objects of the process are modified during the compilation: the code generator,
-the target context and the typing context. `TESTED_VERSIONS` lists the versions of numba this was tested with; with an
-incompatible version, `load` compiles in numba's standard way.
+the target context and the typing context. `load.TESTED_VERSIONS` lists the versions of numba this was tested with; with
+another version, `load` compiles in numba's standard way.
 """
 
 from __future__ import annotations
@@ -24,9 +24,6 @@ from numba.core import event, types
 from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import cpu_target
-
-TESTED_VERSIONS = ("0.68.1",)
-"""Versions of numba this module was tested with; it depends on numba's internals."""
 
 
 class LinkedFunction(JITCodeLibrary):  # type: ignore[misc]

@@ -23,7 +23,7 @@ class Written:
     """Base of records that compare by content, not by source position."""
 
     def _content(self) -> tuple[Any, ...]:
-        names: tuple[str, ...] = type(self)._record_names  # type: ignore[attr-defined]
+        names: tuple[str, ...] = type(self).__match_args__  # type: ignore[attr-defined]
         return tuple([self.__dict__[name] for name in names if name not in _PLACES])
 
     def __eq__(self, other: object) -> bool:

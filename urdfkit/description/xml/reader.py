@@ -170,7 +170,7 @@ def element_of(node: Any, depth: int = 0) -> Element:
         elif kind in (3, 4):
             text += child.data
     # <xacro:attribute> may leave a number where minidom wants text.
-    attributes = {name: str(attribute.value) for name, attribute in (node._attrs or {}).items()}
+    attributes = {name: str(value) for name, value in node.attributes.items()} if node.hasAttributes() else {}
     return Element(node.tagName, attributes, children, text.strip(), Origin(Position(file, line, column), expansions))
 
 

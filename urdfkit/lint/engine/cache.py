@@ -221,7 +221,7 @@ def _row(finding: Finding) -> list[Any]:
 
 
 def _values(item: Any) -> tuple[Any, ...]:
-    return tuple(item.__dict__[name] for name in type(item)._record_names)
+    return tuple(item.__dict__[name] for name in type(item).__match_args__)
 
 
 def _finding(row: list[Any]) -> Finding:
