@@ -11,10 +11,10 @@ pytest.importorskip("numba")
 from urdfkit.app.page import faults_on_page
 from urdfkit.app.simulation.placeholder import Placeholder
 from urdfkit.app.simulation.scene_bodies import SceneBodies
+from urdfkit.description import load
 from urdfkit.description.sdf import load_world
 from urdfkit.errors import SimulationError
 from urdfkit.sim import Simulator
-from urdfkit.sim.construction.loading import load_robot
 from urdfkit.view.content.mesh_store import GeometryStore
 
 
@@ -40,7 +40,7 @@ class Page:
 
 @pytest.mark.parametrize("name", ["simpleton", "rrbot"])
 def test_it_stands_where_the_simulation_starts(name: str) -> None:
-    robot, world, page = load_robot(name), load_world("empty"), Page()
+    robot, world, page = load(name), load_world("empty"), Page()
     likeness = Placeholder(robot, world)
     likeness.show(page)
     simulator = Simulator(robot, world=world, scene=likeness.scene, note=lambda _: None)

@@ -8,8 +8,8 @@ pytest.importorskip("pinocchio")
 pytest.importorskip("meshcat")
 
 from tests.cli.lab import at, drawn, values
+from urdfkit.description import load
 from urdfkit.kinematics import Kinematics
-from urdfkit.sim.construction.loading import load_robot
 from urdfkit.view.content.inspector import inspection
 
 pytestmark = pytest.mark.browser
@@ -112,7 +112,7 @@ def test_a_link_follows_the_handle_within_its_limits(page, until, keep) -> None:
 @pytest.mark.parametrize("turn", [False, True])
 def test_inverse_kinematics_finds_what_can_be_reached(page, turn: bool) -> None:
     """200 random goals of a real arm, from its zero: at least 98 in 100, inside the limits."""
-    robot = Kinematics(load_robot("seven_dof_arm"))
+    robot = Kinematics(load("seven_dof_arm"))
     found = page.evaluate(
         """([description, turn]) => { const k = new urdfkit.kinematics.constructor(description), found = [];
             let seed = 7; const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;

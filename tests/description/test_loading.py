@@ -99,9 +99,9 @@ def test_an_error_in_a_macro_names_the_call(write: Write) -> None:
 @pytest.mark.parametrize(
     ("name", "text", "kind", "message"),
     [
-        ("none.urdf", None, ResourceError, "no such file: none.urdf; did you mean `one.urdf`?"),
-        ("none/x.xacro", None, ResourceError, "no such file: none/x.xacro"),
-        (".", None, ResourceError, "is a folder"),
+        ("none.urdf", None, ResourceError, "no such file or folder: none.urdf; did you mean `one.urdf`?"),
+        ("none/x.xacro", None, ResourceError, "no such file or folder: none/x.xacro"),
+        ("empty", None, ResourceError, "no robot, file or folder `empty`"),
         ("m.urdf", "", XmlError, "m.urdf:1:1: the file is empty"),
         ("m.urdf", "not xml", XmlError, "m.urdf:1:1: this is not XML"),
         ("m.xacro", 'HEAD<xacro:foo/></robot>', XacroError, "macro `foo` is not defined"),

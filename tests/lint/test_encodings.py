@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from urdfkit.lint.engine.run import lint
+from urdfkit.lint import lint
 
 PLAIN = '<robot name="r">\n<!-- {} --><link name="a"/>\n</robot>\n'
 XACRO = PLAIN.replace(">", ' xmlns:xacro="http://www.ros.org/wiki/xacro">', 1)

@@ -7,8 +7,8 @@ import json
 import pytest
 
 from urdfkit.cli import main
+from urdfkit.lint import lint
 from urdfkit.lint.editor.open_files import Project
-from urdfkit.lint.engine.run import lint
 from urdfkit.lint.project.options import Options
 from urdfkit.lint.rules.joints.axis_zero import AxisZero
 

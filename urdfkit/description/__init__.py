@@ -11,14 +11,15 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
+    from urdfkit.description.loading import expand as expand
     from urdfkit.description.loading import load as load
 
-__all__ = ["Robot", "load"]
+__all__ = ["Robot", "expand", "load"]
 
 
 def __getattr__(name: str) -> Any:
-    if name == "load":
-        from urdfkit.description.loading import load
+    if name in ("expand", "load"):
+        from urdfkit.description import loading
 
-        return load
+        return getattr(loading, name)
     raise AttributeError(f"module 'urdfkit.description' has no attribute {name!r}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
@@ -9,10 +10,12 @@ from urdfkit.description.packages.resolver import Packages
 from urdfkit.description.urdf.parser import parse
 from urdfkit.description.urdf.queries import cycles
 from urdfkit.description.urdf.robot import Joint, Link, Problem, Robot
-from urdfkit.description.xacro.expand import expand, is_xacro
+from urdfkit.description.xacro.expand import expand as expand_file
+from urdfkit.description.xacro.expand import is_xacro
 from urdfkit.description.xacro.expanded import Expanded
 from urdfkit.description.xml.element import Element
-from urdfkit.errors import ModelError, did_you_mean
+from urdfkit.errors import ModelError, UsageError, did_you_mean
+from urdfkit.resources import ModelArgument, find_model
 
 _HARMLESS = frozenset({"unknown-value", "missing"})
 _NEEDED = {("joint", "type"), ("parent", "link"), ("child", "link"), ("mimic", "joint")}
@@ -30,7 +33,7 @@ _OTHER_ROOTS = {
 
 
 def load(
-    path: str | Path,
+    robot: Robot | str | Path,
     *,
     arguments: Mapping[str, str] | None = None,
     package_path: Iterable[str | Path] = (),
@@ -38,32 +41,100 @@ def load(
     """Load a robot that is one tree of links and joints.
 
     Args:
-        path: a ``.urdf`` or ``.xacro`` file.
+        robot: a ``.urdf`` or ``.xacro`` file, a package folder or the name of a bundled robot. A loaded robot is
+            returned unchanged, or loaded again if `arguments` or `package_path` are given.
         arguments: xacro arguments.
         package_path: folders to search for packages first.
 
     Raises:
-        ResourceError: no such file.
+        UsageError: `robot` is something else.
+        ResourceError: no such file, folder or bundled robot.
         XmlError: it, or a file it includes, is not well-formed or is hostile.
         XacroError: xacro could not expand it.
         ModelError: it is not a robot, or not one tree, or a value cannot be used.
     """
-    packages = Packages(package_path, path)
-    expanded = expand(path, arguments=arguments, packages=packages)
+    package_path = tuple(package_path)
+    if isinstance(robot, Robot) and not arguments and not package_path:
+        return robot
+    model = model_argument(robot, arguments=arguments, package_path=package_path)
+    packages = Packages(model.package_path, model.path)
+    expanded = expand_file(model.path, arguments=model.arguments, packages=packages)
     try:
-        return robot_of(expanded)
+        return robot_of(expanded, model.arguments)
     except ModelError as error:
-        if is_xacro(path) or not _holds_xacro(expanded):
+        if is_xacro(model.path) or not _holds_xacro(expanded):
             raise
         hint = "; xacro is not run on .urdf files: rename it to .urdf.xacro"
         raise ModelError(error.message + hint, position=error.position) from None
 
 
-def robot_of(expanded: Expanded) -> Robot:
+def expand(
+    robot: Robot | str | Path,
+    *,
+    arguments: Mapping[str, str] | None = None,
+    package_path: Iterable[str | Path] = (),
+) -> str:
+    """Expand xacro to URDF.
+
+    Args:
+        robot: see `load`; the file of a loaded robot is read again.
+        arguments: xacro arguments.
+        package_path: folders to search for packages first.
+
+    Returns:
+        The URDF, byte for byte what stock xacro prints.
+
+    Raises:
+        UsageError: `robot` is neither a path, a name nor a robot that was loaded from a file.
+        ResourceError: no such file, folder or bundled robot.
+        XmlError: it, or a file it includes, is not well-formed or is hostile.
+        XacroError: xacro could not expand it.
+    """
+    model = model_argument(robot, arguments=arguments, package_path=package_path)
+    packages = Packages(model.package_path, model.path)
+    return expand_file(model.path, arguments=model.arguments, packages=packages, run_xacro=True).xml
+
+
+def model_argument(
+    robot: Robot | str | Path,
+    *,
+    arguments: Mapping[str, str] | None = None,
+    package_path: Iterable[str | Path] = (),
+) -> ModelArgument:
+    """Return the file of a robot and the arguments to load it with.
+
+    Args:
+        robot: see `load`.
+        arguments: xacro arguments, added to the arguments of a loaded robot.
+        package_path: folders to search for packages first.
+
+    Raises:
+        UsageError: `robot` is neither a path, a name nor a robot that was loaded from a file.
+        ResourceError: no such file, folder or bundled robot.
+    """
+    arguments, folders = dict(arguments or {}), tuple(Path(folder) for folder in package_path)
+    if isinstance(robot, Robot):
+        if not robot.files:
+            raise UsageError(f"robot `{robot.name}` was not read from a file; pass a robot returned by urdfkit.load()")
+        if robot.packages is not None:
+            folders += robot.packages.search
+        name = robot.name or robot.files[0].stem
+        return ModelArgument(robot.files[0], {**robot.arguments, **arguments}, folders, name)
+    if not isinstance(robot, (str, os.PathLike)):
+        raise UsageError(f"{robot!r} is not a robot: pass a file, a package folder, a bundled name or a loaded robot")
+    path = Path(robot)
+    if path.is_file():
+        return ModelArgument(path, arguments, folders, path.name.split(".")[0])
+    found = find_model([str(robot)], package_path=folders)
+    return ModelArgument(found.path, arguments, found.package_path, found.name)
+
+
+def robot_of(expanded: Expanded, arguments: Mapping[str, str] | None = None) -> Robot:
     """Return the robot that an expanded file describes, checked.
 
     Args:
         expanded: from `expand`.
+        arguments: the xacro arguments, for `Robot.arguments`.
 
     Raises:
         ModelError: see `load`.
@@ -72,7 +143,7 @@ def robot_of(expanded: Expanded) -> Robot:
     if root is None:
         raise ModelError(f"{expanded.path} could not be read")
     check_is_robot(root)
-    robot = parse(root, files=expanded.files, packages=expanded.packages)
+    robot = parse(root, files=expanded.files, packages=expanded.packages, arguments=arguments)
     check(robot)
     return robot
 

@@ -11,12 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.description.urdf.robot import Robot
+from urdfkit.description import Robot, load
 from urdfkit.errors import KinematicsError, did_you_mean
 from urdfkit.kinematics.joint_limits import JointLimitError, position_limits
 from urdfkit.kinematics.joint_variables import PARTS, Array, finite, index_variables, rates, unit_pose
@@ -29,10 +30,11 @@ class Kinematics:
     """Kinematic model of a robot: configurations by joint name, link poses and limits.
 
     Args:
-        robot: a robot that `urdfkit.description.load` found to be one tree.
+        robot: a loaded robot, a file, a package folder or the name of a bundled robot; see `urdfkit.load`.
         floating_base: put a free-flyer above the root link; its frame is the root link's.
 
     Raises:
+        UrdfkitError: the robot cannot be loaded.
         KinematicsError: the robot is not one tree, or a mimic or an axis makes no sense.
 
     Attributes:
@@ -49,8 +51,8 @@ class Kinematics:
         link_names: all links in document order.
     """
 
-    def __init__(self, robot: Robot, *, floating_base: bool = False) -> None:
-        self.robot = robot
+    def __init__(self, robot: Robot | str | Path, *, floating_base: bool = False) -> None:
+        self.robot = robot = load(robot)
         self.floating_base = floating_base
         self.couplings: dict[str, Coupling] = couplings(robot)
         self.model: Any = build_model(robot, floating_base=floating_base)

@@ -4,21 +4,94 @@ Data flow: `engine` expands each entry file with error recovery (`urdfkit.descri
 layer by layer: `SourceRule` on the text of each file, `FaultRule` on xacro errors, `RobotRule` on the expanded robot.
 It drops suppressed findings and merges findings that several expansions of one macro have in common. `fixes` edits the
 source text, `report` prints the findings.
+
+The package can be called: ``urdfkit.lint("robot.urdf")`` calls `lint`.
 """
 
 from __future__ import annotations
 
+import sys
+from types import ModuleType
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+    from inspect import Signature
+    from pathlib import Path
     from typing import Any
 
-    from urdfkit.lint.engine.run import lint as lint
+    from urdfkit.description.urdf.robot import Robot
     from urdfkit.lint.finding import Finding as Finding
     from urdfkit.lint.rules import RULES as RULES
 
-_MODULES = {"Finding": "finding", "RULES": "rules", "lint": "engine.run"}
+_MODULES = {"Finding": "finding", "RULES": "rules"}
 
 __all__ = ["RULES", "Finding", "lint"]
+
+
+def lint(
+    robots: Robot | str | Path | Iterable[Robot | str | Path],
+    *,
+    select: Iterable[str] = (),
+    ignore: Iterable[str] = (),
+    target: str | None = None,
+    arguments: Mapping[str, str] | None = None,
+    package_path: Iterable[str | Path] = (),
+) -> list[Finding]:
+    """Lint robots, packages or workspaces.
+
+    Args:
+        robots: one or more files, folders, names of bundled robots, or loaded robots. The files of a loaded robot are
+            read again, with the xacro arguments that it was loaded with.
+        select: codes, or beginnings of codes, to report; all if empty.
+        ignore: codes, or beginnings of codes, not to report.
+        target: the consumer the robot is meant for, one of `TARGETS`, or with its release: ``ros2-jazzy``.
+        arguments: values for ``$(arg …)``.
+        package_path: folders to search first for packages.
+
+    Returns:
+        The findings, sorted by position. Defects in the files are findings, not exceptions.
+
+    Raises:
+        UsageError: a code or the target is unknown, or a loaded robot was not read from a file.
+        ResourceError: a path does not exist or has no robot description.
+    """
+    from collections.abc import Iterable
+    from pathlib import Path
+
+    from urdfkit.lint.engine.run import merged, run
+    from urdfkit.lint.project.entry_files import find_entries
+    from urdfkit.lint.project.options import Options
+
+    every = list(robots) if isinstance(robots, Iterable) and not isinstance(robots, str) else [robots]
+    paths = [one for one in every if isinstance(one, (str, Path))]
+    folders = tuple(Path(folder) for folder in package_path)
+    options = Options(tuple(select), tuple(ignore), target, dict(arguments or {}), folders)
+    outcomes = [run(find_entries(paths), options)]
+    for robot in every:
+        if not isinstance(robot, (str, Path)):
+            from urdfkit.description.loading import model_argument
+
+            model = model_argument(robot, arguments=arguments, package_path=folders)
+            own = {"arguments": model.arguments, "package_path": model.package_path}
+            outcomes.append(run(find_entries([model.path]), Options(**{**options.__dict__, **own})))
+    return merged(finding for outcome in outcomes for finding in outcome.findings)
+
+
+class _CallablePackage(ModuleType):
+    """Type of this package, which has the name of the function `lint` in `urdfkit`."""
+
+    __call__ = staticmethod(lint)
+
+    @property
+    def __signature__(self) -> Signature:
+        """Signature that editors and notebooks show; until Python 3.13, `inspect` drops the first parameter."""
+        from inspect import signature
+
+        return signature(lint)
+
+
+sys.modules[__name__].__class__ = _CallablePackage
 
 
 def __getattr__(name: str) -> Any:

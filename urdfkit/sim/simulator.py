@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from urdfkit.bus import Bus, Subscription
-from urdfkit.description import Robot
+from urdfkit.description import Robot, load
 from urdfkit.description.sdf import Physics, World
 from urdfkit.errors import SimulationError
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.scene import Scene
 from urdfkit.sim.construction.initial_overlap import note_overlaps
-from urdfkit.sim.construction.loading import load_robot, require_sense, the_world
+from urdfkit.sim.construction.loading import require_sense, the_world
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.publishers import Clock
@@ -47,7 +47,7 @@ class Simulator:
     Same seed, same calls: the same numbers to the last bit. Several simulators may run in several threads.
 
     Args:
-        robot: a loaded robot, a file, or the name of a robot we ship.
+        robot: a loaded robot, a file, a package folder or the name of a bundled robot; see `urdfkit.load`.
         world: a world, the name of one we ship (``empty``, ``void``, ``house``, …) or an SDF file.
         dt: length of a step [s]; the world's ``<max_step_size>`` when None.
         seed: of everything random.
@@ -103,7 +103,7 @@ class Simulator:
     ) -> None:
         distro = Distro(ros_distro)
         require_sense(seed, spawn)
-        self.robot = robot if isinstance(robot, Robot) else load_robot(robot, package_path)
+        self.robot = robot if isinstance(robot, Robot) else load(robot, package_path=package_path)
         found = the_world(world, gravity, package_path)
         self.dt = dt = found.physics.max_step_size if dt is None else number(dt, "the step", "s")
         if not 1e-6 <= dt <= 0.1:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from urdfkit.lint.engine.run import lint
+from urdfkit.lint import lint
 from urdfkit.lint.model.masked_names import is_typo
 
 TRANSMISSION = (

@@ -6,6 +6,7 @@ space around numbers, the first of repeated elements.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from urdfkit.description.urdf.extensions import gazebo_block, ros2_control, transmission
@@ -51,6 +52,7 @@ def parse(
     *,
     files: tuple[Path, ...] = (),
     packages: Packages | None = None,
+    arguments: Mapping[str, str] | None = None,
     known: dict[Element, Part] | None = None,
 ) -> Robot:
     """Read a robot.
@@ -59,6 +61,7 @@ def parse(
         root: the ``<robot>`` element after expansion. Any other element gives a robot without links.
         files: the files read, for `Robot.files`.
         packages: for `Robot.packages`.
+        arguments: for `Robot.arguments`.
         known: element → the part read from it before, with its problems; updated.
     """
     reader = Reader(known)
@@ -93,6 +96,7 @@ def parse(
         root,
         files,
         packages,
+        arguments or {},
     )
 
 

@@ -15,6 +15,7 @@ from urdfkit.record import field, record
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from typing import Literal
 
     from urdfkit.description.packages.resolver import Packages
@@ -309,7 +310,7 @@ class Robot:
     """A robot as written; may be broken (see `problems`, `roots`, `cycles`).
 
     `links` and `joints` keep document order and duplicates. `files` are all files that were read, the entry first;
-    `packages` resolves the URIs of its meshes. Both are set by `load`.
+    `packages` resolves the URIs of its meshes; `arguments` are the xacro arguments. `load` sets all three.
     """
 
     name: str | None
@@ -323,6 +324,7 @@ class Robot:
     element: Element = field(repr=False)
     files: tuple[Path, ...] = ()
     packages: Packages | None = field(default=None, repr=False)
+    arguments: Mapping[str, str] = field(default_factory=dict, repr=False)
 
     @cached_property
     def link_by_name(self) -> dict[str, Link]:

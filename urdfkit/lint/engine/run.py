@@ -7,7 +7,7 @@ from pathlib import Path
 from urdfkit.errors import ResourceError
 from urdfkit.lint.engine.checker import Checker
 from urdfkit.lint.finding import SEVERITIES, Finding
-from urdfkit.lint.project.entry_files import Entry, find_entries
+from urdfkit.lint.project.entry_files import Entry
 from urdfkit.lint.project.options import Options
 from urdfkit.lint.project.target import parse_target
 from urdfkit.record import record
@@ -42,38 +42,6 @@ class Outcome:
     notes: tuple[str, ...] = ()
     cached: int = 0
     refused: tuple[str, ...] = ()
-
-
-def lint(
-    paths: str | Path | Iterable[str | Path],
-    *,
-    select: Iterable[str] = (),
-    ignore: Iterable[str] = (),
-    target: str | None = None,
-    arguments: Mapping[str, str] | None = None,
-    package_path: Iterable[str | Path] = (),
-) -> list[Finding]:
-    """Lint files, packages or workspaces.
-
-    Args:
-        paths: one or more files or folders, or names of bundled robots.
-        select: codes, or beginnings of codes, to report; all if empty.
-        ignore: codes, or beginnings of codes, not to report.
-        target: the consumer the robot is meant for, one of `TARGETS`, or with its release: ``ros2-jazzy``.
-        arguments: values for ``$(arg …)``.
-        package_path: folders to search first for packages.
-
-    Returns:
-        The findings, sorted by position. Defects in the files are findings, not exceptions.
-
-    Raises:
-        UsageError: a code or the target is unknown.
-        ResourceError: a path does not exist or has no robot description.
-    """
-    several = [paths] if isinstance(paths, (str, Path)) else list(paths)
-    folders = tuple(Path(folder) for folder in package_path)
-    options = Options(tuple(select), tuple(ignore), target, arguments or {}, folders)
-    return list(run(find_entries(several), options).findings)
 
 
 def run(

@@ -10,13 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.description import Robot, load
 from urdfkit.description.sdf import World, load_world
 from urdfkit.description.urdf.masses import massless
 from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import matmul
-from urdfkit.resources import find_model
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.construction.validation import require_sound
 from urdfkit.sim.state.arguments import vector
@@ -26,16 +24,6 @@ STRONGEST = 1e4
 
 SINGULAR = 1e-9
 """Least eigenvalue of a mass matrix, scaled to ones on its diagonal, of a robot that can be simulated."""
-
-
-def load_robot(model: str | Path, package_path: Sequence[str | Path] = ()) -> Robot:
-    """Load a robot by file, package folder or name.
-
-    Raises:
-        UrdfkitError: there is none, or it is broken; says why and where.
-    """
-    found = find_model([str(model)], package_path=[str(folder) for folder in package_path])
-    return load(found.path, arguments=found.arguments, package_path=found.package_path)
 
 
 def require_sense(seed: int, spawn: Spawn | None) -> None:

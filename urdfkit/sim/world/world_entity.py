@@ -6,12 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from urdfkit.description import load
 from urdfkit.description.sdf import WorldModel, WorldRobot
 from urdfkit.description.sdf.model_as_robot import groups_of
 from urdfkit.description.urdf.geometry import IDENTITY, compose
 from urdfkit.description.urdf.robot import Pose, Robot
 from urdfkit.scene import MeshLoader, Scene
-from urdfkit.sim.construction.loading import load_robot
 from urdfkit.sim.construction.rigid_bodies import has_plugins, parts_of, scene_of_tree, surfaces_of_tree, trees_of
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.engine import Body, Piece
@@ -77,7 +77,7 @@ class EntityFactory:
         if isinstance(source, WorldRobot):
             return self._robot_entry(
                 source,
-                robot or load_robot(source.file, self._package_path),
+                robot or load(source.file, package_path=self._package_path),
                 spawn,
                 ground,
                 fixed_base=fixed_base or source.static,
