@@ -7,11 +7,12 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 SOURCES := pyproject.toml tests/constraints.txt
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint typecheck bench fidelity soak clean
+.PHONY: help run test quick bench fidelity soak clean
 
 help:
 	@echo "make run    install into $(VENV) and drive Simpleton in the browser"
 	@echo "make test   install the test tools too, then run every check and test"
+	@echo "make quick  run the quick tests: no browser, no builds of ROS packages, nothing that takes seconds"
 	@echo "make fidelity  measure us and the peers beside closed forms, into docs/fidelity.md"
 	@echo "make bench  run us and the peers side by side and print ratios"
 	@echo "make soak   compare both engines on 1,000 states of each robot, then drive each for 30 minutes in the house"
@@ -27,6 +28,9 @@ test: $(VENV)/.test
 	$(BIN)/lint-imports
 	$(BIN)/urdfkit sim warmup
 	$(BIN)/python -m pytest $(ARGS)
+
+quick: $(VENV)/.test
+	$(BIN)/python -m pytest -q -n 2 --dist worksteal -m "not slow and not browser and not catkin and not colcon and not sdformat" $(ARGS)
 
 bench: $(VENV)/.bench
 	$(BIN)/python tests/bench/bench_lint.py

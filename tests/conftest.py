@@ -12,7 +12,7 @@ from tests import system_packages
 from urdfkit.description.sdf.model_library import FOLDER
 from urdfkit.scene.gl.driver_probe import probe
 
-pytest_plugins = ("tests.leftover_processes", "tests.time_limit")
+pytest_plugins = ("tests.leftover_processes", "tests.slow_tests", "tests.time_limit")
 
 # Machines are shared and noisy, so no example has a deadline. A developer's every run tries new examples; in CI
 # the examples are the same each time, so that a change is judged by itself.

@@ -77,6 +77,7 @@ def test_a_dependency_is_used_only_in_its_rooms(package: str, rooms: set[str]) -
     assert owners(package) <= rooms
 
 
+@pytest.mark.slow
 def test_no_modules_import_each_other() -> None:
     graph = import_graph(ROOT)
     assert len(graph) > 800

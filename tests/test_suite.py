@@ -12,6 +12,7 @@ import pytest
 
 from tests.leftover_processes import descendants
 from tests.processes import running
+from tests.slow_tests import wrong_marks
 from tests.time_limit import PATIENCE, limit
 
 ROOT = Path(__file__).parents[1]
@@ -40,6 +41,7 @@ def run(file: Path, text: str) -> list[object]:
     return [sys.executable, "-m", "pytest", "-q", "-s", "--rootdir", file.parent, *PLUGINS, file]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux names the descendants of a process")
 def test_a_run_that_leaves_a_process_behind_fails_and_names_the_test(tmp_path: Path) -> None:
     command = run(tmp_path / "test_leaves_one.py", LEAVES_ONE)
@@ -50,6 +52,7 @@ def test_a_run_that_leaves_a_process_behind_fails_and_names_the_test(tmp_path: P
     assert not [line for _, line in descendants() if "test_leaves_one" in line]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux names the descendants of a process")
 def test_a_run_that_is_told_to_end_ends_what_its_tests_have_started(tmp_path: Path) -> None:
     command = run(tmp_path / "test_waits.py", WAITS)
@@ -73,3 +76,12 @@ def test_signals_are_handled_as_in_a_terminal_unless_ignored() -> None:
     for ignored in ((), (signal.SIGHUP,)):
         with running([sys.executable, "-c", code], ignored=ignored, stdout=subprocess.PIPE, text=True) as process:
             assert process.communicate()[0] == f"{[False, bool(ignored)]}\n"
+
+
+def test_the_summary_names_wrong_marks_by_the_slowest_case_of_a_test() -> None:
+    times = {"a.py::test_long[1]": 0.1, "a.py::test_long[2]": 9.0, "a.py::test_short": 0.2, "a.py::test_quick": 1.5}
+    assert wrong_marks(times, {"a.py::test_short"}) == [
+        "a.py::test_long: 9.0 s of CPU time, slow",
+        "a.py::test_short: 0.2 s of CPU time, not slow",
+    ]
+    assert wrong_marks(times, {"a.py::test_long[1]", "a.py::test_long[2]"}) == []

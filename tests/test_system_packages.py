@@ -53,6 +53,7 @@ def test_a_test_without_its_packages_is_skipped_with_that_line(monkeypatch: pyte
     assert conftest.reason_to_skip({"slow"}) == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("ci", "outcome"), [("", "1 skipped"), ("true", "1 error")])
 def test_in_ci_a_test_without_its_packages_is_an_error(ci: str, outcome: str, tmp_path: Path) -> None:
     (tmp_path / "test_a.py").write_text("import pytest\n@pytest.mark.graphviz\ndef test_a(): pass\n")
@@ -69,6 +70,7 @@ def test_in_ci_a_test_without_its_packages_is_an_error(ci: str, outcome: str, tm
     assert "missing system packages: dottool (command no-such-program); install: " in done.stdout
 
 
+@pytest.mark.slow
 def test_each_package_is_used_and_each_group_is_a_marker() -> None:
     assert len({package.name for package in PACKAGES}) == len(PACKAGES)
     for package in PACKAGES:

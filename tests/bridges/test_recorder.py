@@ -112,6 +112,7 @@ def test_ctrl_c_waits_until_a_message_is_written(tmp_path: Path, monkeypatch: py
     assert [message.data for _, _, message in read(tmp_path / "a.mcap")] == [1.0]
 
 
+@pytest.mark.slow
 def test_a_run_is_recorded_and_the_same_run_gives_the_same_bytes(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -35,6 +35,7 @@ def type_in(monkeypatch, *lines):
     return sys.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ros", ["jazzy", "kilted", "noetic"])
 def test_result_lints_clean_and_loads(place, capsys, ros):
     assert main(["new", "robot", "scout", "--ros", ros]) == 0
@@ -49,6 +50,7 @@ def test_result_lints_clean_and_loads(place, capsys, ros):
     assert ("roslaunch scout_bringup scout.launch" in printed) == (ros == "noetic")
 
 
+@pytest.mark.slow
 def test_no_placeholder_survives(place):
     for ros in ("jazzy", "noetic"):
         assert main(["new", "robot", "scout", "--ros", ros, "--into", ros]) == 0
@@ -58,6 +60,7 @@ def test_no_placeholder_survives(place):
             assert not re.search(r"@[a-z_]+@", path.read_text()), path
 
 
+@pytest.mark.slow
 def test_dimensions_arrive(place):
     options = ["--wheel-radius", "0.1", "--base-length", "0.6", "--mass", "12", "--wheel-separation", "0.5"]
     assert main(["new", "robot", "big", *options, "--into", "src/robots"]) == 0
@@ -67,6 +70,7 @@ def test_dimensions_arrive(place):
     assert robot.link_by_name["base_link"].inertial.mass == 12
 
 
+@pytest.mark.slow
 def test_maintainer_and_license(place):
     options = ["--maintainer", "Ada O'Hara", "--email", "ada@example.org", "--license", "MIT"]
     assert main(["new", "robot", "scout", *options]) == 0
@@ -77,6 +81,7 @@ def test_maintainer_and_license(place):
         assert re.search(r"Copyright \(c\) 20\d\d Ada O'Hara", (place / package / "LICENSE").read_text())
 
 
+@pytest.mark.slow
 def test_maintainer_is_asked_of_git(place, monkeypatch):
     config = place / "gitconfig"
     config.write_text("[user]\n\tname = Grace\n\temail = grace@example.org\n")
@@ -93,6 +98,7 @@ def test_an_address_of_git_that_ros_refuses_is_left_out(place, monkeypatch):
     assert '"maintainer@example.com">Grace<' in (place / "scout_tools/package.xml").read_text()
 
 
+@pytest.mark.slow
 def test_quiet_prints_what_was_written_only(place, capsys):
     assert main(["new", "robot", "scout", "-q"]) == 0
     assert capsys.readouterr().out.splitlines() == [
@@ -103,6 +109,7 @@ def test_quiet_prints_what_was_written_only(place, capsys):
     ]
 
 
+@pytest.mark.slow
 def test_what_to_do_next_can_be_pasted(place, capsys):
     assert main(["new", "robot", "scout", "--ros", "none", "--into", "my ws", "--yes"]) == 0
     assert "  urdfkit lint 'my ws'/scout_description\n" in capsys.readouterr().out
@@ -110,6 +117,7 @@ def test_what_to_do_next_can_be_pasted(place, capsys):
     assert "  urdfkit view 'my ws/scout_description'\n" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ros", ["jazzy", "none"])
 def test_packages_inside_a_package_get_a_word(place, capsys, ros):
     assert main(["new", "robot", "scout", "--ros", ros, "--yes"]) == 0
@@ -144,6 +152,7 @@ def test_what_is_written_is_there_though_it_cannot_be_printed(place, thing):
     assert list(place.glob("mine*"))
 
 
+@pytest.mark.slow
 def test_questions_on_a_terminal(place, monkeypatch):
     typed = ["Scout", "scout", "lunar", "noetic", "", "", "", "", "", "0.1"]
     shown = type_in(monkeypatch, *typed, *[""] * 10)
@@ -183,6 +192,7 @@ def test_where_no_answer_would_do_it_ends_at_once(place, monkeypatch):
     assert list(place.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_what_was_given_is_not_asked(place, monkeypatch):
     shown = type_in(monkeypatch, *[""] * 20)
     assert main(["new", "robot", "scout", "--ros", "noetic", "--mass", "3"]) == 0
@@ -191,6 +201,7 @@ def test_what_was_given_is_not_asked(place, monkeypatch):
     assert "Length of the base" in shown.getvalue()
 
 
+@pytest.mark.slow
 def test_yes_asks_nothing(place, monkeypatch):
     shown = type_in(monkeypatch)
     assert main(["new", "robot", "scout", "--yes"]) == 0
@@ -301,6 +312,7 @@ def written(folder):
     return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
+@pytest.mark.slow
 def test_the_same_again_from_a_file(place):
     options = ["--drive", "skid", "--sensor", "camera,lidar", "--mass", "7", "--maintainer", "Ada O'Hara, \\ 2nd"]
     assert main(["new", "robot", "scout", *options, "--into", "one"]) == 0
@@ -311,6 +323,7 @@ def test_the_same_again_from_a_file(place):
     assert written(place / "one") == written(place / "two")
 
 
+@pytest.mark.slow
 def test_options_come_before_the_file(place):
     (place / "car.toml").write_text('name = "car"\ndrive = "skid"\nwheel_base = 0.3\nmass = 8\nsensor = ["imu"]\n')
     assert main(["new", "robot", "cart", "--from", "car.toml", "--drive", "diff"]) == 0
@@ -355,6 +368,7 @@ def test_the_checker_finds_what_the_linter_does(place):
     assert [fault.said[:4] for fault in findings(place) if fault.is_error] == ["X119"]
 
 
+@pytest.mark.slow
 def test_light_imports():
     code = (
         "import sys; from urdfkit.cli import main; main(['new', 'robot', 'scout', '-q', '--into', sys.argv[1]]);"

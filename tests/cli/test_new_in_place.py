@@ -30,6 +30,7 @@ def beside(folder):
     return sorted(path.name for path in folder.iterdir() if not path.name.startswith(("scout", ".git")))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ros", ["humble", "noetic", "none"])
 def test_files_of_a_repository(place, ros):
     assert main(["new", "robot", "scout", "--ros", ros, "--into", "new", "--yes", "-q"]) == 0
@@ -51,6 +52,7 @@ def test_files_of_a_repository(place, ros):
     assert (new / "scout_description/docs/scout.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_in_a_folder_with_something_in_it_there_are_packages_only(place):
     (place / "mine").write_text("")
     assert main(["new", "robot", "scout", "--yes", "-q"]) == 0
@@ -62,6 +64,7 @@ def test_in_a_folder_with_something_in_it_there_are_packages_only(place):
     }
 
 
+@pytest.mark.slow
 @pytest.mark.git
 def test_in_a_fresh_clone_what_is_there_stays(place):
     subprocess.run(["git", "init", "-q"], check=True)
@@ -81,6 +84,7 @@ def test_without_a_picture(place):
     assert "![" not in (place / "scout_description/README.md").read_text()
 
 
+@pytest.mark.slow
 def test_the_same_answers_give_the_same_bytes(place):
     for into in ("one", "two"):
         assert main(["new", "robot", "scout", "--sensor", "camera", "--into", into, "--yes", "-q"]) == 0
@@ -91,6 +95,7 @@ def test_the_same_answers_give_the_same_bytes(place):
     assert one == two
 
 
+@pytest.mark.slow
 def test_update(scout, capsys):
     assert main(["new", "--update"]) == 0
     assert "nothing to update" in capsys.readouterr().err
@@ -120,6 +125,7 @@ class Terminal(io.StringIO):
         return True
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("typed", "mass"), [("y\n", "8"), ("n\n", "5"), ("\n", "5"), ("", "5")])
 def test_asked_on_a_terminal(scout, monkeypatch, typed, mass):
     monkeypatch.setattr("sys.stdin", Terminal(typed))
@@ -128,11 +134,13 @@ def test_asked_on_a_terminal(scout, monkeypatch, typed, mass):
     assert f'name="base_mass" value="{mass}"' in (scout / "scout_description/urdf/scout.urdf.xacro").read_text()
 
 
+@pytest.mark.slow
 def test_colours(scout, capsys):
     assert main(["new", "robot", "--update", "--mass", "8", "--diff", "--color", "always"]) == 1
     assert '\x1b[31m-  <xacro:property name="base_mass" value="5"/>\x1b[0m' in capsys.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -222,6 +230,7 @@ def test_help_is_of_the_template(place, own, capsys):
     assert "--drive" not in shown
 
 
+@pytest.mark.slow
 def test_off_to_the_browser(place, monkeypatch, capsys):
     called = []
     monkeypatch.setattr("urdfkit.cli.main", lambda words: called.append(words) or 0)
@@ -234,6 +243,7 @@ def lines_of(capsys):
     return capsys.readouterr().out.splitlines()
 
 
+@pytest.mark.slow
 def test_what_an_edited_file_includes_is_kept(place, capsys):
     assert main(["new", "robot", "scout", "--sensor", "lidar,camera", "--no-picture", "--yes", "-q"]) == 0
     model = place / "scout_description/urdf/scout.urdf.xacro"
@@ -258,6 +268,7 @@ def test_what_an_edited_file_includes_is_kept(place, capsys):
     assert main(["lint", "scout_description", "-q"]) == 0
 
 
+@pytest.mark.slow
 def test_an_outcome_that_would_be_broken_is_refused(place, capsys):
     assert main(["new", "robot", "scout", "--no-picture", "--yes", "-q"]) == 0
     model = place / "scout_description/urdf/scout.urdf.xacro"
@@ -289,6 +300,7 @@ def test_an_outcome_that_would_be_broken_is_refused(place, capsys):
     assert "nothing to update" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", [["--sensor", "lidar"], ["--arm", "5", "--gripper"]])
 def test_new_parts_beside_an_edited_file_wait_for_it_to_be_merged(place, capsys, options):
     assert main(["new", "robot", "scout", "--no-picture", "--yes", "-q"]) == 0
@@ -334,6 +346,7 @@ def test_a_package_that_an_edited_file_names_is_kept_whole(place, capsys):
     assert main(["lint", "picker_description", "-q"]) == 0
 
 
+@pytest.mark.slow
 def test_what_speaks_to_the_other_gazebo_is_told(place, capsys):
     """A camera that `new sensor` had written for the new Gazebo was dead in Gazebo Classic, and nobody said so."""
     assert main(["new", "robot", "scout", "--no-picture", "--yes", "-q"]) == 0
@@ -355,6 +368,7 @@ def test_what_speaks_to_the_other_gazebo_is_told(place, capsys):
     assert "are of Gazebo Classic: the new Gazebo passes over them" in said
 
 
+@pytest.mark.slow
 def test_joints_that_edited_settings_do_not_know_are_told(place, capsys):
     """The model had six joints and a gripper, the controllers four and none, and nobody said so."""
     assert main(["new", "robot", "rover", "--arm", "4", "--no-picture", "--yes", "-q"]) == 0

@@ -88,6 +88,7 @@ def links_on(url):
     return asyncio.run(ask())
 
 
+@pytest.mark.slow
 def test_the_page_follows_the_answers(terminal, until, tmp_path):
     asking = terminal("new", "robot")
     url = asking.until(r"preview: (http://127\.0\.0\.1:\d+/\?token=\S+)")[1]
@@ -110,6 +111,7 @@ def test_the_page_follows_the_answers(terminal, until, tmp_path):
         links_on(url)
 
 
+@pytest.mark.slow
 def test_without_a_preview_it_only_asks(terminal, tmp_path):
     asking = terminal("new", "robot", "rover", "--no-preview")
     asking.until("ROS distribution")
@@ -149,6 +151,7 @@ def test_what_does_not_go_with_earlier_answers_is_asked_again_where_something_el
     asking.until("Joints of an arm")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGHUP])
 def test_an_interrupt_leaves_nothing(terminal, tmp_path, how):
     asking = terminal("new", "robot", "rover")

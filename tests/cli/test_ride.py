@@ -423,6 +423,7 @@ def test_arms_go_where_their_sliders_are_put(made) -> None:
         do(ride, "arm", controller=name, joint="nothing", value=0.5)
 
 
+@pytest.mark.slow
 def test_a_trajectory_controller_takes_sliders_too(made) -> None:
     ride = made("seven_dof_arm")
     arms = ride.page.said["arms"]["arms"]
@@ -612,6 +613,7 @@ def test_what_is_put_into_something_is_said_on_the_page_each_time(ride) -> None:
     assert "remarks" not in do(ride, "walls", corners=[[-1.0, 3.0], [1.0, 3.0]])
 
 
+@pytest.mark.slow
 def test_random_orders_never_break_the_loop(ride) -> None:
     import random
 

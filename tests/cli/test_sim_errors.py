@@ -296,6 +296,7 @@ def command(*words: str) -> list[str]:
     return [sys.executable, "-m", "urdfkit", "sim", "run", *words]
 
 
+@pytest.mark.slow
 def test_ctrl_c_ends_it_without_a_word(tmp_path: Path) -> None:
     brick = tmp_path / "brick.urdf"
     brick.write_text(
@@ -312,6 +313,7 @@ def test_ctrl_c_ends_it_without_a_word(tmp_path: Path) -> None:
     assert (process.returncode, out, err) == (130, "", "")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGHUP])
 def test_a_run_that_is_told_to_end_keeps_its_recording(tmp_path: Path, until, how: signal.Signals) -> None:
     words = command("simpleton", "--for", "1e6", "--record", "ride.mcap")
@@ -324,6 +326,7 @@ def test_a_run_that_is_told_to_end_keeps_its_recording(tmp_path: Path, until, ho
     assert [path.name for path in tmp_path.iterdir()] == ["ride.mcap"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arguments", [("sim", "run", "simpleton", "-q", "--for", "0.01", "--json"), ("rule",)])
 @pytest.mark.parametrize("unbuffered", ["", "1"])
 def test_a_reader_that_goes_away_is_no_error(arguments: tuple[str, ...], unbuffered: str) -> None:
@@ -342,6 +345,7 @@ def test_a_reader_that_goes_away_is_no_error(arguments: tuple[str, ...], unbuffe
     assert (done.returncode, done.stderr) == (141, b"")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
 @pytest.mark.parametrize("arguments", [("sim", "run", "simpleton", "-q", "--for", "0.01"), ("rule",)])
 @pytest.mark.parametrize("unbuffered", ["", "1"])
@@ -359,6 +363,7 @@ def test_an_output_that_takes_nothing_is_an_error(arguments: tuple[str, ...], un
     assert done.stderr == "urdfkit: No space left on device\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("closed", ["1>&-", "2>&-"])
 def test_closed_outputs_are_no_error(closed: str) -> None:
     shell = f"{sys.executable} -m urdfkit sim run simpleton --for 0.01 {closed}"

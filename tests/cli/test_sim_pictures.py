@@ -18,6 +18,7 @@ Capture = pytest.CaptureFixture[str]
 TOPIC = "/simpleton/camera1/image_raw"
 
 
+@pytest.mark.slow
 def test_the_last_picture_is_saved(tmp_path: Path, capsys: Capture) -> None:
     file = tmp_path / "seen.png"
     assert main(["sim", "run", "simpleton", "--world", "house", "--for", "0.1", "--save-image", f"{TOPIC}={file}"]) == 0

@@ -410,6 +410,7 @@ def test_the_view_is_of_the_robot_not_of_the_house_around_it(serve, visits, keep
     page.keyboard.up("w")
 
 
+@pytest.mark.slow
 def test_a_ride_is_recorded_until_it_is_interrupted(serve, tmp_path, until) -> None:
     from rosbags.rosbag2 import Reader
 

@@ -111,6 +111,7 @@ def test_what_was_published_once_for_all_who_come_is_echoed(topic) -> None:
     assert joint["header"]["frame_id"] == "base_footprint"
 
 
+@pytest.mark.slow
 def test_a_camera_is_looked_through_while_somebody_listens(ride, topic, until) -> None:
     name = "/simpleton/camera1/image_raw"
     before = subscribers(ride, name)

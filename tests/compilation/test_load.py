@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numba
 import numpy as np
+import pytest
 
 import urdfkit
 from urdfkit.compilation import load, whole_program
@@ -58,6 +59,7 @@ def run(folder: Path, digest: str, **settings: str) -> list[str]:
     return done.stdout.splitlines()
 
 
+@pytest.mark.slow
 def test_what_earlier_sources_were_compiled_to_is_removed(tmp_path):
     old, new = "0123456789abcdef", "fedcba9876543210"
     run(tmp_path, old)
@@ -78,11 +80,13 @@ def test_what_earlier_sources_were_compiled_to_is_removed(tmp_path):
     assert all(f"probe.work_{level().replace('-', '_')}_{new}-" in name for name in there)
 
 
+@pytest.mark.slow
 def test_a_second_process_compiles_nothing(tmp_path):
     assert run(tmp_path, "one") == ["compiling work", "compiling half", "1.5", "below zero"]
     assert run(tmp_path, "one") == ["1.5", "below zero"]
 
 
+@pytest.mark.slow
 def test_what_was_compiled_for_more_than_the_processor_has_is_not_loaded(tmp_path):
     digest = "0123456789abcdef"
     assert run(tmp_path, digest)[0] == "compiling work"

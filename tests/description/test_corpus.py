@@ -76,6 +76,7 @@ def written_at(expanded: Expanded, position: Position, beginnings: tuple[str, ..
     return source.text.startswith(beginnings, source.offset(position.line, position.column))
 
 
+@pytest.mark.slow
 def test_same_bytes_as_stock_xacro_and_every_element_has_its_origin(
     installed: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -102,6 +103,7 @@ def test_same_bytes_as_stock_xacro_and_every_element_has_its_origin(
     assert compared > 300
 
 
+@pytest.mark.slow
 def test_recovery_changes_nothing_where_nothing_is_wrong() -> None:
     failures = []
     for entry in entries():
@@ -117,6 +119,7 @@ def test_recovery_changes_nothing_where_nothing_is_wrong() -> None:
     assert failures == []
 
 
+@pytest.mark.slow
 def test_recovery_survives_everything() -> None:
     failures = []
     for entry in entries():
@@ -131,6 +134,7 @@ def test_recovery_survives_everything() -> None:
     assert failures == []
 
 
+@pytest.mark.slow
 def test_what_check_urdf_and_pinocchio_load_loads() -> None:
     failures = []
     for entry in entries():

@@ -57,6 +57,7 @@ def run(command: str, folder: Path) -> None:
     assert done.returncode == 0, f"{command}\n{done.stdout}{done.stderr}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", [p for p in PAGES if shown_commands(p)], ids=lambda p: p.name)
 def test_the_commands_on_a_page_work(page: Path, tmp_path: Path) -> None:
     (tmp_path / "robot.urdf.xacro").write_text(MODEL)

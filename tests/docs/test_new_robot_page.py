@@ -39,6 +39,7 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_every_step_is_there(place: Path) -> None:
     said = " ".join(shown())
     for step in ("new robot", "lint", "view", "new world", "sim teleop", "sim run", "new sensor", "colcon build"):

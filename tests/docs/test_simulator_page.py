@@ -20,6 +20,7 @@ def blocks() -> list[str]:
     return re.findall(r"^```python\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
 
 
+@pytest.mark.slow
 def test_every_block_runs(capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)  # one of them writes a file
     names: dict[str, Any] = {}
@@ -42,6 +43,7 @@ def drive(turn: float) -> bytes:
     return simulator.state.q.tobytes() + simulator.state.v.tobytes()
 
 
+@pytest.mark.slow
 def test_threads_give_the_same_bytes_as_one_after_the_other() -> None:
     turns = [-0.5, 0.0, 0.3, 0.7]
     one_by_one = [drive(turn) for turn in turns]

@@ -14,6 +14,7 @@ from urdfkit.sim import Simulator
 TUTORIALS = Path(__file__).parents[2] / "docs" / "tutorials"
 
 
+@pytest.mark.slow
 def test_stop_on_white_drives_up_to_the_barrier_and_stops(capsys: pytest.CaptureFixture[str]) -> None:
     node = TUTORIALS / "stop_on_white.py"
     assert len(node.read_text().splitlines()) <= 30

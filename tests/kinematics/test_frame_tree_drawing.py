@@ -94,6 +94,7 @@ def test_the_layout_is_tidy(tree: TransformTree) -> None:
     assert_tidy(as_svg(tree))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not CORPUS.is_dir(), reason="the corpus is not beside the checkout")
 def test_the_layout_of_real_robots_is_tidy() -> None:
     drawn = 0

@@ -186,6 +186,7 @@ def test_a_zero_axis_is_refused_at_its_place(pair: Callable[..., Robot]) -> None
         Kinematics(pair("continuous", '<axis xyz="0 0 0"/>'))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not CORPUS.is_dir(), reason="the corpus is not beside the checkout")
 def test_the_corpus_is_what_pinocchio_reads(capfd: pytest.CaptureFixture[str]) -> None:
     rng = np.random.default_rng(4)

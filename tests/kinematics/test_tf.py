@@ -37,6 +37,7 @@ def test_placements_are_those_of_pinocchio(tree: TransformTree, arm_xml: str) ->
             np.testing.assert_allclose(found.homogeneous, expected.homogeneous, rtol=0, atol=1e-12)
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(left=st.floats(-100, 100), right=st.floats(-100, 100))
 def test_simpleton_is_what_pinocchio_says(left: float, right: float) -> None:

@@ -84,6 +84,7 @@ def limits() -> None:
     resource.setrlimit(resource.RLIMIT_CPU, (5, 5))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_files_are_refused_in_a_line(name, tmp_path):
     text, message = HOSTILE[name]
@@ -112,6 +113,7 @@ def bench():
     return module
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("first", range(0, 200, 50))
 def test_broken_files_bring_no_traceback(bench, first):
     counts, failures, _ = bench.work((first, first + 50, ""))

@@ -69,6 +69,7 @@ def test_infinite_limits_are_let_be(write):
     assert "E012" not in dict(found(write("r.urdf", f'<link name="a"/><link name="b"/>{joint}')))
 
 
+@pytest.mark.slow
 def test_no_rule_fails_by_numbers():
     """Each of half of the models of the rules, with huge and tiny numbers in the place of some of its own."""
     models = sorted(

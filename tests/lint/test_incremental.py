@@ -83,6 +83,7 @@ def robots() -> list[str]:
     return robot_names()[:10]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", robots())
 def test_random_edits_are_seen_as_a_fresh_look_sees_them(name: str) -> None:
     path = find_model([name]).path

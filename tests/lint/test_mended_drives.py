@@ -75,6 +75,7 @@ def drive(entry: Path) -> float:
     return float(json.loads(ran.stdout)["base"]["position"][0])
 
 
+@pytest.mark.slow
 def test_a_cart_with_defects_of_many_kinds_drives_once_mended(tmp_path):
     (tmp_path / "urdf").mkdir()
     (tmp_path / "urdf" / "drive.xacro").write_text(DRIVE)
@@ -84,6 +85,7 @@ def test_a_cart_with_defects_of_many_kinds_drives_once_mended(tmp_path):
     assert 0.2 < drive(entry) < 0.32
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not SHARED.is_dir(), reason="no ../shared")
 @pytest.mark.parametrize("name", COMPLETE)
 def test_the_robots_of_tutorials_drive_once_mended(name, tmp_path):

@@ -23,6 +23,7 @@ def bench():
     del sys.modules["mutants"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robot", ["simpleton", "rrbot"])
 def test_a_defect_of_each_kind_is_found_at_its_line(bench, robot, monkeypatch):
     monkeypatch.chdir(BENCH.parents[2])

@@ -41,6 +41,7 @@ def marks(path: Path) -> Counter:
     return expected
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", files("bad"))
 def test_bad_files_are_found_out_exactly_where_marked(path):
     found = lint(path, target=target(BY_NAME[path.parent.name]))
@@ -140,6 +141,7 @@ def test_codes_and_names_are_unique_and_well_formed():
     assert [rule.code for rule in RULES] == sorted(rule.code for rule in RULES)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", files("bad"))
 def test_rules_left_out_by_the_table_would_find_nothing(path, monkeypatch):
     from urdfkit.lint import rules

@@ -36,6 +36,7 @@ def test_every_finding_has_a_verdict_and_the_page_says_how_many_are_false():
     assert not [key for key, (verdict, _) in known.items() if key[0] == "error" and verdict == "false"]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not SHARED.is_dir(), reason="no ../shared")
 def test_robots_that_load_have_the_findings_that_were_looked_at(monkeypatch):
     corpus = SHARED / "corpus"

@@ -297,6 +297,7 @@ def test_a_file_that_is_no_robot_and_one_that_was_never_saved_do_no_harm(cart):
     assert cart.ask("textDocument/completion", at) == []
 
 
+@pytest.mark.slow
 def test_a_target_that_is_none():
     from urdfkit.cli import main
 
@@ -411,6 +412,7 @@ base_controller:
 """
 
 
+@pytest.mark.slow
 def test_renaming_goes_through_the_settings_around(cart):
     (cart.folder / "control.yaml").write_text(SETTINGS)
     try:

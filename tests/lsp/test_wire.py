@@ -20,6 +20,7 @@ def client(tmp_path):
         yield one
 
 
+@pytest.mark.slow
 def test_what_is_refused_leaves_nothing_on_standard_error(client):
     client.open("r.urdf")
     at = client.at("r.urdf", TEXT, 'link name="|a')
@@ -33,6 +34,7 @@ def test_what_is_refused_leaves_nothing_on_standard_error(client):
     assert client.close() == ""
 
 
+@pytest.mark.slow
 def test_a_change_that_makes_no_sense_is_one_line(client):
     client.open("r.urdf")
     change = {"range": {"start": {"line": -1, "character": 0}, "end": {"line": 0, "character": 0}}, "text": "x"}
@@ -44,6 +46,7 @@ def test_a_change_that_makes_no_sense_is_one_line(client):
     assert "Position.line should be in range" in said[0]
 
 
+@pytest.mark.slow
 def test_an_element_typed_key_by_key_is_answered_at_every_key(client):
     before, after = TEXT.split("</robot>")
     client.open("r.urdf")
@@ -61,6 +64,7 @@ def test_an_element_typed_key_by_key_is_answered_at_every_key(client):
     assert client.close() == ""
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no FIFOs here")
 def test_what_is_no_regular_file_is_not_waited_for(client):
     os.mkfifo(client.folder / "pipe.urdf")

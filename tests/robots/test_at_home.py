@@ -86,6 +86,7 @@ def test_parked_it_touches_the_ground_as_often_as_it_has_wheels():
         assert sum(contact.force[2] for contact in contacts) == pytest.approx(mass * gravity, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["mybot", "bot", "heterogeneous"])
 def test_a_wall_stops_it(name):
     """Straight ahead there is one, 3, 4 and 5 m away."""

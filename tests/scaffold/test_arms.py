@@ -104,6 +104,7 @@ def test_stretched_out_to_any_side_it_tips_nothing_over(made, tell, drive):
     assert tilt < 2e-3
 
 
+@pytest.mark.slow
 @settings(max_examples=6, deadline=None, suppress_health_check=list(HealthCheck))
 @given(
     drive=st.sampled_from(["diff", "skid", "ackermann", "omni"]),

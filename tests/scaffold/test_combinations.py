@@ -120,6 +120,7 @@ def driven(simulator, command):
     return math.dist((x, y), (vx * s - vy * c, vx * c + vy * s)), math.hypot(vx, vy) * t
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: "-".join(row.values()))
 def test_lints_clean_loads_is_seen_and_moves(robot_template, tmp_path, arm_joints, tell, row):
     path = made(robot_template, tmp_path, given(row))

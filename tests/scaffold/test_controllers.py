@@ -491,6 +491,7 @@ def test_a_file_in_no_package_gets_its_controllers_beside_it(place, monkeypatch,
     assert [state.name for state in states if "trajectory" in state.type.lower()]
 
 
+@pytest.mark.slow
 def test_a_robot_without_ros_gets_what_needs_none(place, capsys, tell):
     assert main(["new", "robot", "ab", "--ros", "none", "--yes", "-q"]) == 0
     assert main(["new", "arm", "--into", "ab_description", "--dof", "4", "--gripper", "-q"]) == 0
@@ -515,6 +516,7 @@ def test_a_robot_without_ros_gets_what_needs_none(place, capsys, tell):
     assert "no joint without a controller" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ros", "launch"), [("jazzy", "ab_bringup/launch/ab.launch.py"), ("noetic", "ab_bringup/launch/ab.launch")]
 )

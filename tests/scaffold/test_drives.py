@@ -102,6 +102,7 @@ def test_other_sizes(robot_template, tmp_path, drive, sizes):
     assert math.dist((x, y), ideal(command)[:2]) <= 0.016
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ros", "drive", "sensors", "command"),
     [

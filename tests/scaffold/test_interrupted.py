@@ -47,6 +47,7 @@ def folder(tmp_path):
     return tmp_path
 
 
+@pytest.mark.slow
 def test_ctrl_c_leaves_nothing(folder):
     with writing(folder) as process:
         process.send_signal(signal.SIGINT)
@@ -56,6 +57,7 @@ def test_ctrl_c_leaves_nothing(folder):
     assert [path.name for path in folder.iterdir()] == ["mine"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGHUP])
 def test_being_told_to_end_leaves_nothing_not_even_the_folder_it_made(folder, how):
     with writing(folder, "--into", "src") as process:
@@ -66,6 +68,7 @@ def test_being_told_to_end_leaves_nothing_not_even_the_folder_it_made(folder, ho
     assert [path.name for path in folder.iterdir()] == ["mine"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [signal.SIGHUP, signal.SIGINT])  # as nohup does, and a script for a background job
 def test_an_ignored_signal_stays_ignored(folder, how):
     with writing(folder, ignored=[how]) as process:
@@ -75,6 +78,7 @@ def test_an_ignored_signal_stays_ignored(folder, how):
     assert (folder / "scout_description").is_dir()
 
 
+@pytest.mark.slow
 def test_what_a_killed_run_leaves_is_hidden_and_gone_with_the_next(folder):
     with writing(folder) as process:
         process.kill()
@@ -89,6 +93,7 @@ def test_what_a_killed_run_leaves_is_hidden_and_gone_with_the_next(folder):
     ]
 
 
+@pytest.mark.slow
 def test_the_folder_of_a_run_that_goes_on_stays(folder):
     with writing(folder) as process:
         (stage,) = folder.glob(".urdfkit-*")

@@ -67,6 +67,7 @@ def test_circle_is_the_ideal_one(tmp_path, ros):
     assert math.dist((x, y), (math.sin(turned), 1 - math.cos(turned))) < 0.005
 
 
+@pytest.mark.slow
 @settings(max_examples=12, deadline=None, suppress_health_check=list(HealthCheck))
 @given(
     size=st.tuples(st.floats(0.1, 1.5), st.floats(0.1, 1.0), st.floats(0.03, 0.6)),

@@ -51,6 +51,7 @@ def depends(package):
     return {element.text for element in root if element.tag.endswith("depend")} | {root.findtext("name")}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", OF_ROS_2[:2])
 def test_tests_of_packages_pass_without_ros(robots, what):
     """A package whose only test has nothing to do is skipped: pytest says 5, which fails, of one without tests."""

@@ -31,6 +31,7 @@ def robots(robot_template, tmp_path_factory):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.check_urdf
 def test_check_urdf(robots):
     for path in robots:

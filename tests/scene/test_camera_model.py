@@ -76,6 +76,7 @@ def views(lens: Lens) -> list[np.ndarray]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lens", LENSES)
 def test_opencv_calibrates_a_camera_to_what_it_was_given(lens: Lens) -> None:
     shot = painter(board(), lighting=lit(ambient=(1.0, 1.0, 1.0)))

@@ -42,6 +42,7 @@ def surface(geometry: Geometry) -> np.ndarray:
 angle = st.floats(-np.pi, np.pi)
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @pytest.mark.parametrize("geometry", [Box((0.3, 0.2, 0.7)), Cylinder(0.4, 0.1), Sphere(0.3), Capsule(0.1, 0.5)])
 @given(rpy=st.tuples(angle, angle, angle), body=st.tuples(angle, angle, angle))

@@ -20,6 +20,7 @@ pytestmark = pytest.mark.skipif(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("scene", "seconds"), [("simpleton", 0.5), (bench.HEAP, 0.3)])
 def test_same_state_and_messages_without_wider_instructions(scene, seconds):
     first, *others = [
@@ -36,6 +37,7 @@ def test_same_state_and_messages_without_wider_instructions(scene, seconds):
     assert len(first["topics"]) > 5 or scene == bench.HEAP
 
 
+@pytest.mark.slow
 def test_other_positions_have_another_digest():
     short, long = (bench.run(bench.HEAP, {}, f"--seconds={seconds}") for seconds in (0.002, 0.003))
     assert short["state"] != long["state"]

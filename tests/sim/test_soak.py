@@ -32,6 +32,7 @@ def module(name: str) -> Any:
     return importlib.import_module(f"soak.{name}")
 
 
+@pytest.mark.slow
 def test_ten_seconds_of_two_robots_in_the_house() -> None:
     command = [sys.executable, str(BENCH / "soak"), "simpleton", "bot", "--minutes", "0.17", "--json"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -44,6 +45,7 @@ def test_ten_seconds_of_two_robots_in_the_house() -> None:
         assert result["wrong"] == {}
 
 
+@pytest.mark.slow
 def test_an_arm_that_its_base_drives_into_walls_stays_out_of_them(tmp_path: Path) -> None:
     # In a room of two metres, where the base is hardly ever off a wall, and its arm is often between the two.
     walls = [WALL.format(k=k, x=x, y=y, long=a, wide=b) for k, (x, y, a, b) in enumerate(PLACES)]

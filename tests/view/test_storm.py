@@ -6,6 +6,7 @@ import json
 import logging
 import random
 
+import pytest
 import websocket
 
 from urdfkit.view.protocol.page_requests import Schema, number, text, tree
@@ -43,6 +44,7 @@ def frame(chance: random.Random) -> str | bytes:
     return whole
 
 
+@pytest.mark.slow
 def test_ten_thousand_random_frames_leave_it_serving(client, server, until, caplog) -> None:
     server.orders.update({"move": Schema({"x": number()}, {"name": text(), "free": tree})})
     chance = random.Random(20)

@@ -175,6 +175,7 @@ worlds = st.builds(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(world=worlds)
 def test_what_is_saved_reads_back_equal(world: World, tmp_path_factory: pytest.TempPathFactory) -> None:

@@ -268,6 +268,7 @@ elements = st.recursive(
 )  # fmt: skip
 
 
+@pytest.mark.slow
 @given(st.lists(elements, max_size=6))
 def test_parsing_never_raises_and_queries_work_on_anything(children: list[Element]) -> None:
     robot = parse(Element("robot", {}, children, "", origin))

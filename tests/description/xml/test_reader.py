@@ -119,6 +119,7 @@ def documents(draw: st.DrawFn, depth: int = 3) -> str:
     return f"<{tag}{attributes}>{''.join(inside)}</{tag}>"
 
 
+@pytest.mark.slow
 @given(documents())
 def test_every_element_is_where_its_origin_says(text: str) -> None:
     source = Source("a", text)

@@ -79,6 +79,7 @@ pieces = st.sampled_from(
 )
 
 
+@pytest.mark.slow
 @given(st.lists(pieces, max_size=8), st.booleans())
 def test_fixing_is_idempotent_and_changes_prefixes_only(tmp_path_factory, parts, bound):
     path = tmp_path_factory.mktemp("fix") / "r.xacro"

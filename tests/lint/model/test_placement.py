@@ -50,6 +50,7 @@ def surface(shape) -> np.ndarray:
     return (ring + ends[:, None]).reshape(-1, 3)
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(shapes, points, angles, points)
 def test_boxes_and_reach_are_those_of_the_surface(shape, xyz, rpy, point):

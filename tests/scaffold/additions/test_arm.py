@@ -53,6 +53,7 @@ def test_numbers_arrive_as_typed(simpleton):
     assert '<origin xyz="-0.25123456 0 0.3" rpy="0 0 3.141592653589793"/>' in simpleton.read_text()
 
 
+@pytest.mark.slow
 def test_it_moves_as_its_controllers_say(place, simpleton):
     assert new("--dof", "5") == 0
     assert main(["new", "controllers", "--into", "simpleton_description"]) == 0
@@ -68,6 +69,7 @@ def test_it_moves_as_its_controllers_say(place, simpleton):
     assert [simulator.state.position(joint) for joint in joints] == pytest.approx([0.6, 0.3, -0.4], abs=1e-2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ros", ["noetic", "jazzy", "humble"])
 def test_both_fingers_move(place, ros):
     assert main(["new", "robot", "scout", "--ros", ros, "--no-picture", "--yes", "-q"]) == 0
@@ -87,6 +89,7 @@ def test_both_fingers_move(place, ros):
     assert [simulator.state.position(joint) for joint in fingers] == pytest.approx([0.015, 0.015], abs=1e-3)
 
 
+@pytest.mark.slow
 def test_two_arms_have_names_of_their_own(simpleton, capsys):
     assert new("--name", "left", "--reach", "0.3", "--xyz", "0", "0.1", "0.1") == 0
     assert new("--name", "right", "--reach", "0.3", "--xyz", "0", "-0.1", "0.1") == 0

@@ -49,6 +49,7 @@ def overlaps(robot):
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scout", ["jazzy", "noetic"], indirect=True)
 def test_a_second_of_each_has_a_place_a_name_and_a_topic_of_its_own(scout, capsys):
     for kind in ("lidar", "lidar3d", "camera", "imu", "gps", "lidar"):

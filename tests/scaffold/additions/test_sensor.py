@@ -65,6 +65,7 @@ def published(simulator, topics, seconds):
     return {name: len(messages) for name, messages in heard.items()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ros", ["jazzy", "humble", "noetic"])
 def test_every_sensor_is_added_and_lints_clean(place, ros):
     folder = robot(place, ros)

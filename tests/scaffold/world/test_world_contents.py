@@ -85,6 +85,7 @@ def test_chance_is_the_same_for_ever():
     assert [chance.between(0, 1), chance.between(-1, 1)] == [0.8444218515250481, 2 * 0.7579544029403025 - 1]
 
 
+@pytest.mark.slow
 def test_the_real_sdformat_reads_them(place, sdformat):
     files = []
     for kind, version in itertools.product(KINDS, ("1.6", "1.9")):

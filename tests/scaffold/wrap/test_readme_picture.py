@@ -38,6 +38,7 @@ def is_of(image, channel):
     return (image[..., channel] > 60) & (image[..., others].max(axis=-1) < 20)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "shape", ['<box size="1 1 1"/>', '<sphere radius="0.5"/>', '<cylinder radius="0.5" length="1"/>']
 )
@@ -55,12 +56,14 @@ def test_a_solid_is_as_large_as_it_is(tmp_path, shape):
     assert shadow.sum() > 500
 
 
+@pytest.mark.slow
 def test_what_is_before_hides_what_is_behind(tmp_path):
     box = '<box size="0.2 0.6 0.6"/>'
     front = picture(robot(tmp_path, (box, "0.3 0 0", "0 1 0"), (box, "0 0 0", "1 0 0")))
     assert is_of(front, 1).sum() > 2 * is_of(front, 0).sum() > 0
 
 
+@pytest.mark.slow
 def test_left_is_right_of_the_middle_and_up_is_up(tmp_path):
     ball = '<sphere radius="0.1"/>'
     image = picture(

@@ -265,6 +265,7 @@ def test_the_packages_build(export, debian):
     assert (export.parent / "install/share/my_arm_description/meshes/fine/link1.stl").is_file()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ros", ["jazzy", "noetic"])
 def test_it_has_what_new_robots_have(export, ros):
     """The same tests, CI and settings, from the same files."""
@@ -313,6 +314,7 @@ def test_what_lies_beside_stays(export, capsys):
     assert (src / ".github/workflows/ci.yml").is_file()
 
 
+@pytest.mark.slow
 def test_a_robot_of_plain_shapes_is_drawn(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "box.urdf").write_text(

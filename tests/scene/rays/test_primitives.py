@@ -13,6 +13,7 @@ POSES = 10_000
 KINDS = ("box", "sphere", "cylinder", "capsule", "ellipsoid", "cone", "plane")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_distances_are_true_at_ten_thousand_random_poses(kind: str) -> None:
     random = np.random.default_rng(KINDS.index(kind))

@@ -85,6 +85,7 @@ print(told(np.zeros(1), np.array([41])))
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="needs a folder that cannot be written")
 def test_a_cache_that_cannot_be_written_is_no_failure(tmp_path):
     script = tmp_path / "probe.py"

@@ -135,6 +135,7 @@ def test_robots_cannot_drive_through_each_other(engine_of):
     assert "other::base" in [c.b for c in engine.contacts()]
 
 
+@pytest.mark.slow
 def test_the_reference_agrees_on_a_world(engine_of):
     states = []
     for engine_type in ENGINES:

@@ -41,6 +41,7 @@ def shift() -> Callable[[], Any]:
     return lambda: engine._shift_base(by)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="asks Linux for the memory in use")
 @pytest.mark.parametrize("make", [lambda: lambda: from_matrix(np.eye(3)), shift], ids=["matrix", "base"])
 def test_many_rotations_keep_no_memory(make: Callable[[], Callable[[], Any]]) -> None:

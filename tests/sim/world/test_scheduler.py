@@ -91,6 +91,7 @@ def reset(simulator: Simulator) -> None:
     simulator.reset()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("robot", "act"),
     [

@@ -62,6 +62,7 @@ def test_what_is_read_back_is_where_it_was(running: Simulator, tmp_path: Path) -
     assert (lower, upper) == pytest.approx((-0.1 - opened, 1.5 - opened), abs=1e-12)
 
 
+@pytest.mark.slow
 def test_the_real_sdformat_reads_it_and_puts_everything_there(
     running: Simulator, tmp_path: Path, sdformat: Sdformat
 ) -> None:

@@ -56,6 +56,7 @@ GROWING = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("expression", GROWING)
 def test_what_grows_is_refused(write: Write, expression: str) -> None:
     path = write("m.xacro", f'HEAD<link name="${{{expression}}}"/></robot>')
@@ -140,6 +141,7 @@ def test_properties_that_square_are_stopped(write: Write) -> None:
     assert [fault.kind for fault in expand_leniently(path).faults] == ["too-large"]
 
 
+@pytest.mark.slow
 def test_blocks_that_multiply_are_stopped_where_they_are_inserted(write: Write) -> None:
     block = '<xacro:property name="b{}">{}</xacro:property>'
     lines = "".join(block.format(i + 1, f'<xacro:insert_block name="b{i}"/>' * 30) for i in range(8))

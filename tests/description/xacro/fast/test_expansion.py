@@ -86,12 +86,14 @@ def test_odd_files_come_out_alike(name: str, tmp_path: Path, monkeypatch: pytest
     assert ours[0]
 
 
+@pytest.mark.slow
 def test_shipped_robots_come_out_alike() -> None:
     paths = sorted(robots_dir().rglob("*.xacro"))
     assert len(paths) > 20
     assert [str(path) for path in paths if not _is_alike(path)] == []
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not SHARED.is_dir(), reason="the corpus is not here")
 def test_the_corpus_comes_out_alike() -> None:
     paths = [path for folder in ("seed_cases", "corpus") for path in sorted((SHARED / folder).rglob("*.xacro"))]
@@ -206,6 +208,7 @@ _BODIES = st.lists(st.recursive(_TEXTS, _elements, max_leaves=8), min_size=1, ma
 _HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="k" value="2"/>'
 
 
+@pytest.mark.slow
 @settings(max_examples=80, suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture])
 @given(_BODIES, st.sampled_from(["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "latin-1"]), st.sampled_from("\n\r"))
 @example('<xacro:attribute name="${1}" value=""/>', "utf-8", "\n")
@@ -234,6 +237,7 @@ def _outcome(run: Callable[[], Any]) -> Any:
     return found, *looked_at(expanded)[1:]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("inside", "calls"), [("<a><b><c>{}</c></b></a>", 200), ("<a>{}" + "<b>" * 150 + "</b>" * 150 + "</a>", 300)]
 )

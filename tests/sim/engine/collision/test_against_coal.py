@@ -96,6 +96,7 @@ def check(found: Contacts, a: Placed, b: Placed) -> None:
             )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind_a", "kind_b"), list(itertools.combinations_with_replacement(CONVEX, 2)))
 def test_gap_and_normal_are_those_of_coal(kind_a: int, kind_b: int) -> None:
     rng = np.random.default_rng(kind_a * 10 + kind_b)

@@ -7,6 +7,7 @@ from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from urdfkit.sim import Simulator
 from urdfkit.sim.engine.arrays import GUESSES
@@ -57,6 +58,7 @@ def test_a_knocked_stack_is_never_only_nearly_solved(engine_of):
         assert set(guesses[15:]) == {1}
 
 
+@pytest.mark.slow
 def test_thirty_tumbled_boxes_in_a_tray_come_to_rest(engine_of):
     rng = np.random.default_rng(0)
     walls = [

@@ -72,6 +72,7 @@ def all_asleep(engine, seconds):
     return all(body.asleep for body in engine.bodies.values())
 
 
+@pytest.mark.slow
 def test_sweeps_are_bounded_and_leave_impulses_in_their_cones(engine_of):
     engine = rover(engine_of, bodies=tray(80, 0.4))
     counts = engine.arrays["counts"]
@@ -89,6 +90,7 @@ def test_sweeps_are_bounded_and_leave_impulses_in_their_cones(engine_of):
 
 # With sweeps alone the second crept on at 1 mm/s, and in the third a column of four boxes swayed at 4 mm/s.
 # Not every heap sleeps yet: 200 boxes of seed 0 creep on at 0.7 mm/s, see decision 24.
+@pytest.mark.slow
 @pytest.mark.parametrize(("count", "half", "seed"), [(30, 0.3, 4), (80, 0.4, 2), (80, 0.4, 3), (200, 0.55, 3)])
 def test_a_heap_of_boxes_sleeps_within_six_seconds(engine_of, count, half, seed):
     engine = rover(engine_of, bodies=tray(count, half, seed=seed, top=4.0))
@@ -100,6 +102,7 @@ def test_a_heap_of_boxes_sleeps_within_six_seconds(engine_of, count, half, seed)
     assert places[:, 2].min() > 0.06 - 1e-4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 5])
 def test_a_heap_of_boxes_balls_and_cans_sleeps_within_six_seconds(engine_of, seed):
     makers = (
@@ -112,6 +115,7 @@ def test_a_heap_of_boxes_balls_and_cans_sleeps_within_six_seconds(engine_of, see
     assert max(contact.depth for contact in engine.contacts()) < 1e-4
 
 
+@pytest.mark.slow
 def test_a_heap_that_stays_awake_does_not_sink(engine_of):
     engine = rover(engine_of, bodies=tray(MOST_TREES + 3, 0.4), sleep=False)
     engine.step(2500)

@@ -90,6 +90,7 @@ ISLANDS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ISLANDS)
 @pytest.mark.parametrize("points", [1, 4])
 def test_velocities_and_what_each_tree_feels_are_those_of_the_equations(solve, name, points):

@@ -145,6 +145,7 @@ def problem(seed, contacts, motors, dofs, *, friction=1.0):
     return J @ J.T / dofs, g, low, high, mu
 
 
+@pytest.mark.slow
 @settings(max_examples=300, deadline=None, derandomize=True)
 @given(st.integers(0, 2**32), st.integers(1, 4), st.integers(0, 3))
 def test_random_contacts_obey_coulomb(seed, contacts, motors):

@@ -246,6 +246,7 @@ def test_wrong_parameters_are_named_with_their_place(
 # The new Gazebo
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("v", "w"), [(0.6, 0.4), (0.6, -0.5), (-0.4, 0.3)])
 def test_the_new_gazebo_turns_at_the_rate_it_is_told(make: Make, v: float, w: float) -> None:
     simulator = make(GZ, SYSTEM)
@@ -291,6 +292,7 @@ def test_steering_approaches_as_its_gain_says(make: Make) -> None:
     assert bounded.state.position("left_steering_joint") == pytest.approx(0.15, abs=0.01)
 
 
+@pytest.mark.slow
 def test_odometry_of_the_new_gazebo_follows_the_bicycle(make: Make) -> None:
     simulator = make(GZ, SYSTEM, name="c")
     settle(simulator, 0.5, 0.3, 5.0)
@@ -321,6 +323,7 @@ def test_limits_of_the_new_gazebo(make: Make) -> None:
     assert simulator.state.velocity("rear_left_joint") * RADIUS == pytest.approx(0.3, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_once_settled_it_rests_and_wakes_when_pushed(make: Make) -> None:
     simulator = make(GZ, SYSTEM)
     simulator.command((0.5, 0, 0), (0, 0, 0.2))

@@ -117,6 +117,7 @@ def quasi_static(wanted: float, half_base: float, loads: tuple[float, float]) ->
     return float(velocity[0]), float(velocity[1]), float(velocity[2])
 
 
+@pytest.mark.slow
 def test_with_the_weight_in_front_it_turns_about_another_point(make: Make) -> None:
     half_base, centre = 0.2, 0.06
     shift = 6.0 * centre / MASS  # of the whole robot's centre of mass

@@ -88,6 +88,7 @@ def test_wheels_and_steering(make: Make) -> None:
     assert rates == pytest.approx([rate / RADIUS for rate in expected], rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("v", "w"), [(0.5, 0.0), (0.5, 0.5), (-0.4, 0.3), (0.3, -0.4)])
 def test_goes_where_it_is_told_and_knows_where_it_is(make: Make, v: float, w: float) -> None:
     simulator = make()

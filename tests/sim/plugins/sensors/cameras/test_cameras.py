@@ -274,6 +274,7 @@ def test_a_camera_that_makes_no_sense_is_left_out_by_name(post, inside: str, sai
     simulator.run(0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("robot", "topic"),
     [

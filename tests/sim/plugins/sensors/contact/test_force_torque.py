@@ -152,6 +152,7 @@ def test_what_lies_on_the_ground_and_what_is_pushed_counts(arm) -> None:
     assert in_world == pytest.approx(ground + np.array([0.0, 3.0, -2.0 * G]), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_noise_is_on_all_six(arm) -> None:
     simulator = arm(ROS_1.replace("{more}", "<gaussianNoise>0.5</gaussianNoise>"))
     messages = heard(simulator, "/ft", 10.0)
