@@ -19,7 +19,7 @@ class Walls:
 
     def __init__(self, simulator: Simulator) -> None:
         into, half, self.names = [], [], []
-        for body in bodies_of(simulator.world):
+        for body in bodies_of(simulator.world.description):
             if not body.static:
                 continue
             frame = matrix(body.pose)
