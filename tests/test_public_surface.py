@@ -16,7 +16,7 @@ from urdfkit.description.urdf.parser import parse
 from urdfkit.resources import robots_dir
 
 NAMES = {"load", "expand", "lint", "Simulator", "Kinematics", "Robot", "World", "Finding"}
-NAMES |= {"UrdfkitError", "__version__"}
+NAMES |= {"UrdfkitError", "__version__", "teleop", "view"}
 PACKAGE = robots_dir() / "simpleton" / "simpleton_description"
 FILE = PACKAGE / "urdf" / "simpleton.urdf.xacro"
 
@@ -44,14 +44,23 @@ def test_a_misspelt_name_gets_the_nearest() -> None:
         _ = urdfkit.Simulater
 
 
-def test_lint_is_a_function_whatever_was_imported_before() -> None:
-    call = f"print(len(urdfkit.lint({str(FILE)!r})))"
-    assert in_new_process(f"import urdfkit; {call}; {call}") == "0\n0"
-    assert in_new_process(f"import urdfkit.lint.engine.run; {call}") == "0"
-    assert in_new_process("from urdfkit.lint import rule; import urdfkit.lint.engine; print(rule.__name__)") == (
-        "urdfkit.lint.rule"
+def test_functions_stay_callable_when_the_module_of_that_name_is_imported() -> None:
+    call = f"print(urdfkit.lint({str(FILE)!r}))"
+    assert in_new_process(f"import urdfkit; {call}; {call}") == "[]\n[]"
+    assert in_new_process(f"import urdfkit.lint.engine.run; {call}; print(urdfkit.lint.engine.__name__)") == (
+        "[]\nurdfkit.lint.engine"
     )
-    assert list(inspect.signature(urdfkit.lint).parameters)[:3] == ["robots", "select", "ignore"]
+    assert in_new_process("from urdfkit.lint import rule; print(rule.__name__)") == "urdfkit.lint.rule"
+    assert in_new_process("from urdfkit import lint; from urdfkit.lint import RULES; print(callable(lint))") == "True"
+    assert in_new_process(
+        "import urdfkit.view.server, urdfkit.teleop; from urdfkit.teleop import Teleop; "
+        "print(callable(urdfkit.view), callable(urdfkit.teleop))"
+    ) == ("True True")
+
+
+@pytest.mark.parametrize("name", ["lint", "view", "teleop"])
+def test_editors_see_the_parameters_of_functions_that_are_modules(name: str) -> None:
+    assert next(iter(inspect.signature(getattr(urdfkit, name)).parameters)) in ("robot", "robots")
 
 
 @pytest.mark.parametrize("robot", ["simpleton", FILE, str(FILE), PACKAGE, urdfkit.load("simpleton")], ids=repr)

@@ -1,14 +1,10 @@
-"""Common parts of `view` and `sim teleop`: server options, the address of the page, termination."""
+"""Common parts of the viewer and of a driven simulation: required packages, the server, errors, termination."""
 
 from __future__ import annotations
 
-import argparse
-import os
 import sys
-import threading
 import time
-import webbrowser
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -23,18 +19,6 @@ NEEDED = {"meshcat": "meshcat", "tornado": "tornado", "umsgpack": "u-msgpack-pyt
 """Module → package, in addition to Pinocchio."""
 FAULT_DELAY = 0.3
 """Seconds for pages to receive the last error before the server stops."""
-
-
-def add_page_options(parser: argparse.ArgumentParser) -> None:
-    """Add --port, --host and --no-browser."""
-    parser.add_argument("--port", type=int, metavar="N", help="serve on this port (0: any; default: 7007 or the next)")
-    parser.add_argument(
-        "--host",
-        default="127.0.0.1",
-        metavar="H",
-        help="listen on this address; 0.0.0.0 accepts other machines, which need the token in the address",
-    )
-    parser.add_argument("--no-browser", action="store_true", help="do not open a browser, only print the address")
 
 
 def require_page(command: str, extra: str, *, modules: Sequence[str] = ()) -> None:
@@ -65,39 +49,36 @@ def require_page(command: str, extra: str, *, modules: Sequence[str] = ()) -> No
 
 
 class Page:
-    """Starts a server and prints its address, once.
+    """A server with its page, which is opened once.
 
     Args:
-        server: the server, not started yet.
+        mode: ``view`` or ``sim``.
         host: the address to listen on.
-        browser: open a browser, if this machine has a screen.
+        port: the port to listen on, 0 for any; None for the usual one or the next free one.
+        opened: called with the server when it serves the page.
+
+    Raises:
+        UsageError: the port is busy or the address cannot be bound.
     """
 
-    def __init__(self, server: Server, *, host: str, browser: bool) -> None:
-        self._server = server
-        self._host = host
-        self._browser = browser
-        self._opened = False
+    def __init__(
+        self,
+        mode: str,
+        *,
+        host: str = "127.0.0.1",
+        port: int | None = None,
+        opened: Callable[[Server], None] = lambda _: None,
+    ) -> None:
+        from urdfkit.view.server.server import Server
+
+        self.host = host
+        self.server = Server(mode, host=host, port=port)
+        self._opened = opened
 
     def open(self) -> None:
-        """Start the server, print its address on standard output, open a browser; do nothing the second time."""
-        from urdfkit.view.server.access_control import is_loopback
-
-        if self._opened:
-            return
-        self._opened = True
-        server = self._server
-        server.start()
-        print(server.url, flush=True)
-        if not is_loopback(self._host):
-            for url in server.urls[1:]:
-                print(url, flush=True)
-            note("warning: everyone with this address can watch and drive; the connection is not encrypted")
-        if self._browser and _has_screen():
-            # Some browsers block the caller until they are closed.
-            threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True, name="open-browser").start()
-        elif self._browser:
-            note("no screen found: open the address in a browser")
+        """Start the server."""
+        self.server.start()
+        self._opened(self.server)
 
 
 @contextmanager
@@ -124,9 +105,3 @@ def until_interrupted() -> Iterator[None]:
             yield
     except (KeyboardInterrupt, SystemExit):
         note("")  # the terminal shows ^C
-
-
-def _has_screen() -> bool:
-    if sys.platform in ("win32", "darwin"):
-        return True
-    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or os.environ.get("BROWSER"))

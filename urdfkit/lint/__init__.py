@@ -4,19 +4,13 @@ Data flow: `engine` expands each entry file with error recovery (`urdfkit.descri
 layer by layer: `SourceRule` on the text of each file, `FaultRule` on xacro errors, `RobotRule` on the expanded robot.
 It drops suppressed findings and merges findings that several expansions of one macro have in common. `fixes` edits the
 source text, `report` prints the findings.
-
-The package can be called: ``urdfkit.lint("robot.urdf")`` calls `lint`.
 """
 
 from __future__ import annotations
 
-import sys
-from types import ModuleType
-
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
-    from inspect import Signature
     from pathlib import Path
     from typing import Any
 
@@ -76,22 +70,6 @@ def lint(
             own = {"arguments": model.arguments, "package_path": model.package_path}
             outcomes.append(run(find_entries([model.path]), Options(**{**options.__dict__, **own})))
     return merged(finding for outcome in outcomes for finding in outcome.findings)
-
-
-class _CallablePackage(ModuleType):
-    """Type of this package, which has the name of the function `lint` in `urdfkit`."""
-
-    __call__ = staticmethod(lint)
-
-    @property
-    def __signature__(self) -> Signature:
-        """Signature that editors and notebooks show; until Python 3.13, `inspect` drops the first parameter."""
-        from inspect import signature
-
-        return signature(lint)
-
-
-sys.modules[__name__].__class__ = _CallablePackage
 
 
 def __getattr__(name: str) -> Any:

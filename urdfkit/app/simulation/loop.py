@@ -6,6 +6,7 @@ import math
 import time
 from collections import deque
 from collections.abc import Callable, Sequence
+from threading import Event
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import note
@@ -108,12 +109,17 @@ class DriveLoop:
             part.show()
         self.server.publish(self.simulator.t, self.scene_bodies.poses())
 
-    def run(self) -> None:
-        """Simulate until an exception is raised."""
+    def run(self, stop: Event | None = None) -> None:
+        """Simulate until an exception is raised.
+
+        Args:
+            stop: ends the loop when it is set.
+        """
+        stop = stop or Event()
         self.pace.begin(self.simulator.t)
         due = self._clock()
         try:
-            while True:
+            while not stop.is_set():
                 self.tick()
                 due += FRAME
                 if (wait := due - self._clock()) > 0:

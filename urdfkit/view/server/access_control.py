@@ -94,11 +94,12 @@ def is_loopback(host: str) -> bool:
         return False
 
 
-def headers(host: str) -> dict[str, str]:
+def headers(host: str, *, framed: bool = False) -> dict[str, str]:
     """Return the headers of every answer.
 
     Args:
         host: the Host header, for the websocket's address (older Safari does not count it as 'self').
+        framed: whether another page, such as a notebook, may show the answer in a frame.
     """
     policy = {
         "default-src": "'none'",
@@ -109,12 +110,12 @@ def headers(host: str) -> dict[str, str]:
         "manifest-src": "'self'",
         "base-uri": "'none'",
         "form-action": "'none'",
-        "frame-ancestors": "'none'",
+        "frame-ancestors": "*" if framed else "'none'",
     }
-    return {
+    framing = {} if framed else {"X-Frame-Options": "DENY"}
+    return framing | {
         "Content-Security-Policy": "; ".join(f"{name} {value}" for name, value in policy.items()),
         "X-Content-Type-Options": "nosniff",
-        "X-Frame-Options": "DENY",
         "Referrer-Policy": "no-referrer",
         "Cross-Origin-Opener-Policy": "same-origin",
         "Cross-Origin-Resource-Policy": "same-origin",

@@ -20,7 +20,10 @@ If you just did, <a href="/">go on</a>.</p></main></html>"""
 
 
 class Guarded(RequestHandler):
-    """Lets nobody in without the cookie, under a foreign Host, or from a foreign page."""
+    """Refuses requests without the cookie or the token, under an unknown Host, or from a page of another site.
+
+    A page in a frame sends the token with each request, because browsers keep cookies from frames of other sites.
+    """
 
     open_to_all = False
 
@@ -51,8 +54,14 @@ class Guarded(RequestHandler):
             self.refuse("The address in the browser's address bar is not one this server answers to.")
         elif origin is not None and not self.gate.origin_fits(origin, self.host):
             self.refuse("The request came from a page of another site.")
-        elif not self.open_to_all and not self.gate.session_fits(self.get_cookie(self.gate.cookie)):
-            self.refuse("This browser has not shown the key yet, or urdfkit was started anew since.")
+        elif not (self.open_to_all or self.gate.session_fits(self.get_cookie(self.gate.cookie)) or self.has_token):
+            self.refuse("This browser has not sent the token yet, or urdfkit has been restarted since.")
+
+    @property
+    def has_token(self) -> bool:
+        """Whether the address has the token."""
+        tokens = self.get_query_arguments("token")
+        return len(tokens) == 1 and self.gate.token_fits(tokens[0])
 
     def refuse(self, reason: str) -> None:
         """Answer 403 with a page that says what to do."""

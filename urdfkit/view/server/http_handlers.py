@@ -12,6 +12,7 @@ from tornado.web import Application, HTTPError
 
 from urdfkit.errors import MissingDependencyError
 from urdfkit.view.protocol import websocket_messages
+from urdfkit.view.server.access_control import headers
 from urdfkit.view.server.authenticated_handler import Guarded
 from urdfkit.view.server.websocket import Socket
 
@@ -35,6 +36,7 @@ def application(server: PageServer) -> Application:
     return Application(
         [
             (r"/", Page, {"server": server}),
+            (r"/frame", FramedPage, {"server": server}),
             (r"/app/([\w./-]+)", AppFile, {"server": server}),
             (r"/geometry/([0-9a-f]{64})", Geometry, {"server": server}),
             (r"/ws", Socket, {"server": server}),
@@ -78,9 +80,8 @@ class Page(Guarded):
 
     def get(self) -> None:
         """Serve the page."""
-        tokens = self.get_query_arguments("token")
-        if tokens:
-            if len(tokens) != 1 or not self.gate.token_fits(tokens[0]):
+        if self.get_query_arguments("token"):
+            if not self.has_token:
                 self.refuse("The key in the address is wrong: it changes whenever urdfkit is started.")
                 return
             self.set_cookie(
@@ -88,10 +89,27 @@ class Page(Guarded):
             )
             self.redirect("/", status=303)
         elif not self.gate.session_fits(self.get_cookie(self.gate.cookie)):
-            self.refuse("This browser has not shown the key yet, or urdfkit was started anew since.")
+            self.refuse("This browser has not sent the token yet, or urdfkit has been restarted since.")
         else:
             self.set_header("Content-Type", "text/html; charset=utf-8")
             self.finish(page())
+
+
+class FramedPage(Guarded):
+    """The page for a frame of a notebook; only who knows the token can embed it, which prevents clickjacking."""
+
+    open_to_all = True
+
+    def get(self) -> None:
+        """Serve the page; the token stays in its address, and the page sends it with its requests."""
+        if not self.has_token:
+            self.refuse("The token in the address is missing or wrong: it changes whenever urdfkit is started.")
+            return
+        for name, value in headers(self.host, framed=True).items():
+            self.set_header(name, value)
+        self.clear_header("X-Frame-Options")
+        self.set_header("Content-Type", "text/html; charset=utf-8")
+        self.finish(page())
 
 
 def page() -> str:

@@ -66,7 +66,7 @@ export class Connection {
     clearTimeout(this.timer);
     this.on.state("connecting", this.tries ? "reconnecting" : "connecting");
     const scheme = location.protocol === "https:" ? "wss" : "ws";
-    const socket = (this.socket = new WebSocket(`${scheme}://${location.host}/ws`));
+    const socket = (this.socket = new WebSocket(`${scheme}://${location.host}/ws${location.search}`));
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.tries = 0;
@@ -116,7 +116,7 @@ export class Connection {
   // A websocket does not say why it was refused; a plain request does.
   async #askWhy() {
     try {
-      const answer = await fetch("/", { method: "GET", cache: "no-store" });
+      const answer = await fetch(location.pathname + location.search, { method: "GET", cache: "no-store" });
       if (answer.status === 403) this.on.state("lost", "urdfkit was started anew: open its new address");
     } catch {
       this.on.state("lost", "urdfkit is not running");

@@ -228,7 +228,7 @@ function decoded(part) {
 }
 
 async function fetched(name) {
-  const answer = await fetch(`/geometry/${name}`);
+  const answer = await fetch(`/geometry/${name}${location.search}`); // a page in a frame sends its token
   if (!answer.ok) throw new Error(`${answer.status}`);
   return answer.arrayBuffer();
 }

@@ -10,7 +10,7 @@ pytest.importorskip("pinocchio")
 pytest.importorskip("meshcat")
 
 from urdfkit.app.viewer.findings_panel import Findings
-from urdfkit.cli.view import CLICKED_POINT, Session, ShownRobot, orders
+from urdfkit.app.viewer.session import CLICKED_POINT, Session, ShownRobot, orders
 from urdfkit.errors import UrdfkitError
 from urdfkit.resources import find_model
 from urdfkit.view.html_export import Recording

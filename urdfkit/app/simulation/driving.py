@@ -1,0 +1,138 @@
+"""Start a simulation that is driven from its page: as a handle for scripts and notebooks, or in a `with` block."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from urdfkit.app.page import Page, faults_on_page, require_page
+from urdfkit.app.page_handle import PageHandle
+from urdfkit.description import Robot, load
+from urdfkit.description.sdf import World, load_world
+
+if TYPE_CHECKING:
+    from urdfkit.app.simulation.loop import DriveLoop
+    from urdfkit.sim import Simulator
+
+
+class SimulationHandle(PageHandle):
+    """Handle to the page of a simulation that advances in the background until `close` is called.
+
+    Attributes:
+        simulator: the simulation. It advances in a thread of its own: call its methods before the page is driven, from
+            callbacks (`subscribe`, `at`, `every`), or after `close`.
+    """
+
+    simulator: Simulator
+
+
+def teleop(
+    robot: Robot | str | Path,
+    *,
+    world: World | str | Path = "empty",
+    arguments: Mapping[str, str] | None = None,
+    package_path: Iterable[str | Path] = (),
+    ros_distro: str | None = None,
+    controllers: Sequence[str | Path] = (),
+    renderer: str = "ray",
+    host: str = "127.0.0.1",
+    port: int = 0,
+) -> SimulationHandle:
+    """Simulate a robot in real time and drive it in the browser, as ``urdfkit sim teleop`` does.
+
+    Args:
+        robot: a file, a package folder, the name of a bundled robot, or a loaded robot.
+        world: a world, the name of a bundled world, or an SDF file.
+        arguments: xacro arguments.
+        package_path: folders to search for packages first.
+        ros_distro: the ROS distribution whose behaviour the plugins have; the newest when None.
+        controllers: parameter files of controllers, in place of the files that the robot's packages load.
+        renderer: renderer of the cameras: ``ray``, ``gl`` or ``auto``.
+        host: address to listen on; ``0.0.0.0`` accepts other machines, which need the token in the address.
+        port: port to serve on; 0 for any free port.
+
+    Returns:
+        A handle with the address of the page. The simulation runs until its `close` or the end of the process.
+
+    Raises:
+        MissingDependencyError: the extra ``sim`` is not installed.
+        UsageError: `robot` is not a robot, or the port is busy.
+        UrdfkitError: the robot or the world cannot be loaded or simulated.
+    """
+    require_page("teleop", "sim", modules=("numba", "rosbags"))
+    folders = tuple(package_path)
+    loaded = load(robot, arguments=arguments, package_path=folders)
+    place = world if isinstance(world, World) else load_world(world, package_path=folders)
+    with ExitStack() as stack:
+        page = Page("sim", host=host, port=port)
+        loop = stack.enter_context(
+            driving(page, loaded, place, ros_distro=ros_distro, controllers=controllers, renderer=renderer)
+        )
+        handle = SimulationHandle(page.server, loop.run, stack.pop_all())
+    handle.simulator = loop.simulator
+    return handle
+
+
+@contextmanager
+def driving(
+    page: Page,
+    robot: Robot,
+    world: World,
+    *,
+    ros_distro: str | None = None,
+    controllers: Sequence[str | Path] = (),
+    renderer: str = "ray",
+    note: Callable[[str], None] | None = None,
+) -> Iterator[DriveLoop]:
+    """Serve the page of a simulation inside the context; yield its loop, ready to run.
+
+    Args:
+        page: the page, not opened yet.
+        robot: the robot.
+        world: the world.
+        ros_distro: see `teleop`.
+        controllers: see `teleop`.
+        renderer: see `teleop`.
+        note: receives the warnings of the simulation.
+
+    Raises:
+        UrdfkitError: the robot cannot be simulated in the world.
+    """
+    from urdfkit.app.simulation.loop import DriveLoop
+    from urdfkit.app.simulation.placeholder import Placeholder
+    from urdfkit.app.simulation.progress import compile_kernel, compile_rays, progress
+    from urdfkit.sim import Simulator
+    from urdfkit.view.server.running_simulations import noted
+
+    server = page.server
+    try:
+        placeholder = Placeholder(robot, world)
+        page.open()  # the browser starts and shows the robot while the engine is compiled
+        # `urdfkit topic` finds the simulation from here on
+        with noted(server.port, server.url, robot.name or "robot"):
+            with faults_on_page(server):
+                placeholder.show(server)
+                server.declare("progress", label="preparing the engine …")
+                compile_kernel(server)
+                with progress(server, "loading meshes, building the world …"):
+                    simulator = Simulator(
+                        robot,
+                        world=world,
+                        scene=placeholder.scene,
+                        ros_distro=ros_distro,
+                        controllers=controllers,
+                        renderer=renderer,
+                        note=note,
+                    )
+                    loop = DriveLoop(simulator, server)
+                with progress(server, "drawing …"):
+                    loop.show()
+                if loop.sensor_views.find():
+                    compile_rays(server)
+                    with progress(server, "building the ray-casting trees of sensors …"):
+                        loop.sensor_views.prepare()
+            yield loop
+    finally:
+        server.stop()

@@ -1,0 +1,98 @@
+"""Start the viewer: as a handle for scripts and notebooks, in a `with` block for the command, or as a file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from urdfkit.app.page import Page, require_page
+from urdfkit.app.page_handle import PageHandle
+from urdfkit.description import Robot
+from urdfkit.description.loading import model_argument
+
+if TYPE_CHECKING:
+    from urdfkit.app.viewer.session import Session, ShownRobot
+    from urdfkit.resources import ModelArgument
+
+
+def view(
+    robot: Robot | str | Path,
+    *,
+    arguments: Mapping[str, str] | None = None,
+    package_path: Iterable[str | Path] = (),
+    host: str = "127.0.0.1",
+    port: int = 0,
+) -> PageHandle:
+    """Show a robot in the browser, as ``urdfkit view`` does.
+
+    The page has a slider for each joint and lists the lint findings. It shows changed files without a restart.
+
+    Args:
+        robot: a file, a package folder, the name of a bundled robot, or a loaded robot, whose files are followed.
+        arguments: xacro arguments.
+        package_path: folders to search for packages first.
+        host: address to listen on; ``0.0.0.0`` accepts other machines, which need the token in the address.
+        port: port to serve on; 0 for any free port.
+
+    Returns:
+        A handle with the address of the page. The page is served until its `close` or the end of the process.
+
+    Raises:
+        MissingDependencyError: the extra ``view`` is not installed.
+        UsageError: `robot` is not a robot, or the port is busy.
+        UrdfkitError: the robot cannot be loaded.
+    """
+    require_page("view", "view", modules=("rosbags",))
+    from urdfkit.app.viewer.session import ShownRobot
+
+    model = model_argument(robot, arguments=arguments, package_path=package_path)
+    with ExitStack() as stack:
+        page = Page("view", host=host, port=port)
+        session = stack.enter_context(viewing(page, model, ShownRobot.read(model)))
+        return PageHandle(page.server, session.run, stack.pop_all())
+
+
+@contextmanager
+def viewing(page: Page, model: ModelArgument, shown: ShownRobot) -> Iterator[Session]:
+    """Serve the page of a robot inside the context; yield its session, ready to run.
+
+    Args:
+        page: the page, not opened yet.
+        model: the robot as it was given.
+        shown: the robot.
+    """
+    from urdfkit.app.viewer.findings_panel import Findings
+    from urdfkit.app.viewer.session import Session, orders
+    from urdfkit.view.server.access_control import is_loopback
+
+    server = page.server
+    server.orders.update(orders())
+    try:
+        session = Session(server, model, shown, Findings(model, may_write=is_loopback(page.host)))
+        server.declare("progress", label="Preparing shapes")
+        page.open()  # the browser starts while the shapes are prepared
+        session.show()
+        server.declare("progress", label=None)
+        yield session
+    finally:
+        server.stop()
+
+
+def html_page(model: ModelArgument, shown: ShownRobot) -> str:
+    """Return the page of a robot as one file that needs no server.
+
+    Args:
+        model: the robot as it was given.
+        shown: the robot.
+    """
+    from urdfkit.app.viewer.findings_panel import Findings
+    from urdfkit.app.viewer.session import Session
+    from urdfkit.view.html_export import Recording
+
+    recording = Recording()
+    session = Session(recording, model, shown, Findings(model, may_write=False))
+    session.show()
+    session.lint()
+    return recording.html()

@@ -1,0 +1,58 @@
+"""Options of the commands that serve a page, and the address they print."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import threading
+import webbrowser
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from urdfkit.app.page import note
+
+if TYPE_CHECKING:
+    from urdfkit.view.server.server import Server
+
+
+def add_page_options(parser: argparse.ArgumentParser) -> None:
+    """Add --port, --host and --no-browser."""
+    parser.add_argument("--port", type=int, metavar="N", help="serve on this port (0: any; default: 7007 or the next)")
+    parser.add_argument(
+        "--host",
+        default="127.0.0.1",
+        metavar="H",
+        help="listen on this address; 0.0.0.0 accepts other machines, which need the token in the address",
+    )
+    parser.add_argument("--no-browser", action="store_true", help="do not open a browser, only print the address")
+
+
+def announce(arguments: argparse.Namespace) -> Callable[[Server], None]:
+    """Return a function that prints the address of a page on standard output and opens a browser.
+
+    Args:
+        arguments: with the options of `add_page_options`.
+    """
+
+    def opened(server: Server) -> None:
+        from urdfkit.view.server.access_control import is_loopback
+
+        print(server.url, flush=True)
+        if not is_loopback(arguments.host):
+            for url in server.urls[1:]:
+                print(url, flush=True)
+            note("warning: everyone with this address can watch and drive; the connection is not encrypted")
+        if not arguments.no_browser and _has_screen():
+            # Some browsers block the caller until they are closed.
+            threading.Thread(target=webbrowser.open, args=(server.url,), daemon=True, name="open-browser").start()
+        elif not arguments.no_browser:
+            note("no screen found: open the address in a browser")
+
+    return opened
+
+
+def _has_screen() -> bool:
+    if sys.platform in ("win32", "darwin"):
+        return True
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or os.environ.get("BROWSER"))
