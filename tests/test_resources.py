@@ -150,7 +150,7 @@ def test_long_lists_are_cut(here):
 
 
 def test_left_out_with_none(here):
-    with pytest.raises(ResourceError, match=r"no MODEL given and no robot description .*simpleton"):
+    with pytest.raises(ResourceError, match=r"no ROBOT given and no robot description .*simpleton"):
         find_model([])
 
 
@@ -159,7 +159,7 @@ def test_home_is_not_searched_from_below(here, monkeypatch):
     write(here / "home/package.xml", "")
     (here / "home/work").mkdir()
     monkeypatch.chdir(here / "home/work")
-    with pytest.raises(ResourceError, match="no MODEL given"):
+    with pytest.raises(ResourceError, match="no ROBOT given"):
         find_model([])
 
 
@@ -200,7 +200,7 @@ def test_nothing_near_lists_the_robots(here):
 
 
 def test_usage_errors(here):
-    with pytest.raises(UsageError, match="one MODEL at a time, not 2: a b; xacro arguments are key:=value"):
+    with pytest.raises(UsageError, match="one ROBOT at a time, not 2: a b; xacro arguments are key:=value"):
         find_model(["a", "b"])
     with pytest.raises(UsageError, match="`:=5` lacks its key"):
         find_model(["simpleton", ":=5"])

@@ -94,20 +94,20 @@ def _shipped_model(name: str) -> Path:
 
 
 def find_model(words: Sequence[str], *, package_path: Iterable[str | Path] = ()) -> ModelArgument:
-    """Turn the words of a MODEL argument into a file.
+    """Turn the words of a ROBOT argument into a file.
 
     Args:
-        words: MODEL (a path to a file or package folder, or the name of a bundled robot), if given, and ``key:=value``
-            xacro arguments. Without MODEL it is the only robot of the package or workspace of the working directory.
+        words: ROBOT (a path to a file or package folder, or the name of a bundled robot), if given, and ``key:=value``
+            xacro arguments. Without ROBOT it is the only robot of the package or workspace of the working directory.
         package_path: folders to search for packages.
 
     Raises:
-        UsageError: more than one MODEL, or an argument without a key.
+        UsageError: more than one ROBOT, or an argument without a key.
         ResourceError: no robot is found, or several are.
     """
     models = [word for word in words if ":=" not in word]
     if len(models) > 1:
-        raise UsageError(f"one MODEL at a time, not {len(models)}: {' '.join(models)}; xacro arguments are key:=value")
+        raise UsageError(f"one ROBOT at a time, not {len(models)}: {' '.join(models)}; xacro arguments are key:=value")
     arguments: dict[str, str] = {}
     for word in words:
         key, separator, value = word.partition(":=")
@@ -187,7 +187,7 @@ def _find_here(start: Path) -> Path:
         if entries := models_in(folder):
             return _the_one(entries, "the current folder" if folder == start else str(folder))
     raise ResourceError(
-        f"no MODEL given and no robot description in or above {start}; bundled robots: {', '.join(robot_names())}"
+        f"no ROBOT given and no robot description in or above {start}; bundled robots: {', '.join(robot_names())}"
     )
 
 

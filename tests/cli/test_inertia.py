@@ -170,7 +170,7 @@ def test_lines_that_are_put_in_end_as_the_others(write, link, end):
     ("words", "message"),
     [
         (["b"], "no link `b` in robot `r`"),
-        (["a", "c"], "expected one MODEL and one LINK"),
+        (["a", "c"], "expected one ROBOT and one LINK"),
         (["a", "--mass", "-1"], "`-1` is not a positive number"),
         (["a", "--mass", "1", "--density", "2"], "not allowed with"),
         (["a", "--from", "visual"], "no visual shapes to compute from; it has collision shapes"),

@@ -177,7 +177,7 @@ def test_without_a_simulation_it_says_how_to_start_one(tmp_path: Path, monkeypat
     assert main(["topic", "list"]) == 2
     printed = capsys.readouterr()
     assert printed.out == ""
-    assert printed.err.startswith("urdfkit: no simulation is running; start one with `urdfkit sim teleop MODEL`")
+    assert printed.err.startswith("urdfkit: no simulation is running; start one with `urdfkit sim teleop ROBOT`")
     assert printed.err.count("\n") == 1
 
 

@@ -27,7 +27,7 @@ MAX_RATIO = 10.0
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``urdfkit inertia``."""
     parser.usage = (
-        "urdfkit inertia MODEL [key:=value ...] [LINK] [--mass KG | --density KG/M3] [--from collision|visual]\n"
+        "urdfkit inertia ROBOT [key:=value ...] [LINK] [--mass KG | --density KG/M3] [--from collision|visual]\n"
         "                       [--write] [--json]"
     )
     parser.epilog = (
@@ -40,7 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "words",
         nargs="*",
-        metavar="MODEL [LINK]",
+        metavar="ROBOT [LINK]",
         help="a .urdf or .xacro file, a package folder or a robot name; key:=value xacro arguments; then the link "
         "(default: all links with a mass)",
     )
@@ -90,7 +90,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     plain = [word for word in arguments.words if ":=" not in word]
     if len(plain) > 2:
-        raise UsageError(f"inertia: expected one MODEL and one LINK, got {len(plain)} words: {' '.join(plain)}")
+        raise UsageError(f"inertia: expected one ROBOT and one LINK, got {len(plain)} words: {' '.join(plain)}")
     name = plain[1] if len(plain) == 2 else None
     words = [*plain[:1], *(word for word in arguments.words if ":=" in word)]
     found = find_model(words, package_path=arguments.package_path)

@@ -106,15 +106,15 @@ class Parser(argparse.ArgumentParser):
 
 
 def add_model(parser: argparse.ArgumentParser, *, optional: bool = True) -> None:
-    """Add the MODEL argument and the ``key:=value`` xacro arguments that may follow it.
+    """Add the ROBOT argument and the ``key:=value`` xacro arguments that may follow it.
 
-    They arrive as ``arguments.model`` (a list: MODEL, if given, then ``key:=value`` words) and
+    They arrive as ``arguments.model`` (a list: ROBOT, if given, then ``key:=value`` words) and
     ``arguments.package_path``; `urdfkit.resources.find_model` takes both.
     """
     parser.add_argument(
         "model",
         nargs="*" if optional else "+",
-        metavar="MODEL",
+        metavar="ROBOT",
         help="a .urdf or .xacro file, a package folder or a robot name; then key:=value xacro arguments",
     )
     parser.add_argument(

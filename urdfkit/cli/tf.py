@@ -24,8 +24,8 @@ _DRAWINGS = (".svg", ".dot", ".pdf")
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of ``urdfkit tf``."""
     parser.usage = (
-        "urdfkit tf MODEL [key:=value ...] [PARENT CHILD] [--joint name=value ...] [--json]\n"
-        "       urdfkit tf MODEL [key:=value ...] --tree [-o frames.svg|.pdf|.dot]"
+        "urdfkit tf ROBOT [key:=value ...] [PARENT CHILD] [--joint name=value ...] [--json]\n"
+        "       urdfkit tf ROBOT [key:=value ...] --tree [-o frames.svg|.pdf|.dot]"
     )
     parser.epilog = (
         "examples:\n"
@@ -35,7 +35,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "words",
         nargs="*",
-        metavar="MODEL [PARENT CHILD]",
+        metavar="ROBOT [PARENT CHILD]",
         help="a .urdf or .xacro file, a package folder or a robot name; key:=value xacro arguments; then the parent "
         "and child frame of the transform (default: all frames relative to the root frame)",
     )

@@ -26,7 +26,7 @@ def test_a_simulation_is_found_while_it_runs_and_not_after(folder) -> None:
         assert stat.S_IMODE((folder / "running-7007.json").stat().st_mode) == 0o600
         assert find() == URL
     assert list(folder.iterdir()) == []
-    with pytest.raises(ResourceError, match="no simulation is running; start one with `urdfkit sim teleop MODEL`"):
+    with pytest.raises(ResourceError, match="no simulation is running; start one with `urdfkit sim teleop ROBOT`"):
         find()
 
 

@@ -66,7 +66,7 @@ def description(arguments: argparse.Namespace) -> tuple[ModelArgument, Robot, st
     try:
         model = find_model([*([into] if into is not None else []), *arguments.arg], package_path=arguments.package_path)
     except ResourceError as error:
-        raise ResourceError(str(error).replace("no MODEL given", "no --into given")) from error
+        raise ResourceError(str(error).replace("no ROBOT given", "no --into given")) from error
     robot = load(model.path, arguments=model.arguments, package_path=model.package_path)
     return model, robot, _generation(model.path, robot, arguments.sim)
 

@@ -78,7 +78,7 @@ async def topics(client: Client) -> list[Row]:
     reported = False
     while (text := await client.text(READY)) is not None:
         if text["type"] == "hello" and text["mode"] != "sim":
-            raise ResourceError("that page is a viewer without topics; start a simulation: urdfkit sim teleop MODEL")
+            raise ResourceError("that page is a viewer without topics; start a simulation: urdfkit sim teleop ROBOT")
         if text["type"] == "progress" and text["label"] and not reported:
             note(f"urdfkit: the simulation is starting: {text['label']}")
             reported = True

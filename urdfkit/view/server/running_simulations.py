@@ -20,7 +20,7 @@ from urllib.parse import urlsplit
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
 from urdfkit.view.server.saved_tokens import private_folder, read_private, write_private
 
-NONE = "no simulation is running; start one with `urdfkit sim teleop MODEL`, or name its address with --url"
+NONE = "no simulation is running; start one with `urdfkit sim teleop ROBOT`, or name its address with --url"
 
 
 @dataclass(frozen=True, slots=True)
