@@ -33,7 +33,7 @@ def link(inertial: str, name: str = "a") -> str:
 BAD = link(f'<inertial><!-- kept --><mass value="3"/>{INERTIA.format(4)}</inertial>')
 
 
-def test_it_shows_both_and_says_what_is_wrong(write, capsys):
+def test_both_inertias_and_the_defect_are_shown(write, capsys):
     assert main(["inertia", str(write(BAD)), "a"]) == 1
     out = capsys.readouterr().out
     assert out.startswith("a  r.urdf.xacro:3\n  1 collision shape, 0.002 m³ in total\n")
@@ -42,7 +42,7 @@ def test_it_shows_both_and_says_what_is_wrong(write, capsys):
     assert "  warning: iyy is 800 times that of the shapes\n" in out
 
 
-def test_what_the_linter_says_is_there_too(write, capsys):
+def test_findings_of_the_linter_are_shown(write, capsys):
     path = write(link(f'<inertial><mass value="3"/>{INERTIA.format(-1)}</inertial>'))
     assert main(["inertia", str(path), "a"]) == 1
     assert "  error: I502 inertia of link `a` is impossible" in capsys.readouterr().out

@@ -52,7 +52,7 @@ def test_statistics_as_json(package, capsys):
     assert {row["code"]: row["count"] for row in rows} == {"T203": 1, "E009": 1}
 
 
-def test_the_target_is_guessed_and_said(package, capsys):
+def test_the_guessed_target_is_reported(package, capsys):
     assert main(["lint"]) == 1
     assert "urdfkit: linted for ros2: p is built with ament_cmake\n" in capsys.readouterr().err
     for words in (["--target", "any"], ["--target", "gz"], ["-q"]):

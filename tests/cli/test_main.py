@@ -80,7 +80,7 @@ def test_an_unwritable_place_is_one_line(capsys: pytest.CaptureFixture[str], mon
     assert capsys.readouterr().err == "urdfkit: /robots/arm.urdf: Permission denied\n"
 
 
-def test_a_misspelt_option_is_told_before_what_it_leaves_out(capsys):
+def test_a_misspelt_option_is_reported_before_the_missing_argument(capsys):
     assert main(["sim", "run", "simpleton", "--fro", "2"]) == 2
     assert capsys.readouterr().err == "urdfkit: sim run: unrecognized arguments: --fro; did you mean `--for`?\n"
 

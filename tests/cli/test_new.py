@@ -82,7 +82,7 @@ def test_maintainer_and_license(place):
 
 
 @pytest.mark.slow
-def test_maintainer_is_asked_of_git(place, monkeypatch):
+def test_the_maintainer_comes_from_git(place, monkeypatch):
     config = place / "gitconfig"
     config.write_text("[user]\n\tname = Grace\n\temail = grace@example.org\n")
     monkeypatch.setenv("GIT_CONFIG_GLOBAL", str(config))
@@ -167,7 +167,7 @@ def test_questions_on_a_terminal(place, monkeypatch):
     assert '"wheel_radius" value="0.1"' in (place / "scout_description/urdf/drive.xacro").read_text()
 
 
-def test_answers_that_do_not_go_together_are_asked_again_at_once(place, monkeypatch):
+def test_contradicting_answers_repeat_the_question_at_once(place, monkeypatch):
     given = ["--no-picture", "--ros", "none", "--drive", "diff", "--base-length", "0.4", "--base-width", "0.3"]
     typed = ["scout", "", "9000", "9", "0.5", "0.1", "", "0.1", "0.5"]
     shown = type_in(monkeypatch, *typed, *[""] * 10)
@@ -193,7 +193,7 @@ def test_where_no_answer_would_do_it_ends_at_once(place, monkeypatch):
 
 
 @pytest.mark.slow
-def test_what_was_given_is_not_asked(place, monkeypatch):
+def test_options_replace_questions(place, monkeypatch):
     shown = type_in(monkeypatch, *[""] * 20)
     assert main(["new", "robot", "scout", "--ros", "noetic", "--mass", "3"]) == 0
     assert "ROS" not in shown.getvalue()
@@ -202,7 +202,7 @@ def test_what_was_given_is_not_asked(place, monkeypatch):
 
 
 @pytest.mark.slow
-def test_yes_asks_nothing(place, monkeypatch):
+def test_yes_skips_the_questions(place, monkeypatch):
     shown = type_in(monkeypatch)
     assert main(["new", "robot", "scout", "--yes"]) == 0
     assert shown.getvalue() == ""

@@ -212,7 +212,7 @@ def test_a_template_of_ones_own(place, own, capsys):
     assert both in capsys.readouterr().err
 
 
-def test_a_recipe_of_ones_own_template_says_how_to_make_it_again(place, own, capsys):
+def test_a_recipe_of_a_user_template_has_the_command_to_repeat_it(place, own, capsys):
     assert main(["new", "robot", "box", "--template", "../template", "--colour", "blue", "--yes"]) == 0
     recipe = place / "box/urdfkit-new.toml"
     command = recipe.read_text().splitlines()[0].removeprefix("# Again: urdfkit ").partition(" FILE")[0].split()
@@ -347,7 +347,7 @@ def test_a_package_that_an_edited_file_names_is_kept_whole(place, capsys):
 
 
 @pytest.mark.slow
-def test_what_speaks_to_the_other_gazebo_is_told(place, capsys):
+def test_extensions_for_the_other_gazebo_are_reported(place, capsys):
     """A camera that `new sensor` had written for the new Gazebo was dead in Gazebo Classic, and nobody said so."""
     assert main(["new", "robot", "scout", "--no-picture", "--yes", "-q"]) == 0
     assert main(["new", "sensor", "camera", "--into", "scout_description", "-q"]) == 0
@@ -369,7 +369,7 @@ def test_what_speaks_to_the_other_gazebo_is_told(place, capsys):
 
 
 @pytest.mark.slow
-def test_joints_that_edited_settings_do_not_know_are_told(place, capsys):
+def test_joints_missing_in_edited_settings_are_reported(place, capsys):
     """The model had six joints and a gripper, the controllers four and none, and nobody said so."""
     assert main(["new", "robot", "rover", "--arm", "4", "--no-picture", "--yes", "-q"]) == 0
     settings = place / "rover_control/config/controllers.yaml"

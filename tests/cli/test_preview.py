@@ -112,7 +112,7 @@ def test_the_page_follows_the_answers(terminal, until, tmp_path):
 
 
 @pytest.mark.slow
-def test_without_a_preview_it_only_asks(terminal, tmp_path):
+def test_without_a_preview_only_the_questions_are_printed(terminal, tmp_path):
     asking = terminal("new", "robot", "rover", "--no-preview")
     asking.until("ROS distribution")
     for _ in range(30):
@@ -140,7 +140,7 @@ def test_answers_can_be_edited_and_earlier_ones_called_back(terminal):
     asking.until("`noetic` is not available")
 
 
-def test_what_does_not_go_with_earlier_answers_is_asked_again_where_something_else_would(terminal):
+def test_an_answer_that_contradicts_earlier_answers_repeats_the_question_if_another_answer_fits(terminal):
     sizes = ("--base-length", "0.1", "--base-width", "0.1", "--base-height", "0.05", "--mass", "0.2")
     asking = terminal("new", "robot", "rover", "--no-preview", "--ros", "none", "--drive", "none", *sizes)
     asking.until("Sensors ")

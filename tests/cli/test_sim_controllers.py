@@ -57,7 +57,7 @@ def test_errors_are_one_line_with_their_place(run: Callable[..., Any], tmp_path:
     assert "Traceback" not in err
 
 
-def test_a_file_that_nothing_reads_is_said_to_be_one(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unused_controller_file_is_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "own.yaml"
     path.write_text(OWN)
     assert main(["sim", "run", "diff_wheeled_robot", "--for", "0.01", "--controllers", str(path)]) == 0

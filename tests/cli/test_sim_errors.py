@@ -189,7 +189,7 @@ def test_plugins_without_a_file_name_are_noted(tmp_path: Path, capsys: Capture) 
     assert "plugin `lost` has no filename and is ignored" in capsys.readouterr().err
 
 
-def test_unknown_plugins_of_models_are_told_once(tmp_path: Path, capsys: Capture) -> None:
+def test_unknown_plugins_of_models_are_reported_once(tmp_path: Path, capsys: Capture) -> None:
     link = '<link name="{}"><inertial><mass>1</mass></inertial></link>'
     path = tmp_path / "w.sdf"
     path.write_text(
@@ -236,7 +236,7 @@ def test_unknown_plugins_of_a_world_are_noted_and_the_rest_runs(tmp_path: Path, 
         (["--initial-joints", "left_wheel_joint=0:1e200"], "root link `base_footprint`"),
     ],
 )
-def test_divergence_is_said_with_time_and_joint(capsys: Capture, options: list[str], body_or_joint: str) -> None:
+def test_divergence_is_reported_with_time_and_joint(capsys: Capture, options: list[str], body_or_joint: str) -> None:
     assert main(["sim", "run", "simpleton", "-q", "--for", "0.1", *options]) == 2
     out, err = capsys.readouterr()
     assert out == ""
@@ -315,7 +315,7 @@ def test_ctrl_c_ends_it_without_a_word(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGHUP])
-def test_a_run_that_is_told_to_end_keeps_its_recording(tmp_path: Path, until, how: signal.Signals) -> None:
+def test_an_interrupted_run_keeps_its_recording(tmp_path: Path, until, how: signal.Signals) -> None:
     words = command("simpleton", "--for", "1e6", "--record", "ride.mcap")
     with running(words, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
         until(lambda: [path for path in tmp_path.glob(".urdfkit-*/*/*.mcap") if path.stat().st_size > 100_000])

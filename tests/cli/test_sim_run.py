@@ -124,7 +124,7 @@ SEVERAL = """<robot name="several"><link name="world"/>
 <joint name="fl" type="floating"><parent link="world"/><child link="b"/><origin xyz="0 2 1"/></joint></robot>"""
 
 
-def test_planar_and_floating_joints_are_told(tmp_path: Path, capsys: Capture) -> None:
+def test_planar_and_floating_joints_are_reported(tmp_path: Path, capsys: Capture) -> None:
     path = tmp_path / "several.urdf"
     path.write_text(SEVERAL)
     start = "pl/theta=1.5:0.2,pl/x=1:2,pl/y=0:-1,fl/trans_z=3:0.5"

@@ -82,7 +82,7 @@ def test_the_only_cloud_needs_no_topic(tmp_path: Path) -> None:
         ("simpleton", "x.json", "0", "select a topic with TOPIC=FILE.json; no topic carries scans"),
     ],
 )
-def test_what_cannot_be_saved_is_said(
+def test_an_option_that_cannot_be_saved_is_an_error(
     tmp_path: Path, capsys: Capture, monkeypatch, robot: str, option: str, seconds: str, said: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -110,7 +110,7 @@ def test_places_are_looked_at_before_anything_runs(tmp_path: Path, capsys: Captu
     assert sorted(each.name for each in tmp_path.iterdir()) == ["seen", "x.json"]
 
 
-def test_a_ride_looks_at_the_place_of_its_recording_first(tmp_path: Path, capsys: Capture, monkeypatch) -> None:
+def test_the_place_of_a_recording_is_checked_first(tmp_path: Path, capsys: Capture, monkeypatch) -> None:
     monkeypatch.setattr("urdfkit.resources.find_model", lambda *_, **__: pytest.fail("the robot is looked for"))
     assert main(["sim", "teleop", LASER, "--record", f"{tmp_path}/nowhere/x.mcap"]) == 2
     assert f"--record: cannot write {tmp_path}/nowhere/x.mcap: no folder" in capsys.readouterr().err

@@ -317,7 +317,7 @@ def test_the_loop_lets_the_clock_go_after_a_long_pause_of_the_machine(ride: Driv
     assert ride.simulator.t - before == pytest.approx(1.0, abs=0.002)
 
 
-def test_the_robot_goes_while_somebody_holds_and_stops_by_itself(ride: DriveLoop) -> None:
+def test_the_robot_moves_while_a_page_drives_and_then_stops(ride: DriveLoop) -> None:
     sent: list = []
     topic = ride.simulator.command_topics[0]
     ride.simulator.subscribe(topic, "geometry_msgs/msg/Twist", sent.append)
@@ -345,7 +345,7 @@ def test_pause_play_reset(ride: DriveLoop) -> None:
     assert ride.simulator.t == pytest.approx(0.1, abs=0.02)
 
 
-def test_a_simulation_that_diverges_pauses_and_says_so(ride: DriveLoop, capfd, monkeypatch) -> None:
+def test_a_simulation_that_diverges_pauses_with_an_error(ride: DriveLoop, capfd, monkeypatch) -> None:
     from urdfkit.errors import SimulationError
 
     def diverge(steps: int) -> None:
@@ -411,7 +411,7 @@ def test_the_view_is_of_the_robot_not_of_the_house_around_it(serve, visits, keep
 
 
 @pytest.mark.slow
-def test_a_ride_is_recorded_until_it_is_interrupted(serve, tmp_path, until) -> None:
+def test_driving_is_recorded_until_it_is_interrupted(serve, tmp_path, until) -> None:
     from rosbags.rosbag2 import Reader
 
     served = serve("sim", "teleop", "simpleton", "--record", "ride.mcap")

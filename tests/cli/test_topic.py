@@ -112,7 +112,7 @@ def test_what_was_published_once_for_all_who_come_is_echoed(topic) -> None:
 
 
 @pytest.mark.slow
-def test_a_camera_is_looked_through_while_somebody_listens(ride, topic, until) -> None:
+def test_a_camera_renders_while_its_topic_has_a_subscriber(ride, topic, until) -> None:
     name = "/simpleton/camera1/image_raw"
     before = subscribers(ride, name)
     cut = json.loads(topic("echo", name, "--once", "--json"))
@@ -167,12 +167,12 @@ def test_what_is_wrong_is_one_line_and_exit_2(topic, words: list[str], expected:
     assert expected in topic(*words, code=2)
 
 
-def test_a_topic_that_nobody_knows_is_published_to_with_a_note(ride, capsys) -> None:
+def test_publishing_to_an_unknown_topic_prints_a_note(ride, capsys) -> None:
     assert main(["topic", "pub", "/simpleton/cmd_vl", "geometry_msgs/Twist", "--once"]) == 0
     assert capsys.readouterr().err == f"urdfkit: /simpleton/cmd_vl has no subscribers; did you mean `{COMMAND}`?\n"
 
 
-def test_without_a_simulation_it_says_how_to_start_one(tmp_path: Path, monkeypatch, capsys) -> None:
+def test_without_a_simulation_the_error_shows_how_to_start_one(tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     assert main(["topic", "list"]) == 2
     printed = capsys.readouterr()
@@ -181,7 +181,7 @@ def test_without_a_simulation_it_says_how_to_start_one(tmp_path: Path, monkeypat
     assert printed.err.count("\n") == 1
 
 
-def test_a_simulation_that_is_starting_is_found_and_says_what_it_does(tmp_path: Path, monkeypatch, capsys) -> None:
+def test_a_simulation_that_is_starting_is_found_and_reports_its_progress(tmp_path: Path, monkeypatch, capsys) -> None:
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     with Server("sim", port=0) as server, noted(server.port, server.url, "simpleton"):
         server.declare("progress", label="compiling …")

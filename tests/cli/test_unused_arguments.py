@@ -30,7 +30,9 @@ def test_a_file_without_arguments() -> None:
 
 
 @pytest.mark.parametrize("command", [["info"], ["tf", "--tree"], ["sim", "run", "--for", "0"]])
-def test_every_command_that_takes_a_model_says_so(command: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_command_with_a_robot_reports_unused_arguments(
+    command: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
     words = [*command[: 2 if command[0] == "sim" else 1], "simpleton", "camera_pich:=0.1", *command[2:]]
     words += ["--tree"] if command[0] == "tf" else []
     assert main(words) == 0

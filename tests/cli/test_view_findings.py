@@ -59,7 +59,7 @@ def test_one_fix_changes_its_line_and_no_other_byte(robot: Path) -> None:
     assert "J412" not in {row["code"] for row in findings.lint()["findings"]}
 
 
-def test_only_the_finding_that_was_named_is_mended(tmp_path: Path) -> None:
+def test_only_the_named_finding_is_fixed(tmp_path: Path) -> None:
     path = tmp_path / "two.urdf"
     path.write_text(ROBOT.replace("</robot>", """<link name="eye"/><joint name="look" type="continuous">
       <parent link="base"/><child link="eye"/><axis xyz="0 3 0"/></joint></robot>"""))  # fmt: skip
@@ -72,7 +72,7 @@ def test_only_the_finding_that_was_named_is_mended(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("nth", range(4))
-def test_one_of_several_that_say_the_same_is_mended(tmp_path: Path, nth: int) -> None:
+def test_one_of_several_equal_findings_is_fixed(tmp_path: Path, nth: int) -> None:
     path = tmp_path / "two.urdf.xacro"
     path.write_text(TWINS)
     findings = Findings(find_model([str(path)]))
@@ -86,7 +86,7 @@ def test_one_of_several_that_say_the_same_is_mended(tmp_path: Path, nth: int) ->
     ]
 
 
-def test_a_finding_in_the_text_knows_the_links_and_joints_made_of_it(tmp_path: Path) -> None:
+def test_a_finding_in_the_text_lists_its_links_and_joints(tmp_path: Path) -> None:
     path = tmp_path / "two.urdf.xacro"
     path.write_text(TWINS)
     findings = Findings(find_model([str(path)]))

@@ -75,7 +75,7 @@ def apart(ours: np.ndarray, theirs: np.ndarray) -> float:
     return max(np.abs(ours[:, :3] - theirs[:, :3]).max(), turns.max())
 
 
-def test_writing_says_where_and_how_large(robot: Path, tmp_path: Path, capfd) -> None:
+def test_writing_reports_path_and_size(robot: Path, tmp_path: Path, capfd) -> None:
     path = tmp_path / "page.html"
     assert main(["view", str(robot), "--html", str(path)]) == 0
     output = capfd.readouterr()

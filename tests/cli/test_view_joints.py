@@ -71,7 +71,7 @@ def test_limits_can_be_ignored_and_come_back(page, until, keep) -> None:
     until(lambda: values(page)["bend"] == 1)
 
 
-def test_a_mimic_joint_says_what_it_follows_and_cannot_be_moved(page) -> None:
+def test_a_mimic_joint_names_its_master_and_cannot_be_moved(page) -> None:
     row = page.locator('li[data-joint="follow"]')
     assert "follows -1 × open" in row.inner_text()
     assert row.locator("input").first.is_disabled()

@@ -57,7 +57,7 @@ def test_the_tree_finds_and_selects(page, keep, until) -> None:
     assert page.locator(".tree .link-entry:visible").all_inner_texts() == ["base", "upper", "eye"]
 
 
-def test_the_inspector_tells_numbers_and_where_they_are_written(page, lab: Path, keep) -> None:
+def test_the_inspector_shows_values_and_their_source_lines(page, lab: Path, keep) -> None:
     page.evaluate("urdfkit.page.select({ link: 'upper' })")
     page.get_by_role("button", name="Inspect", exact=True).first.click()
     text = page.locator("#panel-inspect").inner_text()

@@ -24,7 +24,7 @@ def test_what_is_quick_is_not_mentioned(capfd) -> None:
     assert (page.said, capfd.readouterr().err) == ([], "")
 
 
-def test_what_takes_long_is_said_on_the_page_and_in_the_terminal_until_it_is_over(capfd, monkeypatch, until) -> None:
+def test_long_operations_are_reported_on_the_page_and_in_the_terminal_until_they_end(capfd, monkeypatch, until) -> None:
     monkeypatch.setattr(compiling, "PATIENCE", 0.01)
     page = Page()
     with progress(page, "drawing …"):

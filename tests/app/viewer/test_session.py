@@ -88,7 +88,7 @@ def test_a_fix_is_ordered_by_its_number(session: Session) -> None:
     assert 'xyz="0 0 1"' in session.model.path.read_text()
 
 
-def test_a_file_that_goes_is_told_and_taken_up_again(session: Session, capsys) -> None:
+def test_a_deleted_file_is_reported_and_followed_again(session: Session, capsys) -> None:
     path = session.model.path
     aside = path.with_name("aside")
     path.rename(aside)

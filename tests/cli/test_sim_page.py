@@ -1,4 +1,4 @@
-"""The simulation's page in a real browser: everything a person can click, on one server that is reset between tests."""
+"""The simulation page in a real browser: every control, on one server that is reset between tests."""
 
 from __future__ import annotations
 
@@ -521,7 +521,7 @@ def test_a_second_robot_is_inserted_and_driven(page, keep, until) -> None:
     until(lambda: not page.locator("#driven").is_visible())
 
 
-def test_who_drives_keeps_others_from_changing_things(page, served, visits, until) -> None:
+def test_only_the_driver_can_change_the_simulation(page, served, visits, until) -> None:
     other = visits.open(served.url, viewport={"width": 640, "height": 480})
     page.bring_to_front()
     page.keyboard.down("w")

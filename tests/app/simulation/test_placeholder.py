@@ -1,4 +1,4 @@
-"""The robot is on the page, where it will start, before there is an engine."""
+"""The page shows the robot in its initial pose before the engine is compiled."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def test_it_stands_where_the_simulation_starts(name: str) -> None:
     np.testing.assert_allclose(before, figures.poses(), atol=1e-12)
 
 
-def test_a_page_that_is_open_is_told_why_the_server_ends(monkeypatch) -> None:
+def test_an_open_page_shows_why_the_server_stops(monkeypatch) -> None:
     monkeypatch.setattr("urdfkit.app.page.FAULT_DELAY", 0.0)
     page = Page()
 

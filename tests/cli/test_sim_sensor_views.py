@@ -1,4 +1,4 @@
-"""What lidars and cameras see on the page: points where things are, pictures, and no more of it than there is time."""
+"""Sensor views of the page: point clouds, images, and their rate on a busy machine."""
 
 from __future__ import annotations
 
@@ -147,7 +147,7 @@ def test_what_one_camera_publishes_comes_of_one_small_look(monkeypatch: pytest.M
     assert (whole.width, whole.height) == (800, 600)  # who subscribes gets it as it is written
 
 
-def test_a_cloud_of_a_depth_camera_has_its_colours_and_lies_where_things_are() -> None:
+def test_a_cloud_of_a_depth_camera_has_the_colours_and_positions_of_the_bodies() -> None:
     lens = Lens(4, 3, 1.0)
     rgb = np.zeros((3, 4, 3), dtype=np.uint8)
     rgb[:, :2], rgb[:, 2:] = (200, 10, 30), (5, 6, 250)
@@ -172,7 +172,7 @@ def test_the_colours_of_a_segmentation_are_not_blurred() -> None:
         assert (np.asarray(found.convert("RGB")) == rgb).all()
 
 
-def test_frames_tell_sensor_kind_and_time() -> None:
+def test_frames_have_sensor_kind_and_time() -> None:
     frame = websocket_messages.pack_sensed(3, 1.5, PICTURE, b"jpeg")
     assert websocket_messages.POSE_HEADER.unpack(frame[:16]) == (0x02, 1, 3, 0, 1.5)
     assert frame[16:] == b"jpeg"

@@ -1,4 +1,4 @@
-"""``sim run --save-image``: what is in the file, and what is refused."""
+"""``sim run --save-image``: contents of the file, and options that are errors."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def test_points_are_saved_otherwise(capsys: Capture) -> None:
         ("x.png", "no image was published on /simpleton/camera1/image_raw in 0 s; increase --for"),
     ],
 )
-def test_what_cannot_be_saved_is_said(tmp_path: Path, capsys: Capture, option: str, said: str) -> None:
+def test_an_option_that_cannot_be_saved_is_an_error(tmp_path: Path, capsys: Capture, option: str, said: str) -> None:
     option = option.replace("x.png", str(tmp_path / "x.png"))
     assert main(["sim", "run", "simpleton", "--for", "0", "--save-image", option]) == 2
     assert said in capsys.readouterr().err.splitlines()[-1]

@@ -1,4 +1,4 @@
-"""The page with other robots, and when the server goes away: arms, depth cameras, coming back."""
+"""The simulation page with arms and depth cameras, and its reconnection when the server stops or restarts."""
 
 from __future__ import annotations
 

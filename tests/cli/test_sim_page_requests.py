@@ -1,4 +1,4 @@
-"""What a page may order of a simulation, done without a page: each order, its answer, and what it changes."""
+"""Requests of the simulation page without a browser: the response to each request and its effect."""
 
 from __future__ import annotations
 
@@ -268,7 +268,7 @@ def test_a_curve_has_every_sample_from_when_it_is_wanted_until_it_is_not(ride) -
     assert not topic.subscribers
 
 
-def test_a_curve_of_nothing_says_so(ride) -> None:
+def test_a_plot_of_an_unknown_topic_is_an_error(ride) -> None:
     ride.page.wanted |= {"field:/simpleton/odom:pose.pose.psition.x", "field:/nowhere:x"}
     spend(ride, 0.3)
     errors = {part["curve"]: part["error"] for part in ride.page.streamed}
@@ -293,7 +293,7 @@ def test_numbers_of_messages_by_path() -> None:
             number_at(message, path)
 
 
-def test_long_messages_are_cut_and_what_is_not_finite_can_be_said() -> None:
+def test_long_messages_are_cut_and_values_that_are_not_finite_are_sent() -> None:
     scan = from_fields("sensor_msgs/msg/LaserScan", {"ranges": [float("inf")] * 1000})
     shown = as_json(scan)
     assert shown["ranges"][0] == "inf"
@@ -470,7 +470,7 @@ def test_a_push_lasts_as_long_as_it_is_held(ride) -> None:
         do(ride, "push", link="chasis", force=[0, 0, 1], torque=[0, 0, 0], at=[0, 0, 0])
 
 
-def test_forces_and_slip_are_told_while_they_are_wanted(ride) -> None:
+def test_forces_and_slip_are_sent_while_requested(ride) -> None:
     do(ride, "spawn", model="crate", pose=[2.0, 2.0, 0.0])  # which touches the ground, but is no robot
     spend(ride, 0.5)
     assert not ride.page.sensed
@@ -602,7 +602,7 @@ def test_stop_holds_for_every_robot_whoever_drives(ride) -> None:
     assert "stop" in ride.page.said  # the pages let go
 
 
-def test_what_is_put_into_something_is_said_on_the_page_each_time(ride) -> None:
+def test_overlap_of_a_spawned_body_is_reported_each_time(ride) -> None:
     for _ in range(2):
         done = do(ride, "spawn", model="barrel", pose=[0.0, 0.1, 0.0, 0.0])
         assert any("deep in `chassis`; put `barrel` elsewhere" in remark for remark in done["remarks"])
@@ -672,7 +672,7 @@ def test_a_fault_in_an_order_is_answered_in_a_line(ride) -> None:
     assert "\n" not in str(caught.value)
 
 
-def test_every_message_is_told_to_who_wants_every_one(ride) -> None:
+def test_every_message_is_sent_to_a_page_that_requests_all(ride) -> None:
     odom = next(topic for topic in ride.simulator.bus.topics if topic.name == "/simpleton/odom")
     before = len(odom.subscribers)
     keys = {f"{kind}:/simpleton/odom": [] for kind in ("times", "sizes", "every", "whole")}
