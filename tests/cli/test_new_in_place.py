@@ -48,8 +48,8 @@ def test_files_of_a_repository(place, ros):
         for h in repo["hooks"]
     ]
     assert "urdfkit-lint" in hooks
-    assert "![scout](scout_description/docs/scout.png)" in (new / "README.md").read_text()
-    assert (new / "scout_description/docs/scout.png").read_bytes().startswith(b"\x89PNG")
+    assert "![scout](scout_description/docs/scout.svg)" in (new / "README.md").read_text()
+    assert (new / "scout_description/docs/scout.svg").read_text().startswith("<svg")
 
 
 @pytest.mark.slow

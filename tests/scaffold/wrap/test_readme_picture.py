@@ -1,14 +1,13 @@
 """The picture of a robot: it shows what is there, where it is, and is the same each time."""
 
-import io
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from PIL import Image
+from PIL import Image, ImageDraw
 
 from urdfkit.description import load
-from urdfkit.scaffold.wrap.picture_solids import solids_of
-from urdfkit.scaffold.wrap.readme_picture import HEIGHT, WIDTH, drawing_of
+from urdfkit.scaffold.wrap.readme_picture import HEIGHT, WIDTH, drawing_of, faces_of
 
 GROUND = (242, 244, 246)
 
@@ -27,9 +26,12 @@ def robot(tmp_path, *shapes, more=""):
 def picture(described):
     drawing = drawing_of(described)
     assert drawing == drawing_of(described)
-    image = np.asarray(Image.open(io.BytesIO(drawing)))
-    assert image.shape == (HEIGHT, WIDTH, 3)
-    return image.astype(int)
+    background, *paths = ElementTree.fromstring(drawing)
+    image = Image.new("RGB", (WIDTH, HEIGHT), background.get("fill"))
+    for path in paths:
+        points = [tuple(map(float, point.split(","))) for point in path.get("d")[1:-1].split()]
+        ImageDraw.Draw(image).polygon(points, fill=path.get("fill"), outline=path.get("stroke"))
+    return np.asarray(image).astype(int)
 
 
 def is_of(image, channel):
@@ -79,10 +81,18 @@ def test_links_are_where_their_joints_put_them(tmp_path):
         '<link name="b"><visual><geometry><box size="1 2 3"/></geometry></visual></link><joint name="j" type="fixed">'
         '<parent link="a"/><child link="b"/><origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/></joint>'
     )
-    (solid,) = solids_of(robot(tmp_path, more=more))
-    assert solid.at == (1, 0, 0)
-    corners = np.array(list(solid.corners()))
+    corners = np.array([corner for _, face, _ in faces_of(robot(tmp_path, more=more)) for corner in face])
+    assert corners.mean(axis=0) == pytest.approx([1, 0, 0])
     assert np.ptp(corners, axis=0) == pytest.approx([2, 1, 3])
+
+
+def test_what_is_inside_of_a_solid_is_hidden(tmp_path):
+    box, ball = ('<box size="1 1 1"/>', "0 0 0", "1 0 0"), ('<sphere radius="0.49"/>', "0 0 0", "0 1 0")
+    assert is_of(picture(robot(tmp_path, ball, box)), 1).sum() == 0
+    sunk = picture(robot(tmp_path, box, ('<box size="0.5 0.5 1"/>', "0 0 0.25", "0 1 0")))
+    shown = picture(robot(tmp_path, box, ('<box size="0.5 0.5 0.25"/>', "0 0 0.625", "0 1 0")))
+    assert is_of(shown, 1).sum() > 3000
+    assert np.count_nonzero(is_of(sunk, 1) != is_of(shown, 1)) < 30  # rounding at edges
 
 
 def test_meshes_are_not_drawn(tmp_path):

@@ -324,8 +324,8 @@ def test_a_robot_of_plain_shapes_is_drawn(tmp_path, monkeypatch):
         '<collision><geometry><box size="0.3 0.3 0.3"/></geometry></collision></link></robot>'
     )
     assert main(["import", "box.urdf", "--into", "src"]) == 0
-    assert "![box](box_description/docs/box.png)" in (tmp_path / "src/README.md").read_text()
-    assert (tmp_path / "src/box_description/docs/box.png").read_bytes().startswith(b"\x89PNG")
+    assert "![box](box_description/docs/box.svg)" in (tmp_path / "src/README.md").read_text()
+    assert (tmp_path / "src/box_description/docs/box.svg").read_text().startswith("<svg")
     done = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "."],
         cwd=tmp_path / "src", capture_output=True, text=True, check=False,

@@ -190,7 +190,7 @@ def add_picture(folder: Path) -> None:
             raise ResourceError(f"cannot draw {robot.name}: it has only meshes; use --no-picture")
         docs = model.parents[1] / "docs"
         docs.mkdir(exist_ok=True)
-        (docs / f"{robot.name}.png").write_bytes(picture)
+        (docs / f"{robot.name}.svg").write_text(picture, encoding="utf-8")
 
 
 def _recipe_template(made: Made, own_template: str | None, into: Path) -> Template:

@@ -1,170 +1,184 @@
-"""A picture of a robot as PNG, with nothing but Python: the solids it is made of, and their shadow on the ground.
+"""A picture of a robot as SVG: the primitives it consists of, and their shadow on the ground.
 
-Seen from far away, from the front and above. The same robot gives the same picture.
+Seen from far away, from the front, left and above. The same robot gives the same picture.
 """
 
 from __future__ import annotations
 
-import struct
-import zlib
 from collections.abc import Iterable
-from math import hypot
+from itertools import pairwise
+from math import cos, dist, pi, sin
 
-from urdfkit.description.urdf.geometry import rotate
-from urdfkit.description.urdf.robot import Robot, Vector
-from urdfkit.scaffold.wrap.picture_solids import Beam, Solid, solids_of
+from urdfkit.description.urdf.geometry import compose, link_poses, rotate, rotation_of, unit
+from urdfkit.description.urdf.robot import Box, Capsule, Cylinder, Geometry, Robot, Sphere, Vector
 
 WIDTH, HEIGHT = 480, 320
 """Of the picture [px]."""
 
 _MARGIN = 0.08
-_SEEN_FROM: Vector = (0.72, 0.48, 0.5)
-_LIT_FROM: Vector = (0.35, 0.75, 1.1)
+_SIDES = 24
+"""Sides of the prism that stands for a cylinder; a sphere has half as many rings."""
+_BACK: Vector = (0.720432, 0.480288, 0.500300)
+"""Unit vector towards the viewer, and the axes of the picture."""
+_RIGHT: Vector = (-0.554700, 0.832050, 0.0)
+_UP: Vector = (-0.416275, -0.277517, 0.865852)
+_LIGHT: Vector = (0.254251, 0.544825, 0.799076)
+"""Unit vector towards the light."""
 _AMBIENT = 0.42
-_GROUND, _SHADOW = (0.95, 0.955, 0.965), (0.80, 0.81, 0.83)
-_EDGE = 0.04
-"""Where neighbours differ by more, a pixel is the mean of four places in it [of 1]."""
+_THIN = 1e-6
+"""Height above a plane that counts as in it [m]."""
+_GROUND, _SHADOW, _GREY = (0.95, 0.955, 0.965), (0.80, 0.81, 0.83), (0.7, 0.7, 0.7)
 
-_WITHIN = ((-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25))
+Polygon = tuple[Vector, ...]
+Face = tuple[Vector, Polygon, Vector]
+"""Outward normal, corners in the world [m] and colour (0..1)."""
 
 
-def drawing_of(robot: Robot) -> bytes | None:
-    """Return the picture of a robot as PNG; None where there is nothing to see but meshes.
+def drawing_of(robot: Robot) -> str | None:
+    """Return the picture of a robot as SVG; None where there is nothing to see but meshes.
 
     Args:
         robot: a tree.
     """
-    solids = solids_of(robot)
-    return _png(_Plate(solids).pixels()) if solids else None
+    faces = faces_of(robot)
+    if not faces:
+        return None
+    ground = min(corner[2] for _, face, _ in faces for corner in face)
+    shadows = [
+        (tuple(_dropped(corner, ground) for corner in face), _SHADOW)
+        for normal, face, _ in faces
+        if _dot(normal, _LIGHT) > 0
+    ]
+    seen = _back_to_front([face for face in faces if _dot(face[0], _BACK) > 1e-9])
+    polygons = [*shadows, *((face, _lit(rgb, normal)) for normal, face, rgb in seen)]
+    across = [_dot(_RIGHT, corner) for face, _ in polygons for corner in face]
+    along = [_dot(_UP, corner) for face, _ in polygons for corner in face]
+    width, height = max(across) - min(across), max(along) - min(along)
+    scale = (1 - 2 * _MARGIN) / (max(width / WIDTH, height / HEIGHT) or 1.0)
+    left, top = (max(across) + min(across) - WIDTH / scale) / 2, (max(along) + min(along) + HEIGHT / scale) / 2
+    lines = [f'<rect width="100%" height="100%" fill="{_hex(_GROUND)}"/>']
+    for face, rgb in polygons:
+        places = (f"{scale * (_dot(_RIGHT, at) - left):.1f},{scale * (top - _dot(_UP, at)):.1f}" for at in face)
+        lines.append(f'<path d="M{" ".join(places)}z" fill="{_hex(rgb)}" stroke="{_hex(rgb)}"/>')
+    size = f'width="{WIDTH}" height="{HEIGHT}" viewBox="0 0 {WIDTH} {HEIGHT}"'
+    start = f'<svg xmlns="http://www.w3.org/2000/svg" {size} stroke-width="0.4" stroke-linejoin="round">'
+    return "\n".join((start, *lines, "</svg>\n"))
 
 
-_Span = tuple[float, float, int]
+def faces_of(robot: Robot) -> list[Face]:
+    """Return the faces of the visible primitives of a robot whose joints are at zero, without meshes.
+
+    Args:
+        robot: a tree.
+    """
+    poses = link_poses(robot)
+    named = {material.name: material.rgba for material in robot.materials if material.rgba is not None}
+    found = []
+    for link in robot.link_by_name_in_order():
+        for visual in link.visuals if link.name in poses else ():
+            material = visual.material
+            rgba = (material.rgba or named.get(material.name)) if material else None
+            pose = compose(poses[link.name], visual.origin)
+            turn = rotation_of(pose.rpy)
+            for normal, face in _faces(visual.geometry):
+                corners = tuple(_sum(rotate(turn, corner), pose.xyz) for corner in face)
+                found.append((rotate(turn, normal), corners, rgba[:3] if rgba else _GREY))
+    return found
 
 
-class _Plate:
-    """The plane that is looked through: what each place of it sees."""
-
-    def __init__(self, solids: list[Solid]) -> None:
-        back = _unit(_SEEN_FROM)
-        side = _unit(_cross((0.0, 0.0, 1.0), back))
-        up = _cross(back, side)
-        corners = [corner for solid in solids for corner in solid.corners()]
-        ground = min(corner[2] for corner in corners)
-        light = _unit(_LIT_FROM)
-        cast = [_drop(corner, light, ground) for corner in corners]
-        across = [_dot(side, corner) for corner in (*corners, *cast)]
-        along = [_dot(up, corner) for corner in (*corners, *cast)]
-        width, height = max(across) - min(across), max(along) - min(along)
-        pixel = max(width / WIDTH, height / HEIGHT) / (1 - 2 * _MARGIN)
-        right, down = _scaled(side, pixel), _scaled(up, -pixel)
-        away = max(_dot(back, corner) for corner in corners) + 1.0
-        left = (max(across) + min(across)) / 2 - pixel * (WIDTH - 1) / 2
-        top = (max(along) + min(along)) / 2 + pixel * (HEIGHT - 1) / 2
-        start = _sum(_sum(_scaled(side, left), _scaled(up, top)), _scaled(back, away))
-        self._solids, self._light = solids, light
-        self._seen = [Beam(solid, start, right, down, _scaled(back, -1.0)) for solid in solids]
-        # Where each ray meets the ground: from there the light is looked for.
-        on, rise = _drop(start, back, ground), back
-        self._lit = [Beam(solid, on, _level(right, rise), _level(down, rise), light) for solid in solids]
-
-        def place(corner: Vector) -> tuple[float, float]:
-            return (_dot(side, corner) - left) / pixel, (top - _dot(up, corner)) / pixel
-
-        self._boxes = [_box(map(place, solid.corners())) for solid in solids]
-        shadows = ((_drop(corner, light, ground) for corner in solid.corners()) for solid in solids)
-        self._shadows = [_box(map(place, corners)) for corners in shadows]
-
-    def pixels(self) -> list[list[Vector]]:
-        """Return the colours, row by row, 0..1."""
-        found = [self._row(v) for v in range(HEIGHT)]
-        edges = [
-            (u, v)
-            for v in range(HEIGHT - 1)
-            for u in range(WIDTH - 1)
-            if _differ(found[v][u], found[v][u + 1]) or _differ(found[v][u], found[v + 1][u])
-        ]
-        near = {(u + du, v + dv) for u, v in edges for du, dv in ((0, 0), (1, 0), (0, 1))}
-        for u, v in sorted(near):
-            parts = [self._colour(u + du, v + dv, *self._across(v + dv)) for du, dv in _WITHIN]
-            found[v][u] = _scaled(_sum(_sum(parts[0], parts[1]), _sum(parts[2], parts[3])), 0.25)
-        return found
-
-    def _row(self, v: int) -> list[Vector]:
-        seen, lit = self._across(v)
-        return [self._colour(u, v, seen, lit) for u in range(WIDTH)] if seen or lit else [_GROUND] * WIDTH
-
-    def _across(self, v: float) -> tuple[list[_Span], list[_Span]]:
-        """Return which solids, and which shadows, there may be in a row: from where to where, and its number."""
-        seen, lit = (
-            [(low_u, high_u, k) for k, (low_u, low_v, high_u, high_v) in enumerate(boxes) if low_v <= v <= high_v]
-            for boxes in (self._boxes, self._shadows)
-        )
-        return seen, lit
-
-    def _colour(self, u: float, v: float, seen: list[_Span], lit: list[_Span]) -> Vector:
-        nearest, found = float("inf"), None
-        for low, high, k in seen:
-            if low <= u <= high and (met := self._seen[k].meet(u, v)) is not None and met[0] < nearest:
-                nearest, found = met[0], (self._solids[k], met[1])
-        if found is not None:
-            solid, normal = found
-            shine = max(0.0, _dot(rotate(solid.turn, normal), self._light))
-            return _scaled(solid.rgb, min(1.0, _AMBIENT + (1.1 - _AMBIENT) * shine))
-        for low, high, k in lit:
-            if low <= u <= high and (met := self._lit[k].meet(u, v)) is not None and met[0] > -1e-9:
-                return _SHADOW
-        return _GROUND
+def _faces(geometry: Geometry | None) -> Iterable[tuple[Vector, Polygon]]:
+    """Return normals and corners of the faces of a primitive in its own frame; a capsule is drawn as a cylinder."""
+    turns = [2 * pi * k / _SIDES for k in range(_SIDES + 1)]
+    match geometry:
+        case Box(size=(x, y, z)):
+            return [*_prism([(x / 2, y / 2), (-x / 2, y / 2), (-x / 2, -y / 2), (x / 2, -y / 2)], z / 2)]
+        case Cylinder(radius=r, length=length):
+            return _prism([(r * cos(turn), r * sin(turn)) for turn in turns[:-1]], length / 2)
+        case Capsule(radius=r, length=length):
+            return _faces(Cylinder(r, length + 2 * r))
+        case Sphere(radius=r):
+            points = [[(sin(a) * cos(b), sin(a) * sin(b), cos(a)) for b in turns] for a in turns[: _SIDES // 2 + 1]]
+            return [
+                (_normal(corners), tuple((r * x, r * y, r * z) for x, y, z in corners))
+                for upper, lower in pairwise(points)
+                for corners in zip(upper, lower, lower[1:], upper[1:], strict=False)
+            ]
+    return ()
 
 
-def _box(places: Iterable[tuple[float, float]]) -> tuple[float, float, float, float]:
-    us, vs = zip(*places, strict=True)
-    return min(us) - 1, min(vs) - 1, max(us) + 1, max(vs) + 1
+def _normal(corners: Polygon) -> Vector:
+    """Return the outward normal of a quadrilateral of a sphere about the origin."""
+    (a, b, c), (d, e, f) = (
+        (q[0] - p[0], q[1] - p[1], q[2] - p[2]) for p, q in ((corners[0], corners[2]), (corners[1], corners[3]))
+    )
+    return unit((b * f - c * e, c * d - a * f, a * e - b * d)) or corners[0]
 
 
-def _drop(point: Vector, direction: Vector, ground: float) -> Vector:
-    """Return where a line meets the ground."""
-    return _sum(point, _scaled(direction, (ground - point[2]) / direction[2]))
+def _prism(base: list[tuple[float, float]], half: float) -> list[tuple[Vector, Polygon]]:
+    """Return the faces of an upright prism over a convex polygon that is given counter-clockwise."""
+    faces: list[tuple[Vector, Polygon]] = [((0.0, 0.0, z), tuple((x, y, z * half) for x, y in base)) for z in (1, -1)]
+    for (a, b), (c, d) in zip(base, [*base[1:], base[0]], strict=True):
+        length = ((d - b) ** 2 + (a - c) ** 2) ** 0.5 or 1.0
+        corners = ((a, b, -half), (c, d, -half), (c, d, half), (a, b, half))
+        faces.append((((d - b) / length, (a - c) / length, 0.0), corners))
+    return faces
 
 
-def _level(step: Vector, direction: Vector) -> Vector:
-    """Return a step as its foot on the ground takes it, seen along `direction`."""
-    return _drop(step, direction, 0.0)
+def _back_to_front(faces: list[Face]) -> list[Face]:
+    """Return visible faces in the order of painting, split where one intersects the plane of another (a BSP tree)."""
+    # The largest face first: its plane splits few of the others, and theirs do not split it.
+    waiting, ordered = [sorted(faces, key=lambda face: -max(dist(face[1][0], corner) for corner in face[1]))], []
+    while waiting:
+        group = waiting.pop()
+        if len(group) < 2:
+            ordered += group
+            continue
+        first = group[0]
+        nearer: list[Face] = []
+        farther: list[Face] = []
+        for face in group[1:]:
+            heights = [_dot(first[0], corner) - _dot(first[0], first[1][0]) for corner in face[1]]
+            if min(heights) < -_THIN and max(heights) > _THIN:
+                nearer.append((face[0], _above(face[1], heights), face[2]))
+                farther.append((face[0], _above(face[1], [-height for height in heights]), face[2]))
+            else:
+                (nearer if max(heights) > _THIN else farther).append(face)
+        waiting += [nearer, [first], farther]
+    return ordered
 
 
-def _differ(one: Vector, other: Vector) -> bool:
-    return abs(one[0] - other[0]) + abs(one[1] - other[1]) + abs(one[2] - other[2]) > _EDGE
+def _above(polygon: Polygon, heights: list[float]) -> Polygon:
+    """Return the part of a convex polygon whose corners have heights above 0."""
+    found = []
+    for k, (corner, height) in enumerate(zip(polygon, heights, strict=True)):
+        before, low = polygon[k - 1], heights[k - 1]
+        if (low > 0) != (height > 0):
+            x, y, z = ((a * height - b * low) / (height - low) for a, b in zip(before, corner, strict=True))
+            found.append((x, y, z))
+        if height > 0:
+            found.append(corner)
+    return tuple(found)
+
+
+def _dropped(point: Vector, ground: float) -> Vector:
+    """Return the shadow of a point on the ground."""
+    fall = (point[2] - ground) / _LIGHT[2]
+    return point[0] - fall * _LIGHT[0], point[1] - fall * _LIGHT[1], ground
+
+
+def _lit(rgb: Vector, normal: Vector) -> Vector:
+    light = min(1.0, _AMBIENT + (1.1 - _AMBIENT) * max(0.0, _dot(normal, _LIGHT)))
+    return rgb[0] * light, rgb[1] * light, rgb[2] * light
+
+
+def _hex(rgb: Vector) -> str:
+    return "#" + "".join(f"{round(255 * max(0.0, min(1.0, part))):02x}" for part in rgb)
+
+
+def _sum(*vectors: Vector) -> Vector:
+    x, y, z = (sum(parts) for parts in zip(*vectors, strict=True))
+    return x, y, z
 
 
 def _dot(a: Vector, b: Vector) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
-def _sum(a: Vector, b: Vector) -> Vector:
-    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
-
-
-def _scaled(a: Vector, by: float) -> Vector:
-    return a[0] * by, a[1] * by, a[2] * by
-
-
-def _unit(a: Vector) -> Vector:
-    return _scaled(a, 1 / hypot(*a))
-
-
-def _png(pixels: list[list[Vector]]) -> bytes:
-    """Return the file: 8 bits a channel, each row as differences to the one above (filter 2)."""
-    above, rows = bytes(3 * WIDTH), bytearray()
-    for line in pixels:
-        row = bytes(round(255 * channel) for pixel in line for channel in pixel)
-        rows.append(2)
-        rows += bytes((a - b) & 255 for a, b in zip(row, above, strict=True))
-        above = row
-    header = struct.pack(">IIBBBBB", WIDTH, HEIGHT, 8, 2, 0, 0, 0)
-    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(bytes(rows), 9)), (b"IEND", b""))
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks
-    )

@@ -167,7 +167,7 @@ def _drawn(robot: Robot, package: Path, name: str) -> str:
     if picture is None:
         return "no"
     (package / "docs").mkdir()
-    (package / f"docs/{name}.png").write_bytes(picture)
+    (package / f"docs/{name}.svg").write_text(picture, encoding="utf-8")
     return "yes"
 
 
