@@ -4,18 +4,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfkit.sim.plugins.wheel_odometry import BicycleOdometry, MecanumOdometry, WheelOdometry
+from urdfkit.sim.plugins.wheel_odometry import BicycleOdometry, DifferentialOdometry, MecanumOdometry
 
 
-def drive(odometry: WheelOdometry, v: float, w: float, seconds: float, rate: float, separation: float) -> None:
+def drive(odometry: DifferentialOdometry, v: float, w: float, seconds: float, rate: float, separation: float) -> None:
     for n in range(round(seconds * rate) + 1):
         t = n / rate
-        odometry.update((v - w * separation / 2) * t, (v + w * separation / 2) * t)
+        odometry.update(t, (v - w * separation / 2) * t, (v + w * separation / 2) * t)
 
 
 @given(st.floats(-1, 1), st.floats(-1, 1), st.floats(0.1, 1))
 def test_the_exact_arc_is_exact_at_any_rate(v: float, w: float, separation: float) -> None:
-    odometry = WheelOdometry(separation, exact=True)
+    odometry = DifferentialOdometry(separation, exact=True)
     drive(odometry, v, w, 4.0, 2.0, separation)
     angle = w * 4.0
     x, y = (v * 4.0, 0.0) if abs(w) < 1e-6 else (v / w * sin(angle), v / w * (1 - cos(angle)))
@@ -24,7 +24,7 @@ def test_the_exact_arc_is_exact_at_any_rate(v: float, w: float, separation: floa
 
 
 def test_the_mid_point_is_longer_by_a_24th_of_the_turn_squared() -> None:
-    odometry = WheelOdometry(0.4)
+    odometry = DifferentialOdometry(0.4)
     drive(odometry, 0.5, 0.5, 10.0, 100.0, 0.4)
     error = ((odometry.x - sin(5.0)) ** 2 + (odometry.y - (1 - cos(5.0))) ** 2) ** 0.5
     assert error < 1.1 * (0.005**2 / 24) * 2
@@ -32,22 +32,22 @@ def test_the_mid_point_is_longer_by_a_24th_of_the_turn_squared() -> None:
 
 
 def test_the_first_update_only_remembers() -> None:
-    odometry = WheelOdometry(0.4)
+    odometry = DifferentialOdometry(0.4)
     assert not odometry.started
-    odometry.update(17.0, 18.0)
+    odometry.update(0.0, 17.0, 18.0)
     assert odometry.started
     assert (odometry.x, odometry.y, odometry.heading, odometry.distance) == (0, 0, 0, 0)
 
 
 def test_backwards_has_a_positive_length_and_a_negative_arc() -> None:
-    odometry = WheelOdometry(0.4)
-    odometry.update(0.0, 0.0)
-    odometry.update(-0.1, -0.1)
-    assert (odometry.x, odometry.distance, odometry.advanced) == pytest.approx((-0.1, 0.1, -0.1))
+    odometry = DifferentialOdometry(0.4)
+    odometry.update(0.0, 0.0, 0.0)
+    odometry.update(0.1, -0.1, -0.1)
+    assert (odometry.x, odometry.distance, odometry.moved[0]) == pytest.approx((-0.1, 0.1, -0.1))
 
 
 def test_turning_on_the_spot_stays_on_the_spot() -> None:
-    odometry = WheelOdometry(0.5)
+    odometry = DifferentialOdometry(0.5)
     drive(odometry, 0.0, pi / 2, 4.0, 100.0, 0.5)
     assert (odometry.x, odometry.y, odometry.heading) == pytest.approx((0, 0, 2 * pi), abs=1e-12)
 
@@ -56,12 +56,12 @@ def test_turning_on_the_spot_stays_on_the_spot() -> None:
 def test_the_bicycle_is_exact_at_any_rate(v: float, angle: float) -> None:
     odometry = BicycleOdometry(0.8)
     for n in range(9):
-        odometry.update(v * n / 2, angle)
+        odometry.update(n / 2, v * n / 2, angle)
     w = v * tan(angle) / 0.8
     x, y = (v * 4.0, 0.0) if abs(w) < 1e-6 else (v / w * sin(w * 4.0), v / w * (1 - cos(w * 4.0)))
     assert odometry.heading == pytest.approx(w * 4.0, abs=1e-12)
     assert (odometry.x, odometry.y) == pytest.approx((x, y), abs=1e-5)
-    assert odometry.advanced == pytest.approx(v / 2)
+    assert odometry.moved[0] == pytest.approx(v / 2)
 
 
 @given(st.floats(-1, 1), st.floats(-1, 1), st.floats(-1, 1))
@@ -69,7 +69,7 @@ def test_mecanum_wheels_are_exact_at_any_rate(vx: float, vy: float, w: float) ->
     odometry = MecanumOdometry(0.4)
     for n in range(9):
         t, turn = n / 2, w * 0.4
-        odometry.update(*((vx + s * vy + r * turn) * t for s, r in ((-1, -1), (1, 1), (1, -1), (-1, 1))))
+        odometry.update(t, *((vx + s * vy + r * turn) * t for s, r in ((-1, -1), (1, 1), (1, -1), (-1, 1))))
     angle = w * 4.0
     s, c = (4.0, 0.0) if abs(w) < 1e-6 else (sin(angle) / w, (1 - cos(angle)) / w)
     assert odometry.heading == pytest.approx(angle, abs=1e-12)
@@ -81,8 +81,8 @@ def test_the_first_look_at_the_wheels_only_remembers() -> None:
     bicycle, mecanum = BicycleOdometry(1.0), MecanumOdometry(1.0)
     assert not bicycle.started
     assert not mecanum.started
-    bicycle.update(17.0, 0.3)
-    mecanum.update(1.0, 2.0, 3.0, 4.0)
+    bicycle.update(0.0, 17.0, 0.3)
+    mecanum.update(0.0, 1.0, 2.0, 3.0, 4.0)
     assert bicycle.started
     assert mecanum.started
     assert (bicycle.x, bicycle.y, bicycle.heading, mecanum.x, mecanum.y, mecanum.heading) == (0,) * 6

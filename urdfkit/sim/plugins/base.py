@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from urdfkit.description.urdf.robot import Plugin
     from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
     from urdfkit.sim.plugins.controllers.joint_handle import Follower
+    from urdfkit.sim.plugins.odometry import Pose
     from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.state.joint_commands import Motors
     from urdfkit.sim.state.robot_state import State
@@ -67,8 +68,8 @@ class Drive(ABC):
     def reset(self) -> None:
         """Forget commands and odometry."""
 
-    def estimate(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
-        """Return odometry frame → position [m] and quaternion x y z w the drive believes the robot to be at."""
+    def estimate(self, state: State) -> dict[str, Pose]:
+        """Return odometry frame → pose in it; empty for a drive without odometry."""
         return {}
 
 

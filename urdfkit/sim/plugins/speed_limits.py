@@ -1,11 +1,12 @@
-"""Velocity, acceleration and jerk limits.
+"""Limits of velocity, acceleration and jerk.
 
-Those of the new Gazebo's drives (gz-math, SpeedLimiter.cc) and of ROS 2's diff_drive_controller (control_toolbox,
-rate_limiter.hpp).
+They are the limits of the new Gazebo's drives (gz-math, SpeedLimiter.cc) and of ROS 2's diff_drive_controller
+(control_toolbox, rate_limiter.hpp).
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING
@@ -23,8 +24,8 @@ class SpeedLimiter:
         acceleration: lowest and highest [m/s²] or [rad/s²].
         jerk: lowest and highest [m/s³] or [rad/s³].
         last: the velocity granted last.
-        before: the one granted before that.
-        backward: lowest and highest acceleration while going backwards, where it differs.
+        before: the velocity granted before that.
+        backward: lowest and highest acceleration while driving backwards, if different.
         jerk_when_slowing: limit the jerk of slowing down too.
     """
 
@@ -36,17 +37,17 @@ class SpeedLimiter:
     backward: tuple[float, float] | None = None
     jerk_when_slowing: bool = True
 
-    def limit(self, wanted: float, dt: float) -> float:
+    def limit(self, target: float, dt: float) -> float:
         """Return the velocity granted `dt` [s] after the last one."""
-        granted = wanted
-        change = (self.last - self.before) / dt
-        wish = (granted - self.last) / dt
-        if self.jerk_when_slowing or (wish - change) * wish > 0.0:
-            granted = self.last + (change + _clamp((wish - change) / dt, self.jerk) * dt) * dt
+        granted = target
+        acceleration = (self.last - self.before) / dt
+        needed = (granted - self.last) / dt
+        if self.jerk_when_slowing or (needed - acceleration) * needed > 0.0:
+            granted = self.last + (acceleration + _clamp((needed - acceleration) / dt, self.jerk) * dt) * dt
         granted = self.last + _clamp((granted - self.last) / dt, self._accelerations()) * dt
         granted = _clamp(granted, self.velocity)
-        if abs(granted - wanted) < 1e-12:
-            granted = wanted
+        if abs(granted - target) < 1e-12:
+            granted = target
         self.before, self.last = self.last, granted
         return granted
 
@@ -55,13 +56,37 @@ class SpeedLimiter:
             return self.acceleration
         return self.backward if self.last < 0.0 else (self.backward[0], self.acceleration[1])
 
-    def settled(self, wanted: float) -> bool:
-        """Whether going on wanting the same changes nothing any more."""
-        return self.last == self.before == _clamp(wanted, self.velocity)
+    def settled(self, target: float) -> bool:
+        """Whether the granted velocity stays the same while the target does."""
+        return self.last == self.before == _clamp(target, self.velocity)
 
     def reset(self) -> None:
-        """Stand still."""
+        """Return to velocity zero."""
         self.last = self.before = 0.0
+
+
+class SpeedLimits:
+    """Limiters of several velocities, each with its own past.
+
+    Args:
+        limiters: one per velocity.
+    """
+
+    def __init__(self, *limiters: SpeedLimiter) -> None:
+        self._limiters = limiters
+
+    def limit(self, targets: Sequence[float], dt: float) -> list[float]:
+        """Return the velocities granted `dt` [s] after the last ones."""
+        return [limiter.limit(target, dt) for limiter, target in zip(self._limiters, targets, strict=True)]
+
+    def settled(self, targets: Sequence[float]) -> bool:
+        """Whether the granted velocities stay the same while the targets do."""
+        return all(limiter.settled(target) for limiter, target in zip(self._limiters, targets, strict=True))
+
+    def reset(self) -> None:
+        """Return to velocity zero."""
+        for limiter in self._limiters:
+            limiter.reset()
 
 
 def _clamp(value: float, bounds: tuple[float, float]) -> float:
@@ -72,7 +97,7 @@ def limiter(read: Parameters, which: str) -> SpeedLimiter:
     """Read the limits of the ``linear`` or ``angular`` velocity: its own where they are written, else the common ones.
 
     Raises:
-        SimulationError: one is no finite number.
+        SimulationError: a limit is not a finite number.
     """
 
     def bound(end: str, quantity: str, unlimited: float) -> float:

@@ -1,160 +1,197 @@
-"""The integrators of wheel odometry, shared by every drive."""
+"""Wheel odometry: a planar pose integrated from the distances that wheels have rolled, for drives and controllers."""
 
 from __future__ import annotations
 
-from math import cos, hypot, pi, sin, tan
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from math import copysign, cos, hypot, pi, sin, sqrt, tan
+
+Twist = tuple[float, float, float]
+"""Forward [m/s], to the left [m/s], turning [rad/s]."""
 
 
-class WheelOdometry:
-    """Planar pose from the distances that the left and the right wheel have rolled.
+class WheelOdometry(ABC):
+    """Planar pose that starts at the origin, heading along x.
 
-    Starts at the origin, heading along x. The caller feeds the wheels' rolled distances, not their speeds, so nothing
-    is lost between updates however far apart they are.
+    An update takes the distances that the wheels have rolled since the start of the simulation, not their speeds, so
+    nothing is lost between updates. The first update only stores them.
+
+    Attributes:
+        x: [m].
+        y: [m].
+        heading: [rad], not wrapped.
+        moved: displacement of the last update in the robot's axes: forward [m], to the left [m], turned [rad].
+        distance: length of the last displacement [m]; never negative, also when driving backwards.
+        t: time of the last update [s].
+        period: time between the last two updates [s].
+    """
+
+    def __init__(self) -> None:
+        self.reset()
+
+    def reset(self) -> None:
+        """Return to the origin and forget the wheels."""
+        self.rolled: tuple[float, ...] | None = None
+        self.x = self.y = self.heading = self.distance = self.t = self.period = 0.0
+        self.moved = (0.0, 0.0, 0.0)
+
+    @property
+    def started(self) -> bool:
+        """Whether there was an update."""
+        return self.rolled is not None
+
+    @property
+    def velocity(self) -> Twist:
+        """Mean velocity of the last update; zero while no time has passed."""
+        if not self.period:
+            return (0.0, 0.0, 0.0)
+        forward, left, turned = self.moved
+        return forward / self.period, left / self.period, turned / self.period
+
+    def update(self, t: float, *rolled: float) -> None:
+        """Integrate up to time `t` [s], at which the wheels have rolled so far [m]."""
+        before, self.rolled = self.rolled, rolled
+        self.t, self.period = t, t - self.t
+        if before is not None:
+            self.integrate(before, rolled)
+
+    @abstractmethod
+    def integrate(self, before: tuple[float, ...], now: tuple[float, ...]) -> None:
+        """Advance by the motion between two readings of the wheels."""
+
+    def advance(self, forward: float, left: float, turn: float, *, exact: bool = True) -> None:
+        """Advance along the arc of a constant twist.
+
+        Args:
+            forward: displacement along the robot's axis x [m].
+            left: displacement along its axis y [m].
+            turn: change of heading [rad].
+            exact: follow the arc; else the chord at the mid-point heading.
+        """
+        middle = self.heading + turn / 2
+        dx, dy = along_arc(forward, self.heading, turn) if exact else (forward * cos(middle), forward * sin(middle))
+        if left:
+            across = along_arc(left, self.heading + pi / 2, turn)
+            dx, dy = dx + across[0], dy + across[1]
+        self.x += dx
+        self.y += dy
+        self.heading += turn
+        self.moved, self.distance = (forward, left, turn), hypot(dx, dy)
+
+
+class DifferentialOdometry(WheelOdometry):
+    """Odometry from the left and the right wheel.
 
     Args:
         separation: distance between the wheels [m].
         exact: follow the exact arc (``gz::math::DiffDriveOdometry``) instead of the chord at the mid-point heading
             (Sigwart and Nourbakhsh 2004, eq. 5.7, as in gazebo_ros_diff_drive). The chord is longer by the fraction
             Δθ²/24: 1e-6 at 0.5 rad/s and 100 Hz.
-
-    Attributes:
-        x: [m].
-        y: [m].
-        heading: [rad], not wrapped.
-        distance: length of the last update's displacement [m]; never negative, also when driving backwards.
-        turned: the last update's change of heading [rad].
-        advanced: signed length of the last update's arc [m].
     """
 
     def __init__(self, separation: float, *, exact: bool = False) -> None:
+        super().__init__()
         self._separation = separation
         self._exact = exact
-        self._left: float | None = None
-        self._right = 0.0
-        self.x = self.y = self.heading = 0.0
-        self.distance = self.turned = self.advanced = 0.0
 
-    @property
-    def started(self) -> bool:
-        """Whether it knows where the wheels stood first."""
-        return self._left is not None
-
-    def update(self, left: float, right: float) -> None:
-        """Integrate up to the distances `left` and `right` [m] that the wheels have rolled since ever.
-
-        The first call only remembers where the wheels stand.
-        """
-        if self._left is None:
-            self._left, self._right = left, right
-            return
-        s_left, s_right = left - self._left, right - self._right
-        self._left, self._right = left, right
-        arc = (s_left + s_right) / 2
-        turn = (s_right - s_left) / self._separation
-        if self._exact:
-            dx, dy = along_arc(arc, self.heading, turn)
-        else:
-            middle = self.heading + turn / 2
-            dx, dy = arc * cos(middle), arc * sin(middle)
-        self.x += dx
-        self.y += dy
-        self.heading += turn
-        self.distance, self.turned, self.advanced = hypot(dx, dy), turn, arc
+    def integrate(self, before: tuple[float, ...], now: tuple[float, ...]) -> None:
+        """Advance by the mean of both wheels, and turn by their difference."""
+        left, right = now[0] - before[0], now[1] - before[1]
+        self.advance((left + right) / 2, 0.0, (right - left) / self._separation, exact=self._exact)
 
 
-class BicycleOdometry:
-    """Planar pose from the distance rolled and the angle of the steered wheel, at the middle of the rear axle.
+class BicycleOdometry(WheelOdometry):
+    """Odometry of the middle of the driven axle, from one or two wheels on it and the steering angle [rad], the last.
 
-    The law of the new Gazebo's AckermannSteering: the heading turns by distance·tan(angle)/base. Gazebo follows it step
+    The heading turns by distance·tan(angle)/base, as in the new Gazebo's AckermannSteering. Gazebo follows it step
     by step and takes the heading at the end of each; here each update follows the exact arc of its mean steering angle,
     which is the limit for short steps however far apart the updates are.
 
     Args:
         base: distance between the axles [m].
-
-    Attributes:
-        x: [m].
-        y: [m].
-        heading: [rad], not wrapped.
-        distance: length of the last update's displacement [m]; never negative.
-        turned: the last update's change of heading [rad].
-        advanced: signed length of the last update's arc [m].
+        track: distance between two driven wheels, the right one first [m].
     """
 
-    def __init__(self, base: float) -> None:
+    def __init__(self, base: float, track: float = 0.0) -> None:
+        super().__init__()
         self._base = base
-        self._rolled: float | None = None
-        self._angle = 0.0
-        self.x = self.y = self.heading = 0.0
-        self.distance = self.turned = self.advanced = 0.0
+        self._track = track
 
-    @property
-    def started(self) -> bool:
-        """Whether it knows where the wheels stood first."""
-        return self._rolled is not None
+    def integrate(self, before: tuple[float, ...], now: tuple[float, ...]) -> None:
+        """Advance along the arc of the mean steering angle."""
+        angle = (now[-1] + before[-1]) / 2
+        arc = self.middle([new - old for new, old in zip(now[:-1], before[:-1], strict=True)], angle)
+        self.advance(arc, 0.0, arc * tan(angle) / self._base)
 
-    def update(self, rolled: float, angle: float) -> None:
-        """Integrate up to the distance `rolled` [m] since ever, the steered wheel now at `angle` [rad].
+    def middle(self, wheels: Sequence[float], angle: float) -> float:
+        """Return distance or speed of the axle's middle from those of its wheels, at a steering angle [rad]."""
+        bend = tan(angle) / self._base
+        sides = (1.0, -1.0) if len(wheels) == 2 else (0.0,)
+        return sum(way / (1.0 + side * bend * self._track / 2) for way, side in zip(wheels, sides, strict=True)) / len(
+            wheels
+        )
 
-        The first call only remembers where the wheels stand.
+
+class FourWheelOdometry(WheelOdometry):
+    """Odometry of the middle between two steered axles.
+
+    An update takes four distances, the left wheel of each axle first, and the steering angles of both axles [rad].
+
+    Source: ros_controllers noetic, four_wheel_steering_controller, odometry.cpp.
+
+    Args:
+        base: distance between the axles [m].
+        track: distance between the steering joints of an axle [m].
+        offset: distance from a wheel to its steering joint [m].
+    """
+
+    def __init__(self, base: float, track: float, offset: float) -> None:
+        super().__init__()
+        self._base, self._track, self._offset = base, track, offset
+
+    def integrate(self, before: tuple[float, ...], now: tuple[float, ...]) -> None:
+        """Advance by the displacement at the mean steering angles."""
+        ways = [new - old for new, old in zip(now[:4], before[:4], strict=True)]
+        self.advance(*self.displacement(ways, (now[4] + before[4]) / 2, (now[5] + before[5]) / 2))
+
+    def displacement(self, ways: Sequence[float], front: float, rear: float) -> Twist:
+        """Return displacement, or velocity, of the middle from those of the wheels.
+
+        Args:
+            ways: of the four wheels, [m] or [m/s].
+            front: steering angle of the front axle [rad].
+            rear: steering angle of the rear axle [rad].
         """
-        if self._rolled is None:
-            self._rolled, self._angle = rolled, angle
-            return
-        arc = rolled - self._rolled
-        turn = arc * tan((angle + self._angle) / 2) / self._base
-        self._rolled, self._angle = rolled, angle
-        dx, dy = along_arc(arc, self.heading, turn)
-        self.x += dx
-        self.y += dy
-        self.heading += turn
-        self.distance, self.turned, self.advanced = hypot(dx, dy), turn, arc
+        bend = (tan(front) - tan(rear)) / self._base
+        ahead = left = turn = 0.0
+        for angle, (one, other) in ((front, ways[:2]), (rear, ways[2:])):
+            own = bend * cos(angle)
+            tight = (self._track * own / 2) ** 2
+            slopes = [own / sqrt(1 + side * self._track * own * cos(angle) + tight) for side in (-1.0, 1.0)]
+            plain = one / (1 - self._offset * slopes[0]), other / (1 + self._offset * slopes[1])
+            way = copysign(sqrt((plain[0] ** 2 + plain[1] ** 2) / (2 + 2 * tight)), plain[0] + plain[1])
+            ahead, left, turn = ahead + way * cos(angle) / 2, left + way * sin(angle) / 2, turn + way * own / 2
+        return ahead, left, turn
 
 
-class MecanumOdometry:
-    """Planar pose from the distances that four mecanum wheels have rolled.
+class MecanumOdometry(WheelOdometry):
+    """Odometry from four mecanum wheels: front left, front right, back left, back right.
 
     Wheels roll at vx ∓ vy ∓ w·(separation + base)/2 (front left: both minus); four distances make three displacements,
-    their mean with the signs of each. Each update follows the arc of a constant twist.
+    their mean with the signs of each.
 
     Args:
         reach: (separation + base) / 2 [m].
-
-    Attributes:
-        x: [m].
-        y: [m].
-        heading: [rad], not wrapped.
-        moved: the last update's displacement in its own axes: forward [m], to the left [m], turned [rad].
     """
 
     def __init__(self, reach: float) -> None:
+        super().__init__()
         self._reach = reach
-        self._rolled: tuple[float, float, float, float] | None = None
-        self.x = self.y = self.heading = 0.0
-        self.moved = (0.0, 0.0, 0.0)
 
-    @property
-    def started(self) -> bool:
-        """Whether it knows where the wheels stood first."""
-        return self._rolled is not None
-
-    def update(self, front_left: float, front_right: float, back_left: float, back_right: float) -> None:
-        """Integrate up to the distances [m] that the wheels have rolled since ever.
-
-        The first call only remembers where the wheels stand.
-        """
-        rolled = (front_left, front_right, back_left, back_right)
-        before, self._rolled = self._rolled, rolled
-        if before is None:
-            return
-        a, b, c, d = (now - then for now, then in zip(rolled, before, strict=True))
-        forward, left, turn = (a + b + c + d) / 4, (b + c - a - d) / 4, (b + d - a - c) / 4 / self._reach
-        along = along_arc(forward, self.heading, turn)
-        across = along_arc(left, self.heading + pi / 2, turn)
-        self.x += along[0] + across[0]
-        self.y += along[1] + across[1]
-        self.heading += turn
-        self.moved = (forward, left, turn)
+    def integrate(self, before: tuple[float, ...], now: tuple[float, ...]) -> None:
+        """Advance by the three displacements."""
+        a, b, c, d = (new - old for new, old in zip(now, before, strict=True))
+        self.advance((a + b + c + d) / 4, (b + c - a - d) / 4, (b + d - a - c) / 4 / self._reach)
 
 
 def along_arc(arc: float, heading: float, turn: float) -> tuple[float, float]:

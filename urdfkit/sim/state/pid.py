@@ -1,8 +1,9 @@
-"""PID gains and the integral, by the laws of ros_control's control_toolbox (noetic, src/pid.cpp)."""
+"""PID: gains and integral of ros_control's control_toolbox (noetic, src/pid.cpp), and the PID of Gazebo's drives."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING
 
 from urdfkit.errors import SimulationError
@@ -103,3 +104,40 @@ class Integral:
         self._last = (t, error)
         self.part = min(gains.i_max, max(gains.i_min, gains.i * self._sum))
         return self.part
+
+
+@dataclass(slots=True)
+class GazeboPid:
+    """PID of gazebo::common::PID and gz::math::PID on an error that is the measured minus the desired value.
+
+    Attributes:
+        gains: p [1], i [1/s], d [s] and the bounds of the integral part.
+        bounds: of the command.
+        offset: added to the command before it is bounded.
+        integral: integral part of the command so far.
+        before: the last error.
+    """
+
+    gains: Gains
+    bounds: tuple[float, float] = (-inf, inf)
+    offset: float = 0.0
+    integral: float = 0.0
+    before: float = 0.0
+
+    @property
+    def idle(self) -> bool:
+        """Whether the command is always zero."""
+        return self.gains.p == self.gains.i == self.gains.d == self.offset == 0.0
+
+    def update(self, error: float, dt: float) -> float:
+        """Return the command `dt` [s] after the last one."""
+        gains = self.gains
+        self.integral = max(gains.i_min, min(gains.i_max, self.integral + gains.i * dt * error))
+        slope = (error - self.before) / dt
+        self.before = error
+        command = self.offset - gains.p * error - self.integral - gains.d * slope
+        return max(self.bounds[0], min(self.bounds[1], command))
+
+    def reset(self) -> None:
+        """Clear integral and last error."""
+        self.integral = self.before = 0.0

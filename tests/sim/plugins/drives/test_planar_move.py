@@ -249,14 +249,14 @@ def test_single_links_are_refused_aloud(make: Make) -> None:
 
 
 @pytest.mark.parametrize("generation", GENERATIONS)
-def test_bolted_down_it_stays_and_says_so(make: Make, generation: str) -> None:
+def test_with_a_fixed_base_it_stays_and_notes_it(make: Make, generation: str) -> None:
     notes: list[str] = []
     simulator = make(generation, fixed_base=True, spawn=FLOATING, note=notes.append)
     simulator.command((1, 0, 0), (0, 0, 0))
     simulator.run(0.2)
     assert simulator.state.base_velocity == (0.0,) * 6
     assert len(notes) == 1
-    assert "bolted to the world" in notes[0]
+    assert "fixed base" in notes[0]
 
 
 @pytest.mark.parametrize("generation", GENERATIONS)

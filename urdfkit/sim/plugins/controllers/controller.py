@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from urdfkit.errors import DescriptionError, did_you_mean
 from urdfkit.sim.plugins.controllers.command_output import Output
@@ -17,18 +17,10 @@ if TYPE_CHECKING:
     from urdfkit.bus import Topic
     from urdfkit.description.control import Settings
     from urdfkit.sim.plugins.controllers.joint_handle import Follower
+    from urdfkit.sim.plugins.odometry import Pose
     from urdfkit.sim.plugins.setup import Setup
     from urdfkit.sim.state.joint_commands import Motors
     from urdfkit.sim.state.robot_state import State
-
-
-class Estimator(Protocol):
-    """Odometry of a wheeled robot."""
-
-    frame: str
-
-    def estimate(self, state: State) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
-        """Return position [m] and quaternion x y z w at which the controller believes the robot to be now."""
 
 
 @dataclass
@@ -93,7 +85,6 @@ class Law(ABC):
         outputs: what it commands; nobody else may while it runs.
         publications: what it publishes while it runs.
         commands: topics of type Twist or TwistStamped it listens to.
-        reckoning: where it believes the robot to be; None where it has no idea.
         running: whether it is at work.
     """
 
@@ -107,7 +98,6 @@ class Law(ABC):
         self.outputs: tuple[Output, ...] = ()
         self.publications: list[Publication] = []
         self.commands: dict[str, str] = {}
-        self.reckoning: Estimator | None = None
         self.running = False
         self.configure()
 
@@ -135,6 +125,10 @@ class Law(ABC):
     def update(self, state: State, motors: Motors) -> float:
         """Command the outputs; return how long that needs no attention [s]: 0 is until the next control period."""
         return inf
+
+    def estimate(self, state: State) -> dict[str, Pose]:
+        """Return odometry frame → pose in it; empty for a controller without odometry."""
+        return {}
 
     # For the laws
 

@@ -9,6 +9,7 @@ from urdfkit.errors import SimulationError, did_you_mean
 
 if TYPE_CHECKING:
     from urdfkit.sim.plugins.controllers.control_loop import ControllerStatus, ControlLoop
+    from urdfkit.sim.plugins.odometry import Pose
     from urdfkit.sim.plugins.publishers import Publication
     from urdfkit.sim.state.robot_state import State
 
@@ -42,10 +43,10 @@ class Controllers:
         laws = [law for loop in self._loops for law in loop.laws.values() if law.running]
         return {topic: kind for law in laws for topic, kind in law.commands.items()}
 
-    def odometry(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
-        """Return odometry frame → position [m] and quaternion x y z w at which running controllers have the robot."""
+    def odometry(self, state: State) -> dict[str, Pose]:
+        """Return odometry frame → pose that running controllers estimate."""
         laws = [law for loop in self._loops for law in loop.laws.values() if law.running]
-        return {law.reckoning.frame: law.reckoning.estimate(state) for law in laws if law.reckoning is not None}
+        return {frame: pose for law in laws for frame, pose in law.estimate(state).items()}
 
     def list(self) -> tuple[ControllerStatus, ...]:
         """Return every controller that is configured, loaded or not."""

@@ -6,23 +6,21 @@ after each update; here the same impulse is spread over the time until the next 
 
 from __future__ import annotations
 
-from math import atan2, copysign, dist, hypot, tan
+from math import copysign, dist, hypot, tan
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.errors import SimulationError
 from urdfkit.messages import message_type
-from urdfkit.sim.plugins.base import Drive
-from urdfkit.sim.plugins.drives.gazebo_pid import Pid
-from urdfkit.sim.plugins.drives.odometry_output import from_world, odometer
+from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
 from urdfkit.sim.plugins.drives.steering_joints import put
-from urdfkit.sim.plugins.drives.velocity_command import Command
-from urdfkit.sim.plugins.drives.wheel_geometry import wheel_centre, wheel_radius
+from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
+from urdfkit.sim.plugins.wheel_geometry import steering_angles, wheel_centre, wheel_radius
 from urdfkit.sim.state.joint_commands import effort_limit
-from urdfkit.sim.state.mechanics import in_the_world
+from urdfkit.sim.state.pid import Gains, GazeboPid
 from urdfkit.sim.state.ticks import Ticks
 
 if TYPE_CHECKING:
@@ -37,16 +35,16 @@ JOINTS = (
     "right_steering_joint",
     "left_steering_joint",
 )
-"""The joints it cannot do without, in the order it publishes them."""
+"""The required joints, in the order of publication."""
 
-HAND_WHEEL = "steering_wheel_joint"
-"""The driver's wheel, which turns along where there is one."""
+STEERING_WHEEL = "steering_wheel_joint"
+"""The driver's wheel, which turns with the steering; optional."""
 
 
-class Ackermann(Drive):
+class Ackermann(VelocityDrive):
     """Two steered front wheels and two driven rear wheels, all by PID: linear.x [m/s] and the steering angle [rad].
 
-    Track, wheel base and wheel radius are those of the collisions. Driving backwards the wheels steer the other way.
+    Track, wheel base and wheel radius are measured between the collisions. Backwards, the wheels steer the other way.
     """
 
     kind = "ackermann"
@@ -64,10 +62,9 @@ class Ackermann(Drive):
         self._read_gains(setup, read)
         self.write_rate = self.read_rate = read.number("update_rate")
         self._ticks = Ticks(self.write_rate, setup.dt)
-        self._command = Command(setup, topics.resolve("cmd_vel"), self._aim)
-        self._aim()
-        self.commands = (self._command.topic,)
-        self._odometer = odometer(
+        self.subscribe(setup, topics.resolve("cmd_vel"))
+        self.wake()
+        self.topics = odometry_topics(
             setup,
             read,
             topics,
@@ -75,10 +72,10 @@ class Ackermann(Drive):
             with_tf=read.flag("publish_odometry_tf"),
             twist_covariance=True,
         )
-        hand_wheel = (self._hand_wheel,) if self._hand_wheel else ()
+        steering_wheel = (self._steering_wheel,) if self._steering_wheel else ()
         self._wheels = Wheels(
             setup,
-            (*self._joints.values(), *hand_wheel),
+            (*self._joints.values(), *steering_wheel),
             with_tf=read.flag("publish_wheel_tf"),
             base=read.text("base_frame"),
         )
@@ -93,11 +90,11 @@ class Ackermann(Drive):
     def _read_geometry(self, setup: Setup, read: Parameters) -> None:
         """Find the joints, and measure the car."""
         self._joints = {meaning: setup.joint(read.text(meaning), read.place(meaning)) for meaning in JOINTS}
-        self._hand_wheel = ""
-        if read.has(HAND_WHEEL):
-            self._hand_wheel = setup.joint(read.text(HAND_WHEEL), read.place(HAND_WHEEL))
-        elif HAND_WHEEL in setup.kinematics.joint_names:
-            self._hand_wheel = HAND_WHEEL
+        self._steering_wheel = ""
+        if read.has(STEERING_WHEEL):
+            self._steering_wheel = setup.joint(read.text(STEERING_WHEEL), read.place(STEERING_WHEEL))
+        elif STEERING_WHEEL in setup.kinematics.joint_names:
+            self._steering_wheel = STEERING_WHEEL
         centres = {meaning: wheel_centre(setup.kinematics, joint) for meaning, joint in self._joints.items()}
         front_left, front_right = centres["front_left_joint"], centres["front_right_joint"]
         rear_left, rear_right = centres["rear_left_joint"], centres["rear_right_joint"]
@@ -110,7 +107,9 @@ class Ackermann(Drive):
                 f"the wheels are {self._track:g} m apart and the axles {self._base:g} m; both must be positive",
                 position=read.place("front_left_joint"),
             )
-        self._radius = wheel_radius(setup.kinematics, self._joints["rear_right_joint"], read.place("rear_right_joint"))
+        self._radius = wheel_radius(
+            setup.kinematics.robot, self._joints["rear_right_joint"], read.place("rear_right_joint")
+        )
         self._fastest = read.number("max_speed", positive=True)
         self._steepest = read.number("max_steer", positive=True)
         self._ratio = self._steepest / read.number("max_steering_angle", positive=True)
@@ -118,10 +117,10 @@ class Ackermann(Drive):
         self._strengths = {meaning: effort_limit(written[joint]) for meaning, joint in self._joints.items()}
 
     def _read_gains(self, setup: Setup, read: Parameters) -> None:
-        def pid(meaning: str) -> Pid:
+        def pid(meaning: str) -> GazeboPid:
             p, i, d = read.vector(f"{meaning}_gains", 3)
-            least, most = read.vector(f"{meaning}_range", 2)
-            made = Pid(p, i, d, least, most)
+            i_min, i_max = read.vector(f"{meaning}_range", 2)
+            made = GazeboPid(Gains(p, i, d, i_min, i_max))
             if made.idle:
                 tag = read.tag(f"{meaning}_gains")
                 what = "drive" if meaning == "speed" else f"steer with its {meaning.partition('_')[0]} wheel"
@@ -140,37 +139,31 @@ class Ackermann(Drive):
         self._exert("right_steering_joint", pids["right_steering"].update(off, period), motors)
         off = state.position(joints["left_steering_joint"]) - self._left
         self._exert("left_steering_joint", pids["left_steering"].update(off, period), motors)
-        if self._hand_wheel:
-            put(
-                self._hand_wheel,
-                self._mean_angle(state) / self._ratio,
-                period,
-                setup=self._setup,
-                state=state,
-                motors=motors,
-            )
+        if self._steering_wheel:
+            angle = self._mean_angle(state) / self._ratio
+            put(self._steering_wheel, angle, period, setup=self._setup, state=state, motors=motors)
 
     def _exert(self, meaning: str, effort: float, motors: Motors) -> None:
         most = self._strengths[meaning]
         motors.exert(self._joints[meaning], max(-most, min(most, effort)) / self._ticks.steps)
 
-    def _aim(self) -> None:
-        """Find how fast the wheels shall turn [rad/s], and where the steered ones shall point [rad]."""
-        wanted, angle = self._command.linear[0], self._command.angular[2]
-        self._turning = max(-self._fastest, min(self._fastest, wanted)) / self._radius
-        self._right, self._left = self.angles(copysign(1.0, wanted) * angle)
+    def wake(self) -> None:
+        """Compute the targets of a command: the rate of the wheels [rad/s] and the steering angles [rad]."""
+        speed, angle = self.command.linear[0], self.command.angular[2]
+        self._turning = max(-self._fastest, min(self._fastest, speed)) / self._radius
+        self._right, self._left = self.angles(copysign(1.0, speed) * angle)
 
-    def angles(self, wanted: float) -> tuple[float, float]:
-        """Return the angles [rad] of the right and the left wheel at which both circle the same point."""
-        slope = tan(max(-self._steepest, min(self._steepest, wanted)))
-        skew = self._track / 2 / self._base * slope
-        return atan2(slope, 1 + skew), atan2(slope, 1 - skew)
+    def angles(self, angle: float) -> tuple[float, float]:
+        """Return the angles [rad] of the right and the left wheel for a steering angle."""
+        slope = tan(max(-self._steepest, min(self._steepest, angle)))
+        left, right = steering_angles(slope, self._track / 2 / self._base)
+        return right, left
 
     def read(self, state: State) -> None:
         """Publish odometry, the true pose in the world, wheel transforms, the distance so far, the steering angle."""
-        pose, twist = state.base_pose, state.base_twist
-        self._odometer.publish(state.t, lambda: from_world(pose, in_the_world(pose, twist)))
+        super().read(state)
         self._wheels.publish(state)
+        pose = state.base_pose
         if self._distance_topic is not None:
             here = pose[:2]
             if self._last is not None:
@@ -187,14 +180,10 @@ class Ackermann(Drive):
     def _number(self, value: float) -> Any:
         return message_type("std_msgs/msg/Float32")(value)
 
-    def estimate(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
-        """Return where the robot is: this odometry knows."""
-        return {self._odometer.frame: (state.base_pose[:3], state.base_pose[3:])}
-
     def reset(self) -> None:
-        """Forget commands, the integrals of errors and the distance."""
-        self._command.clear()
-        self._aim()
+        """Clear commands, the integrals of errors and the distance."""
+        super().reset()
+        self.wake()
         for pid in self._pids.values():
             pid.reset()
         self._distance = 0.0

@@ -7,21 +7,20 @@ for those distributions only.
 
 from __future__ import annotations
 
-from copy import copy
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.errors import SimulationError
 from urdfkit.messages import BOOL
-from urdfkit.sim.plugins.base import Drive
-from urdfkit.sim.plugins.drives.odometry_output import Estimate, by_encoder, from_wheels, from_world, odometer
-from urdfkit.sim.plugins.drives.velocity_command import Command
-from urdfkit.sim.plugins.drives.wheel_geometry import turns_right
+from urdfkit.sim.plugins.drives.odometry_parameters import by_encoder, odometry_topics
+from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
+from urdfkit.sim.plugins.odometry import Estimate, planar
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
-from urdfkit.sim.plugins.speed_limits import limiter
+from urdfkit.sim.plugins.speed_limits import SpeedLimits, limiter
 from urdfkit.sim.plugins.topic_names import Topics
-from urdfkit.sim.plugins.wheel_odometry import WheelOdometry
+from urdfkit.sim.plugins.wheel_geometry import turns_right
+from urdfkit.sim.plugins.wheel_odometry import DifferentialOdometry, WheelOdometry
 
 if TYPE_CHECKING:
     from urdfkit.description.plugins import PluginSpec
@@ -33,10 +32,10 @@ CLOSE = 0.01
 """Wheel speeds nearer to their target than this [m/s] are set directly, whatever the acceleration limit."""
 
 
-class DiffDrive(Drive):
+class DiffDrive(VelocityDrive):
     """Two wheels (or pairs of them) turned at v ± w·separation/2.
 
-    A command holds until the next one. There is no correction for a wheel whose axis points the other way.
+    A command is valid until the next one. A wheel whose axis points the other way is not corrected.
     """
 
     kind = "diff_drive"
@@ -53,7 +52,7 @@ class DiffDrive(Drive):
             SimulationError: a parameter makes no sense, with its place.
         """
         read = Parameters(self.plugin, self.spec, setup.names)
-        topics = self._topics(setup)
+        topics = self._topic_names(setup)
         self._setup = setup
         self._read_wheels(setup, read)
         # The new Gazebo has no torque of its own: the joints' <limit effort> holds.
@@ -62,14 +61,16 @@ class DiffDrive(Drive):
         self._instructed = [0.0] * (2 * len(self._pairs))
         if self._gz:
             self.read_rate = read.number("odometry_rate")
-            self._limiters = (limiter(read, "linear"), limiter(read, "angular"))
+            self.limits = SpeedLimits(limiter(read, "linear"), limiter(read, "angular"))
         else:
             self.write_rate = self.read_rate = read.number("update_rate")
         self._period = max(setup.dt, 1 / self.write_rate if self.write_rate > 0 else 0.0)
-        self._listen(setup, read, topics)
-        self._announce(setup, read, topics)
+        self.subscribe(setup, topics.resolve(read.text("command_topic", "cmd_vel")))
+        if self._gz:
+            setup.bus.subscribe(f"/model/{setup.model}/enable", BOOL, self._enable)
+        self._advertise(setup, read, topics)
 
-    def _topics(self, setup: Setup) -> Topics:
+    def _topic_names(self, setup: Setup) -> Topics:
         return Topics(self.plugin, self.spec, namespace=setup.model)
 
     def _read_wheels(self, setup: Setup, read: Parameters) -> None:
@@ -99,7 +100,7 @@ class DiffDrive(Drive):
         self._radii = (radii + (rest[1],) * pairs)[:pairs]
 
     def _legacy(self, setup: Setup, read: Parameters) -> bool:
-        """Whether left and right are swapped: always before Kinetic, and in Kinetic and Lunar unless told otherwise."""
+        """Whether left and right are swapped: always before Kinetic, and in Kinetic and Lunar by default."""
         if self.spec.generation != "ros1" or not setup.distro.before("melodic"):
             if self.spec.generation == "ros1" and not setup.distro.name:
                 self._note_legacy(setup, read)
@@ -108,7 +109,7 @@ class DiffDrive(Drive):
         return setup.distro.before("kinetic") or text not in ("false", "0")
 
     def _note_legacy(self, setup: Setup, read: Parameters) -> None:
-        """Tell the user about a model that seems to rely on swapped sides."""
+        """Note a model that seems to rely on swapped sides."""
         place, remedy = read.place("legacy_mode"), "--ros-distro kinetic swaps them"
         if read.text("legacy_mode").lower() in ("true", "1"):
             setup.note(f"{place}: legacyMode (left and right swapped, until Lunar) is off: left is left; {remedy}")
@@ -118,20 +119,15 @@ class DiffDrive(Drive):
                 f"Melodic were written (left and right swapped); {remedy}"
             )
 
-    def _listen(self, setup: Setup, read: Parameters, topics: Topics) -> None:
-        self._command = Command(setup, topics.resolve(read.text("command_topic", "cmd_vel")), self._wake)
-        self.commands = (self._command.topic,)
-        if self._gz:
-            setup.bus.subscribe(f"/model/{setup.model}/enable", BOOL, self._enable)
-
-    def _announce(self, setup: Setup, read: Parameters, topics: Topics) -> None:
-        self._encoder = by_encoder(read)
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        if by_encoder(read):
+            self.odometry = DifferentialOdometry(self._separations[0], exact=self._gz)
         published = self._gz or read.flag("publish_odometry")
-        # <publishOdomTF> is read since Kinetic; before, the message's transform always came with it.
+        # <publishOdomTF> is read since Kinetic; before, the transform was always published with the message.
         with_tf = self._gz or read.flag("publish_odometry_tf")
         if self.spec.generation == "ros1":
             with_tf = published and (with_tf or setup.distro.before("kinetic"))
-        self._odometer = odometer(
+        self.topics = odometry_topics(
             setup,
             read,
             topics,
@@ -139,8 +135,6 @@ class DiffDrive(Drive):
             with_tf=with_tf,
             twist_covariance=self.spec.generation == "ros2",
         )
-        self._odometry = WheelOdometry(self._separations[0], exact=self._gz)
-        self._last_read = 0.0
         wheel_states = self.spec.generation == "ros1" and read.flag("publish_wheel_joint_state")
         self._wheels = Wheels(
             setup,
@@ -151,29 +145,22 @@ class DiffDrive(Drive):
 
     # Commands
 
-    def _wake(self) -> None:
-        self.resting = False
-
     def _enable(self, message: Any) -> None:
         self._enabled = bool(message.data)
         if not self._enabled:
-            self._command.clear()
+            self.command.clear()
         self.resting = False
 
     # Before the step
 
     def write(self, state: State, motors: Motors) -> None:
         """Set the wheels' velocity motors."""
-        if not self._odometry.started:
-            self._measure(state)
-        v, w = self._command.linear[0], self._command.angular[2]
+        self.start_odometry(state)
+        v, w = self.command.linear[0], self.command.angular[2]
         if self._gz:
-            if not self._enabled:
-                v = w = 0.0
-            linear, angular = self._limiters
-            granted = linear.limit(v, self._period), angular.limit(w, self._period)
-            self.resting = linear.settled(v) and angular.settled(w)
-            v, w = granted
+            targets = (v, w) if self._enabled else (0.0, 0.0)
+            v, w = self.limits.limit(targets, self._period)
+            self.resting = self.limits.settled(targets)
         else:
             self.resting = self._acceleration == 0.0
         for i, (pair, separation, radius) in enumerate(zip(self._pairs, self._separations, self._radii, strict=True)):
@@ -186,7 +173,7 @@ class DiffDrive(Drive):
                 motors.drive(joint, speed / radius, self._torque)
 
     def _accelerate(self, i: int, pair: tuple[str, str], radius: float, speeds: list[float], state: State) -> None:
-        """Replace wheel speeds [m/s] by what the acceleration limit grants, as gazebo_ros_diff_drive does.
+        """Limit the acceleration of wheel speeds [m/s], as gazebo_ros_diff_drive does.
 
         ROS 1 jumps to the target as soon as one wheel is close to its own, ROS 2 when both are.
         """
@@ -203,46 +190,26 @@ class DiffDrive(Drive):
 
     def read(self, state: State) -> None:
         """Publish odometry, wheel transforms and wheel states."""
-        t = state.t
-        if self._encoder:
-            self._measure(state)
-        now = self._estimate(state, t - self._last_read)
-        self._last_read = t
-        self._odometer.publish(t, lambda: now)
+        super().read(state)
         self._wheels.publish(state)
 
-    def _measure(self, state: State) -> None:
-        """Bring the wheel odometry up to date. Only the first pair has encoders."""
-        self._odometry.update(*self._rolled(state))
-
-    def _rolled(self, state: State) -> tuple[float, float]:
+    def rolled(self, state: State) -> tuple[float, ...]:
+        """Return the distances of the left and the right wheel [m]. Only the first pair has encoders."""
         (left, right), radius = self._pairs[0], self._radii[0]
         if self._swapped:
             left, right = right, left
         return state.position(left) * radius, state.position(right) * radius
 
-    def _estimate(self, state: State, period: float) -> Estimate:
-        if self._encoder:
-            return from_wheels(self._odometry, period or self._setup.dt, signed=self._gz)
-        return from_world(state.base_pose, state.base_velocity)
-
-    def estimate(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
-        """Return where the drive believes the robot to be, whether or not it publishes that."""
-        if not self._encoder:
-            return {self._odometer.frame: (state.base_pose[:3], state.base_pose[3:])}
-        ahead = copy(self._odometry)
-        ahead.update(*self._rolled(state))
-        now = from_wheels(ahead, self._setup.dt, signed=True)
-        return {self._odometer.frame: (now.position, now.quaternion)}
+    def measure(self, state: State, odometry: WheelOdometry | None) -> Estimate:
+        """Return the estimate; gazebo_ros_diff_drive reports a speed that is never negative."""
+        now = super().measure(state, odometry)
+        if odometry is None or self._gz or not odometry.period:
+            return now
+        _, _, turning = odometry.velocity
+        return planar(odometry.x, odometry.y, odometry.heading, (odometry.distance / odometry.period, 0.0, turning))
 
     def reset(self) -> None:
-        """Forget commands and odometry."""
-        self._command.clear()
+        """Clear commands and odometry."""
+        super().reset()
         self._enabled = True
-        self.resting = False
         self._instructed = [0.0] * len(self._instructed)
-        self._odometry = WheelOdometry(self._separations[0], exact=self._gz)
-        self._last_read = 0.0
-        if self._gz:
-            for limited in self._limiters:
-                limited.reset()

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from urdfkit.errors import SimulationError
 from urdfkit.sim.plugins.base import Drive
-from urdfkit.sim.plugins.drives.odometry_output import Estimate, Odometer, from_world
+from urdfkit.sim.plugins.odometry import Estimate, OdometryTopics, Pose, from_world
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
@@ -20,11 +20,9 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.joint_commands import Motors
     from urdfkit.sim.state.robot_state import State
 
-Vector = tuple[float, float, float]
-
 
 class OdometryPublisher(Drive):
-    """Publishes the true pose in the world, and the velocity in the robot's own axes, with noise on it if asked."""
+    """Publishes the true pose in the world, and the velocity in the robot's own axes with optional noise."""
 
     kind = "odometry_publisher"
     resting = True
@@ -51,8 +49,9 @@ class OdometryPublisher(Drive):
         self._noise = read.number("gaussian_noise", unsigned=True)
         self._random = setup.random
         frame, child = read.text("odometry_frame"), read.text("base_frame")
-        self._odometers = (
-            Odometer(
+        variances = (self._noise**2,) * 6
+        self._topics = (
+            OdometryTopics(
                 setup.bus,
                 topic=topics.resolve(read.text("odometry_topic")),
                 tf_topic=topics.resolve(read.text("tf_topic")),
@@ -60,14 +59,14 @@ class OdometryPublisher(Drive):
                 child=child,
                 covariance=None,
             ),
-            Odometer(
+            OdometryTopics(
                 setup.bus,
                 topic=topics.resolve(read.text("covariance_topic")),
                 tf_topic=None,
                 frame=frame,
                 child=child,
-                covariance=(self._noise**2,) * 6,
-                twist_covariance=True,
+                covariance=variances,
+                twist_covariance=variances,
             ),
         )
 
@@ -77,8 +76,8 @@ class OdometryPublisher(Drive):
     def read(self, state: State) -> None:
         """Publish."""
         now = self._with_noise(self._estimate(state))
-        for odometer in self._odometers:
-            odometer.publish(state.t, lambda: now)
+        for topics in self._topics:
+            topics.publish(state.t, now)
 
     def _estimate(self, state: State) -> Estimate:
         """Return pose and twist of the frame at the offset."""
@@ -96,17 +95,15 @@ class OdometryPublisher(Drive):
     def _with_noise(self, now: Estimate) -> Estimate:
         if self._noise == 0.0:
             return now
-        linear, angular = (self._shaken(part) for part in (now.linear, now.angular))
+        noise = self._random.normal(0.0, self._noise, (2, 3)).tolist()
+        linear, angular = (
+            (x + dx, y + dy, z + dz) for (x, y, z), (dx, dy, dz) in zip((now.linear, now.angular), noise, strict=True)
+        )
         return Estimate(now.position, now.quaternion, linear, angular)
 
-    def _shaken(self, vector: Vector) -> Vector:
-        x, y, z = self._random.normal(0.0, self._noise, 3).tolist()
-        return vector[0] + x, vector[1] + y, vector[2] + z
-
-    def estimate(self, state: State) -> dict[str, tuple[tuple[float, ...], tuple[float, ...]]]:
-        """Return where it says the robot is."""
-        now = self._estimate(state)
-        return {self._odometers[0].frame: (now.position, now.quaternion)}
+    def estimate(self, state: State) -> dict[str, Pose]:
+        """Return odometry frame → the published pose."""
+        return {self._topics[0].frame: self._estimate(state).pose}
 
     def reset(self) -> None:
-        """Nothing is remembered."""
+        """There is nothing to clear."""

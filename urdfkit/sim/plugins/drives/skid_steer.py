@@ -8,10 +8,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from urdfkit.sim.plugins.drives.diff_drive import DiffDrive
-from urdfkit.sim.plugins.drives.odometry_output import odometer
+from urdfkit.sim.plugins.drives.odometry_parameters import odometry_topics
 from urdfkit.sim.plugins.drives.wheel_messages import Wheels
 from urdfkit.sim.plugins.topic_names import Topics
-from urdfkit.sim.plugins.wheel_odometry import WheelOdometry
 
 if TYPE_CHECKING:
     from urdfkit.sim.plugins.parameters import Parameters
@@ -19,15 +18,15 @@ if TYPE_CHECKING:
 
 
 class SkidSteer(DiffDrive):
-    """Two wheels on each side, turned at v ± w·separation/2; what they do to the robot is friction's to say.
+    """Two wheels on each side, turned at v ± w·separation/2; friction determines how the robot moves.
 
-    Odometry is the true pose in the world, its message without height. Sides never were swapped.
+    Odometry is the true pose in the world, its message without height. Left and right are never swapped.
     """
 
     kind = "skid_steer"
 
-    def _topics(self, setup: Setup) -> Topics:
-        # Unlike the differential drive, this one has no namespace where none is written.
+    def _topic_names(self, setup: Setup) -> Topics:
+        # Unlike the differential drive, its default namespace is empty.
         return Topics(self.plugin, self.spec)
 
     def _read_wheels(self, setup: Setup, read: Parameters) -> None:
@@ -39,9 +38,8 @@ class SkidSteer(DiffDrive):
         self._radii = (read.number("wheel_diameter", positive=True) / 2,) * 2
         self._swapped = False
 
-    def _announce(self, setup: Setup, read: Parameters, topics: Topics) -> None:
-        self._encoder = False
-        self._odometer = odometer(
+    def _advertise(self, setup: Setup, read: Parameters, topics: Topics) -> None:
+        self.topics = odometry_topics(
             setup,
             read,
             topics,
@@ -50,6 +48,4 @@ class SkidSteer(DiffDrive):
             twist_covariance=True,
             flat=True,
         )
-        self._odometry = WheelOdometry(self._separations[0])
-        self._last_read = 0.0
         self._wheels = Wheels(setup, (), with_tf=False)

@@ -1,4 +1,4 @@
-"""Joints that Gazebo puts where they shall be, instead of turning them there."""
+"""Joints whose position Gazebo sets directly, instead of driving them there."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
 
 def put(joint: str, position: float, period: float, *, setup: Setup, state: State, motors: Motors) -> None:
-    """Bring a joint to a position [rad], within its limits, in `period` [s] and whatever it takes.
+    """Bring a joint to a position [rad], within its limits, in `period` [s] with unlimited effort.
 
-    Gazebo's Joint::SetPosition puts it there at once, which tears at what it is in contact with. A step moves half its
-    way with the velocity it began with, so a joint told to stop goes on for half a step.
+    Gazebo's Joint::SetPosition sets it at once, which disturbs contacts. A step moves half its way with the velocity
+    it began with, so a joint that is stopped still moves for half a step.
     """
     lower, upper = setup.kinematics.limits(joint)
-    wanted = max(lower, min(upper, position))
+    target = max(lower, min(upper, position))
     now = state.position(joint) + state.velocity(joint) * setup.dt / 2
-    motors.drive(joint, (wanted - now) / period, inf)
+    motors.drive(joint, (target - now) / period, inf)

@@ -7,9 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.drives.planar_move import movable
-from urdfkit.sim.plugins.drives.velocity_command import Command
+from urdfkit.sim.plugins.drives.velocity_drive import VelocityDrive
 from urdfkit.sim.plugins.parameters import Parameters
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
@@ -21,10 +20,10 @@ if TYPE_CHECKING:
     from urdfkit.sim.state.robot_state import State
 
 
-class VelocityControl(Drive):
-    """The base has the commanded velocity, in its own axes, before every step; contacts come after.
+class VelocityControl(VelocityDrive):
+    """The base has the commanded velocity, in its own axes, before every step; contacts are solved afterwards.
 
-    That holds from the start, without a command as well: such a robot does not fall.
+    That holds from the start, also before the first command: such a robot does not fall.
     """
 
     kind = "velocity_control"
@@ -41,25 +40,30 @@ class VelocityControl(Drive):
         """
         read = Parameters(self.plugin, self.spec, setup.names)
         if read.texts("link"):
-            setup.note(f"{read.place('link')}: velocities of single links are not simulated, only that of the model")
+            setup.note(
+                f"{read.place('link')}: velocities of single links are not simulated, only the velocity of the model"
+            )
+        self._ignored = 0  # commands before the last reset
         self._initial = (read.vector("initial_linear", 3), read.vector("initial_angular", 3))
-        self._command = Command(setup, Topics(self.plugin, self.spec).resolve(read.text("command_topic")), self._heed)
-        self.commands = (self._command.topic,)
-        self.resting = not movable(setup, read)
-        self._heard = False
+        self._movable = movable(setup, read)
+        self.subscribe(setup, Topics(self.plugin, self.spec).resolve(read.text("command_topic")))
+        self.resting = not self._movable
 
-    def _heed(self) -> None:
-        self._heard = True
+    def wake(self) -> None:
+        """Call `write` again, unless the base is fixed."""
+        self.resting = not self._movable
 
     def write(self, state: State, motors: Motors) -> None:
         """Give the base its velocity."""
-        linear, angular = (self._command.linear, self._command.angular) if self._heard else self._initial
+        commanded = self.command.count > self._ignored
+        linear, angular = (self.command.linear, self.command.angular) if commanded else self._initial
         motors.move_base(linear, angular)
 
     def read(self, state: State) -> None:
         """Publish nothing."""
 
     def reset(self) -> None:
-        """Forget commands."""
-        self._command.clear()
-        self._heard = False
+        """Return to the initial velocity."""
+        super().reset()
+        self.wake()
+        self._ignored = self.command.count

@@ -278,7 +278,7 @@ def test_mecanum_wheels_and_odometry(make: Make) -> None:
 def test_a_timeout_of_zero_is_noted(make: Make) -> None:
     notes: list[str] = []
     simulator = mecanum(make, MECANUM.replace("reference_timeout: 0.5\n", ""), note=notes.append)
-    assert any("`reference_timeout` is 0: a reference counts for one control period" in note for note in notes)
+    assert any("`reference_timeout` is 0: a reference is valid for one control period" in note for note in notes)
     simulator.command((0.5, 0, 0), (0, 0, 0))
     simulator.run(1.0)
     assert simulator.state.base_velocity[0] == pytest.approx(0.0, abs=1e-6)

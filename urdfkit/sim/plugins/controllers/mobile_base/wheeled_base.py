@@ -1,0 +1,185 @@
+"""Base of the controllers of wheeled robots: command timeout, speed limits, odometry on topics."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from copy import copy
+from math import inf, isfinite
+from typing import TYPE_CHECKING, Any
+
+from urdfkit.errors import DescriptionError
+from urdfkit.sim.plugins.controllers.controller import Law
+from urdfkit.sim.plugins.odometry import Estimate, OdometryTopics, Pose, planar
+from urdfkit.sim.plugins.speed_limits import SpeedLimiter, SpeedLimits
+from urdfkit.sim.plugins.wheel_geometry import collision_radius
+
+if TYPE_CHECKING:
+    from urdfkit.description.control import Settings
+    from urdfkit.sim.plugins.controllers.command_output import Output
+    from urdfkit.sim.plugins.controllers.mobile_base.velocity_reference import Reference
+    from urdfkit.sim.plugins.wheel_odometry import Twist, WheelOdometry
+    from urdfkit.sim.state.robot_state import State
+
+RATE = 50.0
+"""Default ``publish_rate`` [Hz]."""
+
+TIMEOUT = 0.5
+"""Default ``cmd_vel_timeout`` [s]."""
+
+DIAGONAL = (0.0, 7.0, 14.0, 21.0, 28.0, 35.0)
+"""Default covariances of ros2_controllers' steering and mecanum controllers, as their parameter files have them."""
+
+
+class WheeledBase(Law):
+    """A controller of a wheeled robot, which publishes odometry.
+
+    Attributes:
+        limits: limits of the commanded velocities.
+        reference: the commanded velocity.
+        odometry: integrator of the wheels.
+        rate: of the odometry [Hz].
+    """
+
+    limits: SpeedLimits = SpeedLimits()
+    reference: Reference
+    odometry: WheelOdometry
+    rate: float = RATE
+
+    def publish_odometry(
+        self,
+        *,
+        topic: str = "odom",
+        transforms: str = "/tf",
+        prefixed: bool = False,
+        covariance: tuple[float, ...] | None = None,
+    ) -> None:
+        """Advertise odometry and its transform, with the parameters of ros_controllers and ros2_controllers.
+
+        Args:
+            topic: of the odometry, below the controller's name.
+            transforms: topic of the transform; below the controller's name unless it is absolute.
+            prefixed: frames are below ``tf_frame_prefix``, or below the namespace by default (ROS 2).
+            covariance: default variances; None where the parameters are required.
+
+        Raises:
+            DescriptionError: a parameter is missing or wrong, with its position.
+        """
+        read = self.settings
+        prefix = self._prefix() if prefixed else ""
+        of_pose, of_twist = (self._covariance(f"{name}_covariance_diagonal", covariance) for name in ("pose", "twist"))
+        with_tf = read.flag("enable_odom_tf", True)
+        topics = self._topics = OdometryTopics(
+            self.hardware.setup.bus,
+            topic=self.topic(topic),
+            tf_topic=(transforms if transforms.startswith("/") else self.topic(transforms)) if with_tf else None,
+            frame=prefix + read.text("odom_frame_id", "odom"),
+            child=prefix + read.text("base_frame_id", "base_link"),
+            covariance=of_pose,
+            twist_covariance=of_twist,
+        )
+        for published, message in ((topics.odometry, topics.message), (topics.tf, topics.transform)):
+            if published is not None:
+                self.report(published, self.rate, self._measured(message))
+
+    def _measured(self, message: Callable[[float, Estimate], Any]) -> Callable[[State], Callable[[], Any]]:
+        def build(state: State) -> Callable[[], Any]:
+            t, now = state.t, self._estimate(state, self.odometry)
+            return lambda: message(t, now)
+
+        return build
+
+    def _estimate(self, state: State, odometry: WheelOdometry) -> Estimate:
+        velocity = self.measure(state, odometry)
+        return planar(*self.pose(odometry), velocity)
+
+    @abstractmethod
+    def measure(self, state: State, odometry: WheelOdometry) -> Twist:
+        """Integrate an odometry up to the present state, and return the measured velocity."""
+
+    def pose(self, odometry: WheelOdometry) -> tuple[float, float, float]:
+        """Return x [m], y [m] and heading [rad] of the base for the pose that the wheels give."""
+        return odometry.x, odometry.y, odometry.heading
+
+    def estimate(self, state: State) -> dict[str, Pose]:
+        """Return odometry frame → pose in it."""
+        return {self._topics.frame: self._estimate(state, copy(self.odometry)).pose}
+
+    def start(self, state: State) -> None:
+        """Begin at rest, at the origin of the odometry frame."""
+        super().start(state)
+        self.reference.clear()
+        self.limits.reset()
+        self.odometry.reset()
+        self.measure(state, self.odometry)
+
+    def positive(self, name: str) -> float:
+        """Return a length that is greater than zero [m].
+
+        Raises:
+            DescriptionError: it is missing or not positive, with its position.
+        """
+        value = self.settings.number(name)
+        if value <= 0.0:
+            place, name = self.settings.group(name).position, name.rpartition("/")[2]
+            raise DescriptionError(f"`{name}` is {value:g} m; it must be greater than zero", position=place)
+        return value
+
+    def radius(self, output: Output) -> float:
+        """Return the radius of a wheel's collision shape [m], as ROS 1 reads it from the URDF; zero if unknown."""
+        return collision_radius(self.hardware.setup.kinematics.robot, output.handle.name) or 0.0
+
+    def rest(self, t: float, *, settled: bool) -> float:
+        """Return how long the outputs need no update [s]."""
+        return min(1.0 / self.rate, self.reference.left(t)) if settled else 0.0
+
+    def _prefix(self) -> str:
+        """Return the prefix of frames in diff_drive_controller and mecanum_drive_controller of ROS 2."""
+        if not self.settings.flag("tf_frame_prefix_enable", True):
+            return ""
+        namespace = self.hardware.resolve("").strip("/")
+        prefix = self.settings.text("tf_frame_prefix", "").replace("~", namespace) or namespace
+        prefix = prefix.strip("/")
+        return f"{prefix}/" if prefix else ""
+
+    def _covariance(self, name: str, default: tuple[float, ...] | None) -> tuple[float, ...]:
+        if default is None and self.settings.find(name) is None:
+            self.settings.text(name)
+        found = self.settings.numbers(name, default or (0.0,) * 6)
+        if len(found) != 6:
+            place = self.settings.group(name).position
+            raise DescriptionError(f"`{name}` has {len(found)} numbers; it needs 6", position=place)
+        return found
+
+
+def limits_of_ros_1(group: Settings) -> SpeedLimiter:
+    """Read the limits of ROS 1: each is active if its ``has_…`` is true; the lower defaults to minus the upper."""
+
+    def bounds(which: str) -> tuple[float, float]:
+        if not group.flag(f"has_{which}_limits", False):
+            return -inf, inf
+        most = group.number(f"max_{which}")
+        return group.number(f"min_{which}", -most), most
+
+    return SpeedLimiter(bounds("velocity"), bounds("acceleration"), bounds("jerk"))
+
+
+def limits_of_ros_2(group: Settings) -> SpeedLimiter:
+    """Read the limits of ROS 2: each is active if it is written and not ``nan``; ``has_…: false`` (Humble) disables it.
+
+    Since Jazzy, speeding up and slowing down have separate limits in each direction; a missing limit defaults to that
+    of the other direction, or of speeding up. Humble's ``min_acceleration`` is for both directions.
+    """
+
+    def bounds(which: str) -> tuple[float, float]:
+        if not group.flag(f"has_{which}_limits", True):
+            return -inf, inf
+        most = group.number(f"max_{which}", inf, unset=True)
+        return group.number(f"min_{which}", -most, unset=True), most
+
+    speeding, backward = bounds("acceleration"), None
+    if group.find("min_acceleration") is None and isfinite(speeding[1]):
+        least = group.number("max_acceleration_reverse", speeding[0], unset=True)
+        backward = (least, group.number("max_deceleration_reverse", speeding[1], unset=True))
+        speeding = (group.number("max_deceleration", least, unset=True), speeding[1])
+    return SpeedLimiter(bounds("velocity"), speeding, bounds("jerk"), backward=backward, jerk_when_slowing=False)

@@ -1,0 +1,70 @@
+"""Odometry parameters that drives share: topics, frames, covariances, and the source of the pose."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from urdfkit.errors import SimulationError
+from urdfkit.sim.plugins.odometry import OdometryTopics
+
+if TYPE_CHECKING:
+    from urdfkit.sim.plugins.parameters import Parameters
+    from urdfkit.sim.plugins.setup import Setup
+    from urdfkit.sim.plugins.topic_names import Topics
+
+HUGE = 1e12
+"""Variance of quantities that odometry does not measure, as gazebo_ros_diff_drive writes it."""
+
+
+def odometry_topics(
+    setup: Setup,
+    read: Parameters,
+    topics: Topics,
+    *,
+    published: bool,
+    with_tf: bool,
+    twist_covariance: bool = False,
+    flat: bool = False,
+) -> OdometryTopics:
+    """Return the odometry topics that a drive's table describes.
+
+    Args:
+        setup: setup of the drive.
+        read: its parameters; topics and covariance default to those of gazebo_ros_diff_drive.
+        topics: its topics.
+        published: publish the odometry message.
+        with_tf: publish the transform.
+        twist_covariance: the twist has the same variances as the pose.
+        flat: the message has no height.
+    """
+    gz = read.generation == "gz"
+    x, y, yaw = (
+        read.number(f"covariance_{part}", default) for part, default in (("x", 1e-5), ("y", 1e-5), ("yaw", 1e-3))
+    )
+    covariance = None if gz else (x, y, HUGE, HUGE, HUGE, yaw)
+    return OdometryTopics(
+        setup.bus,
+        topic=topics.resolve(read.text("odometry_topic", "odom")) if published else None,
+        tf_topic=(topics.resolve(read.text("tf_topic")) if gz else "/tf") if with_tf else None,
+        frame=read.text("odometry_frame"),
+        child=read.text("base_frame"),
+        covariance=covariance,
+        twist_covariance=covariance if twist_covariance else None,
+        flat=flat,
+    )
+
+
+def by_encoder(read: Parameters) -> bool:
+    """Return whether odometry comes from the wheels, not from the world.
+
+    Raises:
+        SimulationError: the parameter has another value.
+    """
+    source = read.text("odometry_source", "encoder").strip()
+    if source not in ("encoder", "world", "0", "1"):
+        raise SimulationError(
+            f"<{read.tag('odometry_source')}> is `{source}`; it must be "
+            + ("`encoder` or `world`" if read.generation == "ros1" else "0 (encoder) or 1 (world)"),
+            position=read.place("odometry_source"),
+        )
+    return source in ("encoder", "0")
