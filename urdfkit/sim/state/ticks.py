@@ -1,18 +1,18 @@
-"""When something with a rate is due, counted in whole simulation steps so that nothing drifts."""
+"""Ticks: the steps at which periodic work is due, as whole numbers, so that no period drifts."""
 
 from __future__ import annotations
 
 from math import ceil, floor
 
 NEVER = 1 << 62
-"""A step that is not reached."""
+"""A step that is never reached."""
 
 _ROUNDING = 1e-6
 """Steps within this fraction of a tick count as the tick: 0.01 / 0.001 is not quite 10."""
 
 
 class Ticks:
-    """The steps at which a rate falls due: the n-th is the first at or after n periods.
+    """The steps at which work with a rate is due: the n-th is the first at or after n periods.
 
     Args:
         rate: [Hz] of simulated time; zero or less, or faster than the steps, means every step.
@@ -33,9 +33,10 @@ class Ticks:
         """Return how many ticks lie in 1..step."""
         return step // self._whole if self._whole else floor((step + _ROUNDING) / self.steps)
 
-    def falls_on(self, step: int) -> bool:
-        """Whether a tick falls on `step`; the zeroth falls on step 0."""
-        return step % self._whole == 0 if self._whole else self.at(self.until(step)) == step
+    def next(self, step: int) -> int:
+        """Return the step of the first tick at or after `step`; the zeroth is at step 0."""
+        whole = self._whole
+        return step + -step % whole if whole else self.at(self.until(step - 1) + 1)
 
     def after(self, step: int) -> int:
         """Return the step of the first tick later than `step`."""

@@ -191,12 +191,12 @@ class ModelStates(Publication):
         super().__init__(bus.advertise("/gazebo/model_states", MODEL_STATES), MODEL_STATES_RATE, dt)
         self._world = world
 
-    def catch_up(self, state: State) -> None:
-        """Publish what has fallen due, if anybody listens."""
-        if self.topic.subscribers:
-            super().catch_up(state)
+    def act(self, state: State) -> None:
+        """Publish the messages that are due, if there are subscribers."""
+        if self.topics[0].subscribers:
+            super().act(state)
         else:
-            self.start_at(state.step)
+            self.reset(state.step)
 
     def message(self, state: State) -> Callable[[], Any]:
         """Return what builds the message of this moment, also later."""

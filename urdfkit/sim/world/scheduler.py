@@ -22,13 +22,13 @@ class Scheduler:
 
     Args:
         builder: the robots.
-        state: tells the present step.
+        state: state of the first robot.
         dt: length of a step [s].
 
     Attributes:
         publications: the simulation's own.
-        write_due: before it, `write` has nothing to do.
-        read_due: before it, `read` has nothing to do.
+        write_due: first step at which `write` has work to do.
+        read_due: first step at which `read` has work to do.
     """
 
     def __init__(self, builder: WorldBuilder, state: State, dt: float) -> None:
@@ -39,17 +39,17 @@ class Scheduler:
         self._number = 0
 
     def invalidate(self) -> None:
-        """Look at everything again, before and after the next step."""
+        """Check all work again, before and after the next step."""
         self.write_due = self.read_due = 0
 
     def schedule(self, step: int, period: float, call: Callable[[], None]) -> None:
-        """Call `call` before a step, and then every `period` [s] where that is not zero."""
+        """Call `call` before a step, and then every `period` [s] if that is not zero."""
         self._number += 1
         heapq.heappush(self._calls, (step, self._number, period, call))
         self.invalidate()
 
     def reset(self) -> None:
-        """Begin anew at step 0, without the calls."""
+        """Begin again at step 0, without the calls."""
         self._calls.clear()
         for publication in self.publications:
             publication.reset()
@@ -57,8 +57,9 @@ class Scheduler:
 
     def write(self) -> None:
         """Make the calls that are due, and let drives and controllers write targets."""
-        step = self._state.step
-        self.write_due = 0  # for whoever raises
+        state = self._state
+        step = state.step
+        self.write_due = 0  # stays so if a call raises
         while self._calls and self._calls[0][0] <= step:
             due, number, period, call = heapq.heappop(self._calls)
             self.invalidate()
@@ -67,51 +68,64 @@ class Scheduler:
                 again = max(step + 1, due + max(1, round(period / self._dt)))
                 heapq.heappush(self._calls, (again, number, period, call))
         for robot in self._builder.robot_list:
-            robot.write(step)
-        self._foresee_writing(step + 1)
+            for task in robot.writes:
+                if task.next(step) <= step:
+                    task.act(robot.state)
+        self._update_write_due(step + 1)
 
     def read(self) -> None:
-        """Let whoever is due measure and publish."""
+        """Let sensors, drives and publishers with work to do measure and publish."""
         step = self._state.step
-        self.invalidate()  # for whoever raises
+        self.invalidate()  # stays so if a callback raises
         for robot in self._builder.robot_list:
-            robot.read(step)
+            for tasks in robot.reads:
+                for task in tuple(tasks):  # a callback may load or unload a controller
+                    if task.due <= step and task.next(step) <= step:
+                        task.act(robot.state)
         for publication in self.publications:
             if publication.due <= step:
-                publication.catch_up(self._state)
-        self._foresee_writing(step)
-        self.read_due = self._read_from(step + 1)
+                publication.act(self._state)
+        self._update_write_due(step)
+        self.read_due = self._next_read(step + 1)
 
     def next_stop(self) -> int:
-        """Return the next step at which the simulation has to stop; what nobody listens to has none."""
-        step = self._state.step
-        if self.write_due == step + 1:
-            return step + 1
-        nearest = max(step + 1, self._calls[0][0]) if self._calls else NEVER
+        """Return the next step at which the simulation has to stop; publishers without subscribers have none."""
+        step = self._state.step + 1
+        if self.write_due == step:
+            return step
+        nearest = max(step, self._calls[0][0]) if self._calls else NEVER
         for robot in self._builder.robot_list:
-            nearest = min(nearest, robot.next_stop(step))
+            for tasks in (robot.writes, *robot.reads):
+                for task in tasks:
+                    if task.due < nearest and (due := task.stop(step)) < nearest:
+                        nearest = due
+                        if due <= step:  # nothing can be due before
+                            return step
         for publication in self.publications:
             if publication.due < nearest:
-                nearest = min(nearest, publication.next_stop(step))
+                nearest = min(nearest, publication.stop(step))
         return nearest
 
-    def _foresee_writing(self, step: int) -> None:
-        """Take note of the first step from `step` on before which something is due."""
+    def _update_write_due(self, step: int) -> None:
         nearest = self._calls[0][0] if self._calls else NEVER
         for robot in self._builder.robot_list:
-            if nearest <= step:
-                break
-            nearest = min(nearest, robot.write_due(step))
+            for task in robot.writes:
+                if nearest <= step:
+                    break
+                nearest = min(nearest, task.next(step))
         self.write_due = nearest
 
-    def _read_from(self, step: int) -> int:
-        """Return the first step from `step` on after which something is due."""
+    def _next_read(self, step: int) -> int:
+        """Return the first step from `step` on after which a task has work to do."""
         nearest = NEVER
         for publication in self.publications:
             if publication.due < nearest:
                 nearest = publication.due
         for robot in self._builder.robot_list:
-            if nearest <= step:
-                break
-            nearest = min(nearest, robot.read_due(step))
+            for tasks in robot.reads:
+                for task in tasks:
+                    if task.due < nearest and (due := task.next(step)) < nearest:
+                        nearest = due
+                        if due <= step:
+                            return step
         return nearest

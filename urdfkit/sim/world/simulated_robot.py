@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -19,15 +19,15 @@ from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.construction.surface_parameters import surfaces_of
 from urdfkit.sim.engine import Engine, Ground, Member, Surface
 from urdfkit.sim.engine.articulation import Articulation
-from urdfkit.sim.plugins.base import Sensor
 from urdfkit.sim.plugins.controllers.controller_switching import Controllers
 from urdfkit.sim.plugins.installer import Installed, install
 from urdfkit.sim.plugins.namespaced_bus import OwnBus
-from urdfkit.sim.plugins.publishers import Publication, Transforms, publish_fixed
+from urdfkit.sim.plugins.periodic import Periodic, Publisher, Timed
+from urdfkit.sim.plugins.publishers import Transforms, publish_fixed
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.joint_commands import Motors, Servos
 from urdfkit.sim.state.robot_state import State
-from urdfkit.sim.state.ticks import NEVER, Ticks
+from urdfkit.sim.state.ticks import Ticks
 
 Array = NDArray[np.float64]
 
@@ -70,6 +70,8 @@ class SimulatedRobot:
         plugins: its drives, sensors and controllers; from `install` on.
         controllers: to list, load, start, stop and switch; from `install` on.
         articulation: which of the engine's robots it is; from `attach` on.
+        writes: work before a step: drives, controllers, joints on their way to a position.
+        reads: work after a step: drives, sensors, publishers; then the publishers of each control loop.
     """
 
     state: State
@@ -107,9 +109,10 @@ class SimulatedRobot:
         self.plugins = Installed()
         self.controllers = Controllers([])
         self._bus: OwnBus | None = None
-        self._publications: list[Publication] = []
-        self._drives: list[tuple[Any, Ticks, Ticks]] = []
-        self._sensors: list[tuple[Sensor, bool]] = []
+        self._own_publishers: list[Publisher] = []
+        self._drive_reads: list[Timed] = []
+        self.writes: list[Periodic] = []
+        self.reads: tuple[Sequence[Periodic], ...] = ()
 
     @property
     def has_plugins(self) -> bool:
@@ -145,7 +148,8 @@ class SimulatedRobot:
             self.state = State(self.kinematics, engine, None if floats else self.base, articulation)
             self.state.step = engine.steps
             self.motors = Motors(self.kinematics, *handles)
-        self._approach = Ticks(APPROACH_RATE, engine.dt)
+            motors, ticks = self.motors, Ticks(APPROACH_RATE, engine.dt)
+            self.writes = [Timed(ticks, lambda state: motors.approach(state.position), lambda: not motors.has_goals)]
 
     def install(self, setup: Setup, *, seed: int, invalidate: Callable[[], None]) -> None:
         """Set its plugins to work, and publish what nobody has to ask for.
@@ -161,22 +165,27 @@ class SimulatedRobot:
         bus = self._bus = OwnBus(setup.bus, invalidate)
         setup = self._setup = replace(setup, bus=bus)
         self.plugins = install(self.robot, setup, seed=seed)
-        self._drives = [(d, Ticks(d.write_rate, setup.dt), Ticks(d.read_rate, setup.dt)) for d in self.plugins.drives]
-        for sensor in self.plugins.sensors:
-            sensor.schedule(setup.dt, self.state.step)
-        self._sensors = [(sensor, type(sensor).catch_up is Sensor.catch_up) for sensor in self.plugins.sensors]
         self.controllers = Controllers([c.loop for c in self.plugins.controllers if c.loop is not None], invalidate)
         for controller in self.plugins.controllers:
-            controller.schedule(setup.dt)
             if controller.initial_positions:
                 joints = {**controller.initial_positions, **self.spawn.joints}
                 self.spawn = replace(self.spawn, joints=joints)
-        self._publications = [
-            *self.plugins.joint_states,
-            Transforms(bus, setup.dt, self.kinematics, setup.namespace),
-        ]
-        for publication in (*self._publications, *self.controllers.publications):
-            publication.start_at(self.state.step)
+        drives, motors = self.plugins.drives, self.motors
+        for drive in drives:
+            drive.schedule(setup.dt, motors)
+        for controller in self.plugins.controllers:
+            controller.schedule(setup.dt, motors)
+        self.writes = [*drives, *self.plugins.controllers, *self.writes]
+        transforms = Transforms(bus, setup.dt, self.kinematics, setup.namespace)
+        self._own_publishers = [*self.plugins.sensors, *self.plugins.joint_states, transforms]
+        self._drive_reads = [Timed(Ticks(drive.read_rate, setup.dt), drive.read) for drive in drives]
+        self.reads = ([*self._drive_reads, *self._own_publishers], *self.controllers.each_publications)
+        for publisher in self._publishers:
+            publisher.schedule(setup.dt, self.state.step)
+
+    @property
+    def _publishers(self) -> Sequence[Publisher]:
+        return [*self._own_publishers, *self.controllers.publications]
 
     # The loop
 
@@ -192,90 +201,15 @@ class SimulatedRobot:
         if self._setup is not None:
             publish_fixed(self._setup.bus, self.state, self.kinematics, self._setup.namespace)
 
-    def write(self, step: int) -> None:
-        """Let drives and controllers write targets for the time until the next call."""
-        for drive, writes, _ in self._drives:
-            if not drive.resting and writes.falls_on(step):
-                drive.write(self.state, self.motors)
-        for controller in self.plugins.controllers:
-            if controller.due(step):
-                controller.write(self.state, self.motors)
-        if self.motors.has_goals and self._approach.falls_on(step):
-            self.motors.approach(self.state.position)
-
-    def write_due(self, step: int) -> int:
-        """Return the first step from `step` on before which it may have something to write."""
-        nearest = self._approach.after(step - 1) if self.motors.has_goals else NEVER
-        for drive, writes, _ in self._drives:
-            if not drive.resting:
-                nearest = min(nearest, writes.after(step - 1))
-        for controller in self.plugins.controllers:
-            nearest = min(nearest, controller.after(step - 1))
-        return nearest
-
-    def read_due(self, step: int) -> int:
-        """Return the first step from `step` on after which it has something to publish, heard by somebody or not."""
-        nearest = NEVER
-        for _, _, reads in self._drives:
-            nearest = min(nearest, reads.after(step - 1))
-        for controller in self.plugins.controllers:
-            nearest = min(nearest, controller.after(step - 1))
-        if nearest <= step:  # nothing else can be due before
-            return nearest
-        for sensor in self.plugins.sensors:
-            nearest = min(nearest, sensor.look_due(step))
-        for publications in (self._publications, *self.controllers.each_publications):
-            for publication in publications:
-                if publication.due < nearest:
-                    nearest = publication.due
-        return nearest
-
-    def next_stop(self, step: int) -> int:
-        """Return the first step after `step` at which something of it is due; `NEVER` for what has no plugins."""
-        nearest = NEVER
-        for drive, writes, reads in self._drives:
-            nearest = min(nearest, reads.after(step))
-            if not drive.resting:
-                nearest = min(nearest, writes.after(step))
-        for controller in self.plugins.controllers:
-            nearest = min(nearest, controller.after(step))
-        if self.motors.has_goals:
-            nearest = min(nearest, self._approach.after(step))
-        if nearest <= step + 1:  # nothing else can be due before
-            return nearest
-        for sensor in self.plugins.sensors:
-            nearest = min(nearest, sensor.next_stop(step))
-        for publications in (self._publications, *self.controllers.each_publications):
-            for publication in publications:
-                if publication.due < nearest:
-                    nearest = min(nearest, publication.next_stop(step))
-        return nearest
-
-    def read(self, step: int) -> None:
-        """Let drives, controllers and sensors publish what they measure."""
-        for drive, _, reads in self._drives:
-            if reads.falls_on(step):
-                drive.read(self.state)
-        for controller in self.plugins.controllers:
-            if controller.due(step):
-                controller.read(self.state)
-        for sensor, waits in self._sensors:
-            if not waits or sensor.due <= step:
-                sensor.catch_up(self.state)
-        for publications in (self._publications, *self.controllers.each_publications):
-            for publication in tuple(publications):  # whoever hears of one may load or unload a controller
-                if publication.due <= step:
-                    publication.catch_up(self.state)
-
     def reset(self) -> None:
         """Forget commands, targets and odometry; `begin` puts it back."""
         self.motors.release_all()
-        for drive, _, _ in self._drives:
+        for drive in self.plugins.drives:
             drive.reset()
-        for publication in (*self._publications, *self.controllers.publications):
-            publication.reset()
-        for sensor in self.plugins.sensors:
-            sensor.reset()
+        for timed in self._drive_reads:
+            timed.reset()
+        for publisher in self._publishers:
+            publisher.reset()
 
     def retire(self) -> None:
         """Stop listening: it is removed from the world."""

@@ -7,6 +7,7 @@ from math import ceil, inf
 from typing import TYPE_CHECKING
 
 from urdfkit.errors import SimulationError, did_you_mean
+from urdfkit.sim.plugins.base import Controller
 from urdfkit.sim.plugins.controllers.controller_types import load_law
 from urdfkit.sim.state.ticks import NEVER, Ticks
 
@@ -71,13 +72,9 @@ class ControlLoop:
 
     # Time
 
-    def due(self, step: int) -> bool:
-        """Whether a control period with something to do begins at a step."""
-        return self._wake <= step and self._ticks.falls_on(step)
-
-    def after(self, step: int) -> int:
-        """Return the first such step after a step."""
-        return NEVER if self._wake >= NEVER else self._ticks.after(max(step, self._wake - 1))
+    def next(self, step: int) -> int:
+        """Return the first step from `step` on at which a control period with work to do begins."""
+        return NEVER if self._wake >= NEVER else self._ticks.next(max(step, self._wake))
 
     def wake(self) -> None:
         """Have something to do in the next control period."""
@@ -226,3 +223,21 @@ class ControlLoop:
                 raise SimulationError(f"controller `{name}` is not loaded")
             raise SimulationError(f"no controller `{name}` in {self.namespace or '/'}{did_you_mean(name, self.known)}")
         return self.laws[name]
+
+
+class ControlLoopPlugin(Controller):
+    """A plugin that runs the controllers of a controller manager."""
+
+    loop: ControlLoop
+
+    def begin(self, state: State) -> None:
+        """Start from the initial state."""
+        self.loop.begin(state)
+
+    def next(self, step: int) -> int:
+        """Return the first step from `step` on before which `write` is due."""
+        return self.loop.next(step)
+
+    def write(self, state: State, motors: Motors) -> None:
+        """Update the controllers."""
+        self.loop.update(state, motors)

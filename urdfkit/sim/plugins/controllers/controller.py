@@ -178,17 +178,17 @@ class Report(Publication):
         self._running = running
         self._build = build
 
-    def next_stop(self, step: int) -> int:
+    def stop(self, step: int) -> int:
         """Return the step at which the simulation has to stop for it."""
-        return super().next_stop(step) if self._running() else NEVER
+        return super().stop(step) if self._running() else NEVER
 
-    def catch_up(self, state: State) -> None:
-        """Publish what has fallen due; nothing of the time the controller was stopped."""
+    def act(self, state: State) -> None:
+        """Publish the messages that are due, except those of the time the controller was stopped."""
         if self._running():
-            super().catch_up(state)
+            super().act(state)
         else:
-            self.start_at(state.step)
+            self.reset(state.step)
 
     def message(self, state: State) -> Callable[[], Any]:
-        """Return what builds the message of this moment, also later."""
+        """Return a function that builds the message of this state, also later."""
         return self._build(state)

@@ -117,16 +117,9 @@ class _Servo(Controller):
         """Look at the command anew."""
         self._wake = 0
 
-    def due(self, step: int) -> bool:
-        """Whether `write` is to be called before a step."""
-        return self._wake <= step
-
-    def after(self, step: int) -> int:
-        """Return the first step after a step before which it is."""
-        return max(step + 1, self._wake)
-
-    def read(self, state: State) -> None:
-        """Do nothing: it publishes nothing."""
+    def next(self, step: int) -> int:
+        """Return the first step from `step` on before which `write` is due."""
+        return max(step, self._wake)
 
 
 class JointPositionController(_Servo):

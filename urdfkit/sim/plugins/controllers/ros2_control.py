@@ -14,7 +14,6 @@ from urdfkit.description.packages.resolver import near_path
 from urdfkit.description.plugins.controller_plugins import GAZEBO_ROS2_CONTROL
 from urdfkit.description.xml.numbers import number
 from urdfkit.errors import ResourceError, SimulationError, did_you_mean
-from urdfkit.sim.plugins.base import Controller
 from urdfkit.sim.plugins.controllers.command_output import (
     INTERFACES,
     EffortOutput,
@@ -23,7 +22,7 @@ from urdfkit.sim.plugins.controllers.command_output import (
     ProportionalOutput,
     VelocityOutput,
 )
-from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
+from urdfkit.sim.plugins.controllers.control_loop import ControlLoop, ControlLoopPlugin
 from urdfkit.sim.plugins.controllers.controller import Hardware
 from urdfkit.sim.plugins.controllers.controller_manager import serve
 from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
@@ -34,8 +33,6 @@ from urdfkit.sim.plugins.topic_names import Topics
 if TYPE_CHECKING:
     from urdfkit.description.xml.element import Element
     from urdfkit.description.xml.source import Position
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
 
 SIMULATED = (
     "gz_ros2_control/GazeboSimSystem",
@@ -50,10 +47,9 @@ UPDATE_RATE = 100.0
 _FIND = re.compile(r"\$\(\s*(?:find|find-pkg-share)\s+([^()\s]+)\s*\)")
 
 
-class Ros2Control(Controller):
+class Ros2Control(ControlLoopPlugin):
     """The joints of the robot's ``<ros2_control>`` blocks and the controllers of its parameter files."""
 
-    loop: ControlLoop
     kind = "ros2_control"
 
     def configure(self, setup: Setup) -> None:
@@ -143,25 +139,6 @@ class Ros2Control(Controller):
                     if joint not in setup.kinematics.mimic_names:
                         self.initial_positions[joint] = value
         return sorted(found, key=lambda output: INTERFACES.index(output.interface))
-
-    def begin(self, state: State) -> None:
-        """Begin where the robot is."""
-        self.loop.begin(state)
-
-    def due(self, step: int) -> bool:
-        """Whether `write` is to be called before a step."""
-        return self.loop.due(step)
-
-    def after(self, step: int) -> int:
-        """Return the first step after a step before which it is."""
-        return self.loop.after(step)
-
-    def write(self, state: State, motors: Motors) -> None:
-        """Let the controllers command the joints."""
-        self.loop.update(state, motors)
-
-    def read(self, state: State) -> None:
-        """Do nothing: controllers publish at rates of their own."""
 
 
 def _controllers(root: Settings, namespace: str, boss: Settings) -> dict[str, Settings]:

@@ -11,9 +11,8 @@ from urdfkit.description.control import Settings, find_configuration
 from urdfkit.description.control.ros1_controllers import controllers
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.messages import BOOL
-from urdfkit.sim.plugins.base import Controller
 from urdfkit.sim.plugins.controllers.command_output import EffortOutput, Output, PositionOutput, VelocityOutput
-from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
+from urdfkit.sim.plugins.controllers.control_loop import ControlLoop, ControlLoopPlugin
 from urdfkit.sim.plugins.controllers.controller import Hardware
 from urdfkit.sim.plugins.controllers.controller_manager import serve
 from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
@@ -26,8 +25,6 @@ from urdfkit.sim.state.pid import read_gains
 if TYPE_CHECKING:
     from urdfkit.description.control import Configuration
     from urdfkit.description.urdf.robot import Transmission
-    from urdfkit.sim.state.joint_commands import Motors
-    from urdfkit.sim.state.robot_state import State
 
 INTERFACES = {
     "EffortJointInterface": "effort",
@@ -37,10 +34,9 @@ INTERFACES = {
 """Hardware interfaces that DefaultRobotHWSim offers."""
 
 
-class GazeboRosControl(Controller):
+class GazeboRosControl(ControlLoopPlugin):
     """The joints of the robot's transmissions and the controllers in its namespace."""
 
-    loop: ControlLoop
     kind = "gazebo_ros_control"
 
     def configure(self, setup: Setup) -> None:
@@ -97,25 +93,6 @@ class GazeboRosControl(Controller):
                 "not here, unless <legacyModeNS>false</legacyModeNS>"
             )
         return found.root
-
-    def begin(self, state: State) -> None:
-        """Begin where the robot is."""
-        self.loop.begin(state)
-
-    def due(self, step: int) -> bool:
-        """Whether `write` is to be called before a step."""
-        return self.loop.due(step)
-
-    def after(self, step: int) -> int:
-        """Return the first step after a step before which it is."""
-        return self.loop.after(step)
-
-    def write(self, state: State, motors: Motors) -> None:
-        """Let the controllers command the joints."""
-        self.loop.update(state, motors)
-
-    def read(self, state: State) -> None:
-        """Do nothing: controllers publish at rates of their own."""
 
 
 def _output(transmission: Transmission, settings: Settings, setup: Setup, period: float) -> Output:

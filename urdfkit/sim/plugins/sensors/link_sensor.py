@@ -18,7 +18,6 @@ from urdfkit.sim.plugins.sensors.point_motion import Moment, Motion
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
-from urdfkit.sim.state.ticks import NEVER
 
 if TYPE_CHECKING:
     from urdfkit.description.xml.element import Element
@@ -48,14 +47,14 @@ class Ride:
 
 
 class Carried(Sensor):
-    """A sensor that rides on a link; one reading makes the messages of all its topics.
+    """A sensor on a link; one reading makes the messages of all its topics.
+
+    With a `lead` of 1 the acceleration is that of the last step.
 
     Attributes:
         frame: whose coordinates it tells.
     """
 
-    compares: bool = False
-    """Whether it needs the moment one step before: the simulation then stops there as well."""
     frame: str = ""
 
     def configure(self, setup: Setup) -> None:
@@ -111,24 +110,15 @@ class Carried(Sensor):
     def messages(self) -> tuple[Callable[[Any], Any], ...]:
         """Return what makes the messages of `topics` from what was felt."""
 
-    def next_stop(self, step: int) -> int:
-        """Return the step at which the simulation has to stop for it: where it is due, and perhaps one before."""
-        due = super().next_stop(step)
-        return due if not self.compares or due == NEVER or due - 1 <= step else due - 1
-
-    def look_due(self, step: int) -> int:
-        """Return the first step from `step` on after which it wants to look: where due, and perhaps one before."""
-        return max(step, self.due - 1) if self.compares else self.due
-
-    def catch_up(self, state: State) -> None:
-        """Measure what has fallen due, and remember this moment for the next."""
-        super().catch_up(state)
-        if self.compares:
+    def act(self, state: State) -> None:
+        """Publish the messages that are due, and keep this state for the next one."""
+        super().act(state)
+        if self.lead:
             self._before = Moment(self._kinematics, state)
 
-    def reset(self) -> None:
-        """Start again at step 0."""
-        super().reset()
+    def reset(self, step: int = 0) -> None:
+        """Begin again at a step."""
+        super().reset(step)
         self._before = None
 
     def measure(self, state: State, count: int) -> None:

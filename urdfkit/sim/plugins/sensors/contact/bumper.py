@@ -37,7 +37,9 @@ Array = NDArray[np.float64]
 
 
 class Contacts(Sensor):
-    """A contact sensor."""
+    """A contact sensor, which collects the contacts of every step."""
+
+    lead = NEVER
 
     def configure(self, setup: Setup) -> None:
         """Find the collisions that are named, and advertise.
@@ -65,18 +67,14 @@ class Contacts(Sensor):
     def _advertise(self, setup: Setup, element: Element, read: Parameters) -> None:
         """Fill `topics`."""
 
-    def next_stop(self, step: int) -> int:
-        """Return the next step while somebody listens."""
-        return NEVER if super().next_stop(step) == NEVER else step + 1
-
-    def catch_up(self, state: State) -> None:
-        """Take note of what touches, and measure what has fallen due."""
+    def act(self, state: State) -> None:
+        """Collect contacts, and publish the messages that are due."""
         self._seen.update(self._watch.look(state))
-        super().catch_up(state)
+        super().act(state)
 
-    def reset(self) -> None:
-        """Start again at step 0."""
-        super().reset()
+    def reset(self, step: int = 0) -> None:
+        """Begin again at a step."""
+        super().reset(step)
         self._seen = {}
 
     def measure(self, state: State, count: int) -> None:
@@ -213,14 +211,14 @@ class GzTouch(Sensor):
     def _enable(self, message: Any) -> None:
         self._enabled, self._since = bool(message.data), None
 
-    def reset(self) -> None:
-        """Start again at step 0."""
-        super().reset()
+    def reset(self, step: int = 0) -> None:
+        """Begin again at a step."""
+        super().reset(step)
         self._enabled, self._since = self._starts_enabled, None
 
-    def next_stop(self, step: int) -> int:
-        """Return the next step while somebody waits for it."""
-        return super().next_stop(step) if self._enabled else NEVER
+    def stop(self, step: int) -> int:
+        """Return the step at which the simulation has to stop for it while it is enabled and has subscribers."""
+        return super().stop(step) if self._enabled else NEVER
 
     def measure(self, state: State, count: int) -> None:
         """Publish, once, when it has touched for long enough."""

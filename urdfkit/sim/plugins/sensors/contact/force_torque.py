@@ -26,7 +26,6 @@ from urdfkit.sim.plugins.sensors.point_motion import Moment
 from urdfkit.sim.plugins.sensors.sensor_values import pose_of, rate_of
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.plugins.topic_names import Topics
-from urdfkit.sim.state.ticks import NEVER
 
 if TYPE_CHECKING:
     from urdfkit.description.xml.element import Element
@@ -65,6 +64,7 @@ class ForceTorque(Sensor):
         frame: whose coordinates it tells.
     """
 
+    lead = 1
     frame: str = ""
     _noises: tuple[Noise, ...]
     _sign = -1.0
@@ -110,23 +110,14 @@ class ForceTorque(Sensor):
             )
         self._parent, self._child = joint.parent, joint.child
 
-    def next_stop(self, step: int) -> int:
-        """Return the step at which the simulation has to stop for it: where it is due, and one before."""
-        due = super().next_stop(step)
-        return due if due == NEVER or due - 1 <= step else due - 1
-
-    def look_due(self, step: int) -> int:
-        """Return the first step from `step` on after which it wants to look: where it is due, and one before."""
-        return max(step, self.due - 1)
-
-    def catch_up(self, state: State) -> None:
-        """Measure what has fallen due, and remember this moment for the next."""
-        super().catch_up(state)
+    def act(self, state: State) -> None:
+        """Publish the messages that are due, and keep this state for the next one."""
+        super().act(state)
         self._before = Moment(self._kinematics, state)
 
-    def reset(self) -> None:
-        """Start again at step 0."""
-        super().reset()
+    def reset(self, step: int = 0) -> None:
+        """Begin again at a step."""
+        super().reset(step)
         self._before = None
 
     def measure(self, state: State, count: int) -> None:

@@ -102,19 +102,15 @@ class GzAltimeter(OneTopic):
 
         self._height_noise, self._climb_noise = noise("vertical_position"), noise("vertical_velocity")
 
-    def look_due(self, step: int) -> int:
-        """Return the first step from `step` on after which it wants to look: at once for the first time."""
-        return step if self._start is None else super().look_due(step)
-
-    def catch_up(self, state: State) -> None:
-        """Measure what has fallen due; the first moment is the reference."""
+    def act(self, state: State) -> None:
+        """Publish the messages that are due; the first state is the reference."""
         if self._start is None:
             self._start = float(Moment(self._kinematics, state).motion(self.link, self._mount).position[2])
-        super().catch_up(state)
+        super().act(state)
 
-    def next_stop(self, step: int) -> int:
+    def stop(self, step: int) -> int:
         """Return the step at which the simulation has to stop for it: the first one, and where it is due."""
-        return step + 1 if self._start is None else super().next_stop(step)
+        return step if self._start is None else super().stop(step)
 
     def _feel(self, ride: Ride) -> Any:
         start = self._start or 0.0

@@ -63,7 +63,7 @@ class Felt:
 class Imu(Carried):
     """An inertial measurement unit; where it publishes and how it errs is its subclass's to say."""
 
-    compares = True
+    lead = 1
     _relative = False
     _variances: tuple[Array, Array, Array]
     """Diagonals of the covariances of orientation, turning rate and acceleration."""
@@ -88,15 +88,11 @@ class Imu(Carried):
     def _err(self, felt: Felt, ride: Ride) -> Felt:
         """Return a reading with the errors on it."""
 
-    def look_due(self, step: int) -> int:
-        """Return the first step from `step` on after which it wants to look; the first moment may be the reference."""
-        return step if self._reference is None and self._relative else super().look_due(step)
-
-    def catch_up(self, state: State) -> None:
-        """Measure what has fallen due, and remember this moment for the next."""
+    def act(self, state: State) -> None:
+        """Publish the messages that are due; the first state may be the reference."""
         if self._reference is None and self._relative:
             self._reference = Moment(self._kinematics, state).motion(self.link, self._mount).rotation
-        super().catch_up(state)
+        super().act(state)
 
     def messages(self) -> tuple[Callable[[Felt], Any], ...]:
         """Return what makes the message of each of `topics`."""

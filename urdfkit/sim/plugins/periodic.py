@@ -1,0 +1,122 @@
+"""Periodic: work that is due at some steps of a simulation, and publishers with a rate."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from urdfkit.sim.state.ticks import NEVER, Ticks
+
+if TYPE_CHECKING:
+    from urdfkit.bus import Topic
+    from urdfkit.sim.state.robot_state import State
+
+
+class Periodic(ABC):
+    """Work that is due at some steps: the common interface of drives, controllers, sensors and publishers.
+
+    Attributes:
+        due: a step before which there is no work; zero if it is not known in advance.
+    """
+
+    due: int = 0
+
+    @abstractmethod
+    def next(self, step: int) -> int:
+        """Return the first step from `step` on at which `act` has work to do; `NEVER` for none."""
+
+    def stop(self, step: int) -> int:
+        """Return the first step from `step` on at which the simulation has to stop for it; `NEVER` for none."""
+        return self.next(step)
+
+    @abstractmethod
+    def act(self, state: State) -> None:
+        """Do the work that is due at the step of the state."""
+
+
+class Timed(Periodic):
+    """A call at a fixed rate.
+
+    Args:
+        ticks: the steps.
+        call: the work.
+        resting: whether there is no work at present; None for work at every tick.
+    """
+
+    def __init__(
+        self, ticks: Ticks, call: Callable[[State], object], resting: Callable[[], bool] | None = None
+    ) -> None:
+        self._ticks, self._call, self._resting = ticks, call, resting
+
+    def next(self, step: int) -> int:
+        """Return the first step from `step` on at which the call is due."""
+        return NEVER if self._resting is not None and self._resting() else self._ticks.next(step)
+
+    def act(self, state: State) -> None:
+        """Make the call."""
+        self._call(state)
+        if self._resting is None:
+            self.due = self._ticks.after(state.step)
+
+    def reset(self) -> None:
+        """Begin again at step 0."""
+        self.due = 0
+
+
+class Publisher(Periodic):
+    """Measures or builds messages at a fixed rate, for one topic or several.
+
+    A simulation stops for it only while a topic has subscribers. Messages that became due without subscribers are
+    counted together at the next stop, so what is published may depend on the number of a message (`done`), but never on
+    how often `act` was called.
+
+    Attributes:
+        rate: [Hz]; zero or less means every step.
+        topics: topics of the messages. Without any, the simulation stops at each due step.
+        lead: number of steps before a message from which on it measures; `NEVER` means at every step.
+        done: number of messages so far.
+        next_message: step of the next message.
+    """
+
+    rate: float = 0.0
+    topics: tuple[Topic, ...] = ()
+    lead: int = 0
+    done: int = 0
+    next_message: int = 0
+
+    def schedule(self, dt: float, step: int = 0) -> None:
+        """Begin at a step of a simulation with steps of `dt` [s]."""
+        self._ticks = Ticks(self.rate, dt)
+        self.reset(step)
+        self.due = 0  # to see the first state
+
+    def reset(self, step: int = 0) -> None:
+        """Begin again at a step; messages due until then count as published."""
+        self.done = self._ticks.until(step)
+        self.next_message = self._ticks.after(step)
+        self.due = self.next_message - self.lead
+
+    def next(self, step: int) -> int:
+        """Return the first step from `step` on at which it measures, with subscribers or without."""
+        return self.due if self.due > step else step
+
+    def stop(self, step: int) -> int:
+        """Return the step at which the simulation has to stop for it; `NEVER` without subscribers."""
+        for topic in self.topics:
+            if topic.subscribers:
+                return max(step, self._ticks.next(step) - self.lead)
+        return NEVER if self.topics else max(step, self._ticks.next(step) - self.lead)
+
+    def act(self, state: State) -> None:
+        """Publish the messages that are due."""
+        if state.step >= self.next_message:
+            count = self._ticks.until(state.step) - self.done
+            self.done += count
+            self.next_message = self._ticks.after(state.step)
+            self.measure(state, count)
+        self.due = self.next_message - self.lead
+
+    @abstractmethod
+    def measure(self, state: State, count: int) -> None:
+        """Publish a measurement of this state, which stands for so many messages."""
