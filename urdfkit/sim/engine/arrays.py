@@ -20,6 +20,9 @@ from urdfkit.sim.engine.math.simd import LANES
 
 Size = tuple[str, ...]
 
+OBSERVED = 5
+"""Numbers that are kept of each tree to decide whether it sleeps: the time at rest, and those of `slow_motion`."""
+
 # name → shape; the letters are counts: b bodies, d dofs, s coordinates, k shapes, p vertices, m mimic joints,
 # c contacts, r rows, a slots of remembered impulses, t trees, e entries of all their mass matrices, y entries of rows,
 # q entries of a matrix of rows, f pairs of shapes, n numbers and i indices of hulls and meshes in pairs.
@@ -105,8 +108,9 @@ FLOATS: dict[str, Size] = {
     "shape_reach": ("k", "3"),
     "tree_low": ("t", "3"),
     "tree_high": ("t", "3"),
-    "still": ("t", "2"),
+    "still": ("t", str(OBSERVED)),
     "strayed": ("d",),
+    "displaced": ("t", "6"),
     "asked": ("d", "8"),
     "asked_gravity": ("3",),
     "pair_numbers": ("n",),

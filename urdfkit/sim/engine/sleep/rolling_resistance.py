@@ -5,10 +5,10 @@ keep everything awake, and so would a ball that turns on the spot, about the nor
 rest, as surfaces yield a little where they touch. So a moment resists the turning of a round body
 
 - about the normal of its contact, on whatever it lies,
-- about any axis, where it lies against two or more shapes of which one is another free body's,
+- about any axis, where it touches another free body,
 
-as long as all that touch each other are free bodies that nothing pushes. What rolls by itself, on the ground or on
-another body, or what a robot touches, rolls freely.
+as long as all that touch each other are free bodies that nothing pushes. What rolls by itself on the ground, or what a
+robot touches, rolls freely.
 """
 
 from __future__ import annotations
@@ -24,10 +24,8 @@ from urdfkit.sim.engine.sleep.sleep_criteria import is_free_body
 
 COEFFICIENT = 0.01
 """Ratio of the force that keeps up rolling to the weight: of wood on wood, or of hard rubber."""
-SEVERAL = 2
-"""Shapes that a body lies against for it to lie in a heap."""
 DONE = -1
-"""Stands for the number of those shapes where the body's turning is resisted already."""
+"""Marks a tree whose turning is resisted already in this step."""
 
 
 @inlined
@@ -74,19 +72,6 @@ def is_left_to_itself(floats: Any, integers: Any, root: int) -> bool:
 
 
 @inlined
-def count(integers: Any, tree: int, against: int, is_free: bool) -> None:
-    """Count the shape that a tree touches, unless it is the one counted last, and remember whether it is free."""
-    shapes = field(integers, integers, At.block_after)
-    last = field(integers, integers, At.block_tree)
-    touches_free = field(integers, integers, At.tree_block)
-    if shapes[tree] == 0 or last[tree] != against:
-        shapes[tree] += 1
-        last[tree] = against
-    if is_free:
-        touches_free[tree] = 1
-
-
-@inlined
 def resist(floats: Any, integers: Any, k: int, shape: int, dt: float) -> None:
     """Let a moment resist the turning of the body of a round shape in a contact, once a step.
 
@@ -96,9 +81,8 @@ def resist(floats: Any, integers: Any, k: int, shape: int, dt: float) -> None:
         return
     body = field(integers, integers, At.shape_body)[shape]
     tree = field(integers, integers, At.body_tree)[body]
-    shapes = field(integers, integers, At.block_after)
     touches_free = field(integers, integers, At.tree_block)
-    if shapes[tree] < 0:
+    if touches_free[tree] == DONE:
         return
     v = field(floats, integers, At.v)
     bias = field(floats, integers, At.bias)
@@ -107,13 +91,13 @@ def resist(floats: Any, integers: Any, k: int, shape: int, dt: float) -> None:
     dof_row = field(integers, integers, At.dof_row)
     first = field(integers, integers, At.tree_dof)[tree] + 3
     turning = (v[first], v[first + 1], v[first + 2])
-    if shapes[tree] < SEVERAL or touches_free[tree] == 0:
+    if touches_free[tree] == 0:
         # A free body's velocities are written in its own axes.
         normal = load_vector(field(floats, integers, At.contact_frame), 3 * k + 2)
         i, j, m = load_spatial(S, first - 3)[0], load_spatial(S, first - 2)[0], load_spatial(S, first - 1)[0]
         normal = (dot(normal, i), dot(normal, j), dot(normal, m))
         turning = scale(dot(turning, normal), normal)
-    shapes[tree] = DONE
+    touches_free[tree] = DONE
     speed = math.sqrt(dot(turning, turning))
     if speed == 0.0:
         return
@@ -140,18 +124,16 @@ def resist_rolling(floats: Any, integers: Any, root: int, dt: float) -> None:
     contact_other = field(integers, integers, At.contact_other)
     contact_shape = field(integers, integers, At.contact_shape)
     contact_against = field(integers, integers, At.contact_against)
-    shapes = field(integers, integers, At.block_after)
     touches_free = field(integers, integers, At.tree_block)
     tree = root
     while tree >= 0:
-        shapes[tree] = touches_free[tree] = 0
+        touches_free[tree] = 0
         tree = island_next[tree]
     k = island_contact[root]
     while k >= 0:
         other = contact_other[k]
-        count(integers, body_tree[contact_body[k]], contact_against[k], other >= 0)
         if other >= 0:
-            count(integers, body_tree[other], contact_shape[k], True)
+            touches_free[body_tree[contact_body[k]]] = touches_free[body_tree[other]] = 1
         k = contact_next[k]
     k = island_contact[root]
     while k >= 0:

@@ -1,28 +1,34 @@
 """Sleep: trees at rest are left as they are, with the forces they rest on, until something happens to them.
 
 An island falls asleep once all its trees have been at rest for `PATIENCE`, see `sleep_criteria`, with nothing asked of
-them. Where it touches with something round it is enough that its bodies are slow: rigid bodies roll on for ever where
-real ones would come to rest. The contacts of sleepers are kept from the end of their room on, so that they can be told
-and found again.
+them. For an island of free bodies it is enough that their motion has died down, see `slow_motion`. The contacts of
+sleepers are kept from the end of their room on, so that they can be told and found again.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from urdfkit.sim.engine.arrays import CONTACTS, DT, LAST_PAIRS, SLEEPING, TREES, At
+from urdfkit.sim.engine.arrays import CONTACTS, DT, LAST_PAIRS, OBSERVED, SLEEPING, TREES, At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.contacts.broadphase import bound
 from urdfkit.sim.engine.contacts.warm_start import copy_contact
 from urdfkit.sim.engine.dynamics.mass_matrix import place
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, store_spatial, store_vector
-from urdfkit.sim.engine.sleep.rolling_resistance import rolls
-from urdfkit.sim.engine.sleep.sleep_criteria import ASKED, PATIENCE, asked_of, grow_calm
+from urdfkit.sim.engine.sleep.sleep_criteria import (
+    ASKED,
+    PATIENCE,
+    asked_of,
+    is_free_body,
+    is_left_alone,
+    is_quiet,
+)
+from urdfkit.sim.engine.sleep.slow_motion import DIED_DOWN, observe
 
 
 @compiled
 def let_sleep(floats: Any, integers: Any, contacts: int) -> None:
-    """Let the islands sleep that have been at rest for long enough, or slow where something rolls."""
+    """Let the islands sleep that have been at rest for long enough, or whose motion has died down."""
     asleep = field(integers, integers, At.asleep)
     island = field(integers, integers, At.island)
     island_next = field(integers, integers, At.island_next)
@@ -33,17 +39,33 @@ def let_sleep(floats: Any, integers: Any, contacts: int) -> None:
     for root in range(integers[TREES]):
         if asleep[root] != 0 or island[root] != root:
             continue
-        quiet = slow = True
+        at_rest = died_down = True
         tree = root
         while tree >= 0:
-            grow_calm(floats, integers, tree, dt)
+            update(floats, integers, tree, dt)
             # What floats and touches nothing is on its way.
             lies = island_contact[root] >= 0 or tree_floats[tree] == 0
-            quiet = quiet and lies and still[2 * tree] >= PATIENCE
-            slow = slow and lies and max(still[2 * tree], still[2 * tree + 1]) >= PATIENCE
+            rests = still[OBSERVED * tree] >= PATIENCE
+            at_rest = at_rest and lies and rests
+            died_down = died_down and lies and is_free_body(integers, tree)
+            died_down = died_down and (rests or still[OBSERVED * tree + DIED_DOWN] != 0.0)
             tree = island_next[tree]
-        if quiet or (slow and rolls(floats, integers, root)):
+        if at_rest or died_down:
             lie_down(floats, integers, root, contacts)
+
+
+@inlined
+def update(floats: Any, integers: Any, tree: int, dt: float) -> None:
+    """Bring up to date for how long a tree has been at rest, and whether its motion has died down."""
+    still = field(floats, integers, At.still)
+    at = OBSERVED * tree
+    if not is_left_alone(floats, integers, tree):
+        for k in range(OBSERVED):
+            still[at + k] = 0.0
+        return
+    still[at] = still[at] + dt if is_quiet(floats, integers, tree) else 0.0
+    if is_free_body(integers, tree):
+        observe(floats, integers, tree, dt)
 
 
 @inlined

@@ -1,17 +1,16 @@
-"""Whether a tree is at rest, or so slow that it may be taken to be, and nothing is asked of it.
+"""Whether a tree is at rest, and nothing is asked of it.
 
 At rest it stays where it is: in `PATIENCE`, or since it lies, it has gone no farther than it would at a speed of
 `QUIET` (`TURNING`), and was never faster than `LOUD`. What lies in a heap trembles a little where contacts come and go,
-and yet is at rest. A body is slow where none of its points is faster than one of a ball that rolls at `LOUD`.
+and yet is at rest.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from urdfkit.sim.engine.arrays import DT, At
+from urdfkit.sim.engine.arrays import DT, OBSERVED, At
 from urdfkit.sim.engine.compilation import field, inlined
-from urdfkit.sim.engine.math.spatial_algebra import dot, load_vector
 
 QUIET = 1e-4
 """Speed [m/s, rad/s] below which, on the whole, a dof counts as at rest: MuJoCo's ``sleep_tolerance``."""
@@ -25,7 +24,7 @@ LOUD = 1e-2
 LOUD_TURNING = 5e-2
 """The same for the turning of a free body [rad/s]: a corner of a brick goes at a tenth of that [m/s]."""
 PATIENCE = 0.5
-"""How long an island is at rest, or slow, before it sleeps [s]."""
+"""How long an island is at rest before it sleeps [s]."""
 ASKED = 8
 """Targets of each dof that are remembered."""
 
@@ -83,7 +82,7 @@ def is_quiet(floats: Any, integers: Any, tree: int) -> bool:
     tree_dof = field(integers, integers, At.tree_dof)
     strayed = field(floats, integers, At.strayed)
     dt = field(floats, integers, At.numbers)[DT]
-    still = field(floats, integers, At.still)[2 * tree]
+    still = field(floats, integers, At.still)[OBSERVED * tree]
     first, free = tree_dof[tree], is_free_body(integers, tree)
     for d in range(first, tree_dof[tree + 1]):
         strayed[d] = (strayed[d] if still > 0.0 else 0.0) + dt * v[d]
@@ -93,36 +92,3 @@ def is_quiet(floats: Any, integers: Any, tree: int) -> bool:
         if not abs(v[d]) < (LOUD_TURNING if turns else LOUD) or not abs(strayed[d]) < slow * max(PATIENCE, still):
             return False
     return True
-
-
-@inlined
-def is_slow(floats: Any, integers: Any, tree: int) -> bool:
-    """Return whether a tree is a body slower than `LOUD`, of which no point goes round it at more than twice that.
-
-    The far side of what rolls is twice as fast as its middle.
-    """
-    if not is_free_body(integers, tree):
-        return False
-    v = field(floats, integers, At.v)
-    shape_p = field(floats, integers, At.shape_p)
-    shape_radius = field(floats, integers, At.shape_radius)
-    tree_shape = field(integers, integers, At.tree_shape)
-    first = field(integers, integers, At.tree_dof)[tree]
-    linear, angular = (v[first], v[first + 1], v[first + 2]), (v[first + 3], v[first + 4], v[first + 5])
-    if not dot(linear, linear) < LOUD * LOUD:
-        return False
-    turn = dot(angular, angular) ** 0.5
-    for k in range(tree_shape[tree], tree_shape[tree + 1]):
-        centre = load_vector(shape_p, k)
-        if not turn * (shape_radius[k] + dot(centre, centre) ** 0.5) < 2.0 * LOUD:
-            return False
-    return True
-
-
-@inlined
-def grow_calm(floats: Any, integers: Any, tree: int, dt: float) -> None:
-    """Bring up to date in ``still`` for how long a tree has been at rest, and for how long it has been slow."""
-    still = field(floats, integers, At.still)
-    alone = is_left_alone(floats, integers, tree)
-    still[2 * tree] = still[2 * tree] + dt if alone and is_quiet(floats, integers, tree) else 0.0
-    still[2 * tree + 1] = still[2 * tree + 1] + dt if alone and is_slow(floats, integers, tree) else 0.0

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from urdfkit.sim.engine.arrays import CONTACTS, SLEEPING, TREES, At
+from urdfkit.sim.engine.arrays import CONTACTS, OBSERVED, SLEEPING, TREES, At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.contacts.warm_start import copy_contact, insert_pair, remember
 from urdfkit.sim.engine.dynamics.tree_motion import begin
@@ -73,7 +73,8 @@ def wake(floats: Any, integers: Any, label: int) -> None:
     for tree in range(integers[TREES]):
         if asleep[tree] == label:
             asleep[tree] = 0
-            still[2 * tree] = still[2 * tree + 1] = 0.0
+            for k in range(OBSERVED):
+                still[OBSERVED * tree + k] = 0.0
             remember(floats, integers, tree)
 
 
