@@ -1,10 +1,11 @@
-"""Controllers in YAML: which there are, and the joints they name, with their places. Reads lines, not all of YAML."""
+"""Controllers in YAML: their names and types, and the joints they name, with their places."""
 
 from __future__ import annotations
 
 import re
 
 from urdfkit.lint.facts.control.launch_files import uncommented
+from urdfkit.lint.facts.control.yaml_tree import documents, groups, start_of, walk
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -12,16 +13,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.description.xml.source import Source
+    from urdfkit.lint.facts.control.yaml_tree import Node
 
-_TYPE = r"(?m)^([ \t]*)type[ \t]*:[ \t]*[\"']?\w*(?:_controllers?|_broadcaster)/\w+[\"']?[ \t]*\r?$"
-_IN_BRACES = (
-    r"(?m)^[ \t]*[\"']?([\w/-]+)[\"']?[ \t]*:[ \t]*\{[^{}\n]*\btype[ \t]*:[ \t]*[\"']?"
-    r"\w*(?:_controllers?|_broadcaster)/\w+"
-)
-_JOINTS = r"(?m)^([ \t]*)(joints?|(?:left|right)_wheel(?:_names)?)[ \t]*:[ \t]*"
-_ITEM = r"[ \t]*-[ \t]+([\"']?)([\w./-]+)\1[ \t]*\r?$"
-_ANCHOR = r"(?<=[:-][ \t])([ \t]*)(&[\w.-]+)(?=[ \t\r\n])"
-_WORD = r"([\"']?)([\w./-]+)\1"
+_TYPE = r"\w*(?:_controllers?|_broadcaster)/\w+"
+_JOINTS = r"joints?|(?:left|right)_wheel(?:_names)?"
 
 _OF_JOINTS = ("JointPositionController", "JointVelocityController", "JointEffortController")
 _OF_GROUPS = ("JointGroupPositionController", "JointGroupVelocityController", "JointGroupEffortController")
@@ -77,73 +72,39 @@ def typed(source: Source) -> Iterator[Named]:
 
 def controllers(source: Source) -> list[str]:
     """Return the names of the controllers that a YAML file gives a type."""
-    text = uncommented(source)
-    found = [at[1].strip("/").rpartition("/")[2] for at in re.finditer(_IN_BRACES, text)]
-    for at in re.finditer(_TYPE, text):
-        indent = len(at[1])
-        for line in reversed(
-            text[: at.start()].splitlines()
-        ):  # the nearest line that stands further left, and names it
-            key = re.match(r"([ \t]*)[\"']?([\w/-]+)[\"']?[ \t]*:[ \t]*$", line)
-            if key is None or len(key[1]) >= indent:
-                continue
-            if key[2] != "ros__parameters":
-                found.append(key[2].strip("/").rpartition("/")[2])
-                break
-            indent = len(key[1])
-    return found
+    return [name for name, _ in _of_controllers(source)]
 
 
 def joints(source: Source) -> Iterator[Named]:
     """Yield the joints that controllers name in a YAML file, where it has any controllers."""
-    text = uncommented(source)
-    if not re.search(_TYPE, text) and not re.search(_IN_BRACES, text):
-        return
-    if "&" in text:
-        text = re.sub(_ANCHOR, lambda at: at[1] + " " * len(at[2]), text)
-    for at in re.finditer(_JOINTS, text):
-        rest = text[at.end() : text.find("\n", at.end()) + 1 or len(text)]
-        if rest.startswith("["):
-            end = text.find("]", at.end())
-            inside = text[at.end() + 1 : end] if end != -1 else ""
-            for word in re.finditer(rf"(?<![^\s,]){_WORD}(?=\s*(?:,|$))", inside):
-                yield Named(word[2], at.end() + 1 + word.start(2))
-        elif not rest.strip():
-            yield from _listed(text, at.end() + len(rest), len(at[1]))
-        elif (only := re.fullmatch(rf"{_WORD}\s*", rest)) is not None:
-            yield Named(only[2], at.end() + only.start(2))
-
-
-def _listed(text: str, start: int, indent: int) -> Iterator[Named]:
-    """Yield the items of a block list that begins at `start`, below a key that stands `indent` far in."""
-    while start < len(text):
-        end = text.find("\n", start) + 1 or len(text)
-        line = text[start:end].rstrip("\n")
-        item = re.match(_ITEM, line)
-        if line.strip() and (item is None or len(line) - len(line.lstrip()) < indent):
-            return
-        if item is not None:
-            yield Named(item[2], start + item.start(2))
-        start = end
+    if controllers(source):
+        for root in documents(source)[0]:
+            yield from _named(source, root)
 
 
 def joints_of(source: Source, kind: Named) -> list[str]:
-    """Return the joints that stand in the same block as the type of a controller, as `typed` returns it.
+    """Return the joints in the same group as the type of a controller, as `typed` returns it."""
+    for _, group in _of_controllers(source):
+        node = group.find("type")
+        if node is not None and start_of(source, node) == kind.start:
+            return [named.name for named in _named(source, group)]
+    return []
 
-    Of a block in braces none are known.
-    """
-    text = uncommented(source)
-    line = text.rfind("\n", 0, kind.start) + 1
-    if "{" in text[line : kind.start]:
-        return []
-    indent = len(text[line:]) - len(text[line:].lstrip(" "))
 
-    def is_inside(row: str) -> bool:
-        return not row.strip() or len(row) - len(row.lstrip(" ")) >= indent
+def _of_controllers(source: Source) -> Iterator[tuple[str, Node]]:
+    for root in documents(source)[0] if re.search(_TYPE, source.text) else ():
+        for name, group in groups(root):
+            kind = group.find("type")
+            if kind is not None and re.fullmatch(_TYPE, kind.text):
+                yield name, group
 
-    before, after = text[:line].splitlines(keepends=True), text[line:].splitlines(keepends=True)
-    above = next((number for number, row in enumerate(reversed(before)) if not is_inside(row)), len(before))
-    below = next((number for number, row in enumerate(after) if not is_inside(row)), len(after))
-    start = line - sum(len(row) for row in before[len(before) - above :])
-    end = line + sum(len(row) for row in after[:below])
-    return [named.name for named in joints(source) if start <= named.start < end]
+
+def _named(source: Source, part: Node) -> Iterator[Named]:
+    """Yield the joints that a part of a document names, each place once: aliases repeat places."""
+    places: dict[int, str] = {}
+    for node in walk(part):
+        for key, value in node.entries if node.kind == "group" else ():
+            for item in (value, *value.items) if re.fullmatch(_JOINTS, key.text) else ():
+                if item.kind == "text" and re.fullmatch(r"[\w./-]+", item.text):
+                    places.setdefault(start_of(source, item), item.text)
+    yield from (Named(name, start) for start, name in sorted(places.items()))

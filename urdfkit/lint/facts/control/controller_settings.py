@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from urdfkit.lint.facts.control.ros2_controllers import PARAMETERS, declared
-from urdfkit.lint.facts.control.yaml_tree import Node, documents
+from urdfkit.lint.facts.control.yaml_tree import Node, documents, groups
 from urdfkit.record import record
 
 TYPE_CHECKING = False
@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from urdfkit.description.xml.source import Source
-
-_MAX_DEPTH = 4
 
 _ALWAYS = ("type", "update_rate", "use_sim_time", "is_async", "async_parameters", "params_file", "publish_rate", "pid")
 _TRAJECTORY = (
@@ -80,19 +78,11 @@ def settings(source: Source) -> Iterator[Settings]:
             seen.add(id(controller.settings))
             yield Settings(controller.name, controller.kind.text, controller.settings)
     for root in documents(source)[0]:
-        for name, group in _groups(root, "", 0):
+        for name, group in groups(root):
             kind = group.find("type")
             if kind is not None and re.fullmatch(r"\w+/\w+", kind.text) and id(group) not in seen:
                 seen.add(id(group))
                 yield Settings(name, kind.text, group)
-
-
-def _groups(node: Node, name: str, depth: int) -> Iterator[tuple[str, Node]]:
-    """Yield the groups with what they are called: what stands above, where that is ``ros__parameters``."""
-    yield name, node
-    for key, value in node.entries if depth < _MAX_DEPTH else ():
-        called = name if key.text == PARAMETERS else key.text.strip("/").rpartition("/")[2]
-        yield from _groups(value, called, depth + 1)
 
 
 def misspelt(source: Source) -> Iterator[tuple[Node, str, Settings]]:

@@ -68,11 +68,15 @@ def documents(source: Source) -> tuple[tuple[Node, ...], Broken | None]:
     return _read(source.text)
 
 
+def start_of(source: Source, node: Node) -> int:
+    """Return the offset of a text, without its quotes; else of the first letter."""
+    start = source.offset(node.line, node.column)
+    return start + (source.text[start : start + 1] in ("'", '"'))
+
+
 def span_of(source: Source, node: Node) -> Span:
     """Return the span of a text in one line, without its quotes; else of the first letter."""
-    start = source.offset(node.line, node.column)
-    if source.text[start : start + 1] in ("'", '"'):
-        start += 1
+    start = start_of(source, node)
     return source.span(start, start + max(len(node.text) if "\n" not in node.text else 1, 1))
 
 
@@ -82,6 +86,14 @@ def walk(node: Node, depth: int = 0) -> Iterator[Node]:
     if depth < _MAX_DEPTH:
         for inner in (*(value for _, value in node.entries), *node.items):
             yield from walk(inner, depth + 1)
+
+
+def groups(node: Node, name: str = "", depth: int = 0) -> Iterator[tuple[str, Node]]:
+    """Yield the groups of parameters with their names: of ``ros__parameters``, the name of the node."""
+    yield name, node
+    for key, value in node.entries if depth < 4 else ():
+        called = name if key.text == "ros__parameters" else key.text.strip("/").rpartition("/")[2]
+        yield from groups(value, called, depth + 1)
 
 
 @lru_cache(maxsize=400)
