@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from urdfkit.errors import UsageError
+from urdfkit.errors import UsageError, nearest
 
 
 @dataclass(slots=True)
@@ -93,8 +93,15 @@ class Bus:
         return topic
 
     def publish(self, name: str, type: str, message: Any) -> None:
-        """Hand a message to every subscriber, in the order they subscribed."""
-        self.advertise(name, type).publish(message)
+        """Hand a message to every subscriber, in the order they subscribed.
+
+        Raises:
+            UsageError: the topic exists with another type, or the message is of another type.
+        """
+        topic = self.advertise(name, type)
+        if (kind := getattr(message, "__msgtype__", topic.type)) != topic.type:
+            raise UsageError(f"topic `{topic.name}` has type {topic.type}, not {kind}")
+        topic.publish(message)
 
     def subscribe(self, name: str, type: str, callback: Callable[[Any], None]) -> Subscription:
         """Call `callback` with every message published from now on."""
@@ -121,3 +128,12 @@ class Bus:
 def absolute(name: str) -> str:
     """Return a topic name with exactly one leading slash and none doubled or trailing."""
     return "/" + "/".join(part for part in name.split("/") if part)
+
+
+def nearest_topic(name: str, topics: Sequence[str]) -> str | None:
+    """Return the topic with the nearest name, or with the nearest last part of its name; None if none is similar."""
+    if near := nearest(name, topics):
+        return near
+    by_end = {topic.rpartition("/")[2]: topic for topic in reversed(topics)}
+    end = nearest(name.rpartition("/")[2], by_end)
+    return None if end is None else by_end[end]

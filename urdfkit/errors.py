@@ -55,7 +55,17 @@ class DescriptionError(UrdfkitError):
 
 
 class XmlError(DescriptionError):
-    """Not well-formed XML, or XML that is hostile (entity declarations, external entities)."""
+    """Not well-formed XML, or XML that is hostile (entity declarations, external entities).
+
+    Args:
+        message: see `UrdfkitError`.
+        position: see `UrdfkitError`.
+        cause: the error of the parser, such as ``unbound prefix``; empty for hostile XML.
+    """
+
+    def __init__(self, message: str, *, position: Position | None = None, cause: str = "") -> None:
+        super().__init__(message, position=position)
+        self.cause = cause
 
 
 class XacroError(DescriptionError):
@@ -125,5 +135,9 @@ def did_you_mean(name: str, candidates: Iterable[str]) -> str:
         name: the name the user wrote.
         candidates: the valid names.
     """
-    near = nearest(name, candidates)
-    return f"; did you mean `{near}`?" if near is not None else ""
+    return suggestion(nearest(name, candidates))
+
+
+def suggestion(name: str | None) -> str:
+    """Return ``; did you mean `x`?`` for a name, or an empty string for None."""
+    return f"; did you mean `{name}`?" if name is not None else ""

@@ -81,7 +81,8 @@ def _prepare(cls: Any, eq: bool, order: bool) -> Any:
     cls.__match_args__ = cls._record_names  # type: ignore[misc]
     cls.__dataclass_fields__ = _Fields()
     cls.__init__ = _init
-    cls.__repr__ = _repr
+    if "__repr__" not in cls.__dict__:
+        cls.__repr__ = _repr
     cls.__setattr__ = _frozen
     cls.__delattr__ = _frozen
     if eq:

@@ -16,7 +16,7 @@ def on_image(image: Any) -> None:
     pixels = image.data.reshape(image.height, image.width, 3)
     white = (pixels.min(axis=2) > WHITE).mean()
     speed = 0.5 if white < STOP_SHARE else 0.0
-    simulator.bus.publish(COMMAND, TWIST, twist((speed, 0.0, 0.0), (0.0, 0.0, 0.0)))
+    simulator.publish(COMMAND, TWIST, twist((speed, 0.0, 0.0), (0.0, 0.0, 0.0)))
     if not speed:
         print(f"{simulator.t:.2f} s: {white:.0%} of the image is white. Stopping!")
         subscription.close()

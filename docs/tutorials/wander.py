@@ -18,7 +18,7 @@ def on_scan(scan: Any) -> None:
     left, right = ranges[(angles > 0) & (angles < 1)].min(), ranges[(angles > -1) & (angles < 0)].min()
     blocked = min(left, right) < NEAR
     speed, turn = (0.0, 1.0 if left > right else -1.0) if blocked else (0.3, 0.0)
-    simulator.bus.publish(COMMAND, TWIST, twist((speed, 0.0, 0.0), (0.0, 0.0, turn)))
+    simulator.publish(COMMAND, TWIST, twist((speed, 0.0, 0.0), (0.0, 0.0, turn)))
 
 
 simulator = Simulator("diff_wheeled_robot_with_laser", world="house")

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from urdfkit.description.urdf.robot import Robot
     from urdfkit.lint.finding import Finding as Finding
+    from urdfkit.lint.finding import Findings
     from urdfkit.lint.rules import RULES as RULES
 
 _MODULES = {"Finding": "finding", "RULES": "rules"}
@@ -31,7 +32,7 @@ def lint(
     target: str | None = None,
     arguments: Mapping[str, str] | None = None,
     package_path: Iterable[str | Path] = (),
-) -> list[Finding]:
+) -> Findings:
     """Lint robots, packages or workspaces.
 
     Args:
@@ -54,6 +55,7 @@ def lint(
     from pathlib import Path
 
     from urdfkit.lint.engine.run import merged, run
+    from urdfkit.lint.finding import Findings
     from urdfkit.lint.project.entry_files import find_entries
     from urdfkit.lint.project.options import Options
 
@@ -69,7 +71,7 @@ def lint(
             model = model_argument(robot, arguments=arguments, package_path=folders)
             own = {"arguments": model.arguments, "package_path": model.package_path}
             outcomes.append(run(find_entries([model.path]), Options(**{**options.__dict__, **own})))
-    return merged(finding for outcome in outcomes for finding in outcome.findings)
+    return Findings(merged(finding for outcome in outcomes for finding in outcome.findings))
 
 
 def __getattr__(name: str) -> Any:

@@ -83,6 +83,10 @@ class Finding:
     fix: Fix | None = None
     chains: tuple[tuple[Expansion, ...], ...] = ()
 
+    def __repr__(self) -> str:
+        """Return code, position and message."""
+        return f"<Finding {self.code} {self.file}:{self.line}:{self.column}: {self.message}>"
+
     @property
     def file(self) -> str:
         """The file as shown to the user."""
@@ -132,17 +136,30 @@ class EntryResult:
         findings: findings that no comment suppresses.
         files: name in findings → absolute path, for every file read.
         note: one line with the guessed target and the reason; empty if no target was guessed.
-        used: positions of comments that suppress findings of this entry, each with a code.
+        used: position of each comment that suppresses findings of this entry, with a code.
+        unused: position of each comment with unused suppressions, with their codes; without codes if it has none.
         refused: one line with the reason why the entry was not linted, or not by all rules; else empty.
     """
 
     findings: tuple[Finding, ...]
     files: Mapping[str, str]
     note: str = ""
-    used: tuple[str, ...] = ()
+    used: tuple[tuple[str, str], ...] = ()
     refused: str = ""
+    unused: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
 
 def _call(call: Expansion) -> dict[str, Any]:
     at = call.position
     return {"macro": call.macro, "file": at.file, "line": at.line, "column": at.column}
+
+
+class Findings(list[Finding]):
+    """List of findings; a table in notebooks."""
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        cells = ((f"{each.file}:{each.line}:{each.column}", each.code, each.severity, each.message) for each in self)
+        rows = "".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in cells)
+        return f"<table><tr><th>position</th><th>code</th><th>severity</th><th>message</th></tr>{rows}</table>"

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from urdfkit.bus import Bus, Subscription
+from urdfkit.bus import Bus, Subscription, absolute, nearest_topic
 from urdfkit.description import Robot, load
 from urdfkit.description.sdf import Physics, World
-from urdfkit.errors import SimulationError
+from urdfkit.errors import SimulationError, UnknownNameError, suggestion
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.scene import Scene
 from urdfkit.sim.construction.initial_overlap import note_overlaps
@@ -147,6 +147,10 @@ class Simulator:
         listen(self.bus, self.world, self.at, self.note)
         note_overlaps(builder.engine, self.kinematics.link_names, self.note)
 
+    def __repr__(self) -> str:
+        """Return robot, world and time."""
+        return f"<Simulator of {self.name} in world {self.world.name} at t = {self.t:g} s>"
+
     # Time
 
     @property
@@ -253,9 +257,36 @@ class Simulator:
             else:
                 self.bus.publish(topic, TWIST, twist(linear, angular))
 
-    def subscribe(self, topic: str, type: str, callback: Callable[[Any], None]) -> Subscription:
-        """Call `callback` with every message on a topic, while the simulation advances, in its thread."""
+    def subscribe(self, topic: str, type: str, callback: Callable[[Any], None], *, wait: bool = False) -> Subscription:
+        """Call `callback` with every message on a topic, while the simulation advances, in its thread.
+
+        Args:
+            topic: name of the topic.
+            type: of its messages, such as ``nav_msgs/msg/Odometry``.
+            callback: receives the messages.
+            wait: accept a topic that does not exist yet, because something publishes it later.
+
+        Raises:
+            UnknownNameError: unknown topic, without `wait`.
+            UsageError: the topic has another type.
+        """
+        known = [each.name for each in self.bus.topics]
+        if not wait and (name := absolute(topic)) not in known:
+            hint = suggestion(nearest_topic(name, known)) or "; wait=True accepts topics that are published later"
+            raise UnknownNameError(f"no topic `{name}` in the simulation{hint}")
         return self.bus.subscribe(topic, type, callback)
+
+    def publish(self, topic: str, type: str, message: Any) -> None:
+        """Publish a message to the subscribers of a topic. Topics of your own are published with `bus.publish`.
+
+        Raises:
+            UnknownNameError: the topic has no subscribers.
+            UsageError: the topic or the message has another type.
+        """
+        subscribed = [each.name for each in self.bus.topics if each.subscribers]
+        if (name := absolute(topic)) not in subscribed:
+            raise UnknownNameError(f"topic `{name}` has no subscribers{suggestion(nearest_topic(name, subscribed))}")
+        self.bus.publish(topic, type, message)
 
     def link_poses(self) -> Array:
         """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7)."""

@@ -6,7 +6,6 @@ Arguments and answers go in; `urdfkit.scaffold` writes the files, and the next c
 from __future__ import annotations
 
 import argparse
-import re
 import shlex
 import sys
 from collections.abc import Callable, Mapping
@@ -22,7 +21,7 @@ from urdfkit.cli.new.template_options import KindParser, add_update, chosen
 from urdfkit.cli.new.update import add_picture, findings
 from urdfkit.cli.new.written_packages import misplaced, report_written
 from urdfkit.cli.parser import Parser
-from urdfkit.errors import UrdfkitError, UsageError, did_you_mean
+from urdfkit.errors import UrdfkitError, UsageError, did_you_mean, nearest, suggestion
 from urdfkit.scaffold import (
     Question,
     Template,
@@ -69,9 +68,10 @@ def _suggestion(parser: Parser, option: str) -> str:
     kind_by_option |= {question.option: "robot" for question in named_template("robot").questions}
     if option in kind_by_option:
         return f"; did you mean `urdfkit new {kind_by_option[option]} NAME {option}`?"
-    own = did_you_mean(option, parser._option_string_actions)
-    near = re.search("`(.*)`", did_you_mean(option, kind_by_option)) if not own else None
-    return f"; did you mean `urdfkit new {kind_by_option[near[1]]} NAME {near[1]}`?" if near else own
+    if own := did_you_mean(option, parser._option_string_actions):
+        return own
+    near = nearest(option, kind_by_option)
+    return suggestion(near and f"urdfkit new {kind_by_option[near]} NAME {near}")
 
 
 def run(arguments: argparse.Namespace) -> int:

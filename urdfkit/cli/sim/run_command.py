@@ -19,11 +19,9 @@ from urdfkit.cli.sim.record_option import NEW_TOPIC_PERIOD, add_record, check_re
 from urdfkit.cli.sim.renderer_option import add_renderer
 from urdfkit.cli.sim.ros_distro_option import add_distro
 from urdfkit.cli.unused_arguments import note_unused
-from urdfkit.errors import SimulationError, UsageError, did_you_mean
+from urdfkit.errors import SimulationError, UsageError, suggestion
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from urdfkit.cli.sim.run_report import Effort
     from urdfkit.sim.simulator import Simulator
 
@@ -273,7 +271,7 @@ def publish_at(simulator: Simulator, wanted: option_values.TopicMessage) -> None
     """
     import yaml
 
-    from urdfkit.bus import absolute
+    from urdfkit.bus import absolute, nearest_topic
     from urdfkit.messages import from_fields, full_type_name
 
     try:
@@ -285,21 +283,11 @@ def publish_at(simulator: Simulator, wanted: option_values.TopicMessage) -> None
     subscribed = [topic.name for topic in simulator.bus.topics if topic.subscribers]
     simulator.bus.advertise(wanted.topic, kind)
     if absolute(wanted.topic) not in subscribed:
-        simulator.note(
-            f"{absolute(wanted.topic)} has no subscribers{nearest_topic(absolute(wanted.topic), subscribed)}"
-        )
+        own = sorted(topic for topic in subscribed if not topic.startswith(("/gazebo/", "/world/")))
+        known = f" (topics with subscribers: {', '.join(own)})" if own else ""
+        near = nearest_topic(absolute(wanted.topic), subscribed)
+        simulator.note(f"{absolute(wanted.topic)} has no subscribers{suggestion(near) or known}")
     simulator.at(wanted.t, lambda: simulator.bus.publish(wanted.topic, kind, message))
-
-
-def nearest_topic(name: str, subscribed: Sequence[str]) -> str:
-    """Return ``; did you mean …`` for the topic with the nearest name, or with the nearest last part of the name."""
-    if hint := did_you_mean(name, subscribed):
-        return hint
-    by_end = {topic.rpartition("/")[2]: topic for topic in reversed(subscribed)}
-    if end := did_you_mean(name.rpartition("/")[2], by_end):
-        return f"; did you mean `{by_end[end.split('`')[1]]}`?"
-    own = sorted(topic for topic in subscribed if not topic.startswith(("/gazebo/", "/world/")))
-    return f" (topics with subscribers: {', '.join(own)})" if own else ""
 
 
 def advance(simulator: Simulator, seconds: float, until: str | None) -> Effort:

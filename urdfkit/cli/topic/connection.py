@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.page import note
-from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, did_you_mean
+from urdfkit.errors import MissingDependencyError, ResourceError, UsageError, suggestion
 
 if TYPE_CHECKING:
     from urdfkit.view.protocol.client import Client
@@ -99,17 +99,13 @@ def find_topic(rows: Sequence[Row], name: str) -> Row:
     Raises:
         UsageError: the topic is unknown; names the nearest.
     """
-    from urdfkit.bus import absolute
+    from urdfkit.bus import absolute, nearest_topic
 
     full = absolute(name)
     for row in rows:
         if row.name == full:
             return row
-    hint = did_you_mean(full, [row.name for row in rows])
-    last = {row.name.rpartition("/")[2]: row.name for row in rows}  # for a name without the robot's name
-    if not hint and (near := did_you_mean(full.rpartition("/")[2], last)):
-        hint = f"; did you mean `{last[near.split('`')[1]]}`?"
-    raise UsageError(f"unknown topic `{full}`{hint}")
+    raise UsageError(f"unknown topic `{full}`{suggestion(nearest_topic(full, [row.name for row in rows]))}")
 
 
 async def messages(

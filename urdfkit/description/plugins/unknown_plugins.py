@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+from urdfkit import errors
 from urdfkit.description.plugins.lookup import ALL_SPECS, stem
 from urdfkit.description.urdf.robot import Plugin
-from urdfkit.errors import did_you_mean
 
 _GAZEBO = re.compile(r"^(gazebo_ros_|gazebo_|gz-sim-|ignition-gazebo-|gz_|hector_gazebo_)")
 """How names of Gazebo's own plugins begin."""
@@ -46,10 +46,10 @@ def nearest(name: str, others: Iterable[str] = ()) -> str:
     """
     candidates = [other for spec in ALL_SPECS for other in spec.filenames] + list(others)
     # Parts common to most names do not make names similar.
-    hint = did_you_mean(_essence(name), map(_essence, candidates))
-    if not hint:
+    near = errors.nearest(_essence(name), map(_essence, candidates))
+    if near is None:
         return ""
-    meant = [other for other in candidates if _essence(other) == hint.split("`")[1]]
+    meant = [other for other in candidates if _essence(other) == near]
     return get_close_matches(name, meant, n=1, cutoff=0.0)[0]
 
 

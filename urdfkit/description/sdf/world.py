@@ -112,6 +112,11 @@ class World(Written):
     unknown_plugins: tuple[Position, ...] = field(default=(), repr=False)
     position: Position | None = field(default=None, repr=False)
 
+    def __repr__(self) -> str:
+        """Return the name, the models and the robots."""
+        names = [*(model.name for model in self.models), *(robot.name for robot in self.robots)]
+        return f"<World {self.name}: {', '.join(names) or 'empty'}>"
+
     @cached_property
     def model_by_name(self) -> dict[str, WorldModel]:
         """Models by name."""

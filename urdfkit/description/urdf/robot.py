@@ -326,6 +326,11 @@ class Robot:
     packages: Packages | None = field(default=None, repr=False)
     arguments: Mapping[str, str] = field(default_factory=dict, repr=False)
 
+    def __repr__(self) -> str:
+        """Return the name, the file and the numbers of links and joints."""
+        file = f" from {self.files[0]}" if self.files else ""
+        return f"<Robot {self.name}{file}: {len(self.links)} links, {len(self.joints)} joints>"
+
     @cached_property
     def link_by_name(self) -> dict[str, Link]:
         """Links by name; the first of duplicates."""

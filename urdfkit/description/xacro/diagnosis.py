@@ -40,7 +40,7 @@ def fault_of(error: BaseException, run: Run, caught_in: FrameType | None = None)
         caught_in: the frame that caught it, when xacro is still running below.
     """
     if isinstance(error, XmlError) and error.position is not None:
-        return Fault("xml", error.message, error.position)
+        return Fault("xml", error.message, error.position, details={"cause": error.cause})
     place = place_of_error(error, caught_in)
     position, expansions, attribute = run.where(place)
     facts = _facts(error, place, run)

@@ -146,7 +146,7 @@ def _read_plain_leniently(
             files=(absolute(path),),
             sources={shown: read_source(Path(path), shown_as=shown, texts=texts)},
             packages=packages,
-            faults=(Fault("xml", error.message, error.position),),
+            faults=(Fault("xml", error.message, error.position, details={"cause": error.cause}),),
         )
 
 

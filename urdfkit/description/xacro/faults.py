@@ -50,6 +50,7 @@ class Fault:
         defined_at: where `name` is defined although too late (after its use); None where it is not.
         details: further facts by kind: ``macro-arguments`` has ``macro`` (str), ``missing`` and ``unknown`` (tuples of
             parameter names); ``include-not-found`` has ``path`` (str); ``recursion`` has ``cycle`` (tuple of names);
+            ``xml`` has ``cause`` (str), the error of the XML parser;
             ``undefined-macro`` has ``meant`` (str) where the call was read as one of another macro.
     """
 

@@ -61,7 +61,7 @@ class RecoveringRun(NotingRun):
         try:
             document = super().stamped(source)
         except XmlError as error:
-            if not error.message.startswith("unbound prefix"):
+            if error.cause != "unbound prefix":
                 raise
             self._note(fault_of(error, self))
             document = stamped_document(source, self, namespaces=False)

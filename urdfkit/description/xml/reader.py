@@ -189,13 +189,13 @@ def parse_with(parser: Any, source: Source, open_tags: Callable[[], list[tuple[s
         parser.Parse(source.text, True)
     except expat.ExpatError as error:
         position = Position(source.file, error.lineno, error.offset + 1)
-        raise XmlError(_explain(error, source, position, open_tags()), position=position) from None
+        cause = expat.ErrorString(error.code) or "not well-formed"
+        raise XmlError(_explain(cause, source, position, open_tags()), position=position, cause=cause) from None
     except UnicodeEncodeError as error:
         raise XmlError("the text contains an unpaired surrogate", position=source.position(error.start)) from None
 
 
-def _explain(error: expat.ExpatError, source: Source, position: Position, opened: list[tuple[str, int]]) -> str:
-    text = expat.ErrorString(error.code) or "not well-formed"
+def _explain(text: str, source: Source, position: Position, opened: list[tuple[str, int]]) -> str:
     offset = source.offset(position.line, position.column)
     tag = opened[-1] if opened else None
     unclosed = f"`<{tag[0]}>` of line {tag[1]} is not closed" if tag else ""

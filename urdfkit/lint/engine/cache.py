@@ -85,7 +85,9 @@ class Cache:
             )  # written by urdfkit, complete, and by this Python version, as marshal requires
             if not self._holds(kept, entry):
                 return None
-            found = EntryResult(tuple(map(_finding, kept["findings"])), kept["files"], kept["note"], kept["used"])
+            found = EntryResult(
+                tuple(map(_finding, kept["findings"])), kept["files"], kept["note"], kept["used"], unused=kept["unused"]
+            )
         except (OSError, ValueError, EOFError, KeyError, TypeError, RuntimeError):
             return None
         self.hits += 1
@@ -135,6 +137,7 @@ class Cache:
                 "files": dict(found.files),
                 "note": found.note,
                 "used": found.used,
+                "unused": found.unused,
             },
         )
 

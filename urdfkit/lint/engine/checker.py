@@ -147,9 +147,10 @@ class Checker:
             for rule in (*robot_rules(model.robot, model.target), *outside, *foreign):
                 if self._applies(rule, model.target):
                     findings += self._run(rule, entry.path, model)
-        used: tuple[str, ...] = ()
+        used: tuple[tuple[str, str], ...] = ()
+        unused: tuple[tuple[str, tuple[str, ...]], ...] = ()
         if any("urdfkit:" in source.text for source in model.expanded.sources.values()):
-            findings, used = self._suppress(findings, model, entry)
+            findings, used, unused = self._suppress(findings, model, entry)
         here = str(Path.cwd())
         read = (*model.expanded.sources, *(model.related_files if model.expanded.root is not None else ()))
         files = {name: os.path.join(here, name) for name in read}  # noqa: PTH118
@@ -157,7 +158,7 @@ class Checker:
             only = {path.resolve() for path in entry.only}
             names = {name for name, path in files.items() if Path(path).resolve() in only}
             findings = [finding for finding in findings if finding.file in names]
-        return EntryResult(tuple(findings), files, note, used, "; ".join(self._failures)), model
+        return EntryResult(tuple(findings), files, note, used, "; ".join(self._failures), unused), model
 
     def _run_source_rules(self, model: Model) -> Iterator[Finding]:
         sources = model.expanded.sources
@@ -193,8 +194,10 @@ class Checker:
             package = rule.__module__.partition(".")[0]
             self._failures.append(f"{file}: {rule.code} {rule.name} could not check this file: {bug(error, package)}")
 
-    def _suppress(self, findings: list[Finding], model: Model, entry: Entry) -> tuple[list[Finding], tuple[str, ...]]:
-        """Return the findings that no comment suppresses, and the positions of the comments that suppress findings."""
+    def _suppress(
+        self, findings: list[Finding], model: Model, entry: Entry
+    ) -> tuple[list[Finding], tuple[tuple[str, str], ...], tuple[tuple[str, tuple[str, ...]], ...]]:
+        """Return the findings that no comment suppresses, and `used` and `unused` of the `EntryResult`."""
         from urdfkit.lint.facts.suppressions import suppressed, suppressions
         from urdfkit.lint.rules.document.unknown_suppression import UnknownSuppression
         from urdfkit.lint.rules.document.unused_suppression import UnusedSuppression
@@ -210,6 +213,7 @@ class Checker:
         if entry.is_library or model.is_incomplete:
             judged.clear()
         every = bool(judged) and not self.options.select and not self.options.ignore
+        without: list[tuple[Suppression, tuple[str, ...]]] = []
         for items in comments.values():
             unused = []
             for item in items:
@@ -217,10 +221,12 @@ class Checker:
                 lost = tuple(code for code in item.codes if code in judged and code not in met)
                 if lost or (every and not item.codes and not met):
                     unused.append((item, lost))
+            without += unused
             if self._applies(UnusedSuppression, model.target):
                 valid = [one for one in unused if one[0].verb in ("ignore", "ignore-file")]
                 left += UnusedSuppression().check(valid, model)
-        return left, tuple(sorted({f"{item.position} {code}" for item, code in used}))
+        places = tuple(sorted({(str(item.position), code) for item, code in used}))
+        return left, places, tuple((str(item.position), codes) for item, codes in without)
 
     def _applicability(self) -> dict[str, Callable[[str | None], bool]]:
         from urdfkit.lint.rules import RULES

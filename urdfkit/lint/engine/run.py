@@ -76,20 +76,20 @@ def run(
         found.update((entry, check(entry)) for entry in left)
     every = [found[entry] for entry in entries]
     files = {name: Path(path) for one in every for name, path in one.files.items()}
-    used = {place for one in every for place in one.used}
-    findings = merged(finding for one in every for finding in one.findings if not _is_in_use(finding, used))
+    used = {each for one in every for each in one.used}
+    findings = merged(finding for one in every for finding in one.findings if not _is_in_use(finding, one.unused, used))
     notes = dict.fromkeys(one.note for one in every if one.note)
     refused = tuple(dict.fromkeys(one.refused for one in every if one.refused))
     return Outcome(tuple(findings), Sources(checker.sources, files), files, tuple(notes), hits, refused)
 
 
-def _is_in_use(finding: Finding, used: set[str]) -> bool:
+def _is_in_use(finding: Finding, unused: tuple[tuple[str, tuple[str, ...]], ...], used: set[tuple[str, str]]) -> bool:
     """Return whether a suppression that is unused in one robot suppresses a finding in another robot."""
     if finding.code != "E019" or not used:
         return False
-    codes = finding.message.split("`")[1::2]
     at = str(finding.span.start)
-    return any(place.startswith(f"{at} ") and (not codes or place.split()[-1] in codes) for place in used)
+    codes = dict(unused).get(at, ())
+    return any(place == at and (not codes or code in codes) for place, code in used)
 
 
 class Sources(dict[str, "Source"]):

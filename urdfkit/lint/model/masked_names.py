@@ -92,7 +92,7 @@ class MaskedNames:
             if tag is not None and tag.name in _CONDITIONS:
                 self._read(tag.children, {})
         for fault in model.expanded.faults:
-            if "meant" not in fault.details and not fault.message.startswith("unbound prefix"):
+            if "meant" not in fault.details and fault.details.get("cause") != "unbound prefix":
                 self._take(fault)
 
     def has(self, name: str) -> bool:

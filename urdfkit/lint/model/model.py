@@ -83,7 +83,7 @@ class Model:
         if any(misspelt_in_robot(child) is not None for child in self.robot.element.children):
             return True
         faults = (fault for fault in self.expanded.faults if "meant" not in fault.details)
-        return any(fault.kind in _DROPPING and not fault.message.startswith("unbound prefix") for fault in faults)
+        return any(fault.kind in _DROPPING and fault.details.get("cause") != "unbound prefix" for fault in faults)
 
     @cached_property
     def encoding_faults(self) -> tuple[Fault, ...]:

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Placement = tuple[tuple[float, float, float], tuple[float, float, float, float]]
 
+MOST_SHOWN = 6
+"""Joints in the `repr` of a state."""
+
 
 class Snapshot:
     """The robot's configuration at one moment, kept; what follows from it is worked out when somebody asks.
@@ -53,9 +56,10 @@ class Snapshot:
         return configuration(self._kinematics.model, kept, self._tree)
 
     def link_poses(self) -> Array:
-        """Return x y z [m] and quaternion x y z w of every link in the world; shape (n_links, 7)."""
+        """Return x y z [m] and quaternion x y z w of every link in the world, read-only; shape (n_links, 7)."""
         if self._poses is None:
             self._poses = link_poses(self._kinematics, self.q, self._base)
+            self._poses.flags.writeable = False
         return self._poses
 
     def placement(self, link: str | None, relative_to: str | None) -> Placement:
@@ -89,6 +93,28 @@ class State:
         self._index = {name: kinematics.velocity_index(name) for name in names}
         self.attach(engine, articulation)
 
+    def __repr__(self) -> str:
+        """Return time, base position and joint positions."""
+        x, y, z = self.base_pose[:3]
+        joints = "".join(f", {name} {self.position(name):.3g}" for name in list(self._index)[:MOST_SHOWN])
+        more = ", …" if len(self._index) > MOST_SHOWN else ""
+        return f"<State at t = {self.t:g} s: base at {x:.3g} {y:.3g} {z:.3g} m{joints}{more}>"
+
+    def _repr_html_(self) -> str:
+        """Return a table of the joints, for notebooks."""
+        from html import escape
+
+        rows = "".join(
+            f"<tr><td>{escape(name)}</td><td>{self.position(name):.4g}</td><td>{self.velocity(name):.4g}</td>"
+            f"<td>{self.effort(name):.4g}</td></tr>"
+            for name in self._index
+        )
+        x, y, z = self.base_pose[:3]
+        return (
+            f"<p>t = {self.t:g} s, base at {x:.4g} {y:.4g} {z:.4g} m</p><table><tr><th>joint</th>"
+            f"<th>position [rad, m]</th><th>velocity [rad/s, m/s]</th><th>effort [N·m, N]</th></tr>{rows}</table>"
+        )
+
     def attach(self, engine: Engine, articulation: Articulation | None = None) -> None:
         """Look at another engine from now on: one for the same robot in a world that has changed."""
         self._engine = engine
@@ -115,7 +141,9 @@ class State:
     @property
     def q(self) -> Array:
         """Configuration, in the order of `Kinematics`, read-only; shape (nq,)."""
-        return self._articulation.q
+        q = self._articulation.q
+        q.flags.writeable = False
+        return q
 
     @property
     def v(self) -> Array:

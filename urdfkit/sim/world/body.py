@@ -28,6 +28,13 @@ class RigidBody:
         self._builder, self._forces = builder, forces
         self.name = name
 
+    def __repr__(self) -> str:
+        """Return name and position, or that the body was removed."""
+        if self.name not in self._builder.body_names:
+            return f"<RigidBody {self.name}: removed>"
+        x, y, z = self.pose[:3]
+        return f"<RigidBody {self.name} at {x:.3g} {y:.3g} {z:.3g} m>"
+
     @property
     def body(self) -> Body:
         """Mass, inertia, shapes and initial pose, as the engine got them.

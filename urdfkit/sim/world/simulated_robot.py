@@ -114,6 +114,10 @@ class SimulatedRobot:
         self.writes: list[Periodic] = []
         self.reads: tuple[Sequence[Periodic], ...] = ()
 
+    def __repr__(self) -> str:
+        """Return name and state."""
+        return f"<SimulatedRobot {self.name}: {self.state!r}>"
+
     @property
     def has_plugins(self) -> bool:
         """Whether it is a robot rather than a thing with joints: it has plugins or sensors, or came as a robot."""

@@ -27,7 +27,7 @@ from urdfkit.description.sdf.world import GRAVITY, Physics, World, WorldRobot
 from urdfkit.description.urdf.robot import Pose
 from urdfkit.description.xml.element import Element
 from urdfkit.description.xml.reader import shown_path
-from urdfkit.errors import DescriptionError, ResourceError, did_you_mean
+from urdfkit.errors import DescriptionError, ResourceError, did_you_mean, nearest
 
 _SUFFIXES = (".world", ".sdf")
 _ROBOT_SUFFIXES = (".urdf", ".xacro")
@@ -130,7 +130,7 @@ def _named(name: str, package_path: Iterable[str | Path]) -> Path:
         return find_model(Context(Packages(package_path, here), here), uri)
     except ResourceError as error:
         names = f" (models: {', '.join(model_names())})"
-        raise ResourceError(error.message + ("" if "did you mean" in error.message else names)) from None
+        raise ResourceError(error.message + ("" if nearest(name, model_names()) is not None else names)) from None
 
 
 def _alone(found: ReadEntity) -> World:

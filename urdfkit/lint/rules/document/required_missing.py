@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from urdfkit.description.urdf.robot import JOINT_TYPES
 from urdfkit.lint.rule import RobotRule
 
 TYPE_CHECKING = False
@@ -69,6 +68,4 @@ class RequiredMissing(RobotRule):
                 continue  # Exporters write empty textures, which every reader ignores.
             if model.is_incomplete and problem.attribute is None:
                 continue  # The element may be in a part that could not be expanded.
-            if problem.element.tag == "joint" and problem.message.partition(": ")[2].endswith(", ".join(JOINT_TYPES)):
-                continue
             yield self.at(model, problem.element, problem.message, attribute=problem.attribute)

@@ -54,7 +54,7 @@ class XmlNotWellFormed(FaultRule):
 
     def claims(self, fault: Fault) -> bool:
         """Return whether the fault concerns well-formedness or encoding, not an unbound prefix."""
-        return fault.kind in self.kinds and "unbound prefix" not in fault.message
+        return fault.kind in self.kinds and fault.details.get("cause") != "unbound prefix"
 
     def check(self, fault: Fault, model: Model) -> Iterator[Finding]:
         """Yield the finding; for a file that ends too early, at the last character of its text."""
@@ -62,7 +62,7 @@ class XmlNotWellFormed(FaultRule):
             severity, help = fault.details["severity"], "save the file as UTF-8"
             yield self.at(model, fault.position, fault.message, help=help, severity=severity)
             return
-        if not fault.message.startswith("the file ends too early"):
+        if fault.details.get("cause") != "no element found":
             yield from super().check(fault, model)
             return
         document = model.document(fault.position.file)

@@ -91,16 +91,18 @@ class MaterialUndefined(RobotRule):
 
             if is_in_broken_file(model, "material", name):
                 continue
-            from urdfkit.errors import did_you_mean
+            from urdfkit.errors import nearest
 
-            suggestion = did_you_mean(name, [other for other in defined if other]).removeprefix("; ")
+            near = nearest(name, [other for other in defined if other])
             yield self.at(
                 model,
                 material.element,
                 f"undefined material `{name}`",
                 attribute="name",
                 fix=_with_colour(model, material),
-                help=suggestion or f'add <material name="{name}"><color rgba="…"/></material> to the robot',
+                help=f"did you mean `{near}`?"
+                if near
+                else f'add <material name="{name}"><color rgba="…"/></material> to the robot',
             )
 
 
