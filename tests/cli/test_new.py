@@ -188,7 +188,7 @@ def test_where_no_answer_would_do_it_ends_at_once(place, monkeypatch):
     given = ["--wheel-radius", "0.5", "--drive", "diff", "--base-length", "0.4", "--base-width", "0.3"]
     shown = type_in(monkeypatch, *["scout", *[""] * 10])
     assert main(["new", "robot", *given]) == 2
-    assert "--wheel-radius has to be at most 0.8 of --base-length; nothing was written" in shown.getvalue()
+    assert "--wheel-radius must be at most 0.8 × --base-length; nothing was written" in shown.getvalue()
     assert list(place.iterdir()) == []
 
 
@@ -219,7 +219,7 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
     ("arguments", "message"),
     [
         (["robot"], "name of the robot is missing"),
-        (["robot", "My Robot"], "no ROS package name: .*; did you mean `my_robot`?"),
+        (["robot", "My Robot"], "not a valid ROS package name: .*; did you mean `my_robot`?"),
         (["robot", "scout_description"], "did you mean `scout`?"),
         (["robot", "my", "scout"], "unrecognized arguments: scout; did you mean `my_scout`?"),
         (
@@ -229,7 +229,7 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
         (["robot", "src/scout"], "did you mean `scout --into src`?"),
         (
             ["robot", "scout", "--ros", "foxy"],
-            "--ros `foxy` is not available; the nearest is `humble`; there is: humble, jazzy, kilted",
+            "--ros `foxy` is not available; the nearest is `humble`; choose from: humble, jazzy, kilted",
         ),
         (["robot", "scout", "--ros", "noetc"], "did you mean `noetic`?"),
         (
@@ -238,37 +238,40 @@ def test_end_of_input_writes_nothing(place, monkeypatch):
         ),
         (
             ["robot", "scout", "--drive", "omni", "--wheel-torque", "2"],
-            "--wheel-torque is for --drive diff or ackermann",
+            "--wheel-torque requires --drive diff or ackermann",
         ),
-        (["robot", "scout", "--wheel-base", "2"], "--wheel-base is for --drive skid or ackermann or omni"),
+        (["robot", "scout", "--wheel-base", "2"], "--wheel-base requires --drive skid or ackermann or omni"),
         (
             ["robot", "car", "--drive", "omni", "--wheel-base", "0.1"],
             "the wheels would touch each other: --wheel-base",
         ),
-        (["robot", "scout", "--drive", "skid", "--wheel-base", "0.5"], "it would hardly turn"),
+        (["robot", "scout", "--drive", "skid", "--wheel-base", "0.5"], "the robot would hardly turn"),
         (
             ["robot", "scout", "--drive", "skid", "--base-height", "0.2", "--wheel-base", "0.25"],
-            "it would tip over when it starts",
+            "the robot would tip over when it starts",
         ),
-        (["robot", "scout", "--arm", "8"], "--arm `8` is not available; there is: none, 3, 4, 5, 6, 7"),
+        (["robot", "scout", "--arm", "8"], "--arm `8` is not available; choose from: none, 3, 4, 5, 6, 7"),
         (["robot", "scout", "--sensor", "lidra"], "--sensor `lidra` is not available; did you mean `lidar`"),
-        (["robot", "scout", "--sensor", "imu", "--sensor", "imu"], "--sensor `imu` is given twice; one of each"),
-        (["robot", "scout", "--sensor", "gps", "--mass", "2"], "too light to carry that: .* at least 4 kg"),
-        (["robot", "scout", "--sensor", "lidar", "--base-length", "0.2"], "the sensors have no room: --base-length"),
-        (["robot", "scout", "--gripper"], "--gripper is for --arm 3 or 4 or 5 or 6 or 7"),
+        (["robot", "scout", "--sensor", "imu", "--sensor", "imu"], "--sensor `imu` is given twice; give each value"),
+        (["robot", "scout", "--sensor", "gps", "--mass", "2"], "too light for these sensors: .* at least 4 kg"),
+        (
+            ["robot", "scout", "--sensor", "lidar", "--base-length", "0.2"],
+            "the base has no room for the sensors: --base-length",
+        ),
+        (["robot", "scout", "--gripper"], "--`gripper` requires --arm 3 or 4 or 5 or 6 or 7"),
         (["robot", "scout", "--wheel-raduis", "1"], "did you mean `--wheel-radius`?"),
-        (["robot", "scout", "--wheel-radius", "5in"], r"--wheel-radius `5in` is no number \(in m, cm, mm\)"),
-        (["robot", "scout", "--mass", "400"], "no material is that heavy: --mass"),
-        (["robot", "scout", "--mass", "0.01"], "nothing is that light: --mass"),
+        (["robot", "scout", "--wheel-radius", "5in"], r"--wheel-radius `5in` is not a number \(in m, cm, mm\)"),
+        (["robot", "scout", "--mass", "400"], "denser than any material: --mass"),
+        (["robot", "scout", "--mass", "0.01"], "lighter than any material: --mass"),
         (["robot", "scout", "--mass", "-1"], "--mass -1 kg is out of range"),
-        (["robot", "scout", "--wheel-separation", "0.2"], "the wheels would be inside the base: --wheel-separation"),
-        (["robot", "scout", "--wheel-torque", "9"], "it would tip over when it starts or brakes"),
+        (["robot", "scout", "--wheel-separation", "0.2"], "the wheels would overlap the base: --wheel-separation"),
+        (["robot", "scout", "--wheel-torque", "9"], "the robot would tip over when it starts or brakes"),
         (["robot", "scout", "--email", "nobody"], "--email `nobody` cannot be written"),
-        (["robot", "scout", "--ros", "noetic", "--sim", "gz"], "between ROS 1 and the new Gazebo: --sim classic, or"),
-        (["robot", "scout", "--sim", "classic"], "never released for this distribution: --sim gz, or --ros humble"),
+        (["robot", "scout", "--ros", "noetic", "--sim", "gz"], "between ROS 1 and Gazebo Sim; use --sim classic, or"),
+        (["robot", "scout", "--sim", "classic"], "never released for this distribution; use --sim gz, or --ros humble"),
         (
             ["robot", "scout", "--ros", "none", "--sim", "classic"],
-            "are part of ROS: --sim gz, or --ros noetic or humble",
+            "are part of ROS; use --sim gz, or --ros noetic or humble",
         ),
         (["robot", "scout", "--ros", "melodic"], "`melodic` is not available; the nearest is `noetic`"),
         (["robot", "scout", "--drive", "differential"], "`differential` is not available; the nearest is `diff`"),
@@ -304,7 +307,7 @@ def test_errors_are_one_line_and_write_nothing(place, capsys, arguments, message
 def test_nothing_is_overwritten(place, capsys):
     (place / "scout_gazebo").mkdir()
     assert main(["new", "robot", "scout"]) == 2
-    assert capsys.readouterr().err == "urdfkit: scout_gazebo is already there; nothing is overwritten\n"
+    assert capsys.readouterr().err == "urdfkit: scout_gazebo already exists; nothing was overwritten\n"
     assert [path.name for path in place.iterdir()] == ["scout_gazebo"]
 
 
@@ -339,7 +342,7 @@ def test_options_come_before_the_file(place):
         ("name = ", r"--from a\.toml: Invalid"),
         ('name = "ox"\nmass = -2\n', r"a\.toml: --mass -2 kg is out of range"),
         ('nmae = "x"\n', r"a\.toml: no question `nmae`; did you mean `name`"),
-        ("mass = true\n", r"a\.toml: `mass` is neither a text nor a number"),
+        ("mass = true\n", r"a\.toml: `mass` must be a text, a number or a list of texts"),
         ('template = "world"\n', r"is for `urdfkit new world`, not for `urdfkit new robot`"),
         ("mass = 3\n", "name of the robot is missing"),
     ],

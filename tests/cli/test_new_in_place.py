@@ -144,8 +144,11 @@ def test_colours(scout, capsys):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["robot", "rover", "--update"], "--update keeps names, and would make rover_bringup, rover_description"),
-        (["robot", "--update", "--mass", "1000"], "no material is that heavy"),
+        (
+            ["robot", "rover", "--update"],
+            "--update cannot rename packages, and these options give rover_bringup, rover_description",
+        ),
+        (["robot", "--update", "--mass", "1000"], "denser than any material"),
         (["robot", "--update", "--mas", "8"], "did you mean `--mass`"),
         (["robot", "--update", "--into", "nowhere"], "nothing to update in nowhere"),
         (["world", "--update"], "urdfkit-new.toml"),
@@ -281,9 +284,9 @@ def test_an_outcome_that_would_be_broken_is_refused(place, capsys):
         assert main(["new", "robot", "--update", "--drive", "none", "-q", *options]) == 2
         said = capsys.readouterr()
         assert "scout_description/urdf/drive.xacro: changed" in said.out
-        assert said.err.startswith("urdfkit: nothing was changed: with what you have it would not be clean: ")
+        assert said.err.startswith("urdfkit: nothing was changed: the update would add errors: ")
         assert "wheel_radius" in said.err
-        assert "make it go with your scout_description/urdf/scout.urdf.xacro first" in said.err
+        assert "adapt your scout_description/urdf/scout.urdf.xacro first" in said.err
         assert said.err.count("\n") == 1
     # Nothing is changed; what it would be is beside it, and once that is merged the same goes.
     offered = model.with_name("scout.urdf.xacro.new")
@@ -365,7 +368,7 @@ def test_extensions_for_the_other_gazebo_are_reported(place, capsys):
     capsys.readouterr()
     assert main(["new", "robot", "--update", "--ros", "jazzy", "--yes", "-q"]) == 0
     said = capsys.readouterr().err
-    assert "are of Gazebo Classic: the new Gazebo passes over them" in said
+    assert "are for Gazebo Classic, and Gazebo Sim ignores them" in said
 
 
 @pytest.mark.slow

@@ -145,10 +145,10 @@ def test_an_answer_that_contradicts_earlier_answers_repeats_the_question_if_anot
     asking = terminal("new", "robot", "rover", "--no-preview", "--ros", "none", "--drive", "none", *sizes)
     asking.until("Sensors ")
     asking.type("lidar")
-    asking.until("the sensors have no room: --base-length has to be at least 0.3 m")
+    asking.until("the base has no room for the sensors: --base-length must be at least 0.3 m")
     asking.until("Sensors ")
     asking.type("")
-    asking.until("Joints of an arm")
+    asking.until("Number of joints of the arm")
 
 
 @pytest.mark.slow

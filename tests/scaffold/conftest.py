@@ -25,7 +25,7 @@ def small_template(tmp_path):
     (folder / "template.toml").write_text(
         """
         summary = "a thing"
-        asks_later = ["wings"]
+        # Keys of the template come before its questions.
         [[question]]
         name = "name"
         prompt = "Name"
@@ -50,7 +50,7 @@ def small_template(tmp_path):
         default = "red"
         [[check]]
         holds = "twice >= size"
-        otherwise = "--twice has to be at least --size"
+        otherwise = "--twice must be at least --size"
         [[layer]]
         folder = "all"
         [[layer]]

@@ -143,7 +143,7 @@ def test_two_drivers_on_one_joint_are_never_written(place, capsys):
         before = model.read_bytes()
         assert main(["new", "controllers", "--into", str(model)]) == 2
         said = capsys.readouterr().err
-        assert "is driven already, by" in said
+        assert "is already driven by" in said
         assert "no joint without a controller; nothing was changed" in said
         assert model.read_bytes() == before
 
@@ -157,7 +157,7 @@ def test_what_is_driven_stays_and_the_rest_is_added(place, capsys):
     folder = robot(place, ROVER + ARM + drive)
     assert new() == 0
     said = capsys.readouterr().err
-    assert "`left_joint` is driven already, by plugin `gz::sim::systems::DiffDrive`" in said
+    assert "`left_joint` is already driven by plugin `gz::sim::systems::DiffDrive`" in said
     assert "`other_joint` follows `finger_joint`" in said
     settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())
     assert set(settings) == {"controller_manager", "arm_controller", "gripper_controller"}
@@ -176,7 +176,7 @@ def test_wheels_that_are_no_pair_are_told_of(place):
         found = roles(load(folder / "urdf/rover.urdf.xacro"))
         assert found.wheels is None
         assert found.arms == ()
-        assert any("looks like a wheel, but not like one of a pair" in note for note in found.notes)
+        assert any("has the shape of a wheel, but no mirrored counterpart" in note for note in found.notes)
 
 
 def test_sizes_are_the_models(place):
@@ -189,7 +189,7 @@ def test_sizes_are_the_models(place):
         ("right_joint", "front_right_joint"),
     )
     assert (found.wheels.separation, found.wheels.radius) == (0.32, 0.08)
-    assert "`caster_joint` turns freely, as a caster" in found.notes
+    assert "`caster_joint` turns freely because it belongs to a caster" in found.notes
 
 
 def test_chains_are_called_by_what_their_joints_have_in_common():
@@ -388,7 +388,7 @@ def test_controllers_of_another_robot_are_none_of_ours(place):
 def test_wheels_that_are_told_efforts_are_no_drive(place, capsys):
     robot(place, ROVER + CHAIN + transmissions("Effort", ["left_joint", "right_joint"], "<a/>"), "catkin")
     assert new() == 0
-    assert "`left_joint` can be told its effort, not its velocity as wheels are" in capsys.readouterr().err
+    assert "`left_joint` has the command interface effort; wheels need velocity" in capsys.readouterr().err
     settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())["rover"]
     assert set(settings) == {"joint_state_controller", "arm_controller"}
 
@@ -418,7 +418,7 @@ def test_gazebo_classic_passes_over_followers_so_they_are_told_too(place, capsys
     folder = robot(place, mirrored + bent, "catkin")
     assert new() == 0
     said = capsys.readouterr().err
-    assert "`other_joint` is -1 × `finger_joint` +0.5, which Gazebo Classic passes over: both are told" in said
+    assert "`other_joint` is -1 × `finger_joint` +0.5, but Gazebo Classic ignores <mimic>" in said
     settings = yaml.safe_load((place / "rover_control/config/controllers.yaml").read_text())["rover"]
     assert settings["gripper_controller"]["joints"] == ["finger_joint", "other_joint"]
     assert settings["arm_controller"]["joints"] == ["shoulder_joint", "wrist_joint", "elbow_joint"]

@@ -134,7 +134,9 @@ def test_the_tightest_circle_of_a_car_is_the_one_that_the_docs_say(robot_templat
 def test_the_highest_speed_is_one_that_it_reaches_by_itself(robot_template, tmp_path, sizes, most):
     """At 10 m/s the default size ended 24 m from where it should be, having turned by 2.4 rad."""
     given = {"name": "scout", "drive": "diff", **sizes}
-    with pytest.raises(UsageError, match=f"veer off before it is that fast: less --max-speed.*at most {most:.2g}"):
+    with pytest.raises(
+        UsageError, match=f"veer off before it reaches its maximum speed; use a smaller --max-speed.*at most {most:.2g}"
+    ):
         robot_template.answers(given | {"max_speed": str(most * 1.02)})
     robot = made(robot_template, robot_template.answers(given | {"max_speed": str(most * 0.999)}), tmp_path)
     simulator = Simulator(robot, note=lambda _: None)
@@ -151,7 +153,7 @@ def test_the_highest_speed_is_one_that_it_reaches_by_itself(robot_template, tmp_
 def test_axles_too_near_to_each_other_are_refused(robot_template):
     given = {"name": "scout", "drive": "skid", "wheel_separation": "2"}
     assert robot_template.answers(given)["wheel_base"] == "1.1"
-    with pytest.raises(UsageError, match="--wheel-base of a robot that skids has to be at least half"):
+    with pytest.raises(UsageError, match="--wheel-base of a skid-steer robot must be at least half"):
         robot_template.answers(given | {"wheel_base": "0.25"})
 
 

@@ -93,17 +93,17 @@ def run(arguments: argparse.Namespace) -> int:
             Path(arguments.into),
             answers,
             mesh_folders=folders,
-            mend=_apply_fixes,
+            fix=_apply_fixes,
             repository=arguments.repository,
         )
     for folder, count in zip(wrapped.folders, wrapped.files, strict=True):
         print(f"{folder.as_posix()}  {count} files")
-    if wrapped.beside:
-        print(f"next to them: {', '.join(wrapped.beside)}")
+    if wrapped.others:
+        print(f"next to them: {', '.join(wrapped.others)}")
     if not arguments.quiet:
         if wrapped.meshes:
             print(f"\n{wrapped.meshes} mesh{'es' if wrapped.meshes > 1 else ''} copied; {file} is unchanged")
-        for line in wrapped.said:
+        for line in wrapped.notes:
             print(line)
         where = shlex.quote(wrapped.folders[0].as_posix())
         print(f"\nnext:\n  urdfkit lint {where}\n  urdfkit view {where}\n  urdfkit sim teleop {where}")

@@ -97,7 +97,7 @@ def test_two_arms_have_names_of_their_own(simpleton, capsys):
     assert {"left_tool0", "right_tool0", "left_arm_foot", "right_arm_foot"} <= names
     before = simpleton.read_bytes()
     assert new("--name", "left") == 2
-    assert "already; nothing was changed: another --name" in capsys.readouterr().err
+    assert "nothing was changed; choose another --name" in capsys.readouterr().err
     assert simpleton.read_bytes() == before
 
 
@@ -131,7 +131,7 @@ def test_a_urdf_without_xacro_gets_plain_elements(place):
         (["--reach", "50"], "urdfkit: --reach 50 m is out of range"),
         (["--griper"], "did you mean `--gripper`?"),
         (["--name", "a b"], "letters, digits and underscores"),
-        (["--finger-travel", "0.01"], "--finger-travel is for --gripper"),
+        (["--finger-travel", "0.01"], "--finger-travel requires --gripper"),
         (["6"], "did you mean `--dof 6`?"),
         (["--joints", "6"], "did you mean `--dof`?"),
         (["--arm", "6"], "did you mean `--dof`?"),

@@ -8,7 +8,7 @@ from urdfkit.cli import main
 from urdfkit.description import load
 from urdfkit.errors import ResourceError
 from urdfkit.lint import lint
-from urdfkit.scaffold.additions.free_placement import Part, free_place, inside, spot
+from urdfkit.scaffold.additions.free_placement import Part, free_place, overlapped, spot
 from urdfkit.scaffold.additions.link_boxes import Boxes, gap
 from urdfkit.scaffold.additions.mounting import exact, mount, written
 
@@ -38,7 +38,7 @@ def scout(scouts, request, tmp_path):
 
 
 def overlaps(robot):
-    """Return the pairs of links of which one is inside the other, but for what is in the middle of the base."""
+    """Return the pairs of links of which one is overlapped the other, but for what is in the middle of the base."""
     base = robot.link_by_name["base_link"]
     boxes = [(name, box) for name, box in Boxes(robot).seen_from(base) if "imu" not in name]
     named = ("lidar", "camera", "gps", "arm", "depth")
@@ -70,7 +70,7 @@ def test_a_second_of_each_has_a_place_a_name_and_a_topic_of_its_own(scout, capsy
 @pytest.mark.parametrize("scout", ["jazzy"], indirect=True)
 def test_a_place_that_is_asked_for_is_taken_and_told_about(scout, capsys):
     assert main(["new", "sensor", "camera", "--into", str(scout), "--xyz", "0.1", "0", "0.05"]) == 0
-    assert "urdfkit: at 0.1 0 0.05 it reaches into `base_link`" in capsys.readouterr().err
+    assert "urdfkit: at 0.1 0 0.05 it overlaps `base_link`" in capsys.readouterr().err
     robot = load(scout / "urdf/scout.urdf.xacro")
     assert robot.joint_by_name["camera_2_joint"].origin.xyz == (0.1, 0, 0.05)
 
@@ -80,8 +80,8 @@ def test_where_no_room_is_left_it_is_refused(scout, capsys):
     before = (scout / "urdf/scout.urdf.xacro").read_bytes()
     assert main(["new", "arm", "--into", str(scout), "--reach", "2.4"]) == 2
     said = capsys.readouterr().err
-    assert "no room left on `base_link` beside `arm_foot`" in said
-    assert "--xyz where" in said
+    assert "`base_link` has no room next to `arm_foot`" in said
+    assert "or a place with --xyz" in said
     assert (scout / "urdf/scout.urdf.xacro").read_bytes() == before
 
 
@@ -94,13 +94,13 @@ def test_the_nearest_place_that_is_free():
     x, y, z = free_place([BASE], [there], PART)
     assert (y, z) == (0, 0.15)
     assert 0.1 < abs(x) <= 0.15
-    assert inside(PART, (x, y, z), [("there", there)]) is None
-    assert inside(PART, (0.09, 0, 0.15), [("there", there)]) == "there"
+    assert overlapped(PART, (x, y, z), [("there", there)]) is None
+    assert overlapped(PART, (0.09, 0, 0.15), [("there", there)]) == "there"
 
 
 def test_what_looks_about_goes_as_far_as_it_can():
     there = ((-0.05, -0.05, 0.1), (0.05, 0.05, 0.2))
-    assert free_place([BASE], [there], Part((CUBE,), CUBE, apart=True)) == (0.15, 0.0, 0.15)
+    assert free_place([BASE], [there], Part((CUBE,), CUBE, far_from_others=True)) == (0.15, 0.0, 0.15)
 
 
 def test_at_the_front_beside_the_other_and_then_below():
@@ -150,7 +150,7 @@ def test_boxes_of_meshes_are_read(tmp_path):
     assert Boxes(robot).of(robot.link_by_name["b"]) is None
     assert mount(robot, robot.link_by_name["a"], PART, None) == ((0.1, 0.05, 0.35), [])
     _, notes = mount(robot, robot.link_by_name["b"], PART, None)
-    assert notes == ["the meshes of `b` cannot be read: look whether it is inside, and give --xyz"]
+    assert notes == ["the meshes of `b` cannot be read: check that the part does not overlap it, and use --xyz"]
 
 
 def test_a_cylinder_that_lies(tmp_path):
@@ -165,5 +165,5 @@ def test_a_cylinder_that_lies(tmp_path):
     assert high == pytest.approx((0.1, reach, reach))
     assert low == pytest.approx((-0.1, -reach, -reach))
     tall = Part((((-1, -1, -9), (1, 1, 0.05)),), CUBE)  # its foot is in the middle of it
-    with pytest.raises(ResourceError, match=r"no room left on `a` for what is 2 × 2 × 9\.1 m"):
+    with pytest.raises(ResourceError, match=r"`a` has no room for a part of 2 × 2 × 9\.1 m"):
         mount(robot, robot.link_by_name["a"], tall, None)

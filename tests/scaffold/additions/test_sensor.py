@@ -280,7 +280,7 @@ def test_where_a_new_file_goes_among_those_that_are_installed(tmp_path, before, 
         (["lidar", "--into", "scout"], "did you mean `scout_description`?"),
         (["lidar", "--name", "left_wheel"], "`left_wheel_joint` already"),
         (["lidar", "--name", "a b"], "letters, digits and underscores"),
-        (["lidar", "--topic", "a//b"], "is no name of a topic"),
+        (["lidar", "--topic", "a//b"], "is not a valid topic"),
         (["lidar", "--xyz", "a", "0", "0"], "--xyz: `a` is not a number"),
         (["lidar", "--update-rate", "0"], "out of range"),
         (["lidar", "--updaterate", "5"], "did you mean `--update-rate`?"),
@@ -309,7 +309,7 @@ def test_the_same_name_twice_is_refused(place, capsys):
     assert new("lidar", folder, "--name", "eye") == 0
     before = everything(place)
     assert new("lidar", folder, "--name", "eye") == 2
-    assert "already; nothing was changed" in capsys.readouterr().err
+    assert "nothing was changed; choose another --name" in capsys.readouterr().err
     assert everything(place) == before
 
 
@@ -317,7 +317,7 @@ def test_somebody_elses_file_is_left_alone(place, capsys):
     folder = robot(place, "jazzy")
     (folder / "urdf/lidar_sensor.xacro").write_text("<robot/>")
     assert new("lidar", folder) == 2
-    assert "is already there and has no macro `lidar_sensor`" in capsys.readouterr().err
+    assert "already exists and has no macro `lidar_sensor`" in capsys.readouterr().err
 
 
 def test_a_topic_that_is_taken_is_refused(place, capsys):
@@ -343,7 +343,7 @@ def test_all_files_or_none(place, monkeypatch):
     with pytest.raises(ResourceError, match="No space left on device; nothing was changed"):
         write_all(changes)
     assert everything(place) == {path.relative_to(place): b"old" for path in [place / "old"]}
-    with pytest.raises(ResourceError, match="was changed meanwhile"):
+    with pytest.raises(ResourceError, match="was changed in the meantime"):
         write_all([Alteration(place / "old", b"other", b"new")])
 
 

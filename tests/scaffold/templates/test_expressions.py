@@ -35,7 +35,7 @@ def test_comparisons(text, true):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("1 +", "is no expression"),
+        ("1 +", "is not an expression"),
         ("b", "cannot compute `b`"),
         ("__import__('os')", "cannot compute"),
         ("a.real", "cannot compute `a.real`"),
@@ -51,5 +51,5 @@ def test_nothing_else_is_understood(text, message):
 
 @pytest.mark.parametrize("text", ["1", "1 == 1", "1 < 2 < 3", "a in b"])
 def test_what_is_no_comparison(text):
-    with pytest.raises(ResourceError, match="is no comparison of two values"):
+    with pytest.raises(ResourceError, match="is not a comparison of two values"):
         holds(text, {})

@@ -43,12 +43,12 @@ def test_bad_names_and_the_nearest_good_one(name, near):
 
 
 def test_suffix_is_not_brought_along():
-    with pytest.raises(UsageError, match="`_description` is put behind it by itself; did you mean `scout`"):
+    with pytest.raises(UsageError, match="`_description` is appended automatically; did you mean `scout`"):
         check_package_name("scout_description", suffixes=("_gazebo", "_description"))
 
 
 def test_too_long():
-    with pytest.raises(UsageError, match="has 61 characters; at most 60"):
+    with pytest.raises(UsageError, match="has 61 characters; use at most 60"):
         check_package_name("a" * 61)
 
 
@@ -79,7 +79,7 @@ def test_names_of_worlds(name):
     ],
 )
 def test_no_names_of_worlds(name, near):
-    with pytest.raises(UsageError, match=f"is no name of a world: .*did you mean `{near}`"):
+    with pytest.raises(UsageError, match=f"is not a valid world name: .*did you mean `{near}`"):
         check_world_name(name)
 
 

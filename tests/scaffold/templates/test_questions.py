@@ -33,13 +33,13 @@ def test_numbers_keep_ten_digits(value):
 @pytest.mark.parametrize(
     ("typed", "message"),
     [
-        ("5in", r"--wheel-radius `5in` is no number \(in m, cm, mm\)"),
-        ("5 kg", r"is no number \(in m, cm, mm\)"),
-        ("0,25", r"is no number .*; did you mean `0\.25`\?"),
-        ("1,000", r"is no number \(in m, cm, mm\)$"),
-        ("cm", "is no number"),
+        ("5in", r"--wheel-radius `5in` is not a number \(in m, cm, mm\)"),
+        ("5 kg", r"is not a number \(in m, cm, mm\)"),
+        ("0,25", r"is not a number .*; did you mean `0\.25`\?"),
+        ("1,000", r"is not a number \(in m, cm, mm\)$"),
+        ("cm", "is not a number"),
         ("5000 cm", "out of range"),
-        ("", "is no number"),
+        ("", "is not a number"),
         ("0", "--wheel-radius 0 m is out of range: 0.01 to 10 m"),
         ("-1", "out of range"),
         ("11", "out of range"),
@@ -55,7 +55,7 @@ def test_what_is_no_number(typed, message):
 def test_choices():
     ros = Question("ros", "ROS", "choice", choices=("jazzy", "noetic"))
     assert ros.accept(" noetic ") == "noetic"
-    with pytest.raises(UsageError, match="--ros `humble` is not available; there is: jazzy, noetic"):
+    with pytest.raises(UsageError, match="--ros `humble` is not available; choose from: jazzy, noetic"):
         ros.accept("humble")
     with pytest.raises(UsageError, match="did you mean `jazzy`"):
         ros.accept("jazy")
@@ -77,9 +77,9 @@ def test_every_question_explains_itself(robot_template):
 
 
 def test_computed_default():
-    assert Question("b", "B", "number", default="= a/3").default_given({"a": "1", "name": "x"}) == "0.3333"
-    assert Question("b", "B", "number", default="7").default_given({}) == "7"
-    assert Question("b", "B", "package").default_given({}) is None
+    assert Question("b", "B", "number", default="= a/3").default_after({"a": "1", "name": "x"}) == "0.3333"
+    assert Question("b", "B", "number", default="7").default_after({}) == "7"
+    assert Question("b", "B", "package").default_after({}) is None
 
 
 @pytest.mark.parametrize("typed", ["<b>", "a & b", 'say "x"', "", "two\nlines"])
@@ -101,7 +101,7 @@ def test_text(robot_template, typed):
     ],
 )
 def test_what_is_no_address(robot_template, typed):
-    with pytest.raises(UsageError, match="not of the form name@host"):
+    with pytest.raises(UsageError, match="use the form name@host"):
         robot_template.question("email").accept(typed)
 
 
@@ -125,5 +125,5 @@ def test_packages(typed):
 
 
 def test_a_blank_in_a_package_between_commas_is_refused():
-    with pytest.raises(UsageError, match=r"`bad dep` is no ROS package name.*did you mean `bad_dep`"):
+    with pytest.raises(UsageError, match=r"`bad dep` is not a valid ROS package name.*did you mean `bad_dep`"):
         Question("depends", "Depends", "packages").accept("rclcpp,bad dep")

@@ -22,8 +22,8 @@ def test_answers_are_checked_and_completed(small_template):
     ("given", "message"),
     [
         ({}, "name is missing"),
-        ({"name": "box", "size": "big"}, "`big` is no number"),
-        ({"name": "box", "twice": "0.5"}, "--twice has to be at least --size"),
+        ({"name": "box", "size": "big"}, "`big` is not a number"),
+        ({"name": "box", "twice": "0.5"}, "--twice must be at least --size"),
         ({"name": "box", "colur": "red"}, "no question `colur`; did you mean `colour`?"),
     ],
 )
@@ -89,9 +89,9 @@ def test_two_layers_must_not_write_the_same_file(small_template):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("summary = ", r"template\.toml:1: Invalid value, and then it ends"),
-        ("summary = 'x'", r"template\.toml:1: the template lacks its `layer`"),
-        ("summary = 'x'\nlayer = []\n[[question]]\nname = 'a'\nwhat = 1", r"toml:5: no `what` in a \[\[question\]\]"),
+        ("summary = ", r"template\.toml:1: Invalid value, found the end of the file"),
+        ("summary = 'x'", r"template\.toml:1: the template has no `layer`"),
+        ("summary = 'x'\nlayer = []\n[[question]]\nname = 'a'\nwhat = 1", r"toml:5: unknown key `what` in a \[\[question\]\]"),
     ],
 )
 def test_broken_toml(tmp_path, text, message):
@@ -177,7 +177,7 @@ def test_lines_come_once_for_each_answer(several, tmp_path, given, text):
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"depth": "2"}, "--depth is for --colour blue"),
+        ({"depth": "2"}, "--depth requires --colour blue"),
         ({"part": "arm arm"}, "--part `arm` is given twice"),
         ({"part": "leg, am"}, "--part `am` is not available; did you mean `arm`"),
         ({"part": "eye", "colour": "blue", "depth": "4"}, "too deep"),
@@ -244,7 +244,7 @@ def test_nothing_is_written_outside(small_template, tmp_path, into, spare):
     path.write_text(path.read_text().replace("        [[question]]", asked + "        [[question]]", 1) + layer)
     template = load_template(small_template)
     line = path.read_text().splitlines().index(f"into = {into}") + 1
-    with pytest.raises(ResourceError, match=rf"template\.toml:{line}: .* is outside of what is written"):
+    with pytest.raises(ResourceError, match=rf"template\.toml:{line}: .* is outside the output folder"):
         create(template, template.answers({"name": "box"}) | BUILT_IN, place)
     assert list(place.iterdir()) == []
     assert (tmp_path / "box" / "COLOUR").read_text() == "mine"

@@ -53,7 +53,7 @@ def test_in_a_folder(small_template, monkeypatch):
 
 @pytest.mark.parametrize(
     ("place", "message"),
-    [("tmplate", "no such folder; did you mean `template`"), ("template/all", r"no template\.toml in it")],
+    [("tmplate", "no such folder; did you mean `template`"), ("template/all", r"it contains no template\.toml")],
 )
 def test_where_there_is_none(small_template, monkeypatch, place, message):
     monkeypatch.chdir(small_template.parent)

@@ -50,7 +50,7 @@ def test_the_checker_sees_the_whole_before_it_is_there(template, answers, place)
 
 
 def test_what_does_not_pass_is_not_written(template, answers, place):
-    with pytest.raises(ResourceError, match=r"nothing was written: .*: first \(and 1 more\)"):
+    with pytest.raises(ResourceError, match=r"nothing was written .*: first \(and 1 more\)"):
         create(template, answers, place / "new", check=lambda folder: ["first", "second"])
     assert everything(place) == []
 
@@ -64,7 +64,7 @@ def test_nothing_is_overwritten(template, answers, place, kind):
         target.mkdir()
     else:
         target.symlink_to("nowhere")
-    with pytest.raises(ResourceError, match="box is already there; nothing is overwritten"):
+    with pytest.raises(ResourceError, match="box already exists; nothing was overwritten"):
         create(template, answers, place)
     assert everything(place) == ["box"]
 
@@ -96,7 +96,7 @@ def test_a_full_disk_leaves_nothing(template, answers, place, monkeypatch):
 def test_into_a_file(template, answers, place):
     (place / "file").write_text("")
     for folder in (place / "file", place / "file" / "below"):
-        with pytest.raises(ResourceError, match=r"it is no folder|Not a directory"):
+        with pytest.raises(ResourceError, match=r"not a folder|Not a directory"):
             create(template, answers, folder)
     assert everything(place) == ["file"]
 
@@ -112,6 +112,6 @@ def test_into_a_folder_that_cannot_be_written(template, answers, place, monkeypa
 
 @pytest.mark.parametrize("name", ["hall.sdf", "hall.world"])
 def test_the_name_of_a_world_is_no_folder(template, answers, place, name):
-    with pytest.raises(ResourceError, match=r"has the name of a world's file; try "):
+    with pytest.raises(ResourceError, match=r"has the name of a world file, but would be a folder; try "):
         create(template, answers, place / name)
     assert not (place / name).exists()

@@ -12,7 +12,9 @@ from urdfkit.scaffold import Fault, create, find_recipe, load_template, read_mad
 def template(small_template):
     path = small_template / "template.toml"
     path.write_text(
-        path.read_text().replace("        asks_later", '        recipe = "@name@/made.toml"\n        asks_later', 1)
+        path.read_text().replace(
+            "        # Keys of the template", '        recipe = "@name@/made.toml"\n        # Keys of the template', 1
+        )
     )
     (small_template / "all/@name@/more.txt").write_text("more @colour@\n")
     return load_template(small_template)
@@ -69,7 +71,7 @@ def test_what_was_edited_stays_and_is_told(template, place):
     path.write_text("mine\n")
     assert changed(template, place, colour="blue")["box/more.txt"] == "replace"
     assert "box/src/box.txt" not in changed(template, place, colour="red")  # the template says what it said
-    assert changed(template, place, size="3")["box/src/box.txt"] == "beside"
+    assert changed(template, place, size="3")["box/src/box.txt"] == "new_version"
     assert path.read_text() == "mine\n"
     assert path.with_name("box.txt.new").read_text().startswith("box is 3 m")
     assert changed(template, place) == {}
@@ -90,7 +92,7 @@ def test_an_edited_file_that_is_no_more_is_kept(template, place):
 
 def test_a_file_of_the_users_own_in_the_way(template, place):
     (place / "box/COLOUR").write_text("mine")
-    assert changed(template, place, colour="blue")["box/COLOUR"] == "beside"
+    assert changed(template, place, colour="blue")["box/COLOUR"] == "new_version"
     assert (place / "box/COLOUR").read_text() == "mine"
 
 
@@ -115,7 +117,7 @@ def test_what_follows_from_answers_follows_again(template, place):
 
 def test_what_does_not_pass_changes_nothing(template, place):
     before = contents(place)
-    with pytest.raises(ResourceError, match="would not be clean: bad"):
+    with pytest.raises(ResourceError, match="would add errors: bad"):
         changed(template, place, size="2", check=lambda folder: [Fault("bad")])
     assert contents(place) == before
 
@@ -140,7 +142,7 @@ def test_what_was_put_beside_and_edited_stays(template, place):
     (place / "box/src/box.txt").write_text("mine\n")
     beside = place / "box/src/box.txt.new"
     for size in ("2", "3"):  # nobody has edited it
-        assert changed(template, place, size=size)["box/src/box.txt"] == "beside"
+        assert changed(template, place, size=size)["box/src/box.txt"] == "new_version"
         assert beside.read_text().startswith(f"box is {size} m")
     beside.write_text("half merged")
     changed(template, place, size="4")
@@ -159,8 +161,8 @@ def test_what_is_refused_may_be_offered_to_merge_from(template, place):
     recipe, into = find_recipe(template, place)
     answers = template.answers(read_recipe(template, recipe, {"size": "2", "colour": "blue"}))
     with updating(template, answers | {"year": "2026", "into": "."}, into, read_made(recipe), check=check) as update:
-        assert "would not be clean: bad; make it go with your box/src/box.txt first" in update.refused
-        update.offer()
+        assert "would add errors: bad; adapt your box/src/box.txt first" in update.refused
+        update.apply_new_versions()
     after = contents(place)
     assert after.pop("box/src/box.txt.new").startswith(b"box is 2 m")
     assert after == before
@@ -214,13 +216,13 @@ def test_where_nothing_was_made(template, tmp_path):
 
 def test_of_several_one_is_named(template, place):
     create(template, template.answers({"name": "tin"}) | {"year": "2026", "into": "."}, place)
-    with pytest.raises(ResourceError, match=r"several to update in .*name one by --into"):
+    with pytest.raises(ResourceError, match=r"found several recipes in .*choose one with --into"):
         find_recipe(template, place)
     assert find_recipe(template, place / "tin")[0].parent.name == "tin"
 
 
 def test_names_are_kept(template, place):
-    with pytest.raises(UsageError, match="--update keeps names, and would make tin"):
+    with pytest.raises(UsageError, match="--update cannot rename packages, and these options give tin"):
         changed(template, place, name="tin")
 
 
@@ -230,14 +232,14 @@ def test_what_follows_from_what_is_gone_goes_too(robot_template, tmp_path):
     for given in ({"arm": "none"}, {"arm": "none", "gripper": "no"}):
         answers = robot_template.answers(read_recipe(robot_template, recipe, given))
         assert (answers["arm"], answers["gripper"]) == ("none", "no")
-    with pytest.raises(UsageError, match="--finger-travel is for --gripper yes"):
+    with pytest.raises(UsageError, match="--finger-travel requires --gripper yes"):
         robot_template.answers(read_recipe(robot_template, recipe, {"arm": "none", "finger_travel": "0.03"}))
 
 
 def test_a_recipe_that_answers_what_is_not_asked(robot_template, tmp_path):
     recipe = tmp_path / "urdfkit-new.toml"
     recipe.write_text('name = "rr"\ngripper = true\n')
-    with pytest.raises(UsageError, match=r"urdfkit-new\.toml: gripper is for --arm 3 or 4"):
+    with pytest.raises(UsageError, match=r"urdfkit-new\.toml: `gripper` requires --arm 3 or 4"):
         read_recipe(robot_template, recipe, {})
     recipe.write_text('name = "rr"\ngripper = false\n')
     assert "gripper" not in read_recipe(robot_template, recipe, {})

@@ -14,7 +14,7 @@ from urdfkit.resources import templates_dir
 from urdfkit.scaffold import computed, load_template
 from urdfkit.scaffold.world.floor_layouts import house, office, one_room
 from urdfkit.scaffold.world.obstacles import clutter
-from urdfkit.scaffold.world.random_numbers import Chance
+from urdfkit.scaffold.world.random_numbers import Random
 from urdfkit.scaffold.world.shapes import Shape, inertia
 from urdfkit.sim import Simulator
 
@@ -80,9 +80,12 @@ def test_another_seed_is_another_world(place):
     assert (place / "lab1.sdf").read_text().replace("lab1", "lab2") != (place / "lab2.sdf").read_text()
 
 
-def test_chance_is_the_same_for_ever():
-    chance = Chance(0)
-    assert [chance.between(0, 1), chance.between(-1, 1)] == [0.8444218515250481, 2 * 0.7579544029403025 - 1]
+def test_random_numbers_are_the_same_for_ever():
+    random_numbers = Random(0)
+    assert [random_numbers.between(0, 1), random_numbers.between(-1, 1)] == [
+        0.8444218515250481,
+        2 * 0.7579544029403025 - 1,
+    ]
 
 
 @pytest.mark.slow
@@ -120,7 +123,7 @@ def test_every_room_is_reached(place, kind, rooms, seed):
 
 
 def test_obstacles_are_apart_and_the_origin_is_free():
-    things = clutter(6, 5, count=60, largest=0.5, loose=True, clear_radius=0.8, chance=Chance(3))
+    things = clutter(6, 5, count=60, largest=0.5, movable=True, clear_radius=0.8, random=Random(3))
     circles = []
     for thing in things:
         (shape,) = thing.shapes
@@ -147,7 +150,7 @@ def test_as_many_doors_as_asked_for(doors):
     plans = [
         one_room(8, 6, **sizes),
         office(12, 9, rooms=6, **sizes),
-        house(12, 9, rooms=5, chance=Chance(doors), **sizes),
+        house(12, 9, rooms=5, random=Random(doors), **sizes),
     ]
     inner = (0, 6, 4)
     for plan, inside in zip(plans, inner, strict=True):
@@ -169,14 +172,14 @@ def test_lintels_are_above_doors_only(place):
     [
         (["--kind", "ofice"], "did you mean `office`?"),
         (["--knid", "office"], "did you mean `--kind`?"),
-        (["--kind", "clutter", "--count", "2.5"], "--count 2.5 is no whole number"),
+        (["--kind", "clutter", "--count", "2.5"], "--count 2.5 is not an integer"),
         (["--kind", "clutter", "--count", "900"], "no room for --count 900"),
-        (["--kind", "clutter", "--doors", "2"], "--doors is for --kind room or office or house"),
+        (["--kind", "clutter", "--doors", "2"], "--doors requires --kind room or office or house"),
         (["--doors", "40"], "no room for --doors 40"),
         (["--kind", "house", "--rooms", "40"], "no room for --rooms 40"),
         (["--kind", "office", "--width", "5"], "no room for a corridor and --rooms 6"),
         (["--length", "0.6"], "a wall is shorter than its door"),
-        (["--sim", "classic", "--sdf-version", "1.9"], "Gazebo Classic reads --sdf-version 1.6 and 1.7"),
+        (["--sim", "classic", "--sdf-version", "1.9"], "Gazebo Classic supports SDF 1.6 and 1.7 only"),
     ],
 )
 def test_what_cannot_be_is_refused_and_nothing_written(place, capsys, options, says):
@@ -204,7 +207,7 @@ def test_gazebo_classic_has_its_own(place):
 
 def test_nothing_is_overwritten(place, capsys):
     (place / "lab.sdf").write_text("mine")
-    assert "lab.sdf is already there" in refusal(capsys)
+    assert "lab.sdf already exists" in refusal(capsys)
     assert (place / "lab.sdf").read_text() == "mine"
 
 
@@ -214,5 +217,5 @@ def test_the_title_says_what_is_in_it():
     assert found["title"].startswith("A house of 10 m by 8 m, 3 rooms and 3 doors")
     assert "rooms 3" in found["said"]
     assert "seed 5" in found["said"]
-    with pytest.raises(UsageError, match=r"--rooms 3\.5 is no whole number"):
+    with pytest.raises(UsageError, match=r"--rooms 3\.5 is not an integer"):
         computed("world", answers | {"rooms": "3.5"})

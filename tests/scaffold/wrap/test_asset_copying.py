@@ -6,7 +6,7 @@ import struct
 import pytest
 
 from urdfkit.cli import main
-from urdfkit.scaffold.wrap.asset_copying import unlike
+from urdfkit.scaffold.wrap.asset_copying import rejection
 from urdfkit.scaffold.wrap.mesh_assets import Meshes
 
 STL = b"\0" * 80 + struct.pack("<I", 1) + b"\0" * 50
@@ -33,20 +33,20 @@ def download(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("mesh", "says"),
     [
-        ("../../../private/hostname", "which is not near the robot"),
-        ("../../../private/part.stl", "which is not near the robot: copy it there, or --meshes DIR"),
-        ("file://@/private/part.stl", "which is not near the robot"),
-        ("@/private/part.stl", "which is not near the robot"),
-        ("private/part.stl", "which is not near the robot"),
-        ("package://private/part.stl", "which is not near the robot"),
-        ("link.stl", "which is not near the robot"),
-        ("notes", "has no ending of a mesh"),
-        ("notes.txt", "ends in `.txt`, as no mesh or picture does"),
-        ("key.stl", "is no STL"),
-        ("key.dae", "is no DAE"),
-        ("key.png", "is no PNG"),
-        ("key.bin", "is text"),
-        ("pointer.stl", "is a pointer of Git LFS: run `git lfs pull`"),
+        ("../../../private/hostname", "outside the folders of the robot"),
+        ("../../../private/part.stl", "outside the folders of the robot: copy the file there, or use --meshes DIR"),
+        ("file://@/private/part.stl", "outside the folders of the robot"),
+        ("@/private/part.stl", "outside the folders of the robot"),
+        ("private/part.stl", "outside the folders of the robot"),
+        ("package://private/part.stl", "outside the folders of the robot"),
+        ("link.stl", "outside the folders of the robot"),
+        ("notes", "has no suffix"),
+        ("notes.txt", "has the unsupported suffix `.txt`"),
+        ("key.stl", "is not an STL"),
+        ("key.dae", "is not a DAE"),
+        ("key.png", "is not a PNG"),
+        ("key.bin", "is a text file"),
+        ("pointer.stl", "is a Git LFS pointer: run `git lfs pull`"),
     ],
 )
 def test_what_is_no_mesh_of_the_robot_is_refused(download, capsys, mesh, says):
@@ -92,7 +92,7 @@ def test_what_a_mesh_names_is_held_to_the_same(download, capsys):
     (download / "arm.urdf").write_text(urdf("a.obj"))
     assert main(["import", "arm.urdf", "--into", "src"]) == 0
     said = capsys.readouterr().out
-    assert f"not copied: {private / 'hostname'}: not near the robot" in said
+    assert f"not copied: {private / 'hostname'}: outside the folders of the robot" in said
     meshes = download / "src/arm_description/meshes"
     assert sorted(path.name for path in meshes.rglob("*") if path.is_file()) == ["a.mtl", "a.obj", "b.png"]
 
@@ -116,4 +116,4 @@ def test_what_a_mesh_names_is_held_to_the_same(download, capsys):
 )
 def test_meshes_are_known(tmp_path, name, content):
     (tmp_path / name).write_bytes(content)
-    assert unlike(tmp_path / name) == ""
+    assert rejection(tmp_path / name) == ""

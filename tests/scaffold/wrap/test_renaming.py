@@ -7,14 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from urdfkit.scaffold.templates.names import plain
-from urdfkit.scaffold.wrap.renaming import in_utf8, renamed, told
+from urdfkit.scaffold.templates.names import portable_name
+from urdfkit.scaffold.wrap.renaming import in_utf8, renamed, renaming_note
 
 
 def test_what_is_fine_stays_as_it_is():
     text = '<robot name="a-1">\r\n<link  name = "b.c/d-2"/><!-- <link name="a b"/> --></robot>'
     assert renamed(text, "other") == (text, {})
-    assert told({}) == []
+    assert renaming_note({}) == []
 
 
 def test_every_place_that_refers_to_it():
@@ -50,7 +50,7 @@ def test_every_place_that_refers_to_it():
     ],
 )
 def test_the_nearest_name(name, near):
-    assert plain(name) == near
+    assert portable_name(name) == near
 
 
 def test_names_without_any_letter_that_stays():
@@ -70,9 +70,9 @@ def test_no_two_become_one(names):
     after, new = renamed(text, "r")
     found = re.findall(r'name="([^"]*)"', after.replace("'", '"'))[1:]
     assert len(set(found)) == len(names)
-    assert all(plain(name) == name for name in found)
+    assert all(portable_name(name) == name for name in found)
     assert renamed(after, "r") == (after, {})
-    assert len(told(new)) == bool(new)
+    assert len(renaming_note(new)) == bool(new)
 
 
 @pytest.mark.parametrize("encoding", ["utf-16", "iso-8859-1", "windows-1252"])

@@ -241,7 +241,7 @@ def test_what_cannot_be_is_refused_and_nothing_written(export, capsys, words, sa
 def test_nothing_is_overwritten(export, capsys):
     (export.parent / "my_arm_gazebo").mkdir()
     assert main(["import", "export/urdf/arm.urdf"]) == 2
-    assert "my_arm_gazebo is already there" in capsys.readouterr().err
+    assert "my_arm_gazebo already exists" in capsys.readouterr().err
     assert not (export.parent / "my_arm_description").exists()
 
 

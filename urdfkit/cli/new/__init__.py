@@ -103,12 +103,6 @@ def _written(arguments: argparse.Namespace) -> tuple[int, Path | None]:
             )
         return update.run(None, {}, Path(arguments.above_into), arguments, own_template=arguments.above_template), None
     template = chosen(arguments.new_kind, arguments.template)
-    for option in template.asks_later:
-        if getattr(arguments, f"later_{option}") is not None:
-            available = ", ".join(
-                question.option for question in template.questions if question.kind not in ("package", "world")
-            )
-            raise UsageError(f"--{option} is not available yet; available: {available}")
     preset = {
         question.name: _joined(question, value) if isinstance(value, list) else value
         for question in template.questions
@@ -162,8 +156,8 @@ def _prompt_all(
     """Prompt for the unanswered questions on the terminal; Enter accepts the default."""
     answers = dict(preset)
     for question in template.questions:
-        default = question.default_given(answers)
-        is_open = question.ask and len(question.choices) != 1 and applies(question.when, answers)
+        default = question.default_after(answers)
+        is_open = question.interactive and len(question.choices) != 1 and applies(question.when, answers)
         if question.name in preset or not is_open:
             answers.setdefault(question.name, default or "")
             continue
@@ -190,7 +184,7 @@ def _prompt_all(
                 continue
             answers = accepted
             follow(answers)
-    return {q.name: answers[q.name] for q in template.questions if q.ask and applies(q.when, answers)}
+    return {q.name: answers[q.name] for q in template.questions if q.interactive and applies(q.when, answers)}
 
 
 def _answered(question: Question, default: str | None) -> str:

@@ -75,7 +75,7 @@ def run(arguments: argparse.Namespace) -> int:
     folder = own.parent if own is not None else model.path.parent
     if (folder / package).exists():
         raise ResourceError(f"{folder / package} exists already; choose another --name")
-    namespace = (existing.loop_says("robotNamespace") or robot.name or name) if existing.loop is not None else name
+    namespace = (existing.loop_parameter("robotNamespace") or robot.name or name) if existing.loop is not None else name
     with staging(folder) as staged:
         _render(staged, package, name, made, robot, generation, namespace=namespace.strip("/"))
         alterations = _altered(model.path, robot, made, name, generation, package, looped=existing.loop is not None)
@@ -169,7 +169,7 @@ def _add_to_existing(
     from urdfkit.scaffold.additions.controller_parameters import parameters, with_controllers
     from urdfkit.scaffold.additions.file_changes import Alteration
 
-    parameter_file = existing.loop_says("parameters")
+    parameter_file = existing.loop_parameter("parameters")
     plugin = existing.loop.name if existing.loop is not None else None
     if parameter_file is None or not Path(parameter_file).is_file():
         wrong = f"names {parameter_file}, which does not exist" if parameter_file else "names no <parameters>"
@@ -202,7 +202,7 @@ def _render(
     from urdfkit.cli.git_identity import identity
     from urdfkit.resources import templates_dir
     from urdfkit.scaffold import computed, load_template
-    from urdfkit.scaffold.additions.controller_parameters import at_root, parameters
+    from urdfkit.scaffold.additions.controller_parameters import move_to_root_namespace, parameters
     from urdfkit.scaffold.additions.joint_controllers import needs
 
     template = load_template(templates_dir() / "package")
@@ -215,7 +215,7 @@ def _render(
     year = {"year": str(datetime.now(timezone.utc).year), "into": "."}
     template.render({**answers, **computed("package", answers), **more, **year, "robot": name}, staged)
     if generation == "classic" and not namespace:
-        at_root(staged / package, name)
+        move_to_root_namespace(staged / package, name)
 
 
 def _altered(
@@ -250,13 +250,13 @@ def _included(path: Path, text: str, title: str) -> list[Alteration]:
     """Return a new file with elements next to a model, and the model that includes the file; only the model if URDF."""
     from urdfkit.scaffold.additions.file_changes import Alteration
     from urdfkit.scaffold.additions.xml_insertion import insert_before_end, xacro_prefix
-    from urdfkit.scaffold.templates.names import free
+    from urdfkit.scaffold.templates.names import unused_name
 
     before = path.read_bytes()
     prefix = xacro_prefix(before) if path.suffix == ".xacro" else None
     if prefix is None:
         return [Alteration(path, before, insert_before_end(before, text, path=path))]
-    home = path.parent / f"{free('control', lambda each: (path.parent / f'{each}.xacro').exists())}.xacro"
+    home = path.parent / f"{unused_name('control', lambda each: (path.parent / f'{each}.xacro').exists())}.xacro"
     body = "\n".join(f"  {line}" for line in text.splitlines())
     whole = (
         f'<?xml version="1.0"?>\n<!-- {title} -->\n'

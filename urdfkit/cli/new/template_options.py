@@ -129,8 +129,6 @@ def _fill(kind: argparse.ArgumentParser, template: Template) -> None:
         kind.add_argument(
             "--teleop", action="store_true", help="then drive the robot in the browser, as `urdfkit sim teleop`"
         )
-    for option in template.asks_later:
-        kind.add_argument(f"--{option}", dest=f"later_{option}", nargs="?", const="", help=argparse.SUPPRESS)
 
 
 def add_update(parser: argparse.ArgumentParser) -> None:

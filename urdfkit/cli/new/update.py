@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from urdfkit.errors import ResourceError, UsageError
 from urdfkit.scaffold import (
-    BESIDE,
+    NEW_SUFFIX,
     Change,
     Fault,
     Template,
@@ -38,7 +38,7 @@ _WORDS = {
     "add": "new",
     "replace": "changed",
     "remove": "removed",
-    "beside": "edited by you: the new version is saved as {at}",
+    "new_version": "edited by you: the new version is saved as {at}",
     "keep": "kept as you edited it",
     "needed": "kept: {because} refers to it",
 }
@@ -78,25 +78,27 @@ def run(
     answers |= {"into": into.as_posix()} | ({"year": made.year} if made.year else {})
     finish = add_picture if answers.get("picture") == "yes" else None
     with updating(template, answers, into, made, check=partial(findings, package_path=into), finish=finish) as update:
-        pending = [change for change in update.changes if not change.is_none]
+        pending = [change for change in update.changes if not change.is_empty]
         if not pending:
             print(f"{into}: nothing to update", file=sys.stderr)
             _print_notes(
-                f"{path}{BESIDE} remains to be merged" for path in made.digests if (into / f"{path}{BESIDE}").is_file()
+                f"{path}{NEW_SUFFIX} remains to be merged"
+                for path in made.digests
+                if (into / f"{path}{NEW_SUFFIX}").is_file()
             )
             return 0
         _show(update.changes, recipe.relative_to(into), colour=_coloured(arguments.color), quiet=arguments.quiet)
-        if _has_option(arguments, "diff") or (update.refused and not update.beside):
+        if _has_option(arguments, "diff") or (update.refused and not update.new_versions):
             if update.refused:
                 raise ResourceError(f"nothing was changed: {update.refused}")
             _print_notes(_remaining_steps(update))
             return 1
-        count = len(update.beside if update.refused else pending)
+        count = len(update.new_versions if update.refused else pending)
         if not _has_option(arguments, "yes") and not _is_confirmed(count, update.refused):
             return 1
         if update.refused:
-            update.offer()
-            saved = ", ".join(_saved_as(change) for change in update.beside)
+            update.apply_new_versions()
+            saved = ", ".join(_saved_as(change) for change in update.new_versions)
             raise ResourceError(
                 f"nothing was changed: {update.refused} (new version: {saved}); then run the same command again"
             )
@@ -119,7 +121,7 @@ def _saved_as(change: Change) -> str:
 
 def _remaining_steps(update: Update) -> Iterator[str]:
     """Yield the steps that an update leaves to the user, one per line."""
-    for change in update.beside:
+    for change in update.new_versions:
         unused = (
             "; until then its new elements have no effect" if update.unused and change.path.suffix == ".xacro" else ""
         )
@@ -222,7 +224,7 @@ def with_relative_source(template: Template, into: Path) -> Template:
 def _show(changes: tuple[Change, ...], recipe: Path, *, colour: bool, quiet: bool) -> None:
     for change in changes:
         print(f"{change.path.as_posix()}: {_WORDS[change.kind].format(at=_saved_as(change), because=change.because)}")
-        if quiet or change.is_none or change.path == recipe:
+        if quiet or change.is_empty or change.path == recipe:
             continue
         for line in _difference(change):
             code = _COLOURS.get(line[:1])

@@ -1,4 +1,4 @@
-"""Add an arm to a description that is there: the arm of new robots, written out, in a macro of its own."""
+"""Adding an arm to an existing description: the arm of the robot template, expanded, in a macro of its own."""
 
 from __future__ import annotations
 
@@ -21,27 +21,28 @@ from urdfkit.scaffold.additions.link_boxes import Boxes
 from urdfkit.scaffold.additions.mounting import exact, extent, mount, parent_link, written
 from urdfkit.scaffold.additions.package_manifest import package_of, with_installed
 from urdfkit.scaffold.additions.xml_insertion import insert_before_end, xacro_prefix
-from urdfkit.scaffold.templates.names import free
+from urdfkit.scaffold.templates.names import unused_name
 from urdfkit.scaffold.templates.template_parser import load_template
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _ORDER = ("name", "type", "mass", "radius", "length", "xyz", "rpy", "lower", "upper", "effort", "velocity")
 _NUMBER = re.compile(r"(?<![\w.])-?\d+\.\d+(?:e-?\d+)?(?![\w.])")
 _ROOMY = 20.0
-"""A base that many times as long as the arm reaches carries any, so that the template's checks of it hold."""
+"""Length of the base in multiples of the arm's reach, so that all checks of the template on the base hold."""
 
 
 @dataclass(frozen=True, slots=True)
 class ArmRequest:
-    """An arm as asked for.
+    """A request for an arm.
 
     Attributes:
-        name: of it; what its links and joints begin with, unless it is ``arm``; None: that, with a number if taken.
-        answers: to the questions of the template of robots: arm, arm_reach, arm_mass, payload, gripper, finger_travel;
-            and ros, ``none`` where it is left out: in ``noetic`` no joint follows another.
-        parent: the link it stands on; None: chosen.
-        xyz: where, in the parent's frame [m]; None: on top, where nothing else is.
-        rpy: how it is turned, roll, pitch and yaw [rad].
+        name: name of the arm, and prefix of its links and joints unless it is ``arm``; None: ``arm``, with a number
+            if that name is in use.
+        answers: answers to questions of the robot template: arm, arm_reach, arm_mass, payload, gripper,
+            finger_travel and ros (default ``none``; with ``noetic``, no joint mimics another).
+        parent: link that the arm is mounted on; None: chosen automatically.
+        xyz: position in the parent's frame [m]; None: a free place on top.
+        rpy: orientation: roll, pitch and yaw [rad].
     """
 
     name: str | None
@@ -52,55 +53,59 @@ class ArmRequest:
 
 
 def add_arm(robot: Robot, path: Path, request: ArmRequest) -> tuple[list[Alteration], list[str]]:
-    """Return the changes that add an arm, the model's file last, and what to tell about them.
+    """Return the file changes that add an arm, the model's file last, and notes to print.
 
     Args:
-        robot: as loaded.
+        robot: the loaded robot.
         path: the model's file.
-        request: what to add.
+        request: the arm to add.
 
     Raises:
-        UsageError: the name is none, or the sizes do not go together.
-        ResourceError: something of that name is there, or no such parent, or the file cannot be changed.
+        UsageError: the name is invalid, or the sizes contradict each other.
+        ResourceError: the name is in use, the parent does not exist, or the file cannot be changed.
     """
     if request.name is not None and not _NAME.fullmatch(request.name):
-        raise UsageError(f"--name `{request.name}`: letters, digits and underscores, a letter first")
+        raise UsageError(
+            f"--name `{request.name}` is not a valid name: use letters, digits and underscores, and start with a letter"
+        )
     parent = parent_link(robot, request.parent)
     answers = dict(request.answers)
     answers.setdefault("arm_reach", f"{_reach(extent(robot, parent)):.4g}")
     arm, xml = _alone(answers)
     links, joints = _branch(arm)
-    here = {link.name for link in robot.links} | {joint.name for joint in robot.joints}
+    existing = {link.name for link in robot.links} | {joint.name for joint in robot.joints}
 
-    def taken(name: str) -> list[str]:
-        return [each for each in (*links, *joints) if f"{_prefix(name)}{each}" in here]
+    def conflicts(name: str) -> list[str]:
+        return [each for each in (*links, *joints) if f"{_prefix(name)}{each}" in existing]
 
-    def is_taken(name: str) -> bool:
-        return bool(taken(name)) or _home(path, name).exists()
+    def is_used(name: str) -> bool:
+        return bool(conflicts(name)) or _macro_path(path, name).exists()
 
-    name = request.name or free("arm", is_taken)
-    if there := taken(name):
-        has = f"{_prefix(name)}{there[0]}"
-        raise ResourceError(f"robot `{robot.name}` has a `{has}` already; nothing was changed: another --name")
+    name = request.name or unused_name("arm", is_used)
+    if names := conflicts(name):
+        conflict = f"{_prefix(name)}{names[0]}"
+        raise ResourceError(
+            f"robot `{robot.name}` already has a `{conflict}`; nothing was changed; choose another --name"
+        )
     xyz, notes = mount(robot, parent, _part(arm, request.rpy), request.xyz)
-    told = f"`{name}` on `{parent.name}` at {written(xyz)}, reaching {answers['arm_reach']} m"
+    summary = f"`{name}` on `{parent.name}` at {written(xyz)}, reaching {answers['arm_reach']} m"
     lines = _elements(xml, {*links, *joints}, _prefix(name))
-    at = exact(xyz) if request.xyz else written(xyz)
-    origin = f'<origin xyz="{at}" rpy="{exact(request.rpy)}"/>'
-    return _changes(path, name, lines, parent.name, origin), [told, *notes]
+    position = exact(xyz) if request.xyz else written(xyz)
+    origin = f'<origin xyz="{position}" rpy="{exact(request.rpy)}"/>'
+    return _changes(path, name, lines, parent.name, origin), [summary, *notes]
 
 
 def _prefix(name: str) -> str:
     return "" if name == "arm" else f"{name}_"
 
 
-def _home(path: Path, name: str) -> Path:
-    """Return where the macro of an arm goes."""
+def _macro_path(path: Path, name: str) -> Path:
+    """Return the path of the file with the arm's macro."""
     return path.parent / f"{name}_macro.xacro"
 
 
 def _part(arm: Robot, rpy: Vector) -> Part:
-    """Return what an arm takes up: straight up, as it is at zero."""
+    """Return the space that an arm needs in its zero position, pointing straight up."""
     boxes = Boxes(arm)
     foot, at = arm.link_by_name["arm_foot"], Pose(rpy=rpy)
     whole_arm = [box for name, box in boxes.seen_from(foot, at) if name in _branch(arm)[0]]
@@ -113,12 +118,12 @@ def _changes(path: Path, name: str, lines: list[str], parent: str, origin: str) 
     if prefix is None:
         text = "\n".join(lines).replace("${parent}", parent).replace('<xacro:insert_block name="origin"/>', origin)
         return [Alteration(path, before, insert_before_end(before, text, path=path))]
-    home = _home(path, name)
+    home = _macro_path(path, name)
     if home.exists():
-        raise ResourceError(f"{home} is already there; nothing was changed")
+        raise ResourceError(f"{home} already exists; nothing was changed")
     body = "\n".join(f"    {line}" if line else "" for line in lines)
     macro = (
-        '<?xml version="1.0"?>\n<!-- An arm; at zero it points straight up. What it carries goes on tool0. -->\n'
+        '<?xml version="1.0"?>\n<!-- An arm; at zero it points straight up. Attach tools and payloads to tool0. -->\n'
         '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
         f'  <xacro:macro name="{name}_macro" params="parent *origin">\n{body}\n  </xacro:macro>\n</robot>\n'
     )
@@ -136,12 +141,12 @@ def _changes(path: Path, name: str, lines: list[str], parent: str, origin: str) 
 
 
 def _reach(size: Vector | None) -> float:
-    """Return how far an arm reaches that goes with what it stands on, as the template has it."""
+    """Return a reach in proportion to the parent link, by the formula of the robot template."""
     return 0.6 if size is None else max(0.05, min(size[0], 1.3 * size[1], 5.0))
 
 
 def _alone(answers: Mapping[str, str]) -> tuple[Robot, str]:
-    """Return a robot with the arm on a base that carries any, and its URDF."""
+    """Return a robot that consists of the arm on a base large enough for any arm, and its URDF."""
     template = load_template(templates_dir() / "robot")
     side = f"{_ROOMY * float(answers['arm_reach']):.6g}"
     weight = f"{5000 * float(side) ** 2 * 0.1 * 0.1:.6g}"
@@ -171,7 +176,7 @@ _BLOCK = '<xacro:insert_block name="origin"/>'
 
 
 def _branch(robot: Robot) -> tuple[list[str], list[str]]:
-    """Return the links and joints from the arm's foot on."""
+    """Return the links and joints of the arm, starting at its foot."""
     links, joints = ["arm_foot"], ["arm_mount_joint"]
     for link in links:
         for joint in robot.joints:
@@ -184,7 +189,7 @@ def _branch(robot: Robot) -> tuple[list[str], list[str]]:
 def _renamed(
     element: ElementTree.Element, prefix: str, names: set[str], colours: Mapping[str | None, ElementTree.Element]
 ) -> None:
-    """Give the arm's things their names, its foot its place, and its materials their colours."""
+    """Add the prefix to names, make parent and origin parameters of the macro, and define materials in place."""
     is_mount = element.get("name") == "arm_mount_joint"
     for each in element.iter():
         for attribute in ("name", "link", "joint"):
@@ -202,7 +207,7 @@ def _renamed(
 
 
 def _tidied(element: ElementTree.Element) -> None:
-    """Write numbers to nine digits, and attributes in the order of a person: xacro sorts them."""
+    """Round numbers to nine digits and restore the usual order of attributes, which xacro sorts."""
     for each in element.iter():
         for attribute in sorted(each.attrib, key=lambda name: _ORDER.index(name) if name in _ORDER else -1):
             value = each.attrib.pop(attribute)

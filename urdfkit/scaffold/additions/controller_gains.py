@@ -1,4 +1,4 @@
-"""Gains for joints that are moved by efforts: as stiff as the weight they carry asks for, and well damped."""
+"""PID gains for joints with effort interfaces, from the inertia and weight that the joint moves."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from urdfkit.description.urdf.geometry import compose, link_poses, rotate, rotat
 from urdfkit.description.urdf.robot import Inertia, Joint, Robot, Vector
 
 _GRAVITY = 9.81
-_PULL = 20.0
-"""How fast a joint follows [rad/s], where its weight does not ask for more."""
-_SAG = 0.01
-"""What a joint gives way under the weight it carries [rad]; that of the template's arms."""
-_SINK = 0.001
-"""The same of one that slides [m]."""
+_FREQUENCY = 20.0
+"""Minimum natural frequency of a controlled joint [rad/s]."""
+_DEFLECTION = 0.01
+"""Deflection of a rotary joint under the weight that it carries [rad], as for the template's arms."""
+_PRISMATIC_DEFLECTION = 0.001
+"""Deflection of a prismatic joint under the weight that it carries [m]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Gains:
-    """Of a PID: p, i and d, and the most that i adds (what holds the weight)."""
+    """PID gains: p, i, d, and the limit of the integral term, which holds the weight."""
 
     p: float
     i: float
@@ -28,20 +28,20 @@ class Gains:
 
 
 def gains(robot: Robot, joint: Joint) -> Gains:
-    """Return the gains of a joint; p = max(I ω², weight / sag), d = 2 · 0.9 · √(p I), with the robot as it is at zero.
+    """Return the gains of a joint: p = max(I ω², weight / deflection), d = 2 · 0.9 · √(p I), in the zero position.
 
     Args:
-        robot: a tree.
-        joint: of it.
+        robot: a robot whose joints form a tree.
+        joint: a joint of the robot.
     """
-    moved, weight = _carried(robot, joint)
-    sag = _SINK if joint.type == "prismatic" else _SAG
-    p = max(moved * _PULL**2, weight / sag)
-    return Gains(p, p, 1.8 * sqrt(p * moved), weight)
+    inertia, weight = _carried(robot, joint)
+    deflection = _PRISMATIC_DEFLECTION if joint.type == "prismatic" else _DEFLECTION
+    p = max(inertia * _FREQUENCY**2, weight / deflection)
+    return Gains(p, p, 1.8 * sqrt(p * inertia), weight)
 
 
 def _carried(robot: Robot, joint: Joint) -> tuple[float, float]:
-    """Return the inertia about the axis [kg m²] and the greatest moment of the weight [N m]; of slides in kg and N."""
+    """Return the carried inertia [kg m²] and moment of weight [N m]; for prismatic joints mass [kg] and weight [N]."""
     places = link_poses(robot, joint.child) if joint.child is not None else {}
     axis = unit(joint.axis) or joint.axis
     inertia = weight = 0.0
@@ -61,7 +61,7 @@ def _carried(robot: Robot, joint: Joint) -> tuple[float, float]:
 
 
 def _about(axis: Vector, tensor: Inertia | None) -> float:
-    """Return the moment about an axis of length 1."""
+    """Return the moment of inertia about an axis of unit length."""
     if tensor is None:
         return 0.0
     x, y, z = axis

@@ -1,4 +1,4 @@
-"""The parameters of controllers, as YAML of ROS 1 and of ROS 2."""
+"""Controller parameters as YAML for ROS 1 and ROS 2."""
 
 from __future__ import annotations
 
@@ -13,20 +13,21 @@ from urdfkit.scaffold.additions.controller_gains import gains
 from urdfkit.scaffold.additions.joint_controllers import Controller
 
 
-def parameters(robot: Robot, made: list[Controller], *, generation: str, base: str) -> dict[str, str]:
-    """Return what the template of a package of controllers wants: ``controllers``, ``managed`` and ``spawned``.
+def parameters(robot: Robot, controllers: list[Controller], *, generation: str, base: str) -> dict[str, str]:
+    """Return the placeholders ``controllers``, ``managed`` and ``spawned`` of the template of controller packages.
 
     Args:
-        robot: whose joints.
-        made: the controllers.
-        generation: of `FLAVOURS`, or ``classic``.
-        base: the frame that odometry is of.
+        robot: the robot that is controlled.
+        controllers: the controllers.
+        generation: a key of `FLAVOURS`, or ``classic``.
+        base: base frame of odometry.
     """
     if generation == "classic":
         text = "".join(
-            f"\n\n  {each.name}:\n" + "\n".join(f"    {line}" for line in _yaml1(robot, each, base)) for each in made
+            f"\n\n  {each.name}:\n" + "\n".join(f"    {line}" for line in _yaml1(robot, each, base))
+            for each in controllers
         )
-        spawned = "".join(f" {each.name}" for each in made)
+        spawned = "".join(f" {each.name}" for each in controllers)
         return {"controllers": text, "managed": "", "spawned": spawned}
     types = {
         "trajectory": "joint_trajectory_controller/JointTrajectoryController",
@@ -34,28 +35,28 @@ def parameters(robot: Robot, made: list[Controller], *, generation: str, base: s
     }
     text = "".join(
         f"\n{each.name}:\n  ros__parameters:\n" + "".join(f"    {line}\n" for line in _yaml2(robot, each, base))
-        for each in made
+        for each in controllers
     )
-    managed = "".join(f"\n    {each.name}: {{type: {types[each.kind]}}}" for each in made)
-    spawned = "".join(f' "{each.name}",' for each in made).removesuffix(",")
+    managed = "".join(f"\n    {each.name}: {{type: {types[each.kind]}}}" for each in controllers)
+    spawned = "".join(f' "{each.name}",' for each in controllers).removesuffix(",")
     return {"controllers": text.rstrip("\n"), "managed": managed, "spawned": spawned}
 
 
 def with_controllers(text: str, more: dict[str, str], names: list[str], *, path: Path) -> str:
-    """Return a file of parameters for ROS 2 with more controllers; all else stays as it is.
+    """Return a ROS 2 parameter file with more controllers; all other text is unchanged.
 
     Args:
-        text: of the file.
-        more: from `parameters`.
-        names: of the controllers.
-        path: of the file, for errors.
+        text: text of the file.
+        more: placeholders from `parameters`.
+        names: names of the controllers.
+        path: path of the file, for error messages.
 
     Raises:
-        ResourceError: it has no controller manager to tell, or a controller of one of the names.
+        ResourceError: the file has no controller manager, or already has a controller of one of the names.
     """
     for name in names:
         if re.search(rf"(?m)^\s*/?{name}\s*:", text):
-            raise ResourceError(f"{path} has a `{name}` already; nothing was changed")
+            raise ResourceError(f"{path} already has a `{name}`; nothing was changed")
     place = re.search(
         r"(?m)^/?controller_manager\s*:[^\n]*\n(?:[ \t]*(?:#[^\n]*)?\n)*([ \t]+)ros__parameters\s*:[ \t]*\n", text
     )
@@ -68,11 +69,11 @@ def with_controllers(text: str, more: dict[str, str], names: list[str], *, path:
     return f"{text[: place.end()]}{managed}{text[place.end() :]}{end}{more['controllers']}\n"
 
 
-def at_root(package: Path, name: str) -> None:
-    """Move the controllers of a package of ROS 1 out of a namespace, for a plugin whose namespace is ``/``.
+def move_to_root_namespace(package: Path, name: str) -> None:
+    """Move the controllers of a ROS 1 package out of a namespace, for a plugin whose namespace is ``/``.
 
     Args:
-        package: its folder.
+        package: folder of the package.
         name: the namespace.
     """
     settings = package / "config/controllers.yaml"
@@ -104,7 +105,7 @@ def _yaml1(robot: Robot, each: Controller, base: str) -> Iterator[str]:
     if interface == "velocity":
         yield "velocity_ff:"
         yield from (f"  {joint}: 1.0" for joint in each.joints)
-    yield from _followed()
+    yield from _trajectory_options()
 
 
 def _yaml2(robot: Robot, each: Controller, base: str) -> Iterator[str]:
@@ -124,10 +125,10 @@ def _yaml2(robot: Robot, each: Controller, base: str) -> Iterator[str]:
         scale = ", ff_velocity_scale: 1.0" if interface == "velocity" else ""
         yield "gains:"
         yield from (f"  {joint}: {{{_pid(robot, joint, interface)}{scale}}}" for joint in each.joints)
-    yield from _followed()
+    yield from _trajectory_options()
 
 
-def _followed() -> Iterator[str]:
+def _trajectory_options() -> Iterator[str]:
     yield "allow_partial_joints_goal: true"
     yield "constraints:"
     yield "  stopped_velocity_tolerance: 0.05"
@@ -135,15 +136,15 @@ def _followed() -> Iterator[str]:
 
 
 def _pid(robot: Robot, joint: str, interface: str) -> str:
-    """Return the gains of a joint: of velocities those of new robots, of efforts as its weight asks for."""
+    """Return the gains of a joint: those of the robot template for velocities, computed ones for efforts."""
     if interface == "velocity":
         return "p: 20.0, i: 0.0, d: 0.0"
-    found = gains(robot, robot.joint_by_name[joint])
-    values = {"p": found.p, "i": found.i, "d": found.d, "i_clamp": found.clamp}
+    pid = gains(robot, robot.joint_by_name[joint])
+    values = {"p": pid.p, "i": pid.i, "d": pid.d, "i_clamp": pid.clamp}
     return ", ".join(f"{name}: {_real(value)}" for name, value in values.items())
 
 
 def _real(value: float) -> str:
-    """Return a number of three digits that YAML takes for one that is not whole."""
+    """Return a number with three digits that YAML reads as a floating-point number."""
     text = format(Decimal(f"{value:.3g}"), "f")
     return text if "." in text else f"{text}.0"

@@ -1,4 +1,4 @@
-"""Changes to files that are there, and new files beside them: all of them or none."""
+"""Changes to existing files and new files, written all or none."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from urdfkit.errors import ResourceError
 
 @dataclass(frozen=True, slots=True)
 class Alteration:
-    """What a file is to hold.
+    """New content of a file.
 
     Attributes:
         path: the file.
-        before: its bytes as they were read; None: it is not there, and has not been when it is written.
-        after: its bytes as they are to be.
+        before: its bytes as they were read; None: a new file.
+        after: the new bytes.
     """
 
     path: Path
@@ -40,13 +40,13 @@ class Alteration:
 
 
 def write_all(alterations: Sequence[Alteration]) -> None:
-    """Write files; where one cannot be written, those before it are put back as they were.
+    """Write files; if writing fails, the previous contents are restored.
 
     Args:
-        alterations: what to write, in this order.
+        alterations: the changes, in the order of writing.
 
     Raises:
-        ResourceError: a file was changed or made since it was looked at, or cannot be written.
+        ResourceError: a file was changed or created since it was read, or cannot be written.
     """
     for alteration in alterations:
         _check(alteration)
@@ -74,15 +74,15 @@ def _check(alteration: Alteration) -> None:
     except OSError as error:
         raise ResourceError(f"{path}: {error.strerror}") from error
     if now != alteration.before:
-        what = "is already there" if alteration.before is None else "was changed meanwhile"
-        raise ResourceError(f"{path} {what}; nothing was changed")
+        problem = "already exists" if alteration.before is None else "was changed in the meantime"
+        raise ResourceError(f"{path} {problem}; nothing was changed")
 
 
 def texts(alterations: Sequence[Alteration]) -> Iterator[tuple[str, str]]:
-    """Yield absolute path and text of each file as it is to be.
+    """Yield the absolute path and the new text of each file.
 
     Args:
-        alterations: of files in UTF-8.
+        alterations: changes of files in UTF-8.
     """
     for alteration in alterations:
         yield str(alteration.path.absolute()), alteration.after.decode("utf-8", "replace").replace("\r\n", "\n")

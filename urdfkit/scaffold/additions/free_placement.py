@@ -1,4 +1,4 @@
-"""Where on a link nothing else is: the place of a part that is added to a robot."""
+"""Search for a free place on a link for a new part."""
 
 from __future__ import annotations
 
@@ -10,38 +10,39 @@ from urdfkit.description.urdf.robot import Vector
 from urdfkit.scaffold.additions.link_boxes import gap, moved
 
 _CLEARANCE = 0.005
-"""What is left between a new part and what is there [m]."""
+"""Distance between a new part and other links [m]."""
 _TOUCHES = 0.001
-"""What a part may sink into the link it stands on [m]: numbers are rounded to tenths of that."""
+"""Allowed overlap of a part with the link that it stands on [m]; coordinates are rounded to a tenth of it."""
 _STEPS = 20
-"""How many places are tried along an edge of a link, less one."""
+"""Number of intervals between the places tried along an edge of a link."""
 
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A part that is to be mounted.
+    """A part to mount.
 
     Attributes:
-        boxes: around its shapes, in the frame that is placed.
-        foot: around those of them that have to stand on the parent.
-        where: ``top``, ``front`` or ``middle`` of the parent; in its middle it is inside of it.
-        apart: whether it goes as far from other things as it can, not as near as it may: it looks about.
+        boxes: boxes around its shapes, in the frame that is placed.
+        foot: box around the shapes that must stand on the parent.
+        where: ``top``, ``front`` or ``middle`` of the parent; in the middle, the part is inside the parent.
+        far_from_others: whether to place it as far from other shapes as possible, for a free view, instead of as
+            near to the default place as possible.
     """
 
     boxes: tuple[Bounds, ...]
     foot: Bounds
     where: str = "top"
-    apart: bool = False
+    far_from_others: bool = False
 
 
 def spot(own: list[Bounds], part: Part) -> Vector:
-    """Return the usual place of a part on a link, in its frame [m], whatever else is there.
+    """Return the default place of a part on a link, in the link's frame [m], ignoring other links.
 
-    On top in the middle, at the front below the upper edge, or in its very middle.
+    The default place is the centre of the top, the upper edge of the front, or the centre of the link.
 
     Args:
         own: the boxes around the link's shapes.
-        part: what is mounted.
+        part: the part to mount.
     """
     low, high = box_around_all(own)
     x, y, z = ((a + b) / 2 for a, b in zip(low, high, strict=True))
@@ -54,17 +55,17 @@ def spot(own: list[Bounds], part: Part) -> Vector:
 
 
 def free_place(own: list[Bounds], others: list[Bounds], part: Part) -> Vector | None:
-    """Return a place on a link where a part is inside of nothing, in the link's frame [m].
+    """Return a place on a link where a part overlaps nothing, in the link's frame [m].
 
-    The usual place if that is free; otherwise the free one nearest to it, or farthest from other things.
+    The default place if it is free; otherwise the free place nearest to it, or farthest from other shapes.
 
     Args:
-        own: the boxes around the link's shapes; none of a link that is a frame only.
-        others: those of the other links, in its frame.
-        part: what is mounted.
+        own: the boxes around the link's shapes; empty for a link without shapes.
+        others: the boxes around other links, in the same frame.
+        part: the part to mount.
 
     Returns:
-        None where there is none.
+        None if no place is free.
     """
     if not own:
         return next((place for place in _above(-part.foot[0][2]) if not _hit(part, place, others)), None)
@@ -78,20 +79,20 @@ def free_place(own: list[Bounds], others: list[Bounds], part: Part) -> Vector | 
         if not _hit(part, place, others) and not _hit(part, place, solid, _TOUCHES)
     ]
 
-    def farness(place: Vector) -> tuple[int, float, float]:
+    def cost(place: Vector) -> tuple[int, float, float]:
         x, y, z = (place[k] - usual[k] for k in range(3))
-        # On top rather along the middle than beside it, at the front rather beside it than below.
+        # On top, prefer places along the middle line; at the front, prefer places at the same height.
         near = round(x * x + y * y * (2 if part.where == "top" else 1) + 4 * z * z, 9)
-        return _overhangs(own, part, place), -_room(part, place, others) if part.apart else 0.0, near
+        return _overhangs(own, part, place), -_room(part, place, others) if part.far_from_others else 0.0, near
 
-    return min(places, key=farness, default=None)
+    return min(places, key=cost, default=None)
 
 
-def inside(part: Part, place: Vector, named: list[tuple[str, Bounds]]) -> str | None:
-    """Return the name of something that a part would be inside of; None for nothing.
+def overlapped(part: Part, place: Vector, named: list[tuple[str, Bounds]]) -> str | None:
+    """Return the name of a box that a part overlaps; None if it overlaps none.
 
     Args:
-        part: what is mounted.
+        part: the part to mount.
         place: in the link's frame [m].
         named: boxes in the link's frame, with names.
     """
@@ -99,19 +100,19 @@ def inside(part: Part, place: Vector, named: list[tuple[str, Bounds]]) -> str | 
 
 
 def _hit(part: Part, place: Vector, boxes: list[Bounds], allowed: float = -_CLEARANCE) -> bool:
-    """Whether a part overlaps one of the boxes by more than is allowed [m]."""
+    """Return whether a part overlaps one of the boxes by more than `allowed` [m]."""
     return any(gap(moved(box, place), other) < -allowed for box in part.boxes for other in boxes)
 
 
 def _room(part: Part, place: Vector, others: list[Bounds]) -> float:
-    """Return how far the nearest thing is that a part at this place has beside it [m]."""
-    about = moved(box_around_all(list(part.boxes)), place)
-    beside = [box for box in others if box[0][2] < about[1][2] and about[0][2] < box[1][2]]
-    return round(min((gap(about, box) for box in beside), default=0.0), 4)
+    """Return the distance from a part to the nearest box at its height [m]."""
+    bounds = moved(box_around_all(list(part.boxes)), place)
+    level = [box for box in others if box[0][2] < bounds[1][2] and bounds[0][2] < box[1][2]]
+    return round(min((gap(bounds, box) for box in level), default=0.0), 4)
 
 
 def _overhangs(own: list[Bounds], part: Part, place: Vector) -> int:
-    """Return how many corners of its foot have nothing under them: the link's shapes have steps."""
+    """Return how many corners of the part's foot are not supported by the top of the link."""
     if part.where != "top":
         return 0
     low, high = moved(part.foot, place)
@@ -126,7 +127,7 @@ def _above(first: float) -> Iterator[Vector]:
 
 
 def _places(own: list[Bounds], part: Part, usual: Vector) -> Iterator[Vector]:
-    """Yield places all over the top or the front of a link, or in it, from the left front top on."""
+    """Yield places on the top or the front of a link, or inside it, starting at the left front top."""
     low, high = box_around_all(own)
     (ax, ay, az), (bx, by, bz) = part.foot
     along = [
@@ -149,17 +150,17 @@ def _places(own: list[Bounds], part: Part, usual: Vector) -> Iterator[Vector]:
 
 
 def _row(first: float, last: float) -> list[float]:
-    """Return numbers from one to the other, both included; the middle where they are the wrong way round."""
+    """Return evenly spaced numbers including both ends; only the middle if `last` is not above `first`."""
     if last <= first:
         return [round((first + last) / 2, 4)]
     return [round(first + (last - first) * step / _STEPS, 4) for step in range(_STEPS + 1)]
 
 
 def _surface(own: list[Bounds], axis: int, point: Vector) -> float | None:
-    """Return how far the boxes reach along an axis, of those that have the point beside them; None where none has."""
+    """Return the greatest coordinate along an axis of the boxes that contain the point across it; None without one."""
     across = [k for k in range(3) if k != axis]
 
-    def has(low: Vector, high: Vector) -> bool:
+    def contains(low: Vector, high: Vector) -> bool:
         return all(low[k] - _TOUCHES <= point[k] <= high[k] + _TOUCHES for k in across)
 
-    return max((high[axis] for low, high in own if has(low, high)), default=None)
+    return max((high[axis] for low, high in own if contains(low, high)), default=None)

@@ -1,4 +1,4 @@
-"""What moves joints without ROS: plugins of Gazebo that listen to its own topics, as in new robots for no ROS."""
+"""Control without ROS: Gazebo plugins that subscribe to Gazebo topics, as in the robot template without ROS."""
 
 from __future__ import annotations
 
@@ -12,11 +12,13 @@ from urdfkit.scaffold.additions.joint_controllers import Controller
 _RECIPE = "urdfkit-new.toml"
 _NONE = re.compile(r'(?m)^ros\s*=\s*"none"')
 _RATE = 1.0
-"""How fast a joint without a limit of its velocity goes where it is told [rad/s or m/s]."""
+"""Velocity of a joint without a velocity limit [rad/s or m/s]."""
 
 
 def is_without_ros(path: Path) -> bool:
-    """Return whether a description was made for no ROS: the recipe above it says so, and no ``package.xml`` is nearer.
+    """Return whether a description was created for use without ROS, by the recipe of its package.
+
+    A recipe counts only if no ``package.xml`` is nearer to the description.
 
     Args:
         path: the description.
@@ -29,39 +31,40 @@ def is_without_ros(path: Path) -> bool:
     return False
 
 
-def topics(made: list[Controller]) -> dict[str, str]:
-    """Return the topics that joints listen to: one for a drive or the fingers of a gripper, one a joint for the rest.
+def topics(controllers: list[Controller]) -> dict[str, str]:
+    """Return the command topic of each joint: one for a drive or a gripper, otherwise one per joint.
 
     Args:
-        made: the controllers.
+        controllers: the controllers.
     """
-    found = {}
-    for each in made:
+    topic_of = {}
+    for each in controllers:
         name = each.name.removesuffix("_controller")
         for joint in each.joints:
             whole = each.wheels is not None or name.startswith("gripper")
             topic = "cmd_vel" if each.wheels else name
-            found[joint] = topic if whole else f"{name}/{joint.removesuffix('_joint')}"
-    return found
+            topic_of[joint] = topic if whole else f"{name}/{joint.removesuffix('_joint')}"
+            topic_of[joint] = topic if whole else f"{name}/{joint.removesuffix('_joint')}"
+    return topic_of
 
 
-def plugins(robot: Robot, made: list[Controller]) -> str:
-    """Return the elements of the model, without indentation.
+def plugins(robot: Robot, controllers: list[Controller]) -> str:
+    """Return the plugin elements of the model, without indentation.
 
     Args:
-        robot: whose joints.
-        made: the controllers.
+        robot: the robot that is controlled.
+        controllers: the controllers.
     """
-    told = topics(made)
+    topic_of = topics(controllers)
     lines: list[str] = []
-    for each in made:
+    for each in controllers:
         if each.wheels is not None:
             lines += _drive(each)
             continue
         for joint in each.joints:
             limit = robot.joint_by_name[joint].limit
             rate = limit.velocity if limit is not None else None
-            lines += _positioned(joint, told[joint], rate or _RATE)
+            lines += _positioned(joint, topic_of[joint], rate or _RATE)
     return "\n".join(lines)
 
 

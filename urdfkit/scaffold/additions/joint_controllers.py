@@ -1,4 +1,4 @@
-"""Controllers for the joints of a robot: which, and the elements of the model that they need."""
+"""Choice of controllers for the joints of a robot, and the model elements that they need."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ from itertools import takewhile
 
 from urdfkit.description.urdf.robot import Joint, Robot
 from urdfkit.scaffold.additions.joint_roles import Roles, Wheels
-from urdfkit.scaffold.templates.names import free, sanitised
+from urdfkit.scaffold.templates.names import sanitised, unused_name
 
 
 @dataclass(frozen=True, slots=True)
 class Flavour:
-    """What ros2_control is called in a simulator.
+    """Names of ros2_control in one generation of Gazebo.
 
     Attributes:
-        hardware: the plugin of ``<hardware>``.
-        library: the file of Gazebo's plugin.
-        name: what Gazebo's plugin is called.
-        package: where they are.
-        told_of_mimics: whether ``<ros2_control>`` has to say which joints follow others; since jazzy ``<mimic>`` does.
+        hardware: the plugin in ``<hardware>``.
+        library: file name of Gazebo's plugin.
+        name: name of Gazebo's plugin.
+        package: the ROS package of both.
+        mimic_parameters: whether ``<ros2_control>`` declares mimic joints; since Jazzy, ``<mimic>`` is sufficient.
     """
 
     hardware: str
     library: str
     name: str
     package: str
-    told_of_mimics: bool = False
+    mimic_parameters: bool = False
 
 
 FLAVOURS = {
@@ -42,30 +42,30 @@ FLAVOURS = {
         "ign_ros2_control-system",
         "ign_ros2_control::IgnitionROS2ControlPlugin",
         "ign_ros2_control",
-        told_of_mimics=True,
+        mimic_parameters=True,
     ),
     "classic-ros2": Flavour(
         "gazebo_ros2_control/GazeboSystem",
         "libgazebo_ros2_control.so",
         "gazebo_ros2_control",
         "gazebo_ros2_control",
-        told_of_mimics=True,
+        mimic_parameters=True,
     ),
 }
-"""By generation; Gazebo Classic with ROS 1 has transmissions instead."""
+"""Names by generation; Gazebo Classic with ROS 1 uses transmissions instead."""
 
 
 @dataclass(frozen=True, slots=True)
 class Controller:
-    """One controller.
+    """A controller to configure.
 
     Attributes:
-        name: of it.
+        name: name of the controller.
         kind: ``trajectory`` or ``diff_drive``.
-        joints: that it moves; of a drive, the left ones and then the right ones.
-        wheels: of a drive.
-        interface: what its joints can be told, by transmissions or in ``<ros2_control>`` that are there; empty for
-            joints that get theirs with it.
+        joints: the joints that it moves; for a drive, the left ones before the right ones.
+        wheels: the wheels of a drive.
+        interface: command interface from existing transmissions or ``<ros2_control>``; empty for joints that get one
+            together with the controller.
     """
 
     name: str
@@ -75,24 +75,24 @@ class Controller:
     interface: str = ""
 
 
-def controllers(found: Roles) -> list[Controller]:
-    """Return the controllers for the joints that something should move.
+def controllers(roles: Roles) -> list[Controller]:
+    """Return the controllers for the joints that need one.
 
     Args:
-        found: what they are for.
+        roles: the purpose of each joint.
     """
     made = []
-    if found.wheels is not None:
-        joints = found.wheels.left + found.wheels.right
-        by = found.interfaces.get(joints[0], "")
-        made.append(Controller("base_controller", "diff_drive", joints, found.wheels, by))
+    if roles.wheels is not None:
+        joints = roles.wheels.left + roles.wheels.right
+        by = roles.interfaces.get(joints[0], "")
+        made.append(Controller("base_controller", "diff_drive", joints, roles.wheels, by))
     taken = {"gripper_controller", "base_controller"}
-    for chain in found.arms:
-        for interface, joints in _by_interface(chain, found):
-            name = free(_name(joints), lambda each: f"{each}_controller" in taken)
+    for chain in roles.arms:
+        for interface, joints in _by_interface(chain, roles):
+            name = unused_name(_name(joints), lambda each: f"{each}_controller" in taken)
             taken.add(f"{name}_controller")
             made.append(Controller(f"{name}_controller", "trajectory", joints, None, interface))
-    for interface, joints in _by_interface(found.fingers, found):
+    for interface, joints in _by_interface(roles.fingers, roles):
         name = (
             f"gripper_{interface}_controller"
             if made and made[-1].name == "gripper_controller"
@@ -102,14 +102,14 @@ def controllers(found: Roles) -> list[Controller]:
     return made
 
 
-def _by_interface(joints: Sequence[str], found: Roles) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield the joints by what they can be told: a controller tells all of its joints the same."""
-    for interface in dict.fromkeys(found.interfaces.get(joint, "") for joint in joints):
-        yield interface, tuple(joint for joint in joints if found.interfaces.get(joint, "") == interface)
+def _by_interface(joints: Sequence[str], roles: Roles) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the joints grouped by command interface: all joints of a controller have the same one."""
+    for interface in dict.fromkeys(roles.interfaces.get(joint, "") for joint in joints):
+        yield interface, tuple(joint for joint in joints if roles.interfaces.get(joint, "") == interface)
 
 
 def _name(joints: tuple[str, ...]) -> str:
-    """Return what the joints of a chain have in common at the beginning of their names; ``arm`` for nothing."""
+    """Return the common prefix of joint names without a trailing underscore; ``arm`` without one."""
     words = [joint.removesuffix("_joint").split("_") for joint in joints]
     common = [each[0] for each in takewhile(lambda each: len(set(each)) == 1, zip(*words, strict=False))]
     name = sanitised("_".join(common)) if common else "arm"
@@ -117,18 +117,18 @@ def _name(joints: tuple[str, ...]) -> str:
 
 
 def markup(robot: Robot, made: list[Controller], *, name: str, generation: str, package: str, looped: bool) -> str:
-    """Return the elements of the model: which joints are moved, and how; indented by two blanks a level.
+    """Return the elements to add to the model, indented by two blanks per level.
 
     Args:
-        robot: whose joints.
+        robot: the robot that is controlled.
         made: the controllers.
-        name: of the robot, where its controllers are.
-        generation: of `FLAVOURS`, or ``classic``.
-        package: with the controllers' parameters.
-        looped: whether the model has the plugin of Gazebo that runs controllers.
+        name: name of the robot, which is the namespace of its controllers.
+        generation: a key of `FLAVOURS`, or ``classic``.
+        package: package with the controllers' parameters.
+        looped: whether the model already has the Gazebo plugin that runs controllers.
 
     Returns:
-        Nothing where the model has it all.
+        An empty text if the model needs no further element.
     """
     new = [each for each in made if not each.interface]
     if generation == "classic":
@@ -140,11 +140,11 @@ def markup(robot: Robot, made: list[Controller], *, name: str, generation: str, 
 
 
 def needs(made: list[Controller], generation: str) -> tuple[str, ...]:
-    """Return the packages that the controllers are in, and what lets Gazebo run them.
+    """Return the packages that provide the controllers, and the Gazebo plugin that runs them.
 
     Args:
         made: the controllers.
-        generation: of `FLAVOURS`, or ``classic``.
+        generation: a key of `FLAVOURS`, or ``classic``.
     """
     packages = []
     for each in made:
@@ -177,7 +177,7 @@ def _loop1(name: str) -> Iterator[str]:
 
 
 def _ros2(robot: Robot, made: list[Controller], name: str, flavour: Flavour) -> Iterator[str]:
-    name = free(name, lambda each: any(control.name == each for control in robot.ros2_control))
+    name = unused_name(name, lambda each: any(control.name == each for control in robot.ros2_control))
     yield f'<ros2_control name="{name}" type="system">'
     yield "  <hardware>"
     yield f"    <plugin>{flavour.hardware}</plugin>"
@@ -196,21 +196,21 @@ def _ros2(robot: Robot, made: list[Controller], name: str, flavour: Flavour) -> 
                 yield '    <state_interface name="position"/>'
             yield '    <state_interface name="velocity"/>'
             yield "  </joint>"
-            yield from (line for follower in _followers(robot, joint) for line in _follows(follower, flavour))
+            yield from (line for follower in _followers(robot, joint) for line in _mimic_joint(follower, flavour))
     yield "</ros2_control>"
 
 
 def _followers(robot: Robot, name: str) -> Iterator[Joint]:
-    """Yield the joints that follow another and stand in no ``<ros2_control>``: those of it alone do follow."""
+    """Yield the joints that mimic another and are not in ``<ros2_control>``, where they have to be."""
     listed = {each.get("name") for control in robot.ros2_control for each in control.element.find_all("joint")}
     for joint in robot.joints:
         if joint.mimic is not None and joint.mimic.joint == name and joint.name not in listed:
             yield joint
 
 
-def _follows(joint: Joint, flavour: Flavour) -> Iterator[str]:
+def _mimic_joint(joint: Joint, flavour: Flavour) -> Iterator[str]:
     yield f'  <joint name="{joint.name}">'
-    if flavour.told_of_mimics and joint.mimic is not None:
+    if flavour.mimic_parameters and joint.mimic is not None:
         yield f'    <param name="mimic">{joint.mimic.joint}</param>'
         yield f'    <param name="multiplier">{joint.mimic.multiplier:g}</param>'
     yield '    <state_interface name="position"/>'
@@ -227,7 +227,7 @@ def _loop2(flavour: Flavour, package: str) -> Iterator[str]:
 
 
 def _start(joint: Joint) -> float:
-    """Return where a joint begins: at zero, or in the middle of limits that do not have it."""
+    """Return the initial position of a joint: zero, or the middle of limits that exclude zero."""
     low, high = (joint.limit.lower, joint.limit.upper) if joint.limit is not None else (None, None)
     if joint.type == "continuous" or low is None or high is None or low <= 0 <= high:
         return 0.0

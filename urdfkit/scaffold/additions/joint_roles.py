@@ -1,4 +1,4 @@
-"""What the joints of a robot are for: wheels, arms, fingers, and those that nothing drives."""
+"""Purpose of each joint of a robot: wheel, arm, finger, or not driven."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ _FINGER = re.compile(r"finger|jaw|claw", re.IGNORECASE)
 _GRIPPER = re.compile(r"grip", re.IGNORECASE)
 _CASTER = re.compile(r"cast[eo]r", re.IGNORECASE)
 _MOVED = ("revolute", "continuous", "prismatic")
-_ALIKE = 1e-3
-"""How far wheels of one axle may be from being mirror images [m]."""
+_TOLERANCE = 1e-3
+"""Tolerance for wheels on one axle to be mirror images [m]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Wheels:
-    """The driven wheels of a robot that turns by their difference.
+    """Driven wheels of a differential drive.
 
     Attributes:
-        left: joints.
-        right: joints.
-        separation: from the left to the right [m].
-        radius: of each [m].
+        left: joints of the left wheels.
+        right: joints of the right wheels.
+        separation: distance between left and right wheels [m].
+        radius: radius of each wheel [m].
     """
 
     left: tuple[str, ...]
@@ -37,14 +37,14 @@ class Wheels:
 
 @dataclass(frozen=True, slots=True)
 class Roles:
-    """The joints by what they are for.
+    """Joints by purpose.
 
     Attributes:
-        wheels: None where there are none that make a differential drive.
-        arms: joints of each chain, from its base on.
-        fingers: of grippers. With joints go those that follow them and are told what to do like them.
-        notes: joints that no controller is for, and why, a line each.
-        interfaces: what those of them can be told that have a transmission or are in ``<ros2_control>``.
+        wheels: the wheels of a differential drive; None without such a drive.
+        arms: joints of each chain, starting at its base.
+        fingers: joints of grippers; chains and fingers include mimic joints that need commands of their own.
+        notes: joints without a controller and the reason, one line each.
+        interfaces: command interface of each joint with a transmission or in ``<ros2_control>``.
     """
 
     wheels: Wheels | None
@@ -54,16 +54,16 @@ class Roles:
     interfaces: Mapping[str, str] = field(default_factory=dict)
 
 
-def roles(robot: Robot, there: Hardware | None = None, *, follow: bool = True) -> Roles:
-    """Tell what the joints are for, by their type, axis, place and name, in the zero position.
+def roles(robot: Robot, existing: Hardware | None = None, *, follow: bool = True) -> Roles:
+    """Return the purpose of each joint, by its type, axis, position and name, in the zero position.
 
     Args:
-        robot: a tree.
-        there: what joints can be told, and what tells them; None: as the robot's elements have it.
-        follow: whether the simulator has joints follow others; Gazebo Classic passes over ``<mimic>``.
+        robot: a robot whose joints form a tree.
+        existing: command interfaces and drivers of joints; None: as declared in the robot's elements.
+        follow: whether the simulator supports ``<mimic>``; Gazebo Classic ignores it.
     """
     notes: list[str] = []
-    there = there or hardware(robot)
+    existing = existing or hardware(robot)
     parents = {joint.child: joint for joint in robot.joints}
     left_over: list[Joint] = []
     followers: list[Joint] = []
@@ -71,51 +71,53 @@ def roles(robot: Robot, there: Hardware | None = None, *, follow: bool = True) -
         if joint.type not in _MOVED:
             continue
         chain = [joint, *_above(joint, parents)]
-        if joint.name in there.drivers:
-            notes.append(f"`{joint.name}` is driven already, by {there.drivers[joint.name]}")
+        if joint.name in existing.drivers:
+            notes.append(f"`{joint.name}` is already driven by {existing.drivers[joint.name]}")
         elif joint.mimic is not None:
             followers.append(joint)
         elif any(_CASTER.search(f"{each.name} {each.child}") for each in chain):
-            notes.append(f"`{joint.name}` turns freely, as a caster")
-        elif there.interfaces.get(joint.name) == "":
-            notes.append(f"`{joint.name}` can be told none of {', '.join(KINDS)}")
+            notes.append(f"`{joint.name}` turns freely because it belongs to a caster")
+        elif existing.interfaces.get(joint.name) == "":
+            notes.append(f"`{joint.name}` has none of the command interfaces {', '.join(KINDS)}")
         else:
             left_over.append(joint)
     fingers = [joint for joint in left_over if _is_finger(joint)]
     rolling = [joint for joint in left_over if joint not in fingers and _rolls(joint, robot, parents)]
     wheels = _wheels(rolling, robot, parents)
     other = {
-        joint.name: kind for joint in rolling if (kind := there.interfaces.get(joint.name, "velocity")) != "velocity"
+        joint.name: kind for joint in rolling if (kind := existing.interfaces.get(joint.name, "velocity")) != "velocity"
     }
     if wheels is not None and other:
-        notes += [f"`{name}` can be told its {kind}, not its velocity as wheels are" for name, kind in other.items()]
+        notes += [f"`{name}` has the command interface {kind}; wheels need velocity" for name, kind in other.items()]
         wheels = None
     elif wheels is None:
-        notes += [f"`{joint.name}` looks like a wheel, but not like one of a pair" for joint in rolling]
+        notes += [f"`{joint.name}` has the shape of a wheel, but no mirrored counterpart" for joint in rolling]
     arms: dict[str, list[str]] = {}
     for joint in left_over:
         if joint not in fingers and joint not in rolling:
             base = [each for each in (joint, *_above(joint, parents)) if each in left_over and each not in fingers][-1]
             arms.setdefault(base.name, []).append(joint.name)
     names = [joint.name for joint in fingers]
-    notes += _followed(followers, [names, *arms.values()], there, follow=follow)
+    notes += _mimic_notes(followers, [names, *arms.values()], existing, follow=follow)
     used = {
-        joint.name: there.interfaces[joint.name] for joint in (*left_over, *followers) if joint.name in there.interfaces
+        joint.name: existing.interfaces[joint.name]
+        for joint in (*left_over, *followers)
+        if joint.name in existing.interfaces
     }
     chains = tuple(map(tuple, arms.values()))
     return Roles(wheels, chains, tuple(names), tuple(notes), used)
 
 
-def _followed(followers: list[Joint], chains: list[list[str]], there: Hardware, *, follow: bool) -> Iterator[str]:
-    """Yield what is told of joints that follow others; add to the chains those that are told what to do, too."""
+def _mimic_notes(followers: list[Joint], chains: list[list[str]], existing: Hardware, *, follow: bool) -> Iterator[str]:
+    """Yield notes on mimic joints; mimic joints that need commands of their own are inserted into the chains."""
     for joint, mimic in ((each, each.mimic) for each in followers if each.mimic is not None):
         chain = next((names for names in chains if mimic.joint in names), None)
-        if follow or chain is None or there.interfaces.get(joint.name) == "":
-            yield f"`{joint.name}` follows `{mimic.joint}`"
+        if follow or chain is None or existing.interfaces.get(joint.name) == "":
+            yield f"`{joint.name}` mimics `{mimic.joint}`"
             continue
         chain.insert(chain.index(mimic.joint) + 1, joint.name)
         law = f"{mimic.multiplier:g} × `{mimic.joint}`{f' {mimic.offset:+g}' if mimic.offset else ''}"
-        yield f"`{joint.name}` is {law}, which Gazebo Classic passes over: both are told, so tell it that"
+        yield f"`{joint.name}` is {law}, but Gazebo Classic ignores <mimic>: send commands to both joints accordingly"
 
 
 def _is_finger(joint: Joint) -> bool:
@@ -124,18 +126,18 @@ def _is_finger(joint: Joint) -> bool:
 
 
 def _above(joint: Joint, parents: dict[str | None, Joint]) -> list[Joint]:
-    """Return the joints that move between a joint and the root, the nearest first."""
-    found = []
+    """Return the movable joints between a joint and the root, nearest first."""
+    movable = []
     above = parents.get(joint.parent)
     while above is not None:
         if above.type in _MOVED:
-            found.append(above)
+            movable.append(above)
         above = parents.get(above.parent)
-    return found
+    return movable
 
 
 def _rolls(joint: Joint, robot: Robot, parents: dict[str | None, Joint]) -> bool:
-    """Whether it is a wheel on the base: it turns without end about an axis across, and carries nothing that moves."""
+    """Return whether a joint is a wheel on the base: continuous, about a lateral axis, without a movable child."""
     if joint.type != "continuous" or _above(joint, parents):
         return False
     if any(joint in _above(other, parents) for other in robot.joints if other.type in _MOVED):
@@ -146,7 +148,7 @@ def _rolls(joint: Joint, robot: Robot, parents: dict[str | None, Joint]) -> bool
 
 
 def _wheels(joints: list[Joint], robot: Robot, parents: dict[str | None, Joint]) -> Wheels | None:
-    """Return the differential drive that wheels make: as many left as right, mirrored, all of one radius."""
+    """Return the differential drive of some wheels: as many left as right, mirrored, with equal radii."""
     if len(joints) < 2 or len(joints) % 2:
         return None
     places = {joint.name: _placement(joint, parents).xyz for joint in joints}
@@ -156,15 +158,15 @@ def _wheels(joints: list[Joint], robot: Robot, parents: dict[str | None, Joint])
     right = sorted((name for name in places if places[name][1] < middle), key=lambda name: places[name][0])
     if len(left) != len(right) or None in radii:
         return None
-    known = [radius for radius in radii if radius is not None]
+    sizes = [radius for radius in radii if radius is not None]
     spans = [places[a][1] - places[b][1] for a, b in zip(left, right, strict=True)]
     mirrored = all(
-        abs(places[a][0] - places[b][0]) < _ALIKE and abs(places[a][2] - places[b][2]) < _ALIKE
+        abs(places[a][0] - places[b][0]) < _TOLERANCE and abs(places[a][2] - places[b][2]) < _TOLERANCE
         for a, b in zip(left, right, strict=True)
     )
-    if not mirrored or max(spans) - min(spans) > _ALIKE or max(known) - min(known) > _ALIKE:
+    if not mirrored or max(spans) - min(spans) > _TOLERANCE or max(sizes) - min(sizes) > _TOLERANCE:
         return None
-    return Wheels(tuple(left), tuple(right), round(spans[0], 6), known[0])
+    return Wheels(tuple(left), tuple(right), round(spans[0], 6), sizes[0])
 
 
 def _radius(link: Link | None) -> float | None:
@@ -174,7 +176,7 @@ def _radius(link: Link | None) -> float | None:
 
 
 def _placement(joint: Joint, parents: dict[str | None, Joint]) -> Pose:
-    """Return the frame of a joint in that of the root."""
+    """Return the pose of a joint's frame in the root's frame."""
     chain = [joint]
     while (above := parents.get(chain[-1].parent)) is not None:
         chain.append(above)

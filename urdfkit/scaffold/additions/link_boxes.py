@@ -1,4 +1,4 @@
-"""What is where on a robot: boxes along the axes of a frame, one around each shape of each link."""
+"""Axis-aligned bounding boxes of a robot's shapes, in the frame of one link."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from urdfkit.description.urdf.geometry import Bounds, between, box_around, compo
 from urdfkit.description.urdf.robot import Box, Geometry, Link, Mesh, Pose, Robot, Vector
 from urdfkit.errors import MissingDependencyError, ResourceError
 
-_HERE = Pose()
-_CHIP = Box((0.02, 0.02, 0.02))
-"""What a link that weighs something and has no shape is taken for: an inertial unit inside of another [m]."""
+_IDENTITY = Pose()
+_SMALL_PART = Box((0.02, 0.02, 0.02))
+"""Assumed shape of a link with a mass and without shapes, such as an inertial unit inside another link [m]."""
 
 
 class Boxes:
-    """The boxes around the shapes of a robot whose joints are at zero.
+    """Bounding boxes of the shapes of a robot in the zero position.
 
     Args:
-        robot: as loaded; its meshes are read when they are asked for.
+        robot: the loaded robot; its meshes are read on demand.
     """
 
     def __init__(self, robot: Robot) -> None:
@@ -25,26 +25,26 @@ class Boxes:
         self._poses = link_poses(robot)
         self._meshes: dict[Mesh, Bounds | None] = {}
 
-    def of(self, link: Link, at: Pose = _HERE) -> list[Bounds] | None:
-        """Return the boxes around what a link collides with, or looks like where that is nothing.
+    def of(self, link: Link, at: Pose = _IDENTITY) -> list[Bounds] | None:
+        """Return the boxes around a link's collision shapes, or around its visuals if it has none.
 
         Args:
-            link: of the robot.
-            at: the link's frame in the frame whose axes the boxes are along.
+            link: a link of the robot.
+            at: pose of the link in the frame of the boxes.
 
         Returns:
-            None where one of them is a mesh that cannot be read.
+            None if a mesh cannot be read.
         """
-        found = [self._around(item.geometry, compose(at, item.origin)) for item in link.collisions or link.visuals]
-        known = [box for box in found if box is not None]
-        return known if len(known) == len(found) else None
+        boxes = [self._around(item.geometry, compose(at, item.origin)) for item in link.collisions or link.visuals]
+        readable = [box for box in boxes if box is not None]
+        return readable if len(readable) == len(boxes) else None
 
-    def seen_from(self, link: Link, at: Pose = _HERE) -> Iterator[tuple[str, Bounds]]:
-        """Yield the boxes of every link that is joined to this one, with its name, in this one's frame.
+    def seen_from(self, link: Link, at: Pose = _IDENTITY) -> Iterator[tuple[str, Bounds]]:
+        """Yield the name and the boxes of every link that is connected to this one, in this link's frame.
 
         Args:
-            link: of the robot.
-            at: this link's frame in the frame whose axes the boxes are along.
+            link: a link of the robot.
+            at: pose of this link in the frame of the boxes.
         """
         for other in self._robot.links:
             if other.name not in self._poses or link.name not in self._poses:
@@ -52,7 +52,7 @@ class Boxes:
             placed = compose(at, between(self._poses[link.name], self._poses[other.name]))
             boxes = self.of(other, placed)
             if boxes == [] and other.inertial is not None:
-                boxes = [box_around(_CHIP, placed)]
+                boxes = [box_around(_SMALL_PART, placed)]
             yield from ((other.name, box) for box in boxes or [])
 
     def _around(self, geometry: Geometry | None, pose: Pose) -> Bounds | None:
@@ -70,7 +70,7 @@ class Boxes:
         return box_around(Box((d - a, e - b, f - c)), middle)
 
     def _read(self, mesh: Mesh) -> Bounds | None:
-        """Return the box of a mesh in its own frame; None where it cannot be read."""
+        """Return the bounding box of a mesh in its own frame; None if it cannot be read."""
         from urdfkit.scene.meshes.loader import MeshLoader
 
         entry = self._robot.files[0] if self._robot.files else None
@@ -84,18 +84,18 @@ class Boxes:
 
 
 def moved(box: Bounds, by: Vector) -> Bounds:
-    """Return a box somewhere else.
+    """Return a box after a translation.
 
     Args:
-        box: where it was.
-        by: how far [m].
+        box: the box.
+        by: the translation [m].
     """
     (a, b, c), (d, e, f) = box
     return (a + by[0], b + by[1], c + by[2]), (d + by[0], e + by[1], f + by[2])
 
 
 def gap(one: Bounds, other: Bounds) -> float:
-    """Return how far two boxes are apart along the axis where that is most [m]; less than zero where they overlap.
+    """Return the largest distance of two boxes along an axis [m]; negative if they overlap.
 
     Args:
         one: a box.

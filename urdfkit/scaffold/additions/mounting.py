@@ -1,23 +1,23 @@
-"""Where a new part goes on a robot: on which link, where on it, and what to tell about that."""
+"""Choice of the link and the place for a new part."""
 
 from __future__ import annotations
 
 from urdfkit.description.urdf.geometry import box_around_all
 from urdfkit.description.urdf.robot import Link, Robot, Vector
 from urdfkit.errors import ResourceError, did_you_mean
-from urdfkit.scaffold.additions.free_placement import Part, free_place, inside, spot
+from urdfkit.scaffold.additions.free_placement import Part, free_place, overlapped, spot
 from urdfkit.scaffold.additions.link_boxes import Boxes
 
 
 def parent_link(robot: Robot, name: str | None) -> Link:
-    """Return the link that something is mounted on.
+    """Return the link to mount a part on.
 
     Args:
         robot: the robot.
-        name: as asked for; None: ``base_link`` if that is more than a frame, else the heaviest link.
+        name: the requested link; None: ``base_link`` if it has shapes, otherwise the heaviest link.
 
     Raises:
-        ResourceError: there is no such link.
+        ResourceError: the robot has no such link.
     """
     if name is not None:
         if name not in robot.link_by_name:
@@ -34,11 +34,11 @@ def parent_link(robot: Robot, name: str | None) -> Link:
 
 
 def extent(robot: Robot, link: Link) -> Vector | None:
-    """Return how long, wide and high a link is [m]; None where it has no shapes, or meshes that cannot be read.
+    """Return the length, width and height of a link [m]; None without shapes, or if a mesh cannot be read.
 
     Args:
         robot: the robot.
-        link: of it.
+        link: a link of the robot.
     """
     own = Boxes(robot).of(link)
     if not own:
@@ -48,53 +48,53 @@ def extent(robot: Robot, link: Link) -> Vector | None:
 
 
 def mount(robot: Robot, link: Link, part: Part, xyz: Vector | None) -> tuple[Vector, list[str]]:
-    """Return where a part goes, in the frame of its link [m], and what to tell about it.
+    """Return the place of a part in the frame of its link [m], and notes to print.
 
     Args:
         robot: the robot.
-        link: that the part is mounted on.
-        part: what is mounted.
-        xyz: where, as asked for [m]; None: where nothing else is.
+        link: the link that the part is mounted on.
+        part: the part to mount.
+        xyz: the requested place [m]; None: a free place.
 
     Raises:
-        ResourceError: there is no room left.
+        ResourceError: no place is free.
     """
     boxes = Boxes(robot)
     own = boxes.of(link)
     others = [(name, box) for name, box in boxes.seen_from(link) if name != link.name]
     if xyz is not None:
         solid = [(link.name, box) for box in own or [] if part.where != "middle"]
-        hit = inside(part, xyz, [*others, *solid])
-        return xyz, [f"at {written(xyz)} it reaches into `{hit}`"] if hit is not None else []
+        hit = overlapped(part, xyz, [*others, *solid])
+        return xyz, [f"at {written(xyz)} it overlaps `{hit}`"] if hit is not None else []
     place = free_place(own or [], [box for _, box in others], part)
     if place is None:
-        there = inside(part, spot(own, part), others) if own else None
-        beside = f" beside `{there}`" if there is not None else ""
+        neighbour = overlapped(part, spot(own, part), others) if own else None
+        near = f" next to `{neighbour}`" if neighbour is not None else ""
         raise ResourceError(
-            f"no room left on `{link.name}`{beside} for what is {_size(part)} m; nothing was changed: "
-            "--parent says on which link, --xyz where"
+            f"`{link.name}` has no room{near} for a part of {_size(part)} m; nothing was changed; "
+            "choose another link with --parent, or a place with --xyz"
         )
-    notes = [f"the meshes of `{link.name}` cannot be read: look whether it is inside, and give --xyz"]
+    notes = [f"the meshes of `{link.name}` cannot be read: check that the part does not overlap it, and use --xyz"]
     return place, notes if own is None else []
 
 
 def written(values: Vector, digits: int = 6) -> str:
-    """Return three numbers as they are written in an attribute.
+    """Return three numbers formatted for an attribute.
 
     Args:
         values: the numbers.
-        digits: how many of each; 17 are as many as it takes to read the same number again.
+        digits: maximum number of digits; 17 digits preserve every value.
     """
     return " ".join(_shortest(value + 0.0, digits) for value in values)  # no -0
 
 
 def exact(values: Vector) -> str:
-    """Return three numbers with all of the digits that they were given with."""
+    """Return three numbers formatted without loss of precision."""
     return written(values, 17)
 
 
 def _shortest(value: float, digits: int) -> str:
-    """Return a number in as few digits as tell it, and no more than `digits`."""
+    """Return a number with the fewest digits that represent it, and at most `digits`."""
     texts = (f"{value:.{count}g}" for count in range(min(6, digits), digits))
     return next((text for text in texts if float(text) == value), f"{value:.{digits}g}")
 

@@ -1,4 +1,4 @@
-"""Tell a package that is there about one more file and one more dependency: package.xml and CMakeLists.txt."""
+"""Changes to package.xml and CMakeLists.txt of an existing package: one more file, one more dependency."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _FILE = re.compile(r'#[^\n]*|"[^"]*"|[^\s"#]+')
 
 
 def package_of(path: Path) -> Path | None:
-    """Return the folder of the package that a file is in; None where it is in none.
+    """Return the folder of the package that contains a file; None if no package contains it.
 
     Args:
         path: the file.
@@ -25,21 +25,21 @@ def package_of(path: Path) -> Path | None:
 
 
 def needs(package: Path) -> set[str]:
-    """Return the packages that a package says it needs.
+    """Return the dependencies declared in a package's package.xml.
 
     Args:
-        package: its folder.
+        package: folder of the package.
     """
     return set(_NEEDS.findall(_text(package / "package.xml")))
 
 
 def with_dependency(package: Path, name: str, *, alone: bool = False) -> Alteration | None:
-    """Return the change to package.xml that makes it need another package; None where it does already.
+    """Return the change to package.xml that adds a dependency; None if it is declared already.
 
     Args:
-        package: its folder.
-        name: of the other package.
-        alone: whether it does not do that one of the packages beside it (a ``_gazebo`` to a ``_description``) does.
+        package: folder of the package.
+        name: the package to depend on.
+        alone: whether to ignore dependencies of neighbouring packages, such as ``_gazebo`` next to ``_description``.
     """
     manifests = [package / "package.xml", *([] if alone else sorted(package.parent.glob("*/package.xml")))]
     if any(name in _NEEDS.findall(_text(path)) for path in manifests):
@@ -57,16 +57,14 @@ def with_dependency(package: Path, name: str, *, alone: bool = False) -> Alterat
     return Alteration(path, before, after.encode("utf-8", "surrogateescape"))
 
 
-def with_installed(package: Path, beside: Path, new: Path) -> Alteration | None:
-    """Return the change to CMakeLists.txt that installs a new file where another is installed by its name.
+def with_installed(package: Path, existing: Path, new: Path) -> Alteration | None:
+    """Return the change to CMakeLists.txt that installs a new file like an existing one.
 
-    A list that is in order stays so.
-
-    None where nothing has to be told: a folder is installed as a whole, or nothing is.
+    A sorted list stays sorted. None if no change is needed: the folder is installed as a whole, or not at all.
 
     Args:
-        package: its folder.
-        beside: the file in the same folder that is installed.
+        package: folder of the package.
+        existing: the existing file, in the same folder.
         new: the new file.
     """
     path = package / "CMakeLists.txt"
@@ -75,28 +73,28 @@ def with_installed(package: Path, beside: Path, new: Path) -> Alteration | None:
     before = path.read_bytes()
     text = before.decode("utf-8", "surrogateescape")
     root = package.resolve()
-    known, wanted = (file.resolve().relative_to(root).as_posix() for file in (beside, new))
+    old_name, new_name = (file.resolve().relative_to(root).as_posix() for file in (existing, new))
     for rule in _FILES.finditer(text):
         listed = [file for file in _FILE.finditer(text, *rule.span(1)) if not file[0].startswith("#")]
         names = [file[0].strip('"') for file in listed]
-        if known in names and wanted not in names:
+        if old_name in names and new_name not in names:
             in_order = names == sorted(names)
-            later = [file for file, name in zip(listed, names, strict=True) if in_order and name > wanted]
-            place = later[0] if later else listed[-1 if in_order else names.index(known)]
+            later = [file for file, name in zip(listed, names, strict=True) if in_order and name > new_name]
+            place = later[0] if later else listed[-1 if in_order else names.index(old_name)]
             newline = "\r\n" if "\r\n" in text else "\n"
             indent = re.search(r"\n([ \t]*)\Z", text[: place.start()])
             between = f"{newline}{indent[1]}" if indent is not None else " "
-            put = wanted + between if later else between + wanted
+            put = new_name + between if later else between + new_name
             at = place.start() if later else place.end()
             return Alteration(path, before, f"{text[:at]}{put}{text[at:]}".encode("utf-8", "surrogateescape"))
     return None
 
 
-def bridges(package: Path) -> list[Path]:
-    """Return the settings of ros_gz_bridge in a package and those beside it.
+def bridge_configurations(package: Path) -> list[Path]:
+    """Return the configuration files of ros_gz_bridge in a package and its neighbours.
 
     Args:
-        package: its folder.
+        package: folder of the package.
     """
     found = (path for folder in (package, *sorted(package.parent.glob("*/"))) for path in folder.glob("config/*.yaml"))
     return [path for path in dict.fromkeys(found) if "gz_topic_name:" in _text(path)]

@@ -1,4 +1,4 @@
-"""Add a sensor to a description that is there: a macro in a file of its own, one include, one call."""
+"""Adding a sensor to an existing description: a file with a macro, an include and a call."""
 
 from __future__ import annotations
 
@@ -17,10 +17,15 @@ from urdfkit.scaffold.additions.file_changes import Alteration
 from urdfkit.scaffold.additions.free_placement import Part
 from urdfkit.scaffold.additions.link_boxes import Boxes
 from urdfkit.scaffold.additions.mounting import exact, mount, parent_link, written
-from urdfkit.scaffold.additions.package_manifest import bridges, package_of, with_dependency, with_installed
+from urdfkit.scaffold.additions.package_manifest import (
+    bridge_configurations,
+    package_of,
+    with_dependency,
+    with_installed,
+)
 from urdfkit.scaffold.additions.sensor_macro import GENERATIONS, KINDS, bridge_entries, sensor_macro, topic_of
 from urdfkit.scaffold.additions.xml_insertion import insert_before_end, xacro_prefix
-from urdfkit.scaffold.templates.names import free
+from urdfkit.scaffold.templates.names import unused_name
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _BARE = "urdfkit_parent"
@@ -29,16 +34,16 @@ _TOPIC = re.compile(r"/?[A-Za-z][A-Za-z0-9_]*(/[A-Za-z][A-Za-z0-9_]*)*")
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """A sensor as asked for.
+    """A request for a sensor.
 
     Attributes:
-        kind: of `KINDS`.
-        name: of the sensor; its links and joints begin with it; None: its kind, with a number if that is taken.
-        parent: the link it is mounted on; None: chosen.
-        xyz: where, in the parent's frame [m]; None: on top or at the front, where nothing else is.
-        rpy: how it is turned, roll, pitch and yaw [rad].
-        topic: where it publishes; None: after its name, and nothing else does.
-        update_rate: measurements per second; None: what is usual.
+        kind: a key of `KINDS`.
+        name: name of the sensor, and prefix of its links and joints; None: its kind, with a number if in use.
+        parent: link that the sensor is mounted on; None: chosen automatically.
+        xyz: position in the parent's frame [m]; None: a free place on top or at the front.
+        rpy: orientation: roll, pitch and yaw [rad].
+        topic: topic to publish; None: an unused topic derived from the name.
+        update_rate: measurements per second; None: the default of the kind.
     """
 
     kind: str
@@ -51,17 +56,17 @@ class Request:
 
 
 def add_sensor(robot: Robot, path: Path, request: Request, *, generation: str) -> tuple[list[Alteration], list[str]]:
-    """Return the changes that add a sensor, the model's file last, and what to tell about them.
+    """Return the file changes that add a sensor, the model's file last, and notes to print.
 
     Args:
-        robot: as loaded.
+        robot: the loaded robot.
         path: the model's file.
-        request: what to add.
-        generation: of `urdfkit.scaffold.additions.sensor_macro.GENERATIONS`.
+        request: the sensor to add.
+        generation: one of `urdfkit.scaffold.additions.sensor_macro.GENERATIONS`.
 
     Raises:
-        UsageError: the name or topic is none.
-        ResourceError: something of that name is there, or there is no such parent, or the file cannot be changed.
+        UsageError: the name or the topic is invalid.
+        ResourceError: the name is in use, the parent does not exist, or the file cannot be changed.
     """
     name = _name(robot, request)
     kind = KINDS[request.kind]
@@ -69,12 +74,12 @@ def add_sensor(robot: Robot, path: Path, request: Request, *, generation: str) -
     macro = sensor_macro(request.kind, generation)
     xyz, notes = mount(robot, parent, _part(macro, request, name), request.xyz)
     topic = _topic(robot, request, name)
-    told = f"`{name}` on `{parent.name}`{'' if request.xyz else f' at {written(xyz)}'}, topic `{topic}`"
-    notes = [told, *notes]
+    summary = f"`{name}` on `{parent.name}`{'' if request.xyz else f' at {written(xyz)}'}, topic `{topic}`"
+    notes = [summary, *notes]
     rate = request.update_rate or kind.rate
-    said = f'name="{name}" parent="{parent.name}" topic="{topic}" update_rate="{rate:g}"'
+    attributes = f'name="{name}" parent="{parent.name}" topic="{topic}" update_rate="{rate:g}"'
     call = [
-        f"<xacro:{request.kind}_sensor {said}>",
+        f"<xacro:{request.kind}_sensor {attributes}>",
         f'  <origin xyz="{exact(xyz) if request.xyz else written(xyz)}" rpy="{exact(request.rpy)}"/>',
         f"</xacro:{request.kind}_sensor>",
     ]
@@ -84,7 +89,7 @@ def add_sensor(robot: Robot, path: Path, request: Request, *, generation: str) -
     if prefix is None:
         after = insert_before_end(before, _expanded(macro, call), path=path)
         if path.suffix == ".xacro":
-            notes.append(f"{path.name} does not use xacro: the elements are written out in it")
+            notes.append(f"{path.name} does not use xacro, so the elements are written into it without a macro")
     else:
         home = path.parent / f"{request.kind}_sensor.xacro"
         alterations += _macro_file(home, macro, request.kind)
@@ -103,8 +108,8 @@ def add_sensor(robot: Robot, path: Path, request: Request, *, generation: str) -
 
 
 def _bridged(package: Path, kind: str, topic: str) -> Iterator[Alteration]:
-    """Yield the change to the settings of the bridge that carries the sensor's topics to ROS, where there are any."""
-    files = bridges(package)
+    """Yield the change that adds the sensor's topics to the bridge configuration, if the package has exactly one."""
+    files = bridge_configurations(package)
     if len(files) != 1:
         return
     content = _read(files[0])
@@ -115,7 +120,7 @@ def _bridged(package: Path, kind: str, topic: str) -> Iterator[Alteration]:
 
 
 def _part(macro: str, request: Request, name: str) -> Part:
-    """Return what the sensor takes up: that of a robot with nothing but it."""
+    """Return the space that the sensor needs, measured on a robot with this sensor only."""
     call = [
         f'<link name="{_BARE}"/>',
         f'<xacro:{request.kind}_sensor name="{name}" parent="{_BARE}" topic="t" update_rate="1">',
@@ -126,58 +131,63 @@ def _part(macro: str, request: Request, name: str) -> Part:
         robot = load(_called(macro, call, folder))
     boxes = [box for _, box in Boxes(robot).seen_from(robot.link_by_name[_BARE])]
     kind = KINDS[request.kind]
-    return Part(tuple(boxes), box_around_all(boxes), kind.spot, apart=kind.looks_about)
+    return Part(tuple(boxes), box_around_all(boxes), kind.spot, far_from_others=kind.needs_free_view)
 
 
 def _name(robot: Robot, request: Request) -> str:
-    """Return what the sensor is called.
+    """Return the name of the sensor.
 
     Raises:
-        UsageError: that is no name.
-        ResourceError: something is called so already.
+        UsageError: the requested name is invalid.
+        ResourceError: the requested name is in use.
     """
-    names = {thing.name for things in (robot.links, robot.joints) for thing in things}
+    names = {element.name for elements in (robot.links, robot.joints) for element in elements}
     sensors = {sensor.name for block in robot.gazebo for sensor in block.sensors}
 
-    def taken(name: str) -> list[str]:
+    def conflicts(name: str) -> list[str]:
         own = {f"{name}_{end}" for end in ("link", "joint", "optical_frame", "optical_joint")}
         return sorted(own & names) or ([name] if name in sensors else [])
 
     if request.name is None:
-        return free(request.kind, lambda name: bool(taken(name)))
+        return unused_name(request.kind, lambda name: bool(conflicts(name)))
     if not _NAME.fullmatch(request.name):
-        raise UsageError(f"--name `{request.name}`: letters, digits and underscores, a letter first")
-    if there := taken(request.name):
+        raise UsageError(
+            f"--name `{request.name}` is not a valid name: use letters, digits and underscores, and start with a letter"
+        )
+    if used := conflicts(request.name):
         raise ResourceError(
-            f"robot `{robot.name}` has a `{there[0]}` already; nothing was changed: another --name, or edit it"
+            f"robot `{robot.name}` already has a `{used[0]}`; nothing was changed; choose another --name, "
+            "or edit the existing sensor"
         )
     return request.name
 
 
 def _topic(robot: Robot, request: Request, name: str) -> str:
-    """Return where the sensor publishes.
+    """Return the topic of the sensor.
 
     Raises:
-        UsageError: that is no topic.
-        ResourceError: something publishes there already.
+        UsageError: the requested topic is invalid.
+        ResourceError: the robot already publishes the requested topic.
     """
     used = dict(_topics(robot))
     if request.topic is None:
         first = _namespace(robot) + topic_of(request.kind, name)
         if first not in used:
             return first
-        return free(f"{_namespace(robot)}{name}/{KINDS[request.kind].topic}", used.__contains__)
+        return unused_name(f"{_namespace(robot)}{name}/{KINDS[request.kind].topic}", used.__contains__)
     if not _TOPIC.fullmatch(request.topic):
         raise UsageError(
-            f"--topic `{request.topic}` is no name of a topic: words of letters, digits and _ with / between"
+            f"--topic `{request.topic}` is not a valid topic: use letters, digits and underscores, separated by /"
         )
     if place := used.get(request.topic.strip("/")):
-        raise ResourceError(f"robot `{robot.name}` publishes on `{request.topic}` already ({place}); another --topic")
+        raise ResourceError(
+            f"robot `{robot.name}` already publishes `{request.topic}` ({place}); choose another --topic"
+        )
     return request.topic
 
 
 def _topics(robot: Robot) -> Iterator[tuple[str, str]]:
-    """Yield what the sensors and plugins of a robot publish on, and where that is said."""
+    """Yield the topics that the robot's sensors and plugins publish, each with its place in the source."""
     for element in (element for block in robot.gazebo for element in block.element.walk()):
         tag = element.tag.lower()
         if tag in ("topic", "cameraname", "camera_name") or tag.endswith("topicname"):
@@ -187,30 +197,30 @@ def _topics(robot: Robot) -> Iterator[tuple[str, str]]:
 
 
 def _namespace(robot: Robot) -> str:
-    """Return what the topics of the robot's plugins begin with, where it is one: ``scout/``."""
+    """Return the namespace of the robot's plugins as a prefix, if they all have the same: ``scout/``."""
     elements = (element for block in robot.gazebo for element in block.element.walk())
-    found = {element.text.strip("/") for element in elements if element.tag in ("robotNamespace", "namespace")}
-    found.discard("")  # of sensors that were added, which have it in their topic
-    return f"{found.pop()}/" if len(found) == 1 else ""
+    namespaces = {element.text.strip("/") for element in elements if element.tag in ("robotNamespace", "namespace")}
+    namespaces.discard("")  # added sensors, whose topics contain the namespace
+    return f"{namespaces.pop()}/" if len(namespaces) == 1 else ""
 
 
 def _macro_file(home: Path, macro: str, kind: str) -> Iterator[Alteration]:
-    """Yield the file of the macro where it is not there, or as it was written for another Gazebo.
+    """Yield the change of the macro file if it is missing, or unchanged since it was written for another Gazebo.
 
-    One that a person has changed since is used as it is.
+    A file that was edited is used as it is.
     """
     if not home.exists():
         yield Alteration(home, None, macro.encode("utf-8"))
         return
-    there = _read(home)
-    if there in {sensor_macro(kind, other).encode("utf-8") for other in GENERATIONS} - {macro.encode("utf-8")}:
-        yield Alteration(home, there, macro.encode("utf-8"))
-    elif f'name="{kind}_sensor"'.encode() not in there:
-        raise ResourceError(f"{home} is already there and has no macro `{kind}_sensor`; nothing was changed")
+    existing = _read(home)
+    if existing in {sensor_macro(kind, other).encode("utf-8") for other in GENERATIONS} - {macro.encode("utf-8")}:
+        yield Alteration(home, existing, macro.encode("utf-8"))
+    elif f'name="{kind}_sensor"'.encode() not in existing:
+        raise ResourceError(f"{home} already exists and has no macro `{kind}_sensor`; nothing was changed")
 
 
 def _expanded(macro: str, call: list[str]) -> str:
-    """Return what a call of the macro comes to."""
+    """Return the expansion of a call of the macro."""
     with tempfile.TemporaryDirectory() as folder:
         xml = expand(_called(macro, call, folder)).xml
     inside = xml[xml.index(">", xml.index("<robot")) + 1 : xml.rindex("</robot>")]
@@ -219,7 +229,7 @@ def _expanded(macro: str, call: list[str]) -> str:
 
 
 def _called(macro: str, call: list[str], folder: str) -> Path:
-    """Return a file with the macro and its call."""
+    """Write a file with the macro and a call, and return its path."""
     file = Path(folder, "sensor.xacro")
     text = macro.replace("</robot>", "\n".join([*call, "</robot>"])).replace("<robot ", '<robot name="sensor" ', 1)
     file.write_text(text, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""The sensors of new robots as macros: the same files, with names, topic and rate as parameters."""
+"""Sensors of the robot template as xacro macros with name, parent, topic and update rate as parameters."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from urdfkit.resources import templates_dir
 
 PARAMETERS = "name parent topic update_rate *origin"
 GENERATIONS = ("gz", "classic", "classic-ros2")
-"""The new Gazebo, Gazebo Classic with ROS 1, and with ROS 2: folders of the robot's template."""
+"""Gazebo Sim, Gazebo Classic with ROS 1, and Gazebo Classic with ROS 2: folders of the robot template."""
 
 _SEVERAL = ("camera", "depth", "lidar3d")
-"""Sensors with topics below the one they are told."""
+"""Sensors whose topic is a prefix of several topics."""
 
 _COLOURS = {"black": "0.12 0.12 0.13 1", "grey": "0.60 0.62 0.65 1"}
 _TOPICS = ("topic", "topicName", "velocityTopicName", "cameraName", "camera_name", "remapping")
@@ -22,16 +22,16 @@ _TOPICS = ("topic", "topicName", "velocityTopicName", "cameraName", "camera_name
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """A sensor that can be added.
+    """A kind of sensor that can be added.
 
     Attributes:
-        about: what it is.
-        topic: what the template publishes under; of cameras and of `lidar3d` the beginning of several.
-        rate: measurements per second.
-        spot: where on its link it goes by default: ``top``, ``front`` or ``middle``.
-        needs: what its plugin of Gazebo Classic for ROS 1 is in.
-        needs_ros2: the same for ROS 2.
-        looks_about: whether it sees along what it stands on, so that others beside it are in its way.
+        about: description.
+        topic: topic in the template; for cameras and `lidar3d` the prefix of several topics.
+        rate: default measurements per second.
+        spot: default place on the link: ``top``, ``front`` or ``middle``.
+        needs: package of its plugin for Gazebo Classic with ROS 1.
+        needs_ros2: package of its plugin for Gazebo Classic with ROS 2.
+        needs_free_view: whether neighbouring parts at the same height block its view.
     """
 
     about: str
@@ -40,25 +40,25 @@ class Kind:
     spot: str
     needs: str = "gazebo_plugins"
     needs_ros2: str = "gazebo_plugins"
-    looks_about: bool = False
+    needs_free_view: bool = False
 
 
 KINDS = {
-    "lidar": Kind("a lidar of one plane, 270°", "scan", 10, "top", looks_about=True),
-    "lidar3d": Kind("a lidar of 16 planes on a mast", "lidar3d", 10, "top", "velodyne_gazebo_plugins"),
+    "lidar": Kind("a lidar with one plane of 270°", "scan", 10, "top", needs_free_view=True),
+    "lidar3d": Kind("a lidar with 16 planes, on a mast", "lidar3d", 10, "top", "velodyne_gazebo_plugins"),
     "camera": Kind("a camera", "camera", 30, "front"),
-    "depth": Kind("a camera that sees depth", "depth", 15, "front"),
+    "depth": Kind("a depth camera", "depth", 15, "front"),
     "imu": Kind("an inertial measurement unit", "imu", 100, "middle"),
-    "gps": Kind("a receiver for GPS", "fix", 5, "top", "hector_gazebo_plugins"),
+    "gps": Kind("a GPS receiver", "fix", 5, "top", "hector_gazebo_plugins"),
 }
 
 
 def topic_of(kind: str, name: str) -> str:
-    """Return the topic of a sensor that nobody named one for.
+    """Return the default topic of a sensor.
 
     Args:
-        kind: of `KINDS`.
-        name: of the sensor.
+        kind: a key of `KINDS`.
+        name: name of the sensor.
     """
     topic = KINDS[kind].topic
     if name == kind:
@@ -67,11 +67,11 @@ def topic_of(kind: str, name: str) -> str:
 
 
 def sensor_macro(kind: str, generation: str) -> str:
-    """Return the file with the macro ``KIND_sensor``.
+    """Return the text of the file with the macro ``KIND_sensor``.
 
     Args:
-        kind: of `KINDS`.
-        generation: of `GENERATIONS`.
+        kind: a key of `KINDS`.
+        generation: one of `GENERATIONS`.
 
     Raises:
         ResourceError: the installation is incomplete.
@@ -86,14 +86,14 @@ def sensor_macro(kind: str, generation: str) -> str:
     body = re.sub(r'<material name="(\w+)"/>', lambda match: _material(kind, match[1]), body)
     body = re.sub(r"<xacro:box_inertial ([^>]*)>\s*(<origin [^>]*/>)\s*</xacro:box_inertial>", _inertial, body)
     text = _named(f"{body.rstrip()}\n\n{gazebo.strip(chr(10)).rstrip()}", kind)
-    # Without it, some of these plugins publish below the model's name and some do not.
+    # Without a namespace, only some of these plugins publish below the model's name.
     text = re.sub(r"(<robotNamespace>)[^<]*", r"\1/", text)
     text = re.sub(r"(<(update_rate|updateRate|updateRateHZ)>)[^<]*", r"\1${update_rate}", text)
     lines = "\n".join(f"  {line}" if line.strip() else "" for line in text.strip("\n").splitlines())
     about = KINDS[kind].about.capitalize()
     return (
         '<?xml version="1.0"?>\n'
-        f"<!-- {about}. topic: {_topic_says(kind)}; update_rate [1/s]; origin: in the parent. -->\n"
+        f"<!-- {about}. topic: {_topic_help(kind)}; update_rate [1/s]; origin: in the parent's frame. -->\n"
         '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">\n'
         f'  <xacro:macro name="{kind}_sensor" params="{PARAMETERS}">\n'
         f"{lines}\n"
@@ -103,11 +103,11 @@ def sensor_macro(kind: str, generation: str) -> str:
 
 
 def bridge_entries(kind: str, topic: str, messages: str) -> str:
-    """Return what ros_gz_bridge has to be told about a sensor: entries of its YAML.
+    """Return the entries of ros_gz_bridge's configuration for a sensor.
 
     Args:
-        kind: of `KINDS`.
-        topic: of the sensor.
+        kind: a key of `KINDS`.
+        topic: topic of the sensor.
         messages: ``gz.msgs`` or ``ignition.msgs``.
 
     Raises:
@@ -122,12 +122,12 @@ def bridge_entries(kind: str, topic: str, messages: str) -> str:
     return text.replace("@gz_msgs@", messages)
 
 
-def _topic_says(kind: str) -> str:
-    return "what its topics begin with" if kind in _SEVERAL else "where it publishes"
+def _topic_help(kind: str) -> str:
+    return "prefix of its topics" if kind in _SEVERAL else "the topic it publishes"
 
 
 def _inside(path: Path) -> str:
-    """Return what is between ``<robot …>`` and ``</robot>``."""
+    """Return the text between ``<robot …>`` and ``</robot>``."""
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
@@ -136,14 +136,14 @@ def _inside(path: Path) -> str:
 
 
 def _named(text: str, kind: str) -> str:
-    """Return the text with the sensor's name and topic as parameters."""
+    """Return the text with the sensor's name and topic replaced by parameters."""
     base = KINDS[kind].topic
     text = re.sub(rf"\b{kind}(?=_link\b|_joint\b|_optical_)", "${name}", text)
     text = re.sub(rf'(<(?:sensor|plugin) name="){kind}"', r'\1${name}"', text)
 
     def topic(match: re.Match[str]) -> str:
-        said = re.sub(rf"(^|:=){base}(?=/|_velocity|:=|$)", r"\1${topic}", match[2])
-        return f"{match[1]}{said}"
+        value = re.sub(rf"(^|:=){base}(?=/|_velocity|:=|$)", r"\1${topic}", match[2])
+        return f"{match[1]}{value}"
 
     text = re.sub(rf"(<(?:{'|'.join(_TOPICS)})>)([^<]*)", topic, text)
     return re.sub(r"@name@/?", "", text)

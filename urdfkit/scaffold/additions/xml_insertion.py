@@ -1,4 +1,4 @@
-"""Put elements before ``</robot>`` in a file that a person wrote, and touch no other byte of it."""
+"""Insertion of elements before ``</robot>`` that leaves all other bytes of the file unchanged."""
 
 from __future__ import annotations
 
@@ -14,38 +14,38 @@ _CHILD = re.compile(rb"(?m)^([ \t]+)<[^/!?]")
 
 
 def xacro_prefix(content: bytes) -> str | None:
-    """Return what a file calls xacro's namespace; None where it declares none.
+    """Return the prefix of xacro's namespace in a file; None if the file does not declare it.
 
     Args:
-        content: of the file.
+        content: the bytes of the file.
     """
-    found = _XACRO.search(_shown(content))
-    return found[1].decode() if found else None
+    declaration = _XACRO.search(_without_comments(content))
+    return declaration[1].decode() if declaration else None
 
 
 def insert_before_end(content: bytes, lines: str, *, path: Path) -> bytes:
-    r"""Return the content of a file with lines before its last ``</robot>``.
+    r"""Return the content of a file with lines inserted before its last ``</robot>``.
 
-    They get the indentation of the file's elements and its line ends; all else stays, byte for byte.
+    The lines get the indentation and line endings of the file; all other bytes are unchanged.
 
     Args:
-        content: of the file.
-        lines: to put in, with an indentation of two blanks a level and ``\n``.
-        path: of the file, for the error.
+        content: the bytes of the file.
+        lines: the lines to insert, indented by two blanks per level and separated by ``\n``.
+        path: path of the file, for error messages.
 
     Raises:
-        ResourceError: it has no ``</robot>``, or is in an encoding where that is not ASCII.
+        ResourceError: the file has no ``</robot>``, or its encoding is not compatible with ASCII.
     """
-    shown = _shown(content)
+    shown = _without_comments(content)
     closes = list(_CLOSE.finditer(shown))
     if not closes:
-        raise ResourceError(f"{path} has no </robot> that something could be put before")
+        raise ResourceError(f"{path} has no </robot>, before which elements could be inserted")
     end = closes[-1].start()
     newline = "\r\n" if b"\r\n" in content else "\n"
     unit = _unit(shown)
     text = "".join(_indented(line, unit) + newline for line in lines.splitlines())
     line_start = content.rfind(b"\n", 0, end) + 1
-    if content[line_start:end].strip():  # something is before it on its line
+    if content[line_start:end].strip():  # `</robot>` is not at the beginning of its line
         return content[:end] + newline.encode() + text.encode("utf-8") + content[end:]
     return content[:line_start] + text.encode("utf-8") + content[line_start:]
 
@@ -56,11 +56,11 @@ def _indented(line: str, unit: str) -> str:
 
 
 def _unit(shown: bytes) -> str:
-    """Return what an element of the robot is indented by: as the first is."""
+    """Return the indentation of the first element inside the robot."""
     first = _CHILD.search(shown)
     return first[1].decode() if first and len(first[1]) <= 8 else "  "
 
 
-def _shown(content: bytes) -> bytes:
-    """Return the content with what is in comments blanked, in place."""
+def _without_comments(content: bytes) -> bytes:
+    """Return the content with comments and CDATA replaced by blanks of the same length."""
     return _HIDDEN.sub(lambda match: re.sub(rb"[^\n]", b" ", match[0]), content)

@@ -1,4 +1,4 @@
-"""Answers that no template can hold: what is computed from the others."""
+"""Placeholders of the bundled templates that are computed in Python."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from collections.abc import Mapping
 
 
 def computed(template: str, answers: Mapping[str, str]) -> dict[str, str]:
-    """Return further placeholders of a template that we ship.
+    """Return the placeholders that a bundled template needs in addition to its answers.
 
     Args:
-        template: its name.
-        answers: to its questions.
+        template: name of the template.
+        answers: answers to its questions.
 
     Raises:
-        UsageError: the answers do not go together.
+        UsageError: the answers contradict each other.
     """
     if template == "world":
         from urdfkit.scaffold.world import contents
@@ -25,17 +25,17 @@ def computed(template: str, answers: Mapping[str, str]) -> dict[str, str]:
 
 
 def _package(answers: Mapping[str, str]) -> dict[str, str]:
-    """Return the names of the packages that go with this one, and what CMake wants to be told of those it needs."""
+    """Return the placeholders of the ``package`` template: related package names, CMake dependencies, description."""
     name, depends = answers["name"], answers["depends"].split()
     robot = name.removesuffix(f"_{answers['kind']}")
     about = {
-        "plain": f"{name}: to put code into.",
+        "plain": f"{name}: an empty package.",
         "description": f"The robot {robot}: its links, joints, shapes and masses.",
-        "gazebo": f"Worlds for the robot {robot}, and the launch file that puts it into them.",
-        "control": f"The controllers of the robot {robot}.",
-        "bringup": f"One launch file that starts all of the robot {robot}.",
+        "gazebo": f"Worlds for the robot {robot}, and the launch file that starts Gazebo with the robot.",
+        "control": f"Controllers of the robot {robot}.",
+        "bringup": f"Launch file that starts all nodes of the robot {robot}.",
     }
-    lines = "".join(f"\n  {package}" for package in sorted(depends))  # as catkin_lint wants it
+    lines = "".join(f"\n  {package}" for package in sorted(depends))  # catkin_lint requires this order
     return {
         "robot": robot,
         "namespace": robot,

@@ -1,4 +1,4 @@
-"""Sums and comparisons in a template: ``base_width + wheel_width + 0.02``. Nothing else is understood."""
+"""Arithmetic expressions and comparisons in a template: ``base_width + wheel_width + 0.02``."""
 
 from __future__ import annotations
 
@@ -22,36 +22,36 @@ _COMPARISONS: dict[type[ast.cmpop], Callable[[float, float], bool]] = {
     ast.GtE: operator.ge,
 }
 _FUNCTIONS: dict[str, Callable[..., float]] = {"min": min, "max": max, "hypot": math.hypot}
-# `base_width + wheel_width` and a typed-in sum of the two differ in the last bit.
+# `base_width + wheel_width` and a literal of the same value may differ in the last bit.
 _TOLERANCE = 1e-9
 
 
 def value_of(text: str, names: Mapping[str, float]) -> float:
-    """Return what an arithmetic expression of a template comes to.
+    """Evaluate an arithmetic expression of a template.
 
     Args:
-        text: numbers, names, ``+ - * /``, parentheses, ``min(…)``, ``max(…)`` and ``hypot(…)``.
-        names: what the names stand for.
+        text: expression of numbers, names, ``+ - * /``, parentheses, ``min(…)``, ``max(…)`` and ``hypot(…)``.
+        names: values of the names.
 
     Raises:
-        ResourceError: the template is wrong.
+        ResourceError: the expression is invalid.
     """
     return _value(_parsed(text), names, text)
 
 
 def holds(text: str, names: Mapping[str, float]) -> bool:
-    """Return whether a comparison of a template holds, to nine digits.
+    """Return whether a comparison of a template holds, to nine significant digits.
 
     Args:
         text: two expressions with ``<``, ``<=``, ``>`` or ``>=`` between them.
-        names: what the names stand for.
+        names: values of the names.
 
     Raises:
-        ResourceError: the template is wrong.
+        ResourceError: the comparison is invalid.
     """
     node = _parsed(text)
     if not isinstance(node, ast.Compare) or len(node.ops) != 1 or type(node.ops[0]) not in _COMPARISONS:
-        raise ResourceError(f"template: `{text}` is no comparison of two values")
+        raise ResourceError(f"template: `{text}` is not a comparison of two values")
     left, right = (_value(side, names, text) for side in (node.left, node.comparators[0]))
     slack = _TOLERANCE * max(abs(left), abs(right))
     kind = type(node.ops[0])
@@ -59,14 +59,14 @@ def holds(text: str, names: Mapping[str, float]) -> bool:
 
 
 def names_in(text: str, *, comparison: bool = False) -> set[str]:
-    """Return the names that an expression or a comparison of a template needs.
+    """Return the names in an expression or a comparison of a template.
 
     Args:
-        text: as for `value_of`, or for `holds`.
-        comparison: which of them.
+        text: an expression for `value_of`, or a comparison for `holds`.
+        comparison: whether `text` is a comparison.
 
     Raises:
-        ResourceError: it is none.
+        ResourceError: the expression or comparison is invalid.
     """
     names = {node.id for node in ast.walk(_parsed(text)) if isinstance(node, ast.Name)} - set(_FUNCTIONS)
     try:
@@ -80,7 +80,7 @@ def _parsed(text: str) -> ast.expr:
     try:
         return ast.parse(text.strip(), mode="eval").body
     except SyntaxError as error:
-        raise ResourceError(f"template: `{text}` is no expression: {error.msg}") from error
+        raise ResourceError(f"template: `{text}` is not an expression: {error.msg}") from error
 
 
 def _value(node: ast.expr, names: Mapping[str, float], text: str) -> float:

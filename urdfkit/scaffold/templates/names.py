@@ -1,4 +1,4 @@
-"""Names of packages and worlds: what ROS and Gazebo accept, and the nearest name that they would."""
+"""Names of packages and worlds: validation by the rules of ROS and Gazebo, and the nearest valid name."""
 
 from __future__ import annotations
 
@@ -18,42 +18,42 @@ _LONGEST = 60
 
 
 def check_package_name(name: str, *, suffixes: Iterable[str] = ()) -> str:
-    """Return `name` if packages may be called that.
+    """Return `name` if it is a valid name of a ROS package.
 
-    REP 144: lower case letters, digits and single underscores, a letter first, at least two characters.
+    By REP 144: lower-case letters, digits and single underscores, starting with a letter, at least two characters.
 
     Args:
-        name: what was asked for.
-        suffixes: what the packages' names will end in; `name` must not bring it along.
+        name: the requested name.
+        suffixes: suffixes that the template appends to the name; `name` must not contain them.
 
     Raises:
-        UsageError: it is no such name; says which near one is.
+        UsageError: the name is invalid; the message suggests a valid one.
     """
     nearest = sanitised(name)
     for suffix in suffixes:
         if name.endswith(suffix):
             raise UsageError(
-                f"name `{name}`: `{suffix}` is put behind it by itself; did you mean `{_stripped(name, suffix)}`?"
+                f"name `{name}`: `{suffix}` is appended automatically; did you mean `{_stripped(name, suffix)}`?"
             )
     if not _is_package(name):
         hint = f"; did you mean `{_into(name, _is_package(PurePosixPath(name).name)) or nearest}`?"
         raise UsageError(
-            f"name `{name}` is no ROS package name: lower case letters, digits and single underscores, a letter first, "
-            f"at least two{hint}"
+            f"`{name}` is not a valid ROS package name: use lower-case letters, digits and single underscores, "
+            f"start with a letter, and use at least two characters{hint}"
         )
     if len(name) > _LONGEST:
-        raise UsageError(f"name `{name}` has {len(name)} characters; at most {_LONGEST}")
+            raise UsageError(f"name `{name}` has {len(name)} characters; use at most {_LONGEST}")
     return name
 
 
 def check_world_name(name: str) -> str:
-    """Return `name` if a world may be called that: its file, and in topics of Gazebo the word behind ``/world/``.
+    """Return `name` if it is a valid name of a world, for its file and for ``/world/NAME`` in Gazebo's topics.
 
     Args:
-        name: what was asked for.
+        name: the requested name.
 
     Raises:
-        UsageError: it is no such name; says which near one is.
+        UsageError: the name is invalid; the message suggests a valid one.
     """
     if _WORLD.fullmatch(name) and len(name) <= _LONGEST:
         return name
@@ -63,8 +63,8 @@ def check_world_name(name: str) -> str:
     near = f"world_{words}".rstrip("_") if not words[:1].isalpha() else words
     hint = _into(bare, _WORLD.fullmatch(last) is not None) or near[:_LONGEST].rstrip("_")
     raise UsageError(
-        f"name `{name}` is no name of a world: at most {_LONGEST} letters, digits and underscores, a letter first; "
-        f"did you mean `{hint}`?"
+        f"`{name}` is not a valid world name: use at most {_LONGEST} letters, digits and underscores, and start with "
+        f"a letter; did you mean `{hint}`?"
     )
 
 
@@ -73,16 +73,16 @@ def _is_package(name: str) -> bool:
 
 
 def _into(name: str, is_name: bool) -> str:
-    """Return the words that were meant by a path to something that is to be; none where its end is no name."""
+    """Return ``NAME --into FOLDER`` for a path whose last component is a valid name; otherwise an empty text."""
     path = PurePosixPath(name)
     return f"{path.name} --into {path.parent}" if is_name and len(path.parts) > 1 and ".." not in path.parts else ""
 
 
 def ascii_letters(name: str) -> str:
-    """Return a name with letters in the place of those with accents, and without what has none.
+    """Return `name` in ASCII: accents are removed from letters, and characters without an ASCII form are dropped.
 
     Args:
-        name: anything.
+        name: any text.
     """
     return unicodedata.normalize("NFKD", name.replace("ß", "ss")).encode("ascii", "ignore").decode()
 
@@ -91,7 +91,7 @@ def sanitised(name: str) -> str:
     """Return the ROS package name nearest to `name`.
 
     Args:
-        name: anything.
+        name: any text.
     """
     words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", ascii_letters(name))
     words = re.sub(r"[^a-z0-9]+", "_", words.lower()).strip("_")
@@ -100,29 +100,29 @@ def sanitised(name: str) -> str:
     return words[:_LONGEST].rstrip("_") if len(words) > 1 else f"{words}_robot"
 
 
-def plain(name: str) -> str:
-    """Return the name of a link or joint nearest to `name` that every tool takes; empty for none.
+def portable_name(name: str) -> str:
+    """Return the nearest name of a link or joint that every tool accepts; empty if there is no such name.
 
-    Those are letters, digits, ``_``, ``-`` and ``.``, and ``/`` but in front.
+    Every tool accepts letters, digits, ``_``, ``-`` and ``.``, and ``/`` except as the first character.
 
     Args:
-        name: anything.
+        name: any text.
     """
     if _PLAIN.fullmatch(name):
         return name
     return re.sub(r"[^\w./-]+", "_", ascii_letters(name), flags=re.ASCII).strip("_/")
 
 
-def free(name: str, is_taken: Callable[[str], bool]) -> str:
-    """Return `name`, or with the first number behind it that makes it one that is not taken: ``lidar_2``.
+def unused_name(name: str, is_used: Callable[[str], bool]) -> str:
+    """Return `name`, or `name` with the lowest number appended that makes it unused: ``lidar_2``.
 
     Args:
-        name: what it would be.
-        is_taken: whether there is one of that name.
+        name: the preferred name.
+        is_used: returns whether a name is in use.
     """
-    if not is_taken(name):
+    if not is_used(name):
         return name
-    return next(each for number in count(2) if not is_taken(each := f"{name}_{number}"))
+    return next(each for number in count(2) if not is_used(each := f"{name}_{number}"))
 
 
 def _stripped(name: str, suffix: str) -> str:

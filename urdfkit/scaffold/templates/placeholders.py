@@ -1,4 +1,4 @@
-"""Put answers into the text of a template: ``@name@``, and lines that come once for each of several answers."""
+"""Replacement of the placeholders of a template by answers: ``@name@``, and lines repeated for several answers."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ _PLACEHOLDER = re.compile(r"@([a-z][a-z0-9_]*)@")
 
 
 def fill(text: str, answers: Mapping[str, str], *, where: str) -> str:
-    """Return `text` with every ``@name@`` replaced.
+    """Return `text` with every ``@name@`` replaced by the answer.
 
     Args:
-        text: of a file, or its path.
-        answers: what the names stand for.
-        where: named in the error.
+        text: the text of a file, or its path.
+        answers: answers by name.
+        where: file name for the error message.
 
     Raises:
-        ResourceError: a placeholder is unknown.
+        ResourceError: a placeholder has no answer.
     """
 
     def answer(match: re.Match[str]) -> str:
@@ -34,28 +34,28 @@ def fill(text: str, answers: Mapping[str, str], *, where: str) -> str:
     return _PLACEHOLDER.sub(answer, text)
 
 
-def inside(path: str | Path, *, where: str) -> Path:
-    """Return a path of the result, without the ``..`` in it.
+def path_inside(path: str | Path, *, where: str) -> Path:
+    """Return a normalized path, checked to be inside the folder that is written to.
 
     Args:
-        path: as a template and its answers give it.
-        where: named in the error.
+        path: path relative to that folder, from a template and its answers.
+        where: file name for the error message.
 
     Raises:
-        ResourceError: it is absolute, or leads out of the result.
+        ResourceError: the path is absolute, or leads out of the folder.
     """
     short = Path(os.path.normpath(path))
     if short.is_absolute() or short.parts[:1] == ("..",):
-        raise ResourceError(f"{where}: {path} is outside of what is written: a path in it, without a / in front")
+        raise ResourceError(f"{where}: {path} is outside the output folder; use a relative path without `..`")
     return short
 
 
 def repeat_lines(text: str, several: Mapping[str, tuple[str, ...]]) -> str:
-    """Return `text` with each line that names one of `several` once for each of its values; without values, not at all.
+    """Return `text` with each line that names one of `several` repeated for each value, and removed without values.
 
     Args:
-        text: of a file.
-        several: values by name.
+        text: the text of a file.
+        several: values by placeholder.
     """
     if not any(f"@{name}@" in text for name in several):
         return text

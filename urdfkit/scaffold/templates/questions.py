@@ -1,4 +1,4 @@
-"""What a template asks, and what counts as an answer."""
+"""Questions of a template, and the validation of answers."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ UNITS = {
     "m/s": {"m/s": 1.0, "cm/s": 0.01, "km/h": 1 / 3.6},
     "N·m": {"N·m": 1.0, "Nm": 1.0},
 }
-"""What may stand behind a number, by the unit it is meant in, and how much of that it is."""
+"""Accepted units by the SI unit of the question, each with its factor."""
 
 _MEASURE = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*([^\W\d].*)", re.IGNORECASE)
 
 When = Mapping[str, tuple[str, ...]]
-"""Which answers something is for, by question."""
+"""Answers by question that enable an item of the template; empty: always enabled."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,20 +31,20 @@ class Question:
     """One question of a template; its answer replaces ``@name@`` in the files.
 
     Attributes:
-        name: the placeholder and, with dashes, the option.
-        prompt: what a person is asked.
-        kind: what sort of answer.
-        default: the answer when none is given; computed from earlier ones when it begins with ``=``; None: a must.
-        default_for: the default after certain answers to earlier questions instead: question → answer → default.
+        name: the placeholder, and, with dashes, the option of the command line.
+        prompt: text of the interactive prompt.
+        kind: type of the answer.
+        default: default answer, computed from earlier answers if it begins with ``=``; None: an answer is required.
+        default_for: defaults that depend on an earlier answer: question → answer → default.
         unit: SI unit of a number.
-        choices: the answers there are.
-        called: what some call them: word → the answer nearest to it.
-        range: least and greatest number.
-        pattern: what a text has to match as a whole.
-        suffixes: what the packages' names end in.
-        help: one more line for ``--help``.
-        ask: whether a person is asked, or the default goes without saying.
-        when: the answers to earlier questions that it is asked for.
+        choices: valid answers.
+        called: alternative names that are not accepted: name → nearest choice, for the error message.
+        range: smallest and largest number.
+        pattern: regular expression that a text must match as a whole.
+        suffixes: suffixes that the template appends to the package names.
+        help: additional line for ``--help``.
+        interactive: whether the interactive dialog shows the question; if False, the default applies.
+        when: answers to earlier questions that enable this question.
     """
 
     name: str
@@ -59,7 +59,7 @@ class Question:
     pattern: str = ".*"
     suffixes: tuple[str, ...] = ()
     help: str = ""
-    ask: bool = True
+    interactive: bool = True
     when: When = field(default_factory=dict)
 
     @property
@@ -69,31 +69,31 @@ class Question:
 
     @property
     def several(self) -> bool:
-        """Whether it takes several answers."""
+        """Whether the question accepts several answers."""
         return self.kind in ("choices", "packages")
 
     @property
     def is_computed(self) -> bool:
-        """Whether its default follows from answers before it."""
+        """Whether the default is computed from earlier answers."""
         defaults = [self.default or "", *(text for texts in self.default_for.values() for text in texts.values())]
         return any(text.startswith("=") for text in defaults)
 
-    def declines(self, given: Mapping[str, str]) -> bool:
-        """Return whether it is answered that something is not wanted, which goes wherever there is none.
+    def declines(self, answers: Mapping[str, str]) -> bool:
+        """Return whether the answer to this flag is ``no``, which is valid even if the question is not enabled.
 
         Args:
-            given: answers by question.
+            answers: answers by question.
         """
-        return self.kind == "flag" and self._flag(given.get(self.name, "")) == "no"
+        return self.kind == "flag" and self._flag(answers.get(self.name, "")) == "no"
 
-    def default_given(self, answers: Mapping[str, str]) -> str | None:
-        """Return the default, computed where it depends on earlier answers (to four digits).
+    def default_after(self, answers: Mapping[str, str]) -> str | None:
+        """Return the default; a computed default is rounded to four digits.
 
         Args:
             answers: the answers to the questions before this one.
 
         Raises:
-            ResourceError: the template is wrong.
+            ResourceError: the expression in the template is invalid.
         """
         default = self.default
         for question, defaults in self.default_for.items():
@@ -105,13 +105,13 @@ class Question:
         return f"{value_of(default[1:], numbers(answers)):.4g}"
 
     def accept(self, answer: str) -> str:
-        """Return the answer as it goes into the files.
+        """Validate an answer and return it as it is written into the files.
 
         Args:
             answer: as typed.
 
         Raises:
-            UsageError: it is none; says what would be.
+            UsageError: the answer is invalid; the message names valid answers.
         """
         answer = answer.strip()
         if self.kind == "package":
@@ -123,7 +123,7 @@ class Question:
         if self.kind == "choices":
             return self._several(answer.replace(",", " ").split())
         if self.kind == "packages":
-            # With commas it is they that part names, and a blank is in one.
+            # Names separated by commas may contain blanks, which `check_package_name` then reports.
             names = [name.strip() for name in answer.split(",")] if "," in answer else answer.split()
             return " ".join(dict.fromkeys(check_package_name(name) for name in names if name))
         if self.kind == "choice":
@@ -140,43 +140,43 @@ class Question:
             near = did_you_mean(answer, self.choices)
             if (meant := self.called.get(answer.lower())) is not None:
                 near = f"; the nearest is `{meant}`"
-            raise UsageError(f"{self.option} `{answer}` is not available{near}; there is: {', '.join(self.choices)}")
+            raise UsageError(f"{self.option} `{answer}` is not available{near}; choose from: {', '.join(self.choices)}")
         return answer
 
     def _several(self, answers: list[str]) -> str:
-        """Return them in the order of the choices, with spaces between; `none` alone is none of them."""
+        """Return the answers in the order of the choices, separated by spaces; ``none`` gives an empty text."""
         if [answer.lower() for answer in answers] == ["none"]:
             return ""
         answers = [self._choice(answer) for answer in answers if answer != "and"]
         for answer in answers:
             if answers.count(answer) > 1:
-                raise UsageError(f"{self.option} `{answer}` is given twice; one of each")
+                raise UsageError(f"{self.option} `{answer}` is given twice; give each value once")
         return " ".join(choice for choice in self.choices if choice in answers)
 
     def _flag(self, answer: str) -> str:
-        said = {"y": "yes", "yes": "yes", "true": "yes", "n": "no", "no": "no", "false": "no"}.get(answer.lower())
-        if said is None:
+        value = {"y": "yes", "yes": "yes", "true": "yes", "n": "no", "no": "no", "false": "no"}.get(answer.lower())
+        if value is None:
             raise UsageError(f"{self.option} `{answer}` is neither yes nor no")
-        return said
+        return value
 
     def _text_rule(self) -> str:
         return (
-            "it is not of the form name@host.domain, in ASCII"
+            "use the form name@host.domain, in ASCII"
             if "@[" in self.pattern
-            else 'it is empty, or has a line break or one of < > & "'
+            else 'use text without line breaks and without < > & "'
         )
 
     def _number(self, answer: str) -> str:
         unit = f" {self.unit}" if self.unit else ""
-        known = UNITS.get(self.unit, {})
+        factors = UNITS.get(self.unit, {})
         measure = _MEASURE.fullmatch(answer)
         try:
-            value = float(measure[1]) * known[measure[2]] if measure and measure[2] in known else float(answer)
+            value = float(measure[1]) * factors[measure[2]] if measure and measure[2] in factors else float(answer)
         except ValueError:
-            in_unit = f" (in {', '.join(known) or self.unit})" if self.unit else ""
+            in_unit = f" (in {', '.join(factors) or self.unit})" if self.unit else ""
             near = answer.replace(",", ".", 1)
             hint = f"; did you mean `{near}`?" if re.fullmatch(r"-?\d*\.(?!\d{3}$)\d+", near) else ""
-            raise UsageError(f"{self.option} `{answer}` is no number{in_unit}{hint}") from None
+            raise UsageError(f"{self.option} `{answer}` is not a number{in_unit}{hint}") from None
         least, greatest = self.range
         if not least <= value <= greatest:
             raise UsageError(f"{self.option} {answer}{unit} is out of range: {least:g} to {greatest:g}{unit}")
@@ -184,7 +184,7 @@ class Question:
 
     @property
     def explanation(self) -> str:
-        """What to say to who does not know what is asked."""
+        """Explanation of the question for the interactive dialog."""
         if self.help:
             return self.help
         if self.kind == "package":
@@ -196,35 +196,38 @@ class Question:
         return f"one of {', '.join(among)}" if among else "any text"
 
     def out_of_range(self, answer: str) -> str:
-        """Return what is wrong with a number that follows from other answers.
+        """Return the error message for a number that is computed from other answers.
 
         Args:
             answer: the number.
         """
         unit = f" {self.unit}" if self.unit else ""
-        return f"{self.option} comes to {answer}{unit}, and has to be {self.range[0]:g} to {self.range[1]:g}{unit}"
+        return (
+            f"{self.option} is computed as {answer}{unit}; it must be between {self.range[0]:g} and "
+            f"{self.range[1]:g}{unit}"
+        )
 
 
 def applies(when: When, answers: Mapping[str, str]) -> bool:
-    """Return whether the answers are among those that something is for.
+    """Return whether answers enable an item of the template.
 
     Args:
-        when: what it is for; of a question that takes several answers, one of them is enough.
+        when: the enabling answers; of a question with several answers, one match is enough.
         answers: answers by question.
     """
     return all(answers[name] in values or set(answers[name].split()) & set(values) for name, values in when.items())
 
 
 def numbers(answers: Mapping[str, str]) -> dict[str, float]:
-    """Return the answers that are numbers, as such.
+    """Return the answers that are numbers, converted.
 
     Args:
         answers: answers by question.
     """
-    found: dict[str, float] = {}
+    converted: dict[str, float] = {}
     for name, answer in answers.items():
         try:
-            found[name] = float(answer)
+            converted[name] = float(answer)
         except ValueError:
             continue
-    return found
+    return converted

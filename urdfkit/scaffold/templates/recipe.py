@@ -1,4 +1,4 @@
-"""The answers to a template's questions as a TOML file, which makes the same again."""
+"""Recipes: the answers to a template's questions as a TOML file, which reproduces the same packages."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from urdfkit.errors import ResourceError, UsageError
-from urdfkit.scaffold.templates.placeholders import inside
+from urdfkit.scaffold.templates.placeholders import path_inside
 from urdfkit.scaffold.templates.questions import Question, applies
-from urdfkit.scaffold.templates.template import Template, wanted
+from urdfkit.scaffold.templates.template import Template, required_options
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -23,18 +23,18 @@ else:
 
 
 MADE = "made"
-"""The table of a recipe that says what was made, and when: no answers."""
+"""Name of the table of a recipe that records the written files; it holds no answers."""
 
 
 @dataclass(frozen=True, slots=True)
 class Made:
-    """What a recipe says was made from it.
+    """Record of the files that were written with a recipe.
 
     Attributes:
-        kind: the template's name.
-        year: of the copyright.
-        source: the folder of a template that is not ours, as it was given; empty for ours.
-        digests: of each file that was written, by its path from the folder it was written to.
+        kind: name of the template.
+        year: year of the copyright.
+        source: folder of a template that is not bundled, as the user gave it; empty for bundled templates.
+        digests: digest of each file that was written, by its path relative to the output folder.
     """
 
     kind: str
@@ -44,26 +44,27 @@ class Made:
 
 
 def digest(content: bytes) -> str:
-    """Return what tells a file that was edited from one that was not.
+    """Return the digest of a file, by which ``--update`` detects edited files.
 
     Args:
-        content: of the file.
+        content: the bytes of the file.
     """
     return hashlib.sha256(content).hexdigest()[:16]
 
 
 def recipe_text(template: Template, answers: Mapping[str, str], digests: Mapping[str, str]) -> str:
-    """Return the file that holds these answers, without those to questions that are for other answers.
+    """Return a recipe with these answers, without answers to questions that are not enabled.
 
     Args:
-        template: what asked.
-        answers: answers by question, with the built-in ones.
-        digests: of what was written, by path.
+        template: the template.
+        answers: answers by question, including the built-in placeholders.
+        digests: digests of the written files, by path.
     """
     kind = template.name
-    again = _command(kind, template.source)
+    command = _command(kind, template.source)
     lines = [
-        f"# Again: {again} --from FILE, or in place urdfkit new --update; options change what is here.",
+        f"# To write the same files again: {command} --from FILE. To update them in place: urdfkit new --update. "
+        "Options replace answers.",
         f'template = "{kind}"',
     ]
     lines += [
@@ -71,21 +72,25 @@ def recipe_text(template: Template, answers: Mapping[str, str], digests: Mapping
         for question in template.questions
         if applies(question.when, answers)
     ]
-    lines += ["", "# What was written, so that --update leaves alone what you edit. Not for you to edit.", f"[{MADE}]"]
+    lines += ["", "# Digests of the files as written; --update uses them to keep your edits. Do not edit.", f"[{MADE}]"]
     lines += [f'year = "{answers["year"]}"'] if "year" in answers else []
     lines += [f"source = {json.dumps(template.source, ensure_ascii=False)}"] if template.source else []
-    lines += ["", f"[{MADE}.files]", *(f"{json.dumps(path)} = {json.dumps(said)}" for path, said in digests.items())]
+    lines += [
+        "",
+        f"[{MADE}.files]",
+        *(f"{json.dumps(path)} = {json.dumps(checksum)}" for path, checksum in digests.items()),
+    ]
     return "\n".join(lines) + "\n"
 
 
 def read_made(path: Path) -> Made:
-    """Return what a recipe says was made from it.
+    """Return the record of written files in a recipe.
 
     Args:
-        path: the file.
+        path: the recipe.
 
     Raises:
-        ResourceError: it cannot be read, or names a file outside of where it was written to.
+        ResourceError: the recipe cannot be read, or names a file outside the output folder.
     """
     table = _read(path)
     made = table.get(MADE)
@@ -95,37 +100,37 @@ def read_made(path: Path) -> Made:
         str(table.get("template", "")),
         str(made.get("year", "")),
         str(made.get("source", "")),
-        {inside(name, where=str(path)).as_posix(): str(said) for name, said in files.items()}
+        {path_inside(name, where=str(path)).as_posix(): str(checksum) for name, checksum in files.items()}
         if isinstance(files, dict)
         else {},
     )
 
 
-def _read(path: Path, before: str = "") -> dict[str, Any]:
+def _read(path: Path, prefix: str = "") -> dict[str, Any]:
     try:
         table: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
         return table
     except OSError as error:
-        raise ResourceError(f"{before}{path}: {error.strerror}") from error
+        raise ResourceError(f"{prefix}{path}: {error.strerror}") from error
     except UnicodeDecodeError as error:
-        raise ResourceError(f"{before}{path} is not UTF-8: {error.reason}") from error
+        raise ResourceError(f"{prefix}{path} is not UTF-8: {error.reason}") from error
     except tomllib.TOMLDecodeError as error:
-        raise ResourceError(f"{before}{path}: {error}") from error
+        raise ResourceError(f"{prefix}{path}: {error}") from error
 
 
-def read_recipe(template: Template, path: Path, instead: Mapping[str, str]) -> dict[str, str]:
-    """Return the answers in a file, with those given `instead` in their place.
+def read_recipe(template: Template, path: Path, overrides: Mapping[str, str]) -> dict[str, str]:
+    """Return the answers of a recipe, replaced by `overrides` where both answer a question.
 
-    An answer of the file to a question that is for other answers after those given `instead` is left out.
+    Answers of the recipe to questions that `overrides` disables are dropped.
 
     Args:
-        template: what asks.
-        path: the file.
-        instead: answers by question.
+        template: the template.
+        path: the recipe.
+        overrides: answers by question.
 
     Raises:
-        ResourceError: it cannot be read.
-        UsageError: an answer of it is wrong, or for other answers than it holds, or it is another template's.
+        ResourceError: the recipe cannot be read.
+        UsageError: an answer is invalid, its question is not enabled, or the recipe belongs to another template.
     """
     table = _read(path, "--from ")
     made = table.pop(MADE, None)
@@ -133,53 +138,53 @@ def read_recipe(template: Template, path: Path, instead: Mapping[str, str]) -> d
     if kind != template.name:
         source = str(made.get("source", "")) if isinstance(made, dict) else ""
         mine = _command(template.name, template.source)
-        raise UsageError(f"{path} is for `{_command(str(kind), source)}`, not for `{mine}`")
+        raise UsageError(f"{path} is a recipe for `{_command(str(kind), source)}`, not for `{mine}`")
     try:
-        found = {
+        answers = {
             name: question.accept(_text(question, value))
             for name, value in table.items()
             if (question := template.question(name))
         }
     except UsageError as error:
         raise UsageError(f"{path}: {error}") from error
-    for question in [q for q in template.questions if q.name in found]:
-        # What followed from other answers does so again.
-        follows = question.default_for or (question.default or "").startswith("=")
-        if follows and instead and found[question.name] == _default(question, found):
-            del found[question.name]
-    for question in _astray(template, found):
-        if found[question.name] not in ("no", ""):
-            raise UsageError(f"{path}: {question.name} is for {wanted(question.when)}")
-    found |= instead
-    for question in _astray(template, found):
-        if question.name not in instead:
-            del found[question.name]
-    return found
+    for question in [q for q in template.questions if q.name in answers]:
+        # Defaults that depend on other answers are computed again.
+        depends = question.default_for or (question.default or "").startswith("=")
+        if depends and overrides and answers[question.name] == _default(question, answers):
+            del answers[question.name]
+    for question in _not_enabled(template, answers):
+        if answers[question.name] not in ("no", ""):
+            raise UsageError(f"{path}: `{question.name}` requires {required_options(question.when)}")
+    answers |= overrides
+    for question in _not_enabled(template, answers):
+        if question.name not in overrides:
+            del answers[question.name]
+    return answers
 
 
-def _astray(template: Template, found: Mapping[str, str]) -> list[Question]:
-    """Return the questions that are answered, and for other answers than those."""
-    known: dict[str, str] = {}
-    astray = []
+def _not_enabled(template: Template, answers: Mapping[str, str]) -> list[Question]:
+    """Return the questions that are answered although other answers do not enable them."""
+    effective: dict[str, str] = {}
+    not_enabled = []
     for question in template.questions:
-        default = _default(question, known) or ""
-        if question.name in found and not applies(question.when, known):
-            astray.append(question)
-            known[question.name] = default
+        default = _default(question, effective) or ""
+        if question.name in answers and not applies(question.when, effective):
+            not_enabled.append(question)
+            effective[question.name] = default
         else:
-            known[question.name] = found.get(question.name, default)
-    return astray
+            effective[question.name] = answers.get(question.name, default)
+    return not_enabled
 
 
 def _command(kind: str, source: str) -> str:
-    """Return the command that makes something from a template: ours by its name, any other by its folder."""
+    """Return the command for a template: by name if it is bundled, otherwise by folder."""
     return f"urdfkit new robot --template {shlex.quote(source)}" if source else f"urdfkit new {kind}"
 
 
 def _default(question: Question, answers: Mapping[str, str]) -> str | None:
-    """Return the default after these answers; None where there are not enough of them."""
+    """Return the default after these answers; None if an answer that it depends on is missing."""
     try:
-        return question.default_given(answers)
+        return question.default_after(answers)
     except ResourceError:
         return None
 
@@ -189,17 +194,17 @@ def _value(question: Question, answer: str) -> str:
         return answer
     if question.kind == "flag":
         return "true" if answer == "yes" else "false"
-    # What JSON makes of a text is a string of TOML, too, but for one character.
+    # A JSON string is a valid TOML string except for the character DEL.
     text = json.dumps(answer.split() if question.several else answer, ensure_ascii=False)
     return text.replace("\x7f", "\\u007f")
 
 
 def _text(question: Question, value: object) -> str:
-    """Return a value of TOML as it would be typed."""
+    """Return a TOML value as it would be typed on the command line."""
     if isinstance(value, list) and all(isinstance(entry, str) for entry in value):
         return " ".join(value)
     if isinstance(value, (str, int, float)) and not isinstance(value, bool):
         return str(value)
     if isinstance(value, bool) and question.kind == "flag":
         return "yes" if value else "no"
-    raise UsageError(f"`{question.name}` is neither a text nor a number nor a list of texts")
+    raise UsageError(f"`{question.name}` must be a text, a number or a list of texts")

@@ -1,8 +1,8 @@
-"""A template: a folder whose files come out as they stand, with ``@name@`` replaced by the answers.
+"""Templates: folders whose files are copied with each ``@name@`` replaced by an answer.
 
-The syntax clashes neither with xacro's ``${…}`` and ``$(…)`` nor with XML, Python, YAML or CMake, so a template file
-is read, checked and highlighted as what it will be. There are no conditions inside files: layers are laid over each
-other, each by the answers it is for. A line with the placeholder of a question that takes several answers comes once
+The syntax conflicts neither with xacro's ``${…}`` and ``$(…)`` nor with XML, Python, YAML or CMake, so editors and
+linters treat a template file as the file that it becomes. Files contain no conditions: a template consists of layers,
+each enabled by certain answers. A line with the placeholder of a question that accepts several answers is repeated
 for each of them.
 """
 
@@ -15,40 +15,38 @@ from pathlib import Path
 
 from urdfkit.errors import ResourceError, UsageError, did_you_mean
 from urdfkit.scaffold.templates.expressions import holds, value_of
-from urdfkit.scaffold.templates.placeholders import fill, inside, repeat_lines
+from urdfkit.scaffold.templates.placeholders import fill, path_inside, repeat_lines
 from urdfkit.scaffold.templates.template_schema import Check, Fact, Layer, Next, Word
 from urdfkit.scaffold.templates.questions import Question, When, applies, numbers
-from urdfkit.scaffold.templates.answer_suggestions import Goes, remedy
+from urdfkit.scaffold.templates.answer_suggestions import Accepts, suggest_change
 
 FRESH = "fresh"
-"""What a default may depend on beside answers: ``yes`` where the folder written to is new, empty or a fresh clone."""
+"""Name that defaults may depend on like on an answer: ``yes`` if the output folder is new, empty or a fresh clone."""
 
 
 @dataclass(frozen=True, slots=True)
 class Template:
-    """What ``urdfkit new NAME`` asks and writes.
+    """Template of ``urdfkit new NAME``: its questions, and the files that it writes.
 
     Attributes:
-        folder: where it lies.
-        summary: what it makes, in a line.
-        questions: what it asks, in order.
-        asks_later: options that are planned; named in the error when they are used.
-        words: placeholders that follow from the answers.
-        facts: what follows from the answers, for all of these.
-        layers: what it writes.
-        checks: what has to hold between the answers.
-        next: what to do with the result.
-        recipe: the file of the result that keeps the answers; empty for none.
-        examples: what may follow ``urdfkit new TEMPLATE``, for its help.
-        source: its folder as it was given, of a template that is not ours; empty for ours.
-        name: what it is called: the THING of ``urdfkit new``.
-        teleop: the folder of the result that can be driven right away; empty for none.
+        folder: folder of the template.
+        summary: summary in one line.
+        questions: the questions, in order.
+        words: placeholders that depend on an answer.
+        facts: conditions on the answers that have a name.
+        layers: the files to write.
+        checks: conditions that the answers must satisfy.
+        next: the commands to print after writing.
+        recipe: path of the file that records the answers; empty for none.
+        examples: arguments for the examples in the help of ``urdfkit new TEMPLATE``.
+        source: folder of a template that is not bundled, as the user gave it; empty for bundled templates.
+        name: name of the template, as in ``urdfkit new NAME``.
+        teleop: folder of the output that ``urdfkit sim teleop`` can load; empty for none.
     """
 
     folder: Path
     summary: str
     questions: tuple[Question, ...]
-    asks_later: tuple[str, ...]
     words: tuple[Word, ...]
     layers: tuple[Layer, ...]
     checks: tuple[Check, ...]
@@ -61,121 +59,123 @@ class Template:
     teleop: str = ""
 
     def question(self, name: str) -> Question:
-        """Return the question of that name.
+        """Return the question with that name.
 
         Args:
-            name: which.
+            name: name of the question.
 
         Raises:
-            UsageError: there is none.
+            UsageError: the template has no such question.
         """
         for question in self.questions:
             if question.name == name:
                 return question
         raise UsageError(f"no question `{name}`{did_you_mean(name, [q.name for q in self.questions])}")
 
-    def answers(self, given: Mapping[str, str], *, fresh: bool = False) -> dict[str, str]:
-        """Return an answer to every question: the given ones checked, the others by default; and the facts.
+    def answers(self, user_answers: Mapping[str, str], *, fresh: bool = False) -> dict[str, str]:
+        """Return an answer to every question, the user's checked and the others by default, and the facts.
 
         Args:
-            given: answers by question.
-            fresh: whether the folder that is written to is new, empty or a fresh clone.
+            user_answers: answers of the user by question.
+            fresh: whether the output folder is new, empty or a fresh clone.
 
         Raises:
-            UsageError: an answer is wrong, missing, or at odds with another.
+            UsageError: an answer is invalid, missing, or contradicts another.
         """
-        for name in given:
+        for name in user_answers:
             self.question(name)
-        found, late = self._filled(given, fresh)
-        if wrong := self._wrong(found) or late:
-            # One number that makes all of it go, or at least what is wrong.
-            others = [check for check in self.checks if check.otherwise != wrong]
-            for spared in ([], others):
-                if told := remedy(self.questions, given, found, wrong, self._goes(spared, fresh)):
-                    raise UsageError(f"{wrong} ({told})")
-            raise UsageError(wrong)
-        return found
+        answers, out_of_range = self._filled(user_answers, fresh)
+        if failure := self._failure(answers) or out_of_range:
+            # Suggest a number that satisfies all checks, or at least the failing one.
+            others = [check for check in self.checks if check.otherwise != failure]
+            for ignored in ([], others):
+                if suggestion := suggest_change(self.questions, user_answers, answers, failure, self._accepts(ignored, fresh)):
+                    raise UsageError(f"{failure} ({suggestion})")
+            raise UsageError(failure)
+        return answers
 
     def contradiction(self, so_far: Mapping[str, str], last: str) -> tuple[str, str]:
-        """Return what is wrong between answers when not all are there, and what would do; empty for nothing.
+        """Return the first failing check of incomplete answers and a suggestion; empty texts if none fails.
 
-        Only what no later answer can change counts.
+        Checks that depend on an open question are skipped.
 
         Args:
-            so_far: answers by question, with the defaults of those that are not asked.
+            so_far: answers by question, with the defaults of questions that are not interactive.
             last: the question that was answered last.
         """
-        known = {q.name: so_far[q.name] for q in self.questions if q.name in so_far and applies(q.when, so_far)}
+        enabled = {q.name: so_far[q.name] for q in self.questions if q.name in so_far and applies(q.when, so_far)}
         try:
-            found, _ = self._filled(known, False)
+            answers, _ = self._filled(enabled, False)
         except UsageError:
             return "", ""
-        open_yet = {q.name for q in self.questions if q.ask and q.name not in known and applies(q.when, found)}
+        open_yet = {q.name for q in self.questions if q.interactive and q.name not in enabled and applies(q.when, answers)}
         for check in self.checks:
             about = {*re.findall(r"[a-z_]+", check.holds), *check.when}
-            if about & open_yet or not applies(check.when, found):
+            if about & open_yet or not applies(check.when, answers):
                 continue
-            if not (check.holds and holds(check.holds, numbers(found))):
-                spared = [other for other in self.checks if other is not check]
+            if not (check.holds and holds(check.holds, numbers(answers))):
+                ignored = [other for other in self.checks if other is not check]
                 question = [self.question(last)]
-                return check.otherwise, remedy(question, known, found, check.otherwise, self._goes(spared, False))
+                return check.otherwise, suggest_change(
+                    question, enabled, answers, check.otherwise, self._accepts(ignored, False)
+                )
         return "", ""
 
-    def _filled(self, given: Mapping[str, str], fresh: bool) -> tuple[dict[str, str], str]:
-        """Return an answer to every question, and what is wrong with one that follows from others; empty for nothing.
+    def _filled(self, user_answers: Mapping[str, str], fresh: bool) -> tuple[dict[str, str], str]:
+        """Return an answer to every question, and the error of a computed answer that is out of range, or empty.
 
         Raises:
-            UsageError: an answer that was given is wrong, or one is missing.
+            UsageError: an answer of the user is invalid, or an answer is missing.
         """
-        found: dict[str, str] = {}
-        late = ""
+        answers: dict[str, str] = {}
+        out_of_range = ""
         for question in self.questions:
-            if question.name in given and not applies(question.when, found) and not question.declines(given):
-                raise UsageError(f"{question.option} is for {wanted(question.when)}")
-            answer = given.get(question.name, question.default_given(found | {FRESH: "yes" if fresh else "no"}))
+            if question.name in user_answers and not applies(question.when, answers) and not question.declines(user_answers):
+                raise UsageError(f"{question.option} requires {required_options(question.when)}")
+            answer = user_answers.get(question.name, question.default_after(answers | {FRESH: "yes" if fresh else "no"}))
             if answer is None:
                 raise UsageError(f"{question.prompt[0].lower()}{question.prompt[1:]} is missing")
             try:
-                found[question.name] = question.accept(answer)
+                answers[question.name] = question.accept(answer)
             except UsageError:
-                if question.name in given or not question.is_computed:
+                if question.name in user_answers or not question.is_computed:
                     raise
-                found[question.name] = answer
-                if applies(question.when, found):
-                    late = late or f"with these sizes {question.out_of_range(answer)}"
+                answers[question.name] = answer
+                if applies(question.when, answers):
+                    out_of_range = out_of_range or f"with these sizes {question.out_of_range(answer)}"
         for fact in self.facts:
-            found[fact.name] = "yes" if any(applies(when, found) for when in fact.any) else "no"
-        return found, late
+            answers[fact.name] = "yes" if any(applies(when, answers) for when in fact.any) else "no"
+        return answers, out_of_range
 
-    def _wrong(self, found: Mapping[str, str], spared: Sequence[Check] = ()) -> str:
-        """Return the first thing that is wrong between answers; empty for nothing."""
+    def _failure(self, answers: Mapping[str, str], ignored: Sequence[Check] = ()) -> str:
+        """Return the message of the first failing check; empty if all checks hold."""
         for check in self.checks:
-            if check in spared or not applies(check.when, found):
+            if check in ignored or not applies(check.when, answers):
                 continue
-            if not (check.holds and holds(check.holds, numbers(found))):
+            if not (check.holds and holds(check.holds, numbers(answers))):
                 return check.otherwise
         return ""
 
-    def _goes(self, spared: Sequence[Check], fresh: bool) -> Goes:
-        def goes(given: Mapping[str, str]) -> bool:
+    def _accepts(self, ignored: Sequence[Check], fresh: bool) -> Accepts:
+        def accepts(user_answers: Mapping[str, str]) -> bool:
             try:
-                found, late = self._filled(given, fresh)
+                answers, out_of_range = self._filled(user_answers, fresh)
             except UsageError:
                 return False
-            return not (self._wrong(found, spared) or late)
+            return not (self._failure(answers, ignored) or out_of_range)
 
-        return goes
+        return accepts
 
     def files(self, answers: Mapping[str, str]) -> Iterator[tuple[Path, Path]]:
-        """Yield every file that is written: where it comes from, and its path in the result.
+        """Yield the source and the output path of every file to write.
 
-        What is appended comes after what it is appended to, with the same path.
+        A file to append has the same output path as the file that it is appended to, and follows it.
 
         Args:
-            answers: answers by question, with the built-in ones.
+            answers: answers by question, including the built-in placeholders.
 
         Raises:
-            ResourceError: the template is wrong: two layers write the same file, or a placeholder is unknown.
+            ResourceError: two layers write the same file, or a placeholder is unknown.
         """
         written: dict[Path, Path] = {}
         for layer in self.layers:
@@ -188,21 +188,21 @@ class Template:
                 yield source, target
 
     def _targets(self, layer: Layer, answers: Mapping[str, str]) -> Iterator[tuple[Path, Path]]:
-        """Yield the files of a layer, each with its path in the result, which is in the result."""
+        """Yield the files of a layer, each with its output path."""
         place = f"{self.folder}/template.toml:{layer.line}"
         for home, source in self._sources(layer, answers):
             for folder in layer.into:
                 name = fill(source.relative_to(home).as_posix(), answers, where=str(source))
-                yield source, inside(Path(fill(folder, answers, where=place), name), where=place)
+                yield source, path_inside(Path(fill(folder, answers, where=place), name), where=place)
 
     def spare(self, answers: Mapping[str, str]) -> set[str]:
-        """Return what is left out where it is there already: the topmost names of files and folders.
+        """Return the names of files and folders, at the top of the output, that are skipped if they exist.
 
         Args:
-            answers: answers by question, with the built-in ones.
+            answers: answers by question, including the built-in placeholders.
 
         Raises:
-            ResourceError: the template is wrong.
+            ResourceError: the template is invalid.
         """
         return {
             target.parts[0]
@@ -212,13 +212,13 @@ class Template:
         }
 
     def _sources(self, layer: Layer, answers: Mapping[str, str]) -> Iterator[tuple[Path, Path]]:
-        """Yield the files of a layer, each with the folder of the layer it lies in."""
-        several, _ = self._said(answers)
+        """Yield the files of a layer, each after the folder of the layer that contains it."""
+        several, _ = self._values(answers)
         for name in repeat_lines(f"{layer.folder}\n", several).splitlines():
             home = self.folder / fill(name, answers, where=f"{self.folder}/template.toml")
             if not home.is_dir():
                 raise ResourceError(f"template: no folder {home}")
-            # pip compiles the launch files among our data, too.
+            # pip compiles the launch files of bundled templates.
             for path in sorted(home.rglob("*")):
                 if path.is_file() and "__pycache__" not in path.parts:
                     yield home, path
@@ -227,16 +227,16 @@ class Template:
         """Write the files into `folder`.
 
         Args:
-            answers: answers by question, with the built-in ones.
-            folder: has to exist.
+            answers: answers by question, including the built-in placeholders.
+            folder: an existing folder.
 
         Returns:
             The paths written, relative to `folder`.
 
         Raises:
-            ResourceError: the template is wrong, or the folder cannot be written.
+            ResourceError: the template is invalid, or the folder cannot be written.
         """
-        several, answers = self._said(answers)
+        several, answers = self._values(answers)
         targets: dict[Path, None] = {}
         for source, target in self.files(answers):
             try:
@@ -251,37 +251,37 @@ class Template:
             targets[target] = None
         return list(targets)
 
-    def _said(self, answers: Mapping[str, str]) -> tuple[dict[str, tuple[str, ...]], dict[str, str]]:
-        """Return what has several values, and the answers with the words that follow from them."""
+    def _values(self, answers: Mapping[str, str]) -> tuple[dict[str, tuple[str, ...]], dict[str, str]]:
+        """Return the placeholders with several values, and the answers extended by words with one value."""
         several = {q.name: tuple(answers[q.name].split()) for q in self.questions if q.several}
         single = dict(answers)
         for word in self.words:
             where = f"{self.folder}/template.toml"
             if word.by in several:
-                several[word.name] = tuple(str(word.says[one]) for one in several[word.by] if one in word.says)
+                several[word.name] = tuple(str(word.values[one]) for one in several[word.by] if one in word.values)
                 continue
-            said = word.says.get(answers[word.by])
-            if said is None:
-                raise ResourceError(f"{where}: word `{word.name}` says nothing for {word.by} `{answers[word.by]}`")
-            if isinstance(said, str) and said.startswith("="):
-                single[word.name] = f"{value_of(said[1:], numbers(single)):.4g}"
-            elif isinstance(said, str):
-                single[word.name] = fill(said, single, where=where)
+            value = word.values.get(answers[word.by])
+            if value is None:
+                raise ResourceError(f"{where}: word `{word.name}` has no value for {word.by} `{answers[word.by]}`")
+            if isinstance(value, str) and value.startswith("="):
+                single[word.name] = f"{value_of(value[1:], numbers(single)):.4g}"
+            elif isinstance(value, str):
+                single[word.name] = fill(value, single, where=where)
             else:
-                several[word.name] = tuple(fill(text, single, where=where) for text in said)
+                several[word.name] = tuple(fill(text, single, where=where) for text in value)
         return several, single
 
     def next_steps(self, answers: Mapping[str, str]) -> list[tuple[str, list[str]]]:
-        """Return commands to go on with, in groups: a title (empty for the first) and the lines.
+        """Return the commands to run next, in groups: a title (empty for the first) and the lines.
 
         Args:
-            answers: answers by question, with the built-in ones.
+            answers: answers by question, including the built-in placeholders.
 
         Raises:
-            ResourceError: the template is wrong.
+            ResourceError: the template is invalid.
         """
         where = f"{self.folder}/template.toml"
-        _, answers = self._said(answers)
+        _, answers = self._values(answers)
         return [
             (fill(step.title, answers, where=where), [fill(line, answers, where=where) for line in step.commands])
             for step in self.next
@@ -289,10 +289,10 @@ class Template:
         ]
 
 
-def wanted(when: When) -> str:
-    """Return the options that something is for.
+def required_options(when: When) -> str:
+    """Return the options that an item of the template requires.
 
     Args:
-        when: the answers.
+        when: the enabling answers.
     """
     return " and ".join(f"--{name.replace('_', '-')} {' or '.join(values)}" for name, values in when.items())

@@ -1,4 +1,4 @@
-"""A template's ``template.toml``: what is wrong with it is said with its line."""
+"""Reader of ``template.toml``; errors are reported at their line."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _TEXT, _TEXTS, _TABLE, _FLAG, _NUMBERS, _TABLES = (
     "a list of tables",
 )
 _KEYS: dict[str, dict[str, str]] = {
-    "": {"summary": _TEXT, "asks_later": _TEXTS, "recipe": _TEXT, "teleop": _TEXT, "examples": _TEXTS},
+    "": {"summary": _TEXT, "recipe": _TEXT, "teleop": _TEXT, "examples": _TEXTS},
     "question": {
         **dict.fromkeys(("name", "prompt", "kind", "default", "unit", "pattern", "help"), _TEXT),
         **dict.fromkeys(("choices", "suffixes"), _TEXTS),
@@ -44,9 +44,9 @@ _KEYS: dict[str, dict[str, str]] = {
     "layer": {"folder": _TEXT, "into": _TEXTS, "when": _TABLE, "append": _FLAG, "spare": _FLAG},
     "next": {"title": _TEXT, "commands": _TEXTS, "when": _TABLE},
 }
-"""What each sort of table may hold, and what it has to be; "" is the file itself."""
+"""Keys of each kind of table, with the type of the value; "" is the top level of the file."""
 
-_NEEDED = {
+_REQUIRED = {
     "": ("summary", "layer"),
     "question": ("name", "prompt", "kind"),
     "word": ("name", "by", "says"),
@@ -57,16 +57,16 @@ _NEEDED = {
 }
 
 
-def load_template(folder: Path, *, source: str = "", called: str = "") -> Template:
+def load_template(folder: Path, *, source: str = "", name: str = "") -> Template:
     """Read the ``template.toml`` of a template.
 
     Args:
-        folder: the template.
-        source: the folder as it was given, of a template that is not ours.
-        called: its name, where that is not its folder's.
+        folder: folder of the template.
+        source: the folder as the user gave it, for a template that is not bundled.
+        name: name of the template, if it differs from the folder's name.
 
     Raises:
-        ResourceError: there is none, or it is wrong: file, line, what, and the nearest right thing.
+        ResourceError: the file is missing or invalid; the message has the line and the nearest valid name.
     """
     path = folder / NAME
     try:
@@ -78,38 +78,37 @@ def load_template(folder: Path, *, source: str = "", called: str = "") -> Templa
         raise ResourceError(f"{path} is not UTF-8: {error.reason}") from error
     except tomllib.TOMLDecodeError as error:
         raise ResourceError(_placed(path, str(error), text.count("\n") + 1)) from error
-    return _Reader(path, text, table).template(source, called or folder.name)
+    return _Reader(path, text, table).template(source, name or folder.name)
 
 
-def _placed(path: Path, said: str, last: int) -> str:
-    """Return what the TOML parser said, its place in front as everywhere."""
-    if found := re.search(r" \(at line (\d+), column (\d+)\)", said):
-        return f"{path}:{found[1]}:{found[2]}: {said.replace(found[0], '')}"
-    return f"{path}:{last}: {said.replace(' (at end of document)', ', and then it ends')}"
+def _placed(path: Path, message: str, last: int) -> str:
+    """Return the message of the TOML parser with ``FILE:LINE:COLUMN`` in front."""
+    if place := re.search(r" \(at line (\d+), column (\d+)\)", message):
+        return f"{path}:{place[1]}:{place[2]}: {message.replace(place[0], '')}"
+    return f"{path}:{last}: {message.replace(' (at end of document)', ', found the end of the file')}"
 
 
 class _Reader:
-    """Turns the tables of one file into a template, each checked."""
+    """Converts the checked tables of one file into a template."""
 
     def __init__(self, path: Path, text: str, table: dict[str, Any]) -> None:
         self._path, self._lines, self._table = path, text.splitlines(), table
-        self._known: dict[str, tuple[str, ...]] = {FRESH: ("yes", "no")}
+        self._values: dict[str, tuple[str, ...]] = {FRESH: ("yes", "no")}
 
     def template(self, source: str, name: str) -> Template:
-        """Return the whole."""
-        sorts = [sort for sort in _KEYS if sort]
-        self._check("", 0, {key: value for key, value in self._table.items() if key not in sorts})
+        """Return the template."""
+        kinds = [kind for kind in _KEYS if kind]
+        self._check("", 0, {key: value for key, value in self._table.items() if key not in kinds})
         questions = [self._question(index, entry) for index, entry in enumerate(self._entries("question"))]
         facts = [
             Fact(entry["name"], tuple(self._when("fact", index, {"when": when}) for when in entry["any"]))
             for index, entry in enumerate(self._entries("fact"))
         ]
-        self._known |= {fact.name: ("yes", "no") for fact in facts}
+        self._values |= {fact.name: ("yes", "no") for fact in facts}
         return Template(
             folder=self._path.parent,
             summary=self._table["summary"],
             questions=tuple(questions),
-            asks_later=tuple(self._table.get("asks_later", ())),
             words=tuple(self._word(index, entry) for index, entry in enumerate(self._entries("word"))),
             layers=tuple(self._layer(index, entry) for index, entry in enumerate(self._entries("layer"))),
             checks=tuple(self._checked(index, entry) for index, entry in enumerate(self._entries("check"))),
@@ -128,31 +127,34 @@ class _Reader:
     def _question(self, index: int, entry: dict[str, Any]) -> Question:
         kinds = get_args(get_type_hints(Question)["kind"])
         if entry["kind"] not in kinds:
-            near = did_you_mean(entry["kind"], kinds) or f"; there is: {', '.join(kinds)}"
-            self._error("question", index, "kind", f"no kind of question `{entry['kind']}`{near}")
+            near = did_you_mean(entry["kind"], kinds) or f"; choose from: {', '.join(kinds)}"
+            self._error("question", index, "kind", f"unknown kind of question `{entry['kind']}`{near}")
         when = self._when("question", index, entry)
         values: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in entry.items()}
+        values["interactive"] = values.pop("ask", True)
         question = Question(**values | {"when": when})
         if not re.fullmatch(r"[a-z][a-z0-9_]*", question.name):
-            self._error("question", index, "name", f"`{question.name}` cannot be a placeholder: a-z, 0-9 and _")
-        if question.name in self._known:
-            self._error("question", index, "name", f"`{question.name}` is there twice")
+            self._error("question", index, "name", f"`{question.name}` is not a valid placeholder: use a-z, 0-9 and _")
+        if question.name in self._values:
+            self._error("question", index, "name", f"question `{question.name}` is defined twice")
         for meant in question.called.values():
             if meant not in question.choices:
                 near = did_you_mean(str(meant), question.choices)
-                self._error("question", index, "called", f"`{meant}` is no answer to `{question.name}`{near}")
+                self._error("question", index, "called", f"`{meant}` is not an answer to `{question.name}`{near}")
         for key, defaults in (("default", {"": question.default or ""}), *question.default_for.items()):
             for default in defaults.values() if isinstance(defaults, dict) else ():
                 self._computable("question", index, "default_for" if key != "default" else key, default)
-        self._known[question.name] = ("yes", "no") if question.kind == "flag" else question.choices
+        self._values[question.name] = ("yes", "no") if question.kind == "flag" else question.choices
         return question
 
     def _word(self, index: int, entry: dict[str, Any]) -> Word:
-        if entry["by"] not in self._known:
-            self._error("word", index, "by", f"no question `{entry['by']}`{did_you_mean(entry['by'], self._known)}")
-        for said in entry["says"].values():
-            self._computable("word", index, "says", said, named=False)
-        return Word(**entry)
+        if entry["by"] not in self._values:
+            self._error(
+                "word", index, "by", f"unknown question `{entry['by']}`{did_you_mean(entry['by'], self._values)}"
+            )
+        for value in entry["says"].values():
+            self._computable("word", index, "says", value, named=False)
+        return Word(entry["name"], entry["by"], entry["says"])
 
     def _checked(self, index: int, entry: dict[str, Any]) -> Check:
         if entry.get("holds"):
@@ -160,20 +162,20 @@ class _Reader:
         return Check(entry.get("holds", ""), entry["otherwise"], self._when("check", index, entry))
 
     def _computable(
-        self, sort: str, index: int, key: str, said: object, *, named: bool = True, comparison: bool = False
+        self, kind: str, index: int, key: str, value: object, *, named: bool = True, comparison: bool = False
     ) -> None:
-        """Look at an expression, or at a text, which is one when it begins with ``=``; its names have to be questions.
+        """Check a comparison, or a text that is an expression because it begins with ``=``.
 
-        What words may also name is not `named` in the file: what is worked out for our own templates.
+        With `named`, every name in it must be an earlier question. Words may use computed placeholders, too.
         """
-        if not isinstance(said, str) or not (comparison or said.startswith("=")):
+        if not isinstance(value, str) or not (comparison or value.startswith("=")):
             return
         try:
-            names = names_in(said.removeprefix("=").strip(), comparison=comparison)
+            names = names_in(value.removeprefix("=").strip(), comparison=comparison)
         except ResourceError as error:
-            self._error(sort, index, key, str(error).removeprefix("template: "))
-        for name in sorted(names - set(self._known) if named else ()):
-            self._error(sort, index, key, f"no question `{name}` before{did_you_mean(name, self._known)}")
+            self._error(kind, index, key, str(error).removeprefix("template: "))
+        for name in sorted(names - set(self._values) if named else ()):
+            self._error(kind, index, key, f"no earlier question `{name}`{did_you_mean(name, self._values)}")
 
     def _layer(self, index: int, entry: dict[str, Any]) -> Layer:
         return Layer(
@@ -185,74 +187,75 @@ class _Reader:
             self._line("layer", index, "into"),
         )
 
-    def _when(self, sort: str, index: int, entry: Mapping[str, Any]) -> When:
-        """Return the answers that something is for; every question and every answer has to be one."""
+    def _when(self, kind: str, index: int, entry: Mapping[str, Any]) -> When:
+        """Return the enabling answers of an entry; its questions must be defined earlier, and its answers be valid."""
         for name, values in entry.get("when", {}).items():
-            if name not in self._known:
-                self._error(sort, index, "when", f"no question `{name}` before{did_you_mean(name, self._known)}")
+            if name not in self._values:
+                self._error(kind, index, "when", f"no earlier question `{name}`{did_you_mean(name, self._values)}")
             if not _is(_TEXTS, values):
-                self._error(sort, index, "when", f"`{name}` has to be {_TEXTS}")
+                self._error(kind, index, "when", f"`{name}` must be {_TEXTS}")
             for value in values:
-                if self._known[name] and value not in self._known[name]:
-                    near = did_you_mean(value, self._known[name])
-                    self._error(sort, index, "when", f"`{value}` is no answer to `{name}`{near}")
+                if self._values[name] and value not in self._values[name]:
+                    near = did_you_mean(value, self._values[name])
+                    self._error(kind, index, "when", f"`{value}` is not an answer to `{name}`{near}")
         return {name: tuple(values) for name, values in entry.get("when", {}).items()}
 
-    def _entries(self, sort: str) -> list[dict[str, Any]]:
-        """Return the tables of a sort, each with the right keys."""
-        entries = self._table.get(sort, [])
+    def _entries(self, kind: str) -> list[dict[str, Any]]:
+        """Return the tables of one kind, with their keys checked."""
+        entries = self._table.get(kind, [])
         if not _is(_TABLES, entries):
-            self._error("", 0, sort, f"`{sort}` has to be {_TABLES}: [[{sort}]]")
+            self._error("", 0, kind, f"`{kind}` must be {_TABLES}: [[{kind}]]")
         for index, entry in enumerate(entries):
-            self._check(sort, index, entry)
+            self._check(kind, index, entry)
         return list(entries)
 
-    def _check(self, sort: str, index: int, entry: Mapping[str, Any]) -> None:
-        known = _KEYS[sort]
+    def _check(self, kind: str, index: int, entry: Mapping[str, Any]) -> None:
+        types = _KEYS[kind]
         for key, value in entry.items():
-            if key not in known:
-                near = did_you_mean(key, [*known, *(_KEYS if not sort else ())])
-                self._error(sort, index, key, f"no `{key}` in {f'a [[{sort}]]' if sort else 'a template'}{near}")
-            if not _is(known[key], value):
-                number = isinstance(value, int | float) and not isinstance(value, bool) and known[key] == _TEXT
-                meant = f': {key} = "{value}"' if number else ""
-                self._error(sort, index, key, f"`{key}` has to be {known[key]}{meant}")
-        for key in _NEEDED[sort]:
-            if key not in entry and not (not sort and key in self._table):
-                self._error(sort, index, "", f"{f'this [[{sort}]]' if sort else 'the template'} lacks its `{key}`")
+            if key not in types:
+                near = did_you_mean(key, [*types, *(_KEYS if not kind else ())])
+                self._error(kind, index, key, f"unknown key `{key}` in {f'a [[{kind}]]' if kind else 'a template'}{near}")
+            if not _is(types[key], value):
+                number = isinstance(value, int | float) and not isinstance(value, bool) and types[key] == _TEXT
+                example = f': {key} = "{value}"' if number else ""
+                self._error(kind, index, key, f"`{key}` must be {types[key]}{example}")
+        for key in _REQUIRED[kind]:
+            if key not in entry and not (not kind and key in self._table):
+                owner = f"this [[{kind}]]" if kind else "the template"
+                self._error(kind, index, "", f"{owner} has no `{key}`")
 
-    def _error(self, sort: str, index: int, key: str, message: str) -> NoReturn:
-        """Raise.
+    def _error(self, kind: str, index: int, key: str, message: str) -> NoReturn:
+        """Report an error in one table, at the line of the key.
 
         Raises:
-            ResourceError: always, with the line of that key in the table of that sort and number.
+            ResourceError: always.
         """
-        raise ResourceError(f"{self._path}:{self._line(sort, index, key)}: {message}")
+        raise ResourceError(f"{self._path}:{self._line(kind, index, key)}: {message}")
 
-    def _line(self, sort: str, index: int, key: str) -> int:
-        """Return the line of a key in the table of that sort and number; where it is not there, that of the table."""
+    def _line(self, kind: str, index: int, key: str) -> int:
+        """Return the line of a key in one table, or of the table if the key is missing."""
         start = 0
-        if sort:
-            heads = [i for i, line in enumerate(self._lines) if re.match(rf"\s*\[\[\s*{sort}\s*\]\]", line)]
+        if kind:
+            heads = [i for i, line in enumerate(self._lines) if re.match(rf"\s*\[\[\s*{kind}\s*\]\]", line)]
             start = heads[index] if index < len(heads) else 0
-        for number in range(start + bool(sort), len(self._lines) if key else 0):
+        for number in range(start + bool(kind), len(self._lines) if key else 0):
             line = self._lines[number]
             if re.match(rf"""\s*\[*(\w+\.)?["']?{re.escape(key)}["']?\s*[\].=]""", line):
                 return number + 1
-            if sort and re.match(r"\s*\[\[", line):
+            if kind and re.match(r"\s*\[\[", line):
                 break
         return start + 1
 
 
-def _is(what: str, value: object) -> bool:
-    if what == _TEXT:
+def _is(type_name: str, value: object) -> bool:
+    if type_name == _TEXT:
         return isinstance(value, str)
-    if what == _FLAG:
+    if type_name == _FLAG:
         return isinstance(value, bool)
-    if what == _TABLE:
+    if type_name == _TABLE:
         return isinstance(value, dict)
     if not isinstance(value, list):
         return False
-    if what == _NUMBERS:
+    if type_name == _NUMBERS:
         return len(value) == 2 and all(isinstance(number, int | float) for number in value)
-    return all(isinstance(each, str if what == _TEXTS else dict) for each in value)
+    return all(isinstance(each, str if type_name == _TEXTS else dict) for each in value)

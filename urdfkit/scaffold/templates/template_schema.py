@@ -1,4 +1,4 @@
-"""The tables of a template besides its questions: what is written, with which words, and what has to hold."""
+"""Tables of a template other than questions: layers, words, facts, checks and next steps."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from urdfkit.scaffold.templates.questions import When
 
 @dataclass(frozen=True, slots=True)
 class Layer:
-    """A folder of files that goes `into` some folders of the result, if the answers are among `when`.
+    """A folder of files that is copied `into` folders of the output if the answers match `when`.
 
-    With ``@question@`` in the folder's name it is the folder of that answer, of several answers each one's.
-    With `append`, what a file holds goes behind what the layers before have written into the file of that name.
-    What is `spare` is left out where something of that name is there already, instead of refusing all.
-    In ``template.toml`` it says where in that `line`.
+    A folder name may contain ``@question@``; a question with several answers gives one folder for each.
+    With `append`, files are appended to the files of the same name from earlier layers.
+    With `spare`, files and folders that exist at the top of the output are skipped instead of reported as an error.
+    `line` is the line of the layer in ``template.toml``.
     """
 
     folder: str
@@ -28,21 +28,21 @@ class Layer:
 
 @dataclass(frozen=True, slots=True)
 class Word:
-    """A placeholder that nobody is asked for: what it says follows `by` the answer to a question, or a fact.
+    """A placeholder without a question: `values` gives its text for each answer to the question or fact `by`.
 
-    By a question that takes several answers it is several words, one for each answer that has one. Where it says a
-    list, a line with it comes once for each text of the list: not at all for an empty one. What begins with ``=`` is
-    computed from the answers, to four digits.
+    If the question `by` has several answers, the word has one value for each answer that is in `values`. If a value
+    is a list, lines with the placeholder are repeated for each text of the list. A value that begins with ``=`` is
+    computed from the answers and rounded to four digits.
     """
 
     name: str
     by: str
-    says: Mapping[str, str | Sequence[str]]
+    values: Mapping[str, str | Sequence[str]]
 
 
 @dataclass(frozen=True, slots=True)
 class Fact:
-    """What follows from answers: ``yes`` if they are among `any` of some, ``no`` otherwise. For layers and words."""
+    """A named condition for layers and words: ``yes`` if the answers match one of `any`, otherwise ``no``."""
 
     name: str
     any: tuple[When, ...]
@@ -50,9 +50,9 @@ class Fact:
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """A comparison that has to hold between the answers if they are among `when`, and what is wrong otherwise.
+    """A comparison that must hold if the answers match `when`, and the error message otherwise.
 
-    Without a comparison these answers do not go together at all.
+    Without a comparison, answers that match `when` are an error.
     """
 
     holds: str
@@ -62,7 +62,7 @@ class Check:
 
 @dataclass(frozen=True, slots=True)
 class Next:
-    """Commands to go on with, if the answers are among `when`."""
+    """Commands to run next, printed if the answers match `when`."""
 
     title: str
     commands: tuple[str, ...]

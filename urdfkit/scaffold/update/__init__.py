@@ -1,4 +1,4 @@
-"""Write packages from a template, and write them again in place after a change of template or answers.
+"""Writing packages from a template, and updating them in place when the template or the answers change.
 
 A template and a recipe go in; files come out, all or none.
 """

@@ -1,4 +1,4 @@
-"""Which files that are to go are named in files that stay."""
+"""Search for references to files that an update would remove."""
 
 from __future__ import annotations
 
@@ -22,40 +22,41 @@ _READ = {
     ".yaml",
     ".yml",
 }
-"""What names other files of a package so that it does not work without them."""
+"""Suffixes of files that may refer to other files of a package."""
 _LARGEST = 1_000_000
-"""A file of more bytes than that is data."""
+"""Size limit [bytes]; larger files are data."""
 
 
-def needed(gone: Sequence[Path], folder: Path, ours: Collection[Path]) -> dict[Path, Path]:
-    """Return what is to go and yet is named in what stays, and by which file.
+def needed(removed: Sequence[Path], folder: Path, generated: Collection[Path]) -> dict[Path, Path]:
+    """Return the files to remove that are still referenced, each with the file that refers to it.
 
-    What is named by what is needed is needed, too. Of a package of which all is to go, all is needed where its name is.
+    Files referenced by needed files are needed, too. If a whole package would be removed, a reference to its name makes
+    all of its files needed.
 
     Args:
-        gone: what is to go, from `folder`.
-        folder: of the packages.
-        ours: what goes, or is as the template has it: it names nothing that the template does not make.
+        removed: the files to remove, relative to `folder`.
+        folder: the folder of the packages.
+        generated: files that are removed or match the template, and therefore refer only to files of the template.
     """
-    tops = {path.parts[0] for path in gone}
-    staying = {path: _text(folder / path) for path in _files(folder, tops) if path not in ours}
-    whole = tops - {path.parts[0] for path in staying} - {path.parts[0] for path in set(ours) - set(gone)}
-    found: dict[Path, Path] = {}
-    fresh = staying
-    while fresh:
+    tops = {path.parts[0] for path in removed}
+    staying = {path: _text(folder / path) for path in _files(folder, tops) if path not in generated}
+    whole = tops - {path.parts[0] for path in staying} - {path.parts[0] for path in set(generated) - set(removed)}
+    references: dict[Path, Path] = {}
+    new = staying
+    while new:
         named = {
             path: by
-            for path in gone
-            if path not in found
-            and (by := next((by for by, text in fresh.items() if _names(by, text, path, whole)), None)) is not None
+            for path in removed
+            if path not in references
+            and (by := next((by for by, text in new.items() if _names(by, text, path, whole)), None)) is not None
         }
-        found |= named
-        fresh = {path: _text(folder / path) for path in named}
-    return found
+        references |= named
+        new = {path: _text(folder / path) for path in named}
+    return references
 
 
 def _names(by: Path, text: str, path: Path, whole: Collection[str]) -> bool:
-    """Whether a file names another: from its own folder, from the package's, in quotes, or the package it is all of."""
+    """Return whether a file refers to another by relative path, path in the package, quoted name, or package name."""
     if by == path or not text:
         return False
     if path.parts[0] in whole:
@@ -72,7 +73,7 @@ def _has(text: str, name: str) -> bool:
 
 
 def _files(folder: Path, tops: Collection[str]) -> Iterator[Path]:
-    """Yield the files of packages that something is to go from, and of those beside them, from `folder`."""
+    """Yield the files of the affected packages and of other packages in the folder, relative to `folder`."""
     for top in sorted(folder.iterdir()):
         if top.name.startswith(".") or not (top.name in tops or (top / "package.xml").is_file()):
             continue

@@ -1,4 +1,4 @@
-"""Render a template into a folder: all of it or nothing, and nothing is overwritten."""
+"""Rendering a template into a folder, completely or not at all, without overwriting files."""
 
 from __future__ import annotations
 
@@ -10,30 +10,30 @@ from pathlib import Path
 
 from urdfkit.atomic import move_into_place, staging
 from urdfkit.errors import ResourceError
-from urdfkit.scaffold.templates.placeholders import fill, inside
+from urdfkit.scaffold.templates.placeholders import fill, path_inside
 from urdfkit.scaffold.templates.recipe import digest, recipe_text
 from urdfkit.scaffold.templates.template import Template
 from urdfkit.scaffold.update.staged_packages import Checker
 
 _WORLDS = (".sdf", ".world")
-"""What the names of files end in that a folder to write to is mistaken for."""
+"""Suffixes of world files; a folder with such a name is probably a mistake."""
 
 Finisher = Callable[[Path], None]
-"""Adds to the rendered folder what no template holds, such as a picture of the robot."""
+"""Adds files to the rendered folder that are computed, such as a picture of the robot."""
 
-_OF_A_FRESH_CLONE = {".git", ".gitattributes", ".gitignore", "LICENSE", "README.md"}
+_FRESH_CLONE = {".git", ".gitattributes", ".gitignore", "LICENSE", "README.md"}
 
 
 def is_fresh(folder: Path) -> bool:
-    """Return whether a folder is not there yet, is empty, or holds no more than a repository just cloned does.
+    """Return whether a folder does not exist, is empty, or contains only the files of a newly cloned repository.
 
     Args:
-        folder: what is going to be written to.
+        folder: the output folder.
     """
     if not folder.is_dir():
         return not os.path.lexists(folder)
-    there = {path.name for path in folder.iterdir() if not path.name.startswith(".urdfkit-")}
-    return not there or (".git" in there and there <= _OF_A_FRESH_CLONE)
+    existing = {path.name for path in folder.iterdir() if not path.name.startswith(".urdfkit-")}
+    return not existing or (".git" in existing and existing <= _FRESH_CLONE)
 
 
 def create(
@@ -44,129 +44,129 @@ def create(
     check: Checker | None = None,
     finish: Finisher | None = None,
 ) -> list[Path]:
-    """Write what a template makes into `folder`.
+    """Write the files of a template into `folder`.
 
-    It is rendered into a temporary folder there, checked, and moved into place. Whatever goes wrong, an interrupt
-    included, leaves `folder` as it was.
+    The template is rendered into a temporary folder, checked, and moved into place. If anything fails, including an
+    interrupt, `folder` is unchanged.
 
     Args:
-        template: what to write.
-        answers: answers by question, with the built-in ones.
-        folder: made if it is not there.
-        check: has to find nothing.
-        finish: adds what no template holds.
+        template: the template.
+        answers: answers by question, including the built-in placeholders.
+        folder: the output folder; created if it does not exist.
+        check: returns the faults of the rendered files; there must be none.
+        finish: adds computed files.
 
     Returns:
-        The files, absolute, sorted.
+        The absolute paths of the files, sorted.
 
     Raises:
-        ResourceError: something of that name is there, the result does not pass `check`, or it cannot be written.
+        ResourceError: a file of the same name exists, `check` finds a fault, or a file cannot be written.
     """
     if folder.suffix in _WORLDS and not folder.is_dir():
-        raise ResourceError(f"{folder} would be a folder, and has the name of a world's file; try {folder.parent}")
+        raise ResourceError(f"{folder} has the name of a world file, but would be a folder; try {folder.parent}")
     spare = template.spare(answers)
     for name in sorted({target.parts[0] for _, target in template.files(answers)} - spare):
         if os.path.lexists(folder / name):
-            raise ResourceError(f"{folder / name} is already there; nothing is overwritten")
-    with made(folder), staging(folder) as stage:
-        render(template, answers, stage, without={name for name in spare if os.path.lexists(folder / name)})
-        files = finished(template, answers, stage, check=check, finish=finish)
-        move_into_place(stage, folder)
+            raise ResourceError(f"{folder / name} already exists; nothing was overwritten")
+    with created(folder), staging(folder) as staged:
+        render(template, answers, staged, without={name for name in spare if os.path.lexists(folder / name)})
+        files = finished(template, answers, staged, check=check, finish=finish)
+        move_into_place(staged, folder)
     return sorted((folder / target).resolve() for target in files)
 
 
-def render(template: Template, answers: Mapping[str, str], stage: Path, *, without: Collection[str] = ()) -> None:
-    """Write what a template makes into a temporary folder.
+def render(template: Template, answers: Mapping[str, str], staged: Path, *, without: Collection[str] = ()) -> None:
+    """Write the files of a template into a temporary folder.
 
     Args:
-        template: what to write.
-        answers: answers by question, with the built-in ones.
-        stage: has to exist.
-        without: topmost names that are left out.
+        template: the template.
+        answers: answers by question, including the built-in placeholders.
+        staged: an existing folder.
+        without: names of files and folders at the top to leave out.
 
     Raises:
-        ResourceError: the template is wrong, or it cannot be written.
+        ResourceError: the template is invalid, or a file cannot be written.
     """
-    template.render(answers, stage)
+    template.render(answers, staged)
     for name in without:
-        if (stage / name).is_dir():
-            shutil.rmtree(stage / name)
+        if (staged / name).is_dir():
+            shutil.rmtree(staged / name)
         else:
-            (stage / name).unlink()
+            (staged / name).unlink()
 
 
 def finished(
     template: Template,
     answers: Mapping[str, str],
-    stage: Path,
+    staged: Path,
     *,
     check: Checker | None = None,
     finish: Finisher | None = None,
 ) -> list[Path]:
-    """Check what was rendered, add what no template holds, and write down the answers and what was made from them.
+    """Check the rendered files, add computed files, and write the recipe.
 
     Args:
-        template: what was rendered.
-        answers: answers by question, with the built-in ones.
-        stage: where it was rendered to.
-        check: has to find nothing.
-        finish: adds what no template holds.
+        template: the template.
+        answers: answers by question, including the built-in placeholders.
+        staged: the folder with the rendered files.
+        check: returns the faults of the rendered files; there must be none.
+        finish: adds computed files.
 
     Returns:
-        All files, relative to `stage`.
+        The paths of all files, relative to `staged`.
 
     Raises:
-        ResourceError: the result does not pass `check`, or it cannot be written.
+        ResourceError: `check` finds a fault, or a file cannot be written.
     """
-    if check is not None and (found := check(stage)):
-        more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
-        raise ResourceError(f"nothing was written: the result would not be clean: {found[0]}{more}")
+    if check is not None and (faults := check(staged)):
+        more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
+        raise ResourceError(f"nothing was written because the result has errors: {faults[0]}{more}")
     if finish is not None:
-        finish(stage)
-    files = sorted(path.relative_to(stage) for path in stage.rglob("*") if path.is_file())
+        finish(staged)
+    files = sorted(path.relative_to(staged) for path in staged.rglob("*") if path.is_file())
     if not template.recipe:
         return files
-    return [*files, write_recipe(template, answers, stage, files)]
+    return [*files, write_recipe(template, answers, staged, files)]
 
 
 def write_recipe(
     template: Template,
     answers: Mapping[str, str],
-    stage: Path,
+    staged: Path,
     files: Sequence[Path],
     *,
     also: Mapping[Path, bytes] | None = None,
 ) -> Path:
-    """Write down the answers and what was made from them; return where, relative to `stage`.
+    """Write the recipe: the answers, and digests of the files; return its path relative to `staged`.
 
     Args:
-        template: what was rendered.
-        answers: answers by question, with the built-in ones.
-        stage: where it was rendered to.
-        files: that were, relative to it; the recipe may be among them.
-        also: what was made before and is there yet.
+        template: the template.
+        answers: answers by question, including the built-in placeholders.
+        staged: the folder with the rendered files.
+        files: paths of the rendered files, relative to `staged`; may include the recipe.
+        also: contents of files from an earlier version that are kept.
 
     Raises:
-        ResourceError: the template is wrong.
+        ResourceError: the template is invalid.
     """
     where = f"{template.folder}/template.toml"
-    target = inside(fill(template.recipe, answers, where=where), where=where)
-    contents = {path: (stage / path).read_bytes() for path in files if path != target} | dict(also or {})
+    target = path_inside(fill(template.recipe, answers, where=where), where=where)
+    contents = {path: (staged / path).read_bytes() for path in files if path != target} | dict(also or {})
     digests = {path.as_posix(): digest(content) for path, content in sorted(contents.items())}
-    (stage / target).parent.mkdir(parents=True, exist_ok=True)
-    (stage / target).write_text(recipe_text(template, answers, digests), encoding="utf-8")
+    (staged / target).parent.mkdir(parents=True, exist_ok=True)
+    (staged / target).write_text(recipe_text(template, answers, digests), encoding="utf-8")
     return target
 
 
 @contextmanager
-def made(folder: Path) -> Iterator[None]:
-    """Make `folder` and the ones above it; take those made away again if the body fails.
+def created(folder: Path) -> Iterator[None]:
+    """Create `folder` and its parents; remove the created folders if the body fails.
 
     Args:
-        folder: may be there.
+        folder: a folder that may exist.
 
     Raises:
-        ResourceError: it cannot be made.
+        ResourceError: the folder cannot be created.
     """
     missing = [path for path in (folder, *folder.parents) if not path.exists()]
     try:
@@ -177,7 +177,7 @@ def made(folder: Path) -> Iterator[None]:
             if path.is_dir() and not any(path.iterdir()):
                 path.rmdir()
         if isinstance(error, FileExistsError | NotADirectoryError):
-            raise ResourceError(f"cannot write into {folder}: it is no folder") from error
+            raise ResourceError(f"cannot write into {folder}: not a folder") from error
         if isinstance(error, OSError):
             raise ResourceError(f"cannot write into {folder}: {error.strerror}") from error
         raise

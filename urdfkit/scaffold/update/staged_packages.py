@@ -1,4 +1,4 @@
-"""Packages as they would be after an update: put together beside them, and looked at before anything is changed."""
+"""Checks of an update: the updated packages are assembled in a temporary folder and compared with the current ones."""
 
 from __future__ import annotations
 
@@ -18,49 +18,49 @@ _MODELS = (".urdf", ".xacro")
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """What is wrong with a result.
+    """A fault of a result.
 
     Attributes:
-        said: what, and where, in a line.
-        is_error: whether it does not work so; otherwise it had better not be.
+        message: problem and place, in one line.
+        is_error: whether it is an error; otherwise it is a warning.
     """
 
-    said: str
+    message: str
     is_error: bool = True
 
     def __str__(self) -> str:
-        """Return what is wrong."""
-        return self.said
+        """Return the message."""
+        return self.message
 
 
 Checker = Callable[[Path], Sequence[Fault]]
-"""Looks at the rendered folder before it is moved into place; returns what is wrong with it."""
+"""Checks the rendered folder before it is moved into place; returns its faults."""
 
 
 def worsened(
     check: Checker,
     folder: Path,
-    stage: Path,
+    staged: Path,
     tops: Collection[str],
     *,
     put: Iterable[Path],
     removed: Iterable[Path],
     added: Collection[Path] = (),
 ) -> tuple[list[Fault], list[Path]]:
-    """Return what is wrong with packages after a change, and was not before; and what of it nothing uses yet.
+    """Return the faults that a change would add, and the new model files that no other file refers to.
 
-    A part of a model that nothing includes is a mistake on its own, and none of the model.
+    A model file that nothing includes would be reported on its own, although it is not part of any model.
 
     Args:
-        check: says what is wrong.
-        folder: of the packages.
-        stage: holds what is put; there is room for copies in it.
-        tops: the packages' folders.
-        put: files that take the place of those in `folder`.
-        removed: files that go.
-        added: of what is put, what may be left out of the look where nothing that stays names it.
+        check: returns the faults of a folder.
+        folder: the folder of the packages.
+        staged: the folder with the new files, which also has room for temporary copies.
+        tops: names of the packages' folders.
+        put: files that replace or add files in `folder`.
+        removed: files to remove.
+        added: those of `put` that are not checked if no remaining file refers to them.
     """
-    before, after = stage / ".before", stage / ".after"
+    before, after = staged / ".before", staged / ".after"
     for place in (before, after):
         place.mkdir()
         for top in tops:
@@ -71,25 +71,25 @@ def worsened(
     for path in put:
         (after / path).unlink(missing_ok=True)
         (after / path).parent.mkdir(parents=True, exist_ok=True)
-        _linked(str(stage / path), str(after / path))
+        _linked(str(staged / path), str(after / path))
     parts = sorted(path for path in added if path.suffix in _MODELS)
     used = needed(parts, after, set(parts)) if parts else {}
     unused = [path for path in parts if path not in used]
     for path in unused:
         (after / path).unlink()
-    known = Counter(_known(fault) for fault in check(before))
-    found = []
+    counts = Counter(_without_line(fault) for fault in check(before))
+    new = []
     for fault in check(after):
-        known[_known(fault)] -= 1
-        if known[_known(fault)] < 0:
-            found.append(fault)
+        counts[_without_line(fault)] -= 1
+        if counts[_without_line(fault)] < 0:
+            new.append(fault)
     shutil.rmtree(before)
     shutil.rmtree(after)
-    return found, unused
+    return new, unused
 
 
-def _known(fault: Fault) -> str:
-    return _LINE.sub("", fault.said)
+def _without_line(fault: Fault) -> str:
+    return _LINE.sub("", fault.message)
 
 
 def _linked(source: str, target: str) -> None:

@@ -1,9 +1,9 @@
-"""Make again in place what a template has made: after a change of the template, or of the answers.
+"""Updates in place of packages written from a template, after a change of the template or of the answers.
 
-What nobody has edited since is replaced. What somebody has is left alone, and what it would be now is put beside it
-with ``.new`` behind its name, as package managers do with settings. What was deleted stays away, and what is made no
-more goes, unless a file that stays names it. An outcome with errors that were not there is refused: then no more is put
-there than what it has to be merged with.
+Files that were not edited are replaced. Edited files are kept, and their new version is written next to them with the
+suffix ``.new``, as package managers do with configuration files. Deleted files stay deleted. Files that the template no
+longer has are removed unless a remaining file refers to them. An update that would add errors is refused; in that
+case only the ``.new`` files are written.
 """
 
 from __future__ import annotations
@@ -24,27 +24,28 @@ from urdfkit.scaffold.update.file_references import needed
 from urdfkit.scaffold.update.rendering import Finisher, finished, render, write_recipe
 from urdfkit.scaffold.update.staged_packages import Checker, Fault, worsened
 
-BESIDE = ".new"
-"""Behind the name of what a file that was edited would be now."""
+NEW_SUFFIX = ".new"
+"""Suffix of the new version of an edited file."""
 
 _LISTED = 3
-"""So many findings are told; of more, how many."""
+"""Number of faults to print; of further ones, only the count is printed."""
 
-Kind = Literal["add", "replace", "remove", "beside", "keep", "needed"]
+Kind = Literal["add", "replace", "remove", "new_version", "keep", "needed"]
 
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """What becomes of one file.
+    """The change of one file.
 
     Attributes:
-        kind: it is new; it takes the place of one that was not edited; it is no more; it is put beside one that was
-            edited; it was edited or deleted and is left so; or it would be no more, and a file that stays names it.
-        path: from the folder that is written to; of `beside` that of the file which was edited.
-        before: what is there; empty where nothing is.
-        after: what it would be; empty where nothing would.
-        because: of `needed`, the file that names it.
-        at: of `beside`, where it is put.
+        kind: ``add`` a new file; ``replace`` an unedited file; ``remove`` a file that the template no longer has;
+            write a ``new_version`` next to an edited file; ``keep`` an edited or deleted file; or keep a removed file
+            that is ``needed`` because a remaining file refers to it.
+        path: path relative to the output folder; for ``new_version``, that of the edited file.
+        before: current content; empty if the file does not exist.
+        after: new content; empty if the file is removed.
+        because: for ``needed``, the file that refers to it.
+        at: for ``new_version``, the path of the new version.
     """
 
     kind: Kind
@@ -55,60 +56,60 @@ class Change:
     at: Path | None = None
 
     @property
-    def is_none(self) -> bool:
-        """Whether the file stays as it is."""
+    def is_empty(self) -> bool:
+        """Whether the file is unchanged."""
         return self.kind in ("keep", "needed")
 
 
 @dataclass(frozen=True, slots=True)
 class Update:
-    """Changes that are ready to be made.
+    """Changes that are ready to be applied.
 
     Attributes:
-        changes: by path.
-        refused: why they are not to be made: with what was edited the outcome would not work; empty where it would.
-        warned: what the linter would say of the outcome, and does not of what is there, a line each.
-        unused: parts of models that are new, and that nothing names before what was edited is merged.
+        changes: the changes, by path.
+        refused: the reason why the update is refused; empty if it can be applied.
+        warned: faults that the linter would report after the update only, one line each.
+        unused: new model files that no file refers to before edited files are merged.
     """
 
     changes: tuple[Change, ...]
     refused: str
     warned: tuple[str, ...]
     unused: tuple[Path, ...]
-    _stage: Path
+    _staged: Path
     _folder: Path
 
     @property
-    def beside(self) -> tuple[Change, ...]:
-        """What is put beside files that were edited, to merge from."""
-        return tuple(change for change in self.changes if change.kind == "beside")
+    def new_versions(self) -> tuple[Change, ...]:
+        """New versions of edited files, to be merged by the user."""
+        return tuple(change for change in self.changes if change.kind == "new_version")
 
     def apply(self) -> None:
-        """Make the changes; if one fails all are undone.
+        """Apply the changes; if one fails, all are reverted.
 
         Raises:
-            ResourceError: they are refused, or cannot be written.
+            ResourceError: the update is refused, or a file cannot be written.
         """
         if self.refused:
             raise ResourceError(f"nothing was changed: {self.refused}")
         self._make(self.changes)
 
-    def offer(self) -> None:
-        """Put no more than `beside` where it is to be merged from.
+    def apply_new_versions(self) -> None:
+        """Write only the new versions of edited files.
 
         Raises:
-            ResourceError: it cannot be written.
+            ResourceError: a file cannot be written.
         """
-        self._make(self.beside)
+        self._make(self.new_versions)
 
     def _make(self, changes: Sequence[Change]) -> None:
         undo: list[tuple[Path, Path]] = []
-        old = self._stage / ".old"
+        old = self._staged / ".old"
         try:
             with undisturbed():
                 for number, change in enumerate(changes):
                     target = self._folder / (change.at or change.path)
-                    if change.is_none:
+                    if change.is_empty:
                         continue
                     if os.path.lexists(target):
                         old.mkdir(exist_ok=True)
@@ -116,8 +117,8 @@ class Update:
                         undo.append((old / str(number), target))
                     if change.kind != "remove":
                         target.parent.mkdir(parents=True, exist_ok=True)
-                        (self._stage / change.path).rename(target)
-                        undo.append((target, self._stage / change.path))
+                        (self._staged / change.path).rename(target)
+                        undo.append((target, self._staged / change.path))
         except OSError as error:
             for here, there in reversed(undo):
                 here.rename(there)
@@ -128,26 +129,26 @@ class Update:
 
 
 def find_recipe(template: Template | None, folder: Path) -> tuple[Path, Path]:
-    """Return the recipe in a folder that something was written to, and that folder.
+    """Return the recipe in an output folder, and that folder.
 
     Args:
-        template: what was written; any when None.
-        folder: the folder, or a package that was written to it.
+        template: the template of the recipe; None: any template.
+        folder: the output folder, or a package in it.
 
     Raises:
-        ResourceError: there is none, or several.
+        ResourceError: no recipe or several recipes were found.
     """
     pattern = "*/urdfkit-new.toml" if template is None or not template.recipe else _pattern(template.recipe)
     name = pattern.rpartition("/")[2]
-    found = sorted(folder.glob(pattern))
-    if not found and (folder / name).is_file():
-        found = [folder.absolute() / name]
-    if not found:
-        raise ResourceError(f"nothing to update in {folder}: no {pattern}, which `urdfkit new` keeps")
-    if len(found) > 1:
-        listed = ", ".join(str(path.parent) for path in found)
-        raise ResourceError(f"several to update in {folder}, name one by --into: {listed}")
-    return found[0], found[0].parents[pattern.count("/")]
+    recipes = sorted(folder.glob(pattern))
+    if not recipes and (folder / name).is_file():
+        recipes = [folder.absolute() / name]
+    if not recipes:
+        raise ResourceError(f"nothing to update in {folder}: no {pattern}, which `urdfkit new` writes")
+    if len(recipes) > 1:
+        listed = ", ".join(str(path.parent) for path in recipes)
+        raise ResourceError(f"found several recipes in {folder}; choose one with --into: {listed}")
+    return recipes[0], recipes[0].parents[pattern.count("/")]
 
 
 def _pattern(recipe: str) -> str:
@@ -164,69 +165,69 @@ def updating(
     check: Checker | None = None,
     finish: Finisher | None = None,
 ) -> Iterator[Update]:
-    """Provide what has to change for `folder` to be what the template makes now.
+    """Provide the changes that make `folder` match the template and the answers.
 
     Args:
-        template: what to write.
-        answers: answers by question, with the built-in ones.
-        folder: it was written to.
-        made: what was written.
-        check: has to find nothing in what would be written.
-        finish: adds what no template holds.
+        template: the template.
+        answers: answers by question, including the built-in placeholders.
+        folder: the output folder.
+        made: the record of the files written before.
+        check: returns the faults of the rendered files; there must be none.
+        finish: adds computed files.
 
     Raises:
-        ResourceError: the result does not pass `check`, or it cannot be written.
-        UsageError: it is for another name: what would be written are other packages.
+        ResourceError: `check` finds a fault, or a file cannot be written.
+        UsageError: the answers give packages of other names.
     """
     packages = {Path(name).parts[0] for name in made.digests}
     tops = {target.parts[0] for _, target in template.files(answers)} - template.spare(answers)
     if packages and not packages & tops:
-        would = ", ".join(sorted(tops))
+        names = ", ".join(sorted(tops))
         raise UsageError(
-            f"--update keeps names, and would make {would}: make that anew, with --from and another --into"
+            f"--update cannot rename packages, and these options give {names}: use --from and another --into instead"
         )
-    with staging(folder) as stage:
-        render(template, answers, stage, without=_foreign(template, answers, folder, packages))
-        files = finished(template, answers, stage, check=check, finish=finish)
+    with staging(folder) as staged:
+        render(template, answers, staged, without=_existing(template, answers, folder, packages))
+        files = finished(template, answers, staged, check=check, finish=finish)
         recipe = files[-1]
         gone = sorted(set(map(Path, made.digests)) - set(files))
         going = [change for path in gone if (change := _left_over(path, folder, made)) is not None]
-        coming = [(path, _change(path, folder, stage, made, recipe)) for path in files if path != recipe]
+        coming = [(path, _change(path, folder, staged, made, recipe)) for path in files if path != recipe]
         going = _without_needed(
-            going, folder, [path for path, change in coming if _is_ours(path, change, folder, stage)]
+            going, folder, [path for path, change in coming if _will_match_template(path, change, folder, staged)]
         )
         needed_yet = {change.path: change.before for change in going if change.kind == "needed"}
-        write_recipe(template, answers, stage, files, also=needed_yet)
-        coming.append((recipe, _change(recipe, folder, stage, made, recipe)))
+        write_recipe(template, answers, staged, files, also=needed_yet)
+        coming.append((recipe, _change(recipe, folder, staged, made, recipe)))
         changes = (*(change for _, change in coming if change is not None), *going)
-        found, unused = ([], []) if check is None else _worsened(changes, check, folder, stage)
-        warned = tuple(_shortened([str(fault) for fault in found]))
-        yield Update(changes, _refused(changes, found), warned, tuple(unused), stage, folder)
+        faults, unused = ([], []) if check is None else _worsened(changes, check, folder, staged)
+        warned = tuple(_shortened([str(fault) for fault in faults]))
+        yield Update(changes, _refusal(changes, faults), warned, tuple(unused), staged, folder)
 
 
 def _worsened(
-    changes: Sequence[Change], check: Checker, folder: Path, stage: Path
+    changes: Sequence[Change], check: Checker, folder: Path, staged: Path
 ) -> tuple[Sequence[Fault], Sequence[Path]]:
-    """Return what would be worse with what was edited in it, and what nothing uses before that is merged."""
+    """Return the faults that the update would add, and new model files that no file refers to."""
     put = [change.path for change in changes if change.kind in ("add", "replace")]
     removed = [change.path for change in changes if change.kind == "remove"]
     if not put and not removed:
         return [], []
     tops = {change.path.parts[0] for change in changes if len(change.path.parts) > 1}
-    edited = any(change.kind == "beside" for change in changes)
+    edited = any(change.kind == "new_version" for change in changes)
     added = [change.path for change in changes if change.kind == "add" and edited]
-    return worsened(check, folder, stage, tops, put=put, removed=removed, added=added)
+    return worsened(check, folder, staged, tops, put=put, removed=removed, added=added)
 
 
-def _refused(changes: Sequence[Change], found: Sequence[Fault]) -> str:
-    """Return why the outcome is refused, and what to do about it; empty where it works."""
-    errors = [fault for fault in found if fault.is_error]
+def _refusal(changes: Sequence[Change], faults: Sequence[Fault]) -> str:
+    """Return why the update is refused and how to proceed; empty if it can be applied."""
+    errors = [fault for fault in faults if fault.is_error]
     if not errors:
         return ""
     more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
-    edited = [change.path.as_posix() for change in changes if change.kind == "beside"]
-    told = f"; make it go with your {', '.join(edited)} first" if edited else ""
-    return f"with what you have it would not be clean: {errors[0]}{more}{told}"
+    edited = [change.path.as_posix() for change in changes if change.kind == "new_version"]
+    advice = f"; adapt your {', '.join(edited)} first" if edited else ""
+    return f"the update would add errors: {errors[0]}{more}{advice}"
 
 
 def _shortened(lines: Sequence[str]) -> Iterator[str]:
@@ -235,54 +236,54 @@ def _shortened(lines: Sequence[str]) -> Iterator[str]:
         yield f"… and {len(lines) - _LISTED} more"
 
 
-def _without_needed(going: Sequence[Change], folder: Path, ours: Collection[Path]) -> list[Change]:
-    """Return what becomes of files that the template makes no more, now that others may name them."""
+def _without_needed(going: Sequence[Change], folder: Path, generated: Collection[Path]) -> list[Change]:
+    """Return the changes with ``needed`` instead of ``remove`` for files that remaining files refer to."""
     removed = [change.path for change in going if change.kind == "remove"]
-    by = needed(removed, folder, {*removed, *ours})
+    by = needed(removed, folder, {*removed, *generated})
     return [
         replace(change, kind="needed", because=by[change.path]) if change.path in by else change for change in going
     ]
 
 
-def _is_ours(path: Path, change: Change | None, folder: Path, stage: Path) -> bool:
-    """Whether a file is going to be as the template has it."""
+def _will_match_template(path: Path, change: Change | None, folder: Path, staged: Path) -> bool:
+    """Return whether a file will match the template."""
     if change is not None:
         return change.kind in ("add", "replace")
-    return (folder / path).read_bytes() == (stage / path).read_bytes()
+    return (folder / path).read_bytes() == (staged / path).read_bytes()
 
 
 def _remove_empty(folder: Path, above: Path) -> None:
-    """Remove a folder that nothing is left in, and those above it that then are empty, but not `above` itself."""
+    """Remove empty folders from `folder` upwards, excluding `above`."""
     while folder != above and folder.is_dir() and not any(folder.iterdir()):
         folder.rmdir()
         folder = folder.parent
 
 
-def _foreign(template: Template, answers: Mapping[str, str], folder: Path, ours: set[str]) -> set[str]:
-    """Return what was there before anything was written, and is none of ours."""
-    return {name for name in template.spare(answers) - ours if os.path.lexists(folder / name)}
+def _existing(template: Template, answers: Mapping[str, str], folder: Path, generated: set[str]) -> set[str]:
+    """Return the names at the top of the output that existed before the template was written."""
+    return {name for name in template.spare(answers) - generated if os.path.lexists(folder / name)}
 
 
-def _change(path: Path, folder: Path, stage: Path, made: Made, recipe: Path) -> Change | None:
-    """Return what becomes of a file that the template makes now; None where nothing does."""
-    there, after, was = folder / path, (stage / path).read_bytes(), made.digests.get(path.as_posix())
-    if not there.is_file():
+def _change(path: Path, folder: Path, staged: Path, made: Made, recipe: Path) -> Change | None:
+    """Return the change of a file of the template; None if it is unchanged."""
+    target, after, was = folder / path, (staged / path).read_bytes(), made.digests.get(path.as_posix())
+    if not target.is_file():
         return Change("keep" if was else "add", path, b"", after)
-    before = there.read_bytes()
+    before = target.read_bytes()
     if before == after:
         return None
     if path == recipe or was == digest(before):
         return Change("replace", path, before, after)
     if was == digest(after):
         return None
-    return Change("beside", path, before, after, at=_place_beside(path, folder, {was, digest(after)}))
+    return Change("new_version", path, before, after, at=_new_version_path(path, folder, {was, digest(after)}))
 
 
-def _place_beside(path: Path, folder: Path, ours: Collection[str | None]) -> Path:
-    """Return where what a file would be is put beside it: over what was put there before, unless that was edited."""
-    first = path.with_name(path.name + BESIDE)
+def _new_version_path(path: Path, folder: Path, digests: Collection[str | None]) -> Path:
+    """Return the path for the new version of a file; an older new version is replaced unless it was edited."""
+    first = path.with_name(path.name + NEW_SUFFIX)
     places = chain([first], (first.with_name(f"{first.name}.{number}") for number in count(2)))
-    return next(each for each in places if not os.path.lexists(folder / each) or _digest(folder / each) in ours)
+    return next(each for each in places if not os.path.lexists(folder / each) or _digest(folder / each) in digests)
 
 
 def _digest(path: Path) -> str:
@@ -290,7 +291,7 @@ def _digest(path: Path) -> str:
 
 
 def _left_over(path: Path, folder: Path, made: Made) -> Change | None:
-    """Return what becomes of a file that the template makes no more."""
+    """Return the change of a file that the template no longer has."""
     if not (folder / path).is_file():
         return None
     before = (folder / path).read_bytes()

@@ -9,19 +9,19 @@ from urdfkit.errors import UsageError
 from urdfkit.scaffold.world.shapes import WALL, Shape
 
 DOOR_HEIGHT = 2.1
-"""Of the opening [m]; a lower wall is open to the top."""
+"""Height of a door [m]; lower walls have no lintel."""
 JAMB = 0.1
-"""Wall that is left beside a door [m]."""
+"""Minimum width of the wall next to a door [m]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Room:
-    """A rectangle between the middles of its walls, in metres.
+    """A rectangular room, measured between the middle planes of its walls [m].
 
     Attributes:
-        name: what is in it goes by its kind: ``office``, ``corridor``, ``bedroom`` …
-        x: least and greatest.
-        y: least and greatest.
+        name: kind of the room, which determines its furniture: ``office``, ``corridor``, ``bedroom`` …
+        x: minimum and maximum.
+        y: minimum and maximum.
     """
 
     name: str
@@ -29,12 +29,12 @@ class Room:
     y: tuple[float, float]
 
     def along(self, axis: int) -> tuple[float, float]:
-        """Return its extent along x (0) or y (1)."""
+        """Return the extent along x (0) or y (1)."""
         return self.y if axis else self.x
 
     @property
     def centre(self) -> tuple[float, float]:
-        """Its middle."""
+        """The centre of the room."""
         return sum(self.x) / 2, sum(self.y) / 2
 
 
@@ -43,11 +43,11 @@ class Wall:
     """A straight wall with doors.
 
     Attributes:
-        axis: it runs along x (0) or y (1).
-        at: where it is on the other axis.
-        start: where it begins along its own.
-        end: where it ends.
-        doors: the middles of its doors along its axis.
+        axis: direction of the wall, x (0) or y (1).
+        at: coordinate on the other axis.
+        start: lower end along its axis.
+        end: upper end along its axis.
+        doors: centres of its doors along its axis.
     """
 
     axis: int
@@ -59,32 +59,32 @@ class Wall:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Rooms and the walls round them."""
+    """Rooms and the walls around them."""
 
     rooms: tuple[Room, ...]
     walls: tuple[Wall, ...]
 
 
 def shared(room: Room, other: Room, axis: int) -> tuple[float, float]:
-    """Return the stretch along an axis that two rooms have in common; it may be of negative length."""
+    """Return the overlap of two rooms along an axis; negative length if they do not overlap."""
     (a, b), (c, d) = room.along(axis), other.along(axis)
     return max(a, c), min(b, d)
 
 
 def outer_walls(outline: Room, rooms: Sequence[Room], *, doors: int, door_width: float, thickness: float) -> list[Wall]:
-    """Return the four walls round a building, with doors to the outside in turn on each side.
+    """Return the four walls of a building, with its outer doors distributed over the sides.
 
-    Each door is in the middle of the longest stretch that a room has on its side.
+    Each door is in the middle of the longest free stretch of a room on its side.
 
     Args:
         outline: the building.
-        rooms: in it; the first are preferred where stretches are equally long.
-        doors: how many.
-        door_width: of the opening [m].
-        thickness: of the walls [m].
+        rooms: its rooms; of equally long stretches, that of the first room is preferred.
+        doors: number of outer doors.
+        door_width: width of each door [m].
+        thickness: thickness of the walls [m].
 
     Raises:
-        UsageError: so many doors have no room.
+        UsageError: the walls have no room for the doors.
     """
     sides = [(1, outline.x[0]), (1, outline.x[1]), (0, outline.y[0]), (0, outline.y[1])]
     free = [
@@ -101,7 +101,9 @@ def outer_walls(outline: Room, rooms: Sequence[Room], *, doors: int, door_width:
     for _ in range(doors):
         fits = [i for i, stretches in enumerate(free) if any(hi - lo >= door_width for lo, hi in stretches)]
         if not fits:
-            raise UsageError(f"no room for --doors {doors}: a larger --length or --width, or a smaller --door-width")
+            raise UsageError(
+                f"no room for --doors {doors}; use a larger --length or --width, or a smaller --door-width"
+            )
         while turn % 4 not in fits:
             turn += 1
         side, turn = turn % 4, turn + 1
@@ -118,13 +120,13 @@ def outer_walls(outline: Room, rooms: Sequence[Room], *, doors: int, door_width:
 
 
 def wall_shapes(walls: Sequence[Wall], *, thickness: float, height: float, door_width: float) -> tuple[Shape, ...]:
-    """Return the boxes that walls are built of: stretches between doors, lintels above them.
+    """Return the boxes that walls consist of: stretches between doors, and lintels above doors.
 
     Args:
-        walls: where.
-        thickness: of each [m].
-        height: of each [m].
-        door_width: of an opening [m].
+        walls: the walls.
+        thickness: thickness of each wall [m].
+        height: height of each wall [m].
+        door_width: width of each door [m].
     """
     shapes: list[Shape] = []
     for number, wall in enumerate(walls, 1):

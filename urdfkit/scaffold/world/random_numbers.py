@@ -1,28 +1,28 @@
-"""Numbers by chance that are the same on every machine and in every version of Python."""
+"""Random numbers that are reproducible on every machine and with every version of Python."""
 
 from __future__ import annotations
 
+import random
 from collections.abc import Sequence
-from random import Random
 from typing import TypeVar
 
 T = TypeVar("T")
 
 
-class Chance:
-    """Only `random()` of the standard library is promised to give the same numbers for a seed for ever.
+class Random:
+    """Random numbers from `random.Random.random`, whose values for a seed are guaranteed not to change.
 
     Args:
-        seed: any whole number.
+        seed: any integer.
     """
 
     def __init__(self, seed: int) -> None:
-        self._random = Random(seed)
+        self._random = random.Random(seed)
 
     def between(self, low: float, high: float) -> float:
-        """Return a number between two."""
+        """Return a number between two numbers."""
         return low + (high - low) * self._random.random()
 
     def one_of(self, choices: Sequence[T]) -> T:
-        """Return one of several."""
+        """Return one of the choices."""
         return choices[min(int(self._random.random() * len(choices)), len(choices) - 1)]

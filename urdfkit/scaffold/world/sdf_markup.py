@@ -1,33 +1,33 @@
-"""Things as SDF that every version from 1.6 to 1.11 reads alike."""
+"""SDF elements that all versions from 1.6 to 1.11 interpret identically."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from urdfkit.scaffold.world.shapes import Shape, Thing, inertia
+from urdfkit.scaffold.world.shapes import Model, Shape, inertia
 
 
-def markup(things: Sequence[Thing], indent: str = "    ") -> str:
+def markup(models: Sequence[Model], indent: str = "    ") -> str:
     """Return the ``<model>`` elements of a world.
 
     Args:
-        things: what is in it.
-        indent: before each line.
+        models: the models of the world.
+        indent: indentation of each line.
     """
-    return "\n\n".join("\n".join(indent + line for line in _model(thing)) for thing in things)
+    return "\n\n".join("\n".join(indent + line for line in _model(model)) for model in models)
 
 
-def _model(thing: Thing) -> Iterator[str]:
-    yield f'<model name="{thing.name}">'
-    if any(thing.place):
-        x, y, yaw = thing.place
+def _model(model: Model) -> Iterator[str]:
+    yield f'<model name="{model.name}">'
+    if any(model.place):
+        x, y, yaw = model.place
         yield f"  <pose>{_numbers((x, y, 0, 0, 0, yaw))}</pose>"
-    if thing.mass is None:
+    if model.mass is None:
         yield "  <static>true</static>"
     yield '  <link name="link">'
-    if thing.mass is not None:
-        yield from (f"    {line}" for line in _inertial(thing.shapes[0], thing.mass))
-    for shape in thing.shapes:
+    if model.mass is not None:
+        yield from (f"    {line}" for line in _inertial(model.shapes[0], model.mass))
+    for shape in model.shapes:
         yield from (f"    {line}" for line in _element("collision", shape, ()))
         colour = f"{_numbers(shape.colour)} 1"
         looks = (f"<ambient>{colour}</ambient>", f"<diffuse>{colour}</diffuse>")
@@ -70,5 +70,5 @@ def _inside(tag: str, lines: Iterable[str]) -> Iterator[str]:
 
 
 def _numbers(values: Iterable[float]) -> str:
-    """Return numbers as SDF has them: to a micrometre, and no ``-0``."""
+    """Return numbers rounded to micrometres, without ``-0``."""
     return " ".join(f"{round(value, 6) + 0.0:.10g}" for value in values)

@@ -1,4 +1,4 @@
-"""What a new world is made of: boxes, cylinders and balls, put together to things that stand or can be pushed."""
+"""Shapes and models of generated worlds."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ OBSTACLES = ((0.8, 0.35, 0.2), (0.25, 0.5, 0.75), (0.35, 0.6, 0.35), (0.85, 0.7,
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A box, cylinder or ball.
+    """A box, cylinder or sphere.
 
     Attributes:
-        name: unique in its thing.
+        name: unique in its model.
         kind: ``box``, ``cylinder`` or ``sphere``.
-        size: of a box x, y, z [m]; of a cylinder radius and length; of a ball its radius.
-        centre: in the frame of its thing [m].
+        size: x, y and z of a box [m]; radius and length of a cylinder; radius of a sphere.
+        centre: position in the frame of the model [m].
         colour: red, green and blue from 0 to 1.
     """
 
@@ -31,14 +31,14 @@ class Shape:
 
 
 @dataclass(frozen=True, slots=True)
-class Thing:
+class Model:
     """A model of the world.
 
     Attributes:
         name: unique in the world.
-        shapes: what it is made of.
+        shapes: its shapes.
         place: x, y [m] and yaw [rad] of its frame, which is on the ground.
-        mass: [kg] of a thing of one shape that can be pushed; None: it stays where it is.
+        mass: mass of a movable model with one shape [kg]; None: the model is static.
     """
 
     name: str
@@ -51,7 +51,7 @@ def inertia(shape: Shape, mass: float) -> tuple[float, float, float]:
     """Return the principal moments of inertia of a solid shape about its centre, in kg·m².
 
     Args:
-        shape: which.
+        shape: the shape.
         mass: its mass [kg].
     """
     if shape.kind == "box":

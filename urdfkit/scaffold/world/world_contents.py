@@ -1,4 +1,4 @@
-"""From the answers of `urdfkit new world` to what is in the file."""
+"""Contents of the world file of `urdfkit new world`, from the answers."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from urdfkit.scaffold.world.floor_layouts import house, office, one_room
 from urdfkit.scaffold.world.floor_plan import Plan, wall_shapes
 from urdfkit.scaffold.world.furniture import furnish
 from urdfkit.scaffold.world.obstacles import clutter
-from urdfkit.scaffold.world.random_numbers import Chance
+from urdfkit.scaffold.world.random_numbers import Random
 from urdfkit.scaffold.world.sdf_markup import markup
-from urdfkit.scaffold.world.shapes import Thing
+from urdfkit.scaffold.world.shapes import Model
 
 _ALL = ("kind", "length", "width")
 _WALLS = (*_ALL, "height", "wall_thickness", "doors", "door_width")
 _ROOMS = (*_WALLS, "rooms", "furniture", "clear_radius", "seed")
-_SAID = {
+_ARGUMENTS = {
     "room": _WALLS,
     "office": _ROOMS,
     "house": _ROOMS,
@@ -25,46 +25,46 @@ _SAID = {
 
 
 def contents(answers: Mapping[str, str]) -> dict[str, str]:
-    """Return what the template of a world wants beside the answers.
+    """Return the placeholders that the world template needs in addition to its answers.
 
-    These are ``things``, the models as SDF, a ``title``, and the answers as they were ``said``, to make it again.
+    They are ``models``, the models as SDF, ``title``, and ``arguments``, the answers that reproduce the world.
 
     Args:
-        answers: to the questions of the template.
+        answers: answers to the questions of the template.
 
     Raises:
-        UsageError: what is asked for has no room.
+        UsageError: the world has no room for the requested contents.
     """
     length, width = float(answers["length"]), float(answers["width"])
     extent = f"{length:g} m by {width:g} m"
     if answers["kind"] == "clutter":
-        chance, count = Chance(_whole(answers, "seed")), _whole(answers, "count")
-        things = clutter(
+        random, count = Random(_whole(answers, "seed")), _whole(answers, "count")
+        models = clutter(
             length,
             width,
             count=count,
             largest=float(answers["largest"]),
-            loose=answers["loose"] == "yes",
+            movable=answers["loose"] == "yes",
             clear_radius=float(answers["clear_radius"]),
-            chance=chance,
+            random=random,
         )
-        title = f"{count} obstacles on {extent}, by chance; the origin is free."
+        title = f"{count} random obstacles on {extent}; the origin is free."
     else:
-        plan, things = _building(answers, length, width)
+        plan, models = _building(answers, length, width)
         doors = sum(len(wall.doors) for wall in plan.walls)
         names = {"room": "A room", "office": "An office", "house": "A house"}
         title = f"{names[answers['kind']]} of {extent}, {len(plan.rooms)} rooms and {doors} doors; the origin is free."
-    said = ", ".join(f"{name} {answers[name]}" for name in _SAID[answers["kind"]])
+    arguments = ", ".join(f"{name} {answers[name]}" for name in _ARGUMENTS[answers["kind"]])
     return {
-        "things": markup(things),
-        "said": said,
+        "models": markup(models),
+        "arguments": arguments,
         "title": title.replace("1 rooms", "one room").replace("1 doors", "one door"),
     }
 
 
-def _building(answers: Mapping[str, str], length: float, width: float) -> tuple[Plan, list[Thing]]:
+def _building(answers: Mapping[str, str], length: float, width: float) -> tuple[Plan, list[Model]]:
     thickness, door_width = float(answers["wall_thickness"]), float(answers["door_width"])
-    chance = Chance(_whole(answers, "seed"))
+    random = Random(_whole(answers, "seed"))
     doors = _whole(answers, "doors")
     if answers["kind"] == "room":
         plan = one_room(length, width, doors=doors, door_width=door_width, thickness=thickness)
@@ -73,17 +73,17 @@ def _building(answers: Mapping[str, str], length: float, width: float) -> tuple[
         plan = office(length, width, rooms=rooms, doors=doors, door_width=door_width, thickness=thickness)
     else:
         rooms = _whole(answers, "rooms")
-        plan = house(length, width, rooms=rooms, doors=doors, door_width=door_width, thickness=thickness, chance=chance)
+        plan = house(length, width, rooms=rooms, doors=doors, door_width=door_width, thickness=thickness, random=random)
     shapes = wall_shapes(plan.walls, thickness=thickness, height=float(answers["height"]), door_width=door_width)
-    things = [Thing("walls", shapes)]
+    models = [Model("walls", shapes)]
     if answers["kind"] != "room" and answers["furniture"] == "yes":
         radius = float(answers["clear_radius"])
-        things += furnish(plan, door_width=door_width, thickness=thickness, clear_radius=radius, chance=chance)
-    return plan, things
+        models += furnish(plan, door_width=door_width, thickness=thickness, clear_radius=radius, random=random)
+    return plan, models
 
 
 def _whole(answers: Mapping[str, str], name: str) -> int:
     value = float(answers[name])
     if value != int(value):
-        raise UsageError(f"--{name.replace('_', '-')} {answers[name]} is no whole number")
+        raise UsageError(f"--{name.replace('_', '-')} {answers[name]} is not an integer")
     return int(value)

@@ -1,7 +1,7 @@
-"""What may be copied into a package to be published: meshes and pictures that are such, from around the description.
+"""Validation of the meshes and textures that are copied into a package.
 
-Whoever imports a URDF from elsewhere does not look at each name in it. What lies elsewhere on the disk, or is something
-else behind the name of a mesh, is none of the robot's.
+A URDF from another source may refer to any file of the disk. Only files with the content of a mesh or texture, and from
+folders that belong to the robot, are copied.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from urdfkit.description.packages.resolver import Packages
 from urdfkit.errors import ResourceError
 
 FOLDER_NAMES = ("meshes", "mesh", "textures", "materials")
-"""What folders of meshes and pictures are called."""
+"""Names of folders for meshes and textures."""
 _HOMES = frozenset({"urdf", "xacro", "robot", "robots", "model", "models", "description", "descriptions"})
-"""Folders of descriptions: what belongs to a robot is also beside such a folder."""
+"""Names of folders for descriptions; their parent folder belongs to the robot, too."""
 _ABOVE = 4
-"""How many folders above the description may be its package."""
+"""Maximum number of folders from the description up to its package."""
 _LFS = b"version https://git-lfs"
 
 _BEGINS = {
@@ -45,7 +45,7 @@ _BEGINS = {
     ".ppm": (b"P3", b"P6"),
     ".pgm": (b"P2", b"P5"),
 }
-"""Ending → what such a file begins with."""
+"""Suffix → possible beginnings of the content."""
 _HOLDS = {
     ".dae": re.compile(rb"<(?:\w+:)?COLLADA\b"),
     ".obj": re.compile(rb"^[ \t]*(?:v[ \t]+[-+.\d]|f[ \t]+[-\d])", re.MULTILINE),
@@ -53,55 +53,55 @@ _HOLDS = {
     ".gltf": re.compile(rb'"asset"\s*:'),
     ".material": re.compile(rb"^\s*(?:\w+[ \t]+)?material\b", re.MULTILINE),
 }
-"""Ending → what is somewhere in such a file."""
+"""Suffix → pattern that the content must contain."""
 _SHAPELESS = frozenset({".bin", ".tga"})
-"""Buffers and pictures that begin with nothing of their own; only meshes name them."""
+"""Suffixes of buffers and textures without a signature, which only meshes refer to."""
 _STEREOLITHOGRAPHY = frozenset({".stl", ".stlb"})
-KNOWN = frozenset({*_BEGINS, *_HOLDS, *_SHAPELESS, *_STEREOLITHOGRAPHY})
-"""Endings of what is copied."""
+SUFFIXES = frozenset({*_BEGINS, *_HOLDS, *_SHAPELESS, *_STEREOLITHOGRAPHY})
+"""Suffixes of files that may be copied."""
 
 
-def unlike(path: Path) -> str:
-    """Return why a file is not to be copied as a mesh, a picture or what a mesh needs; empty if it is one.
+def rejection(path: Path) -> str:
+    """Return why a file is not copied as a mesh, a texture or a dependency of a mesh; empty if it is copied.
 
     Args:
-        path: of the file; its ending says what it should be.
+        path: the file; its suffix determines the expected content.
     """
-    ending = path.suffix.lower()
-    if ending not in KNOWN:
-        return f"ends in `{path.suffix}`, as no mesh or picture does" if ending else "has no ending of a mesh"
+    suffix = path.suffix.lower()
+    if suffix not in SUFFIXES:
+        return f"has the unsupported suffix `{path.suffix}`" if suffix else "has no suffix"
     try:
         content = path.read_bytes()
     except OSError as error:
         return f"cannot be read: {error.strerror}"
     if content.startswith(_LFS):
-        return "is a pointer of Git LFS: run `git lfs pull`"
+        return "is a Git LFS pointer: run `git lfs pull`"
     if not content:
         return "is empty"
-    if ending in _STEREOLITHOGRAPHY:
-        return "" if _is_stl(content) else "is no STL"
-    if ending in _BEGINS:
-        return "" if content.startswith(_BEGINS[ending]) else f"is no {ending[1:].upper()}"
-    if ending in _HOLDS:
+    if suffix in _STEREOLITHOGRAPHY:
+        return "" if _is_stl(content) else "is not an STL file"
+    if suffix in _BEGINS:
+        return "" if content.startswith(_BEGINS[suffix]) else f"is not a {suffix[1:].upper()} file"
+    if suffix in _HOLDS:
         plain = content.replace(b"\0", b"") if content[:2] in (b"\xff\xfe", b"\xfe\xff") else content
-        return "" if _HOLDS[ending].search(plain) else f"is no {ending[1:].upper()}"
-    return "" if b"\0" in content or ending == ".tga" else "is text"
+        return "" if _HOLDS[suffix].search(plain) else f"is not a {suffix[1:].upper()} file"
+    return "" if b"\0" in content or suffix == ".tga" else "is a text file"
 
 
 def _is_stl(content: bytes) -> bool:
-    """Tell an STL, also one that is cut off, from what is none: text with facets, or so many records of 50 bytes."""
+    """Return whether a file is STL, possibly truncated: text with facets, or binary records of 50 bytes."""
     if content.lstrip()[:5].lower() == b"solid" and b"facet" in content.lower():
         return True
     triangles = int.from_bytes(content[80:84], "little")
     return len(content) >= 84 and b"\0" in content and 84 + 50 * triangles <= 2 * len(content)
 
 
-class Surroundings:
-    """The folders whose files belong to a description: its own, its package, packages it names, those told of.
+class RobotFolders:
+    """Folders whose files belong to a description: its own, its package, packages it refers to, and folders given.
 
     Args:
-        description: the file.
-        folders: more that may be taken from.
+        description: the description.
+        folders: additional folders.
         packages: finds packages by name.
     """
 
@@ -117,17 +117,17 @@ class Surroundings:
             self._roots.add(package)
         self._workspace = package.parent if package is not None else None
 
-    def hold(self, path: Path, uri: str = "") -> bool:
-        """Tell whether a file lies in one of them.
+    def contain(self, path: Path, uri: str = "") -> bool:
+        """Return whether a file is in one of the folders.
 
         Args:
-            path: of the file, with links followed.
-            uri: that led there; ``package://`` of a package that is there may be elsewhere, inside that package.
+            path: the file; symbolic links are followed.
+            uri: URI of the file; ``package://`` allows files inside that package.
         """
         path = path.resolve()
         if any(path.is_relative_to(root) for root in self._roots):
             return True
-        # Packages of one workspace lie side by side.
+        # Packages of one workspace are in the same folder.
         package = _package_of(path.parent)
         if package is not None and self._workspace is not None and package.parent == self._workspace:
             return True
@@ -135,15 +135,15 @@ class Surroundings:
         if not separator or scheme not in ("package", "model"):
             return False
         try:
-            found = self._packages.find(rest.partition("/")[0])
+            folder = self._packages.find(rest.partition("/")[0])
         except ResourceError:
             return False
-        described = any((found / name).is_file() for name in ("package.xml", "model.config"))
-        return described and path.is_relative_to(found.resolve())
+        is_package = any((folder / name).is_file() for name in ("package.xml", "model.config"))
+        return is_package and path.is_relative_to(folder.resolve())
 
 
 def _package_of(folder: Path) -> Path | None:
-    """Return the package around a folder, None if there is none near."""
+    """Return the nearest package folder above a folder; None if no package is near."""
     for above in (folder, *list(folder.parents)[:_ABOVE]):
         if (above / "package.xml").is_file():
             return above

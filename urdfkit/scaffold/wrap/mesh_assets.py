@@ -1,4 +1,4 @@
-"""The meshes and pictures that a description uses: find them, say where they go, copy what they need themselves."""
+"""Meshes and textures of a description: search, new paths, and copies of the files that they depend on."""
 
 from __future__ import annotations
 
@@ -12,28 +12,28 @@ from urllib.parse import unquote
 from urdfkit.description.packages.resolver import Packages
 from urdfkit.errors import ResourceError
 from urdfkit.scaffold.templates.names import ascii_letters
-from urdfkit.scaffold.wrap.asset_copying import FOLDER_NAMES, Surroundings, unlike
+from urdfkit.scaffold.wrap.asset_copying import FOLDER_NAMES, RobotFolders, rejection
 
 URI = re.compile(r"""(<(?:mesh|texture)\b[^>]*?\bfilename\s*=\s*)(["'])(.*?)\2""", re.DOTALL)
-"""The files that elements of URDF name."""
+"""URIs in mesh and texture elements of URDF."""
 
 _ABOVE = 4
-"""How many folders above the description are looked into."""
+"""Number of folders above the description that are searched."""
 _NEEDS = {
     ".obj": re.compile(r"(?m)^\s*mtllib\s+(.+?)\s*$"),
     ".mtl": re.compile(r"(?m)^\s*(?:map_\w+|bump|disp|decal|refl)\s+(?:-\S+\s+\S+\s+)*(\S.*?)\s*$"),
     ".dae": re.compile(r"<init_from>\s*(?:file://)?([^<]+?)\s*</init_from>"),
     ".gltf": re.compile(r'"uri"\s*:\s*"(?!data:)([^"]+)"'),
 }
-"""What a file of that kind says it needs: libraries of materials, pictures, buffers."""
+"""Suffix → pattern of references to material libraries, textures and buffers."""
 
 
 class Meshes:
-    """Where the files of a description are, and where they go in a new package.
+    """Files of a description, and their paths in a new package.
 
     Args:
-        description: the file that names them.
-        folders: where to look first.
+        description: the description.
+        folders: folders that are searched first.
     """
 
     def __init__(self, description: Path, folders: Sequence[Path] = ()) -> None:
@@ -41,21 +41,21 @@ class Meshes:
         self.folders = folders
         self.packages = Packages(folders, description)
         self.copies: dict[Path, str] = {}
-        """File → its path in the package, from ``meshes/`` on."""
+        """File → its path in the package, beginning with ``meshes/``."""
         self.missing: list[str] = []
-        """URIs that nothing was found for."""
+        """URIs without a file."""
         self.refused: dict[str, str] = {}
-        """URI → why the file it leads to is not copied."""
+        """URI → why its file is not copied."""
         self.left: dict[Path, str] = {}
-        """File that a mesh names → why it is not copied."""
-        self._surroundings = Surroundings(description, folders, self.packages)
+        """File that a mesh depends on → why it is not copied."""
+        self._robot_folders = RobotFolders(description, folders, self.packages)
 
     def uri(self, written: str, package: str) -> str:
-        """Return the URI of a file in the new package; as it was where the file is not found.
+        """Return the URI of a file in the new package; the original URI if the file is not found.
 
         Args:
             written: the URI as written in XML.
-            package: the name of the new package; empty: relative to a folder beside ``meshes``.
+            package: name of the new package; empty: the URI is relative to a folder next to ``meshes``.
         """
         uri = unescape(written)
         if written in self.refused:
@@ -76,7 +76,7 @@ class Meshes:
         """Copy the files into the new package.
 
         Args:
-            package: its folder.
+            package: folder of the package.
 
         Raises:
             ResourceError: a file cannot be read or written.
@@ -90,7 +90,7 @@ class Meshes:
                 raise ResourceError(f"cannot copy {source} to {target}: {error.strerror}") from error
 
     def _add(self, source: Path, place: str) -> None:
-        """Give a file its place, and those it needs the same places about it as they have now."""
+        """Choose the path of a file, and keep the relative paths of the files that it depends on."""
         taken = set(self.copies.values())
         stem, number = PurePosixPath(place), 1
         while place in taken:
@@ -101,21 +101,24 @@ class Meshes:
             needed = (source.parent / name).resolve()
             about = PurePosixPath(place).parent / name
             if needed.is_file() and needed not in self.copies and ".." not in about.parts and not name.startswith("/"):
-                if not self._surroundings.hold(needed):
-                    self.left[needed] = "not near the robot"
-                elif reason := unlike(needed):
+                if not self._robot_folders.contain(needed):
+                    self.left[needed] = "outside the folders of the robot"
+                elif reason := rejection(needed):
                     self.left[needed] = reason
                 else:
                     self._add(needed, str(about))
 
     def _reason(self, path: Path, uri: str = "") -> str:
-        """Return why a file is not copied, empty if it is."""
-        if not self._surroundings.hold(path, uri):
-            return f"leads to {path}, which is not near the robot: copy it there, or --meshes DIR if it is the robot's"
-        return unlike(path)
+        """Return why a file is not copied; empty if it is copied."""
+        if not self._robot_folders.contain(path, uri):
+            return (
+                f"refers to {path}, outside the folders of the robot: copy the file there, or use --meshes DIR if it "
+                "belongs to the robot"
+            )
+        return rejection(path)
 
     def _chosen(self, uri: str, written: str) -> Path | None:
-        """Return the first file that a URI may mean and that may be copied; note why others may not."""
+        """Return the first candidate for a URI that may be copied; record why others are rejected."""
         for path in self._candidates(uri):
             if path in self.copies:
                 return path
@@ -126,7 +129,7 @@ class Meshes:
         return None
 
     def _candidates(self, uri: str) -> Iterator[Path]:
-        """Yield the files that a URI may mean, the likeliest first."""
+        """Yield the files that a URI may refer to, most likely first."""
         try:
             path = self.packages.resolve(uri, self.description)
             if path.is_file():
@@ -136,7 +139,7 @@ class Meshes:
         tail = _tail(uri)
         homes = [*self.folders, *self.description.resolve().parents[:_ABOVE]]
         for home in homes:
-            # With and without the first part: the name of a package that is not there, or a folder of that name.
+            # The first component may be the name of a missing package, or of a folder.
             for parts in (tail.parts, tail.parts[1:]):
                 if parts and (path := home.joinpath(*parts)).is_file():
                     yield path.resolve()
@@ -147,7 +150,7 @@ class Meshes:
 
 
 def _alike(name: str) -> str:
-    """Return a file's name as it compares: case aside, and whether an umlaut is one character or two."""
+    """Return a normalized file name for comparison: case-insensitive, with composed characters."""
     return unicodedata.normalize("NFC", name).lower()
 
 
@@ -162,16 +165,16 @@ def _needs(source: Path) -> list[str]:
 
 
 def _tail(uri: str) -> PurePosixPath:
-    """Return what a URI says after its scheme."""
+    """Return the path in a URI, without the scheme."""
     path = re.sub(r"^(?:package|model|file)://", "", uri.strip()).replace("\\", "/")
     return PurePosixPath(re.sub(r"^(?:[A-Za-z]:)?/+", "", path))
 
 
 def _place(uri: str) -> str:
-    """Return where a file goes: below ``meshes``, with the folders that it had below one of that name.
+    """Return the path of a file in the package: below ``meshes``, with its folders below a folder for meshes.
 
-    Blanks, commas, ``#``, ``%`` and what else a URI has to escape become ``_``, and letters lose their accents: not
-    everybody escapes alike.
+    Blanks, commas, ``#``, ``%`` and other characters that must be escaped in URIs are replaced by ``_``, and accents
+    are removed, because tools differ in how they unescape URIs.
     """
     parts = [
         re.sub(r"[^\w.+-]+", "_", ascii_letters(part), flags=re.ASCII)

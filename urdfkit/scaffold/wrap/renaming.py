@@ -1,4 +1,4 @@
-"""Names of links and joints that not every tool takes, replaced wherever the description has them."""
+"""Replacement of names of links and joints that some tools reject."""
 
 from __future__ import annotations
 
@@ -7,53 +7,54 @@ import re
 from collections.abc import Iterator, Mapping
 from html import unescape
 
-from urdfkit.scaffold.templates.names import free, plain
+from urdfkit.scaffold.templates.names import portable_name, unused_name
 
 _TAG = re.compile(r"<!--.*?-->|<([A-Za-z][\w:.-]*)((?:[^<>\"']|\"[^\"]*\"|'[^']*')*)>", re.DOTALL)
 _TEXT = re.compile(r"<!--.*?-->|(?<=>)([^<>]+)(?=</)", re.DOTALL)
 _NAMED = {"link": "name", "joint": "name", "parent": "link", "child": "link", "mimic": "joint", "gazebo": "reference"}
-"""Which attribute of an element names a link or joint."""
+"""Attribute that refers to a link or joint, by element."""
 _DECLARED = re.compile(rb"""\A\s*(<\?xml\b[^>]*?\bencoding\s*=\s*)(["'])([\w.-]+)\2""")
-_TOLD = 6
-"""So many new names are told; of more, how many."""
+_LISTED = 6
+"""Number of new names to print; of further ones, only the count is printed."""
 
 
 def in_utf8(content: bytes) -> bytes:
-    """Return an XML file in UTF-8, declared so; one that is in UTF-8 stays as it is, byte for byte.
+    """Return an XML file converted to UTF-8; a file in UTF-8 is returned unchanged.
 
     Args:
-        content: of the file, in UTF-16 with its mark or in the encoding that it declares. What nobody knows stays.
+        content: bytes in UTF-16 with a byte order mark, or in the declared encoding; content in an unknown encoding is
+            returned unchanged.
     """
     if content[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
         content = content.decode("utf-16", "replace").encode("utf-8")
-    elif (said := _DECLARED.match(content)) is not None:
+    elif (declaration := _DECLARED.match(content)) is not None:
         try:
-            encoding = codecs.lookup(said[3].decode()).name
+            encoding = codecs.lookup(declaration[3].decode()).name
             content = content if encoding.startswith("utf") else content.decode(encoding, "replace").encode("utf-8")
         except (LookupError, UnicodeError):
             return content
-    said = _DECLARED.match(content)
-    if said is None or said[3].lower() in (b"utf-8", b"us-ascii"):
+    declaration = _DECLARED.match(content)
+    if declaration is None or declaration[3].lower() in (b"utf-8", b"us-ascii"):
         return content
-    return content[: said.start(3)] + b"utf-8" + content[said.end(3) :]
+    return content[: declaration.start(3)] + b"utf-8" + content[declaration.end(3) :]
 
 
 def renamed(text: str, package: str) -> tuple[str, dict[str, str]]:
-    """Return a URDF whose names every tool takes, and what is called otherwise now: old name → new name.
+    """Return a URDF with portable names, and the new name of each renamed element.
 
-    Links and joints are renamed where they are, in what refers to them, and where a parameter of a plugin names them.
+    Links and joints are renamed in their definitions, in references, and in parameters of plugins.
 
     Args:
-        text: of the URDF; all else stays, character for character.
-        package: what a robot is called whose own name is none.
+        text: the URDF; all other characters are unchanged.
+        package: new name of a robot whose name is not portable.
     """
     names = dict.fromkeys(name for tag, name in _names(text) if tag in ("link", "joint") and name)
     new: dict[str, str] = {}
     for name in names:
-        if plain(name) != name:
-            new[name] = free(plain(name) or "part", lambda each: each in names or each in new.values())
+        if portable_name(name) != name:
+            new[name] = unused_name(portable_name(name) or "part", lambda each: each in names or each in new.values())
     robot = next((name for tag, name in _names(text) if tag == "robot"), "")
-    again = {robot: package} if robot and plain(robot) != robot else {}
+    again = {robot: package} if robot and portable_name(robot) != robot else {}
     if not new and not again:
         return text, {}
 
@@ -72,14 +73,14 @@ def renamed(text: str, package: str) -> tuple[str, dict[str, str]]:
     return _TEXT.sub(parameter, _TAG.sub(tag, text)), {**again, **new}
 
 
-def told(new: Mapping[str, str]) -> list[str]:
-    """Return the line that says what is called otherwise now; none where nothing is.
+def renaming_note(new: Mapping[str, str]) -> list[str]:
+    """Return a line that lists new names; empty if nothing was renamed.
 
     Args:
         new: old name → new name.
     """
-    listed = ", ".join(f"`{old}` → `{name}`" for old, name in list(new.items())[:_TOLD])
-    more = f" and {len(new) - _TOLD} more" if len(new) > _TOLD else ""
+    listed = ", ".join(f"`{old}` → `{name}`" for old, name in list(new.items())[:_LISTED])
+    more = f" and {len(new) - _LISTED} more" if len(new) > _LISTED else ""
     return [f"renamed: {listed}{more}"] if new else []
 
 

@@ -1,6 +1,6 @@
-"""What goes with any robot, also with one that no template made: tests, CI, pre-commit, dev container.
+"""Files of a robot's repository that do not depend on its template: tests, CI, pre-commit, dev container.
 
-It is what lies below ``company/`` in the template of new robots, so that there is one source of it.
+They come from ``project/`` in the robot template, which is their only source.
 """
 
 from __future__ import annotations
@@ -14,71 +14,73 @@ from urdfkit.scaffold.templates.template import Template
 from urdfkit.scaffold.templates.template_parser import load_template
 from urdfkit.scaffold.update.rendering import render
 
-FOLDER = "company/"
-"""Of the layers that go with any robot."""
+FOLDER = "project/"
+"""Folder of the layers that any robot gets."""
 
 
-def company(origin: str, *, repository: bool, licensed: bool) -> Template:
-    """Return the part of the template of new robots that goes with any robot.
+def repository_template(origin: str, *, repository: bool, licensed: bool) -> Template:
+    """Return the part of the robot template that any robot gets.
 
     Args:
-        origin: what the README says the robot is.
-        repository: whether what lies beside the packages belongs to it.
-        licensed: whether its packages have their licenses.
+        origin: description of the robot's origin for the README.
+        repository: whether to include files outside the packages.
+        licensed: whether the packages already have their licenses.
     """
     whole = load_template(templates_dir() / "robot")
-    beside = f"{FOLDER}repository/"
+    outside = f"{FOLDER}repository/"
     layers = [
         layer
         for layer in whole.layers
-        if layer.folder.startswith(FOLDER) and (repository or not layer.folder.startswith(beside))
+        if layer.folder.startswith(FOLDER) and (repository or not layer.folder.startswith(outside))
     ]
     for layer in whole.layers:
         if layer.folder.startswith("licenses/") and (repository if layer.spare else not licensed):
             layers.append(layer)
     words = tuple(
-        replace(word, says={**word.says, "none": origin}) if word.name == "drive_in_words" else word
+        replace(word, values={**word.values, "none": origin}) if word.name == "drive_in_words" else word
         for word in whole.words
     )
     return replace(whole, layers=tuple(layers), words=words)
 
 
-def accompany(
-    stage: Path,
+def render_repository_files(
+    staged: Path,
     name: str,
     origin: str,
-    given: Mapping[str, str],
+    values: Mapping[str, str],
     *,
     repository: bool,
     without: Collection[str] = (),
 ) -> None:
-    """Render what goes with a robot beside its packages.
+    """Render the tests of a robot's packages, and the files outside the packages.
 
     Args:
-        stage: where the packages were rendered to.
-        name: of the robot: what the packages' names begin with.
-        origin: what the README says the robot is.
-        given: ros, maintainer, email, license, picture; and year, into.
-        repository: whether to write what lies beside the packages.
-        without: topmost names that are left out: they are there already.
+        staged: folder of the rendered packages.
+        name: name of the robot, with which the packages' names begin.
+        origin: description of the robot's origin for the README.
+        values: answers to ros, maintainer, email, license and picture, and the placeholders year and into.
+        repository: whether to write files outside the packages.
+        without: names of existing files and folders at the top of the output, which are left out.
 
     Raises:
-        ResourceError: it cannot be written.
+        ResourceError: a file cannot be written.
     """
-    template = company(origin, repository=repository, licensed=given["ros"] != "none")
-    asked = {question.name for question in template.questions}
-    mine = {key: value for key, value in given.items() if key in asked}
-    answers = template.answers({**mine, "name": name, "drive": "none", "repository": "yes" if repository else "no"})
-    answers |= {"year": given["year"], "into": given["into"]}
-    render(template, answers, stage, without=set(without) & template.spare(answers))
+    template = repository_template(origin, repository=repository, licensed=values["ros"] != "none")
+    names = {question.name for question in template.questions}
+    used_values = {key: value for key, value in values.items() if key in names}
+    answers = template.answers(
+        {**used_values, "name": name, "drive": "none", "repository": "yes" if repository else "no"}
+    )
+    answers |= {"year": values["year"], "into": values["into"]}
+    render(template, answers, staged, without=set(without) & template.spare(answers))
 
 
-def told_to_test(kind: str, ros: str) -> dict[str, str]:
-    """Return placeholders of the template of packages, for one that runs the tests it comes with.
+def placeholders_of_tests(kind: str, ros: str) -> dict[str, str]:
+    """Return the placeholders of the package template for a package with tests.
 
     Args:
         kind: description, gazebo or bringup.
-        ros: the distribution.
+        ros: the ROS distribution.
     """
     if ros == "noetic":
         needs = {"description": ["liburdfdom-tools", "python3-nose"], "gazebo": ["python3-nose"]}.get(kind, [])
