@@ -10,18 +10,18 @@ PACKAGE = Path(__file__).resolve().parents[1]
 MODEL = PACKAGE / "urdf" / "simpleton.urdf.xacro"
 
 
-def said(*command, given=""):
-    """Return the output of a program with `given` as its input; skip the test if it is not installed."""
+def output_of(*command, stdin=""):
+    """Return the output of a program with `stdin` as its input; skip the test if it is not installed."""
     if shutil.which(command[0]) is None:
         raise SkipTest("{} is not installed".format(command[0]))
-    done = subprocess.run([str(word) for word in command], input=given.encode(), capture_output=True)
+    done = subprocess.run([str(word) for word in command], input=stdin.encode(), capture_output=True)
     assert done.returncode == 0, (done.stdout + done.stderr).decode()
     return done.stdout.decode()
 
 
 def urdf():
     """Return the expanded robot."""
-    return said(*(["urdfkit", "expand"] if shutil.which("urdfkit") else ["xacro"]), MODEL)
+    return output_of(*(["urdfkit", "expand"] if shutil.which("urdfkit") else ["xacro"]), MODEL)
 
 
 def test_is_one_tree():
@@ -42,8 +42,8 @@ def test_what_moves_has_mass():
 
 
 def test_check_urdf():
-    said("check_urdf", "/dev/stdin", given=urdf())
+    output_of("check_urdf", "/dev/stdin", stdin=urdf())
 
 
 def test_lint():
-    said("urdfkit", "lint", PACKAGE)
+    output_of("urdfkit", "lint", PACKAGE)
