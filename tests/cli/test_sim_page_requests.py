@@ -605,11 +605,11 @@ def test_stop_holds_for_every_robot_whoever_drives(ride) -> None:
 def test_overlap_of_a_spawned_body_is_reported_each_time(ride) -> None:
     for _ in range(2):
         done = do(ride, "spawn", model="barrel", pose=[0.0, 0.1, 0.0, 0.0])
-        assert any("deep in `chassis`; put `barrel` elsewhere" in remark for remark in done["remarks"])
+        assert any("inside `chassis`; place `barrel` elsewhere" in remark for remark in done["remarks"])
         assert ride.page.said["notice"]["tone"] == "warning"
         assert "remarks" not in do(ride, "remove", name="barrel")
     done = do(ride, "walls", corners=[[-1.0, 0.0], [1.0, 0.0]])
-    assert any("`walls` starts 200 mm deep in `chassis`" in remark for remark in done["remarks"])
+    assert any("`walls` starts 200 mm inside `chassis`" in remark for remark in done["remarks"])
     assert "remarks" not in do(ride, "walls", corners=[[-1.0, 3.0], [1.0, 3.0]])
 
 

@@ -115,7 +115,7 @@ def test_what_no_page_wants_is_not_looked_at(shown) -> None:
     simulator.run(0.1)
     assert sights.show() == 0.0
     assert not page.sensed
-    assert not simulator.surroundings.was_looked_at
+    assert not simulator.surroundings.is_used
 
 
 def test_there_is_time_between_two_looks(shown) -> None:

@@ -209,7 +209,7 @@ def test_a_fixed_base_stays_and_its_links_are_where_it_was_put(make: Make) -> No
     assert simulator.state.velocity("left_joint") == pytest.approx(3.0)
     wheel = simulator.link_poses()[simulator.kinematics.link_names.index("left_wheel")]
     assert wheel[:3] == pytest.approx((1.0 - 0.15, 0.0, 2.1))
-    with pytest.raises(SimulationError, match="fixed base cannot start with a velocity"):
+    with pytest.raises(SimulationError, match="fixed base cannot have an initial velocity"):
         make(fixed_base=True, spawn=Spawn(twist=(1, 0, 0, 0, 0, 0)))
 
 
@@ -277,7 +277,7 @@ def test_what_cannot_be_simulated_is_said_with_its_place(write_rover: Callable[.
 
 @pytest.mark.parametrize("dt", [0.0, -0.001, math.nan, math.inf, 1.0])
 def test_steps_that_make_no_sense(make: Make, dt: float) -> None:
-    with pytest.raises(SimulationError, match="makes no sense"):
+    with pytest.raises(SimulationError, match="must be at most 10000"):
         make(dt=dt)
 
 
@@ -336,7 +336,7 @@ def test_a_link_without_mass_may_carry_one_about_another_axis(tmp_path: Path) ->
     simulator.run(0.5)
     assert simulator.state.position("j1") == pytest.approx(0.5, abs=0.01)
     assert [note.split(": ", 1)[1] for note in notes] == [
-        f"link `l{n}` has no mass: it moves with what it carries" for n in (0, 1)
+        f"link `l{n}` has no mass; it moves with the links it carries" for n in (0, 1)
     ]
     with pytest.raises(SimulationError, match=r"r\.urdf:3:1: link `l1` has no <inertial>, but joint `j1` moves it"):
         Simulator(chain(tmp_path / "s.urdf", "zxx").rename(tmp_path / "r.urdf"))

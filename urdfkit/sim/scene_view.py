@@ -1,4 +1,4 @@
-"""Everything there is to see and to touch in a simulation, robots included, and where it was at a moment."""
+"""Scene of a simulation, with all robots and bodies, and their poses at a moment."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 BODY = "world/"
-"""Goes before the names of the world's bodies: no link has a slash there."""
+"""Prefix for the names of the world's bodies; names of links contain no slash."""
 
 
 class SensedRobot(Protocol):
@@ -38,17 +38,17 @@ class SensedRobot(Protocol):
 
     @property
     def kinematics(self) -> Kinematics:
-        """Its model."""
+        """Kinematic model."""
         ...
 
     @property
     def scene(self) -> Scene:
-        """Its shapes."""
+        """Shapes."""
         ...
 
     @property
     def state(self) -> State:
-        """Where it is."""
+        """Positions and velocities."""
         ...
 
 
@@ -57,43 +57,43 @@ class SensedWorld(Protocol):
 
     @property
     def description(self) -> World:
-        """The world as it is at present."""
+        """Present description of the world."""
         ...
 
     @property
     def revision(self) -> int:
-        """Changes whenever something comes or goes."""
+        """Number that changes when an entity is spawned or removed."""
         ...
 
     @property
     def robots(self) -> Mapping[str, SensedRobot]:
-        """By name."""
+        """Robots by name."""
         ...
 
     @property
     def static_robots(self) -> tuple[tuple[str, Scene], ...]:
-        """Name and scene of the robots that do not move."""
+        """Name and scene of each static robot."""
         ...
 
     def keep_body_poses(self) -> Callable[[], dict[str, tuple[float, ...]]]:
-        """Return what tells where bodies are now, by name, also later."""
+        """Return a function that returns the poses of bodies at this moment, also later."""
         ...
 
     def pushes_on(self, robot: str, links: Sequence[str]) -> tuple[tuple[Array, Array, Array], ...]:
-        """Force [N], torque [N·m] and point of attack [m], in the world, of what pushes links of a robot."""
+        """Force [N], torque [N·m] and point of attack [m], in world axes, of each push on links of a robot."""
         ...
 
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """What there was at a moment, and where: kept cheaply, and worked out when somebody looks.
+    """Entities at a moment and their poses, which are computed when they are needed.
 
     Attributes:
-        revision: of the world.
-        world: its bodies.
+        revision: revision of the world.
+        world: description of the world, with its bodies.
         robots: name, scene and configuration of each robot.
-        kept: returns where the world's bodies were.
-        static_robots: name and scene of robots that do not move; their links are among the bodies, as ``NAME::LINK``.
+        kept: returns the poses of the world's bodies.
+        static_robots: name and scene of static robots; their links are bodies named ``NAME::LINK``.
     """
 
     revision: int
@@ -104,25 +104,25 @@ class Layout:
 
     @cached_property
     def bodies(self) -> Mapping[str, Sequence[float]]:
-        """Name → x y z [m] and quaternion x y z w of the world's bodies."""
+        """Name → x y z [m] and quaternion x y z w of each body."""
         return self.kept()
 
     def placement(self, robot: str, link: int) -> Array:
-        """Return where a link was; shape (4, 4)."""
+        """Return the pose of a link; shape (4, 4)."""
         poses = next(moment.link_poses() for name, _, moment in self.robots if name == robot)
         found: Array = pose_matrices(poses[link])[0]
         return found
 
 
 def world_scene(world: World, note: Callable[[str], None] | None = None) -> tuple[Scene, Array]:
-    """Return the scene of a world's bodies, and the poses at which they start; shape (bodies, 7).
+    """Return the scene of a world's bodies, and their initial poses; shape (bodies, 7).
 
     Args:
-        world: as read; its bodies are called as `bodies_of` calls them, after `BODY`.
-        note: tells the user of visuals whose mesh is broken, which are left out then.
+        world: the loaded world; the names of its bodies are those of `bodies_of`, after `BODY`.
+        note: reports visuals with an invalid mesh, which are omitted.
 
     Raises:
-        ResourceError: a mesh is broken.
+        ResourceError: a mesh is invalid and cannot be omitted.
     """
     meshes = MeshLoader()
     names: list[str] = []
@@ -142,12 +142,12 @@ def world_scene(world: World, note: Callable[[str], None] | None = None) -> tupl
 
 
 class View:
-    """One scene of everything, ready for rays and pictures; made once for as long as nothing comes or goes.
+    """Scene of all entities for rays and pictures; created once per revision of the world.
 
     Args:
-        layout: what there is.
-        note: tells the user something.
-        renderer: who takes pictures.
+        layout: the entities.
+        note: reports a warning to the user.
+        renderer: one of `RENDERERS`.
     """
 
     def __init__(self, layout: Layout, note: Callable[[str], None], renderer: str = "ray") -> None:
@@ -171,13 +171,13 @@ class View:
         self._painter: TakesPictures | None = None
 
     def poses(self, layout: Layout) -> Array:
-        """Return where everything was; shape (len(scene.bodies), 7)."""
+        """Return the poses of all bodies; shape (len(scene.bodies), 7)."""
         rows = [layout.bodies.get(name, start) for name, start in zip(self._names, self._start.tolist(), strict=True)]
         links = (moment.link_poses() for _, _, moment in layout.robots)
         return np.vstack([*links, np.array(rows, dtype=float).reshape(-1, 7)])
 
     def table(self, role: Role, layout: Layout) -> RayTable:
-        """Return what rays meet, the visuals or the collisions, where it was."""
+        """Return the table for rays against the visuals or the collisions, at their poses in a layout."""
         if role not in self._tables:
             warmup(lambda count: None if count else self._note(announcement()))
             self._tables[role] = RayTable(self.scene, self.scene.with_role(role))
@@ -186,15 +186,15 @@ class View:
         return table
 
     def painter(self, layout: Layout) -> TakesPictures:
-        """Return what takes pictures of the visuals where they were, by the lights of the world."""
+        """Return the renderer of the visuals, at their poses in a layout, with the lights of the world."""
         table = self.table("visual", layout)
         if self._painter is None:
             for shape in self.scene.with_role("visual"):
                 for name in shape.mesh.missing if shape.mesh is not None and not shape.has_color else ():
                     place = f"{shape.position}: " if shape.position else ""
                     broken = shape.mesh is not None and name in shape.mesh.broken
-                    why = "is no picture that can be read" if broken else "is not there"
-                    self._note(f"{place}`{shape.name}` is seen without its texture: `{name}` {why}")
+                    why = "is not a readable picture" if broken else "does not exist"
+                    self._note(f"{place}`{shape.name}` is shown without its texture: `{name}` {why}")
             self._painter = painter_of(table, self._lighting, self._renderer, self._note)
         return self._painter
 
@@ -204,11 +204,11 @@ class Surroundings:
 
     Args:
         world: its entities.
-        note: tells the user something.
-        renderer: who takes pictures, one of `RENDERERS`.
+        note: reports a warning to the user.
+        renderer: one of `RENDERERS`.
 
     Raises:
-        SimulationError: there is no such renderer here.
+        SimulationError: the renderer is not available.
     """
 
     def __init__(self, world: SensedWorld, note: Callable[[str], None], renderer: str = "ray") -> None:
@@ -220,7 +220,7 @@ class Surroundings:
 
     @property
     def world(self) -> World:
-        """The world as it is at present."""
+        """Present description of the world."""
         return self._world.description
 
     @property
@@ -229,16 +229,16 @@ class Surroundings:
         return self._world.robots
 
     def pushes_on(self, robot: str, links: Sequence[str]) -> tuple[tuple[Array, Array, Array], ...]:
-        """Return force [N], torque [N·m] and point of attack [m], in the world, of what pushes links of a robot."""
+        """Return force [N], torque [N·m] and point of attack [m], in world axes, of each push on links of a robot."""
         return self._world.pushes_on(robot, links)
 
     @property
-    def was_looked_at(self) -> bool:
-        """Whether anybody has looked so far."""
+    def is_used(self) -> bool:
+        """Whether a view was created."""
         return self._view is not None
 
     def layout(self) -> Layout:
-        """Return what there is now, and where."""
+        """Return the present layout."""
         here = self._world
         robots = tuple((name, each.scene, each.state.snapshot()) for name, each in here.robots.items())
         return Layout(here.revision, here.description, robots, here.keep_body_poses(), here.static_robots)

@@ -18,7 +18,7 @@ from urdfkit.errors import SimulationError, UnknownNameError, suggestion
 from urdfkit.messages import TWIST, TWIST_STAMPED, header, message_type, twist
 from urdfkit.scene import Scene
 from urdfkit.sim.construction.initial_overlap import note_overlaps
-from urdfkit.sim.construction.loading import require_sense, the_world
+from urdfkit.sim.construction.loading import require_valid_arguments, world_with_gravity
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.plugins.base import Drive
 from urdfkit.sim.plugins.publishers import Clock
@@ -102,9 +102,9 @@ class Simulator:
         note: Callable[[str], None] | None = None,
     ) -> None:
         distro = Distro(ros_distro)
-        require_sense(seed, spawn)
+        require_valid_arguments(seed, spawn)
         self.robot = robot if isinstance(robot, Robot) else load(robot, package_path=package_path)
-        found = the_world(world, gravity, package_path)
+        found = world_with_gravity(world, gravity, package_path)
         self.dt = dt = found.physics.max_step_size if dt is None else number(dt, "the step", "s")
         if not 1e-6 <= dt <= 0.1:
             raise SimulationError(f"a step of {dt:g} s makes no sense; try 0.001")

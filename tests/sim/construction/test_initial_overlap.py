@@ -30,12 +30,12 @@ def deep(world: Path | str, spawn: Spawn) -> list[str]:
 
 def test_inside_a_wall(world: Path) -> None:
     (note,) = deep(world, Spawn(x=2.0, y=0.0))
-    assert re.fullmatch(r"link `\w+` starts 200 mm deep in `wall`; start the robot elsewhere \(--spawn, Spawn\)", note)
+    assert re.fullmatch(r"link `\w+` starts 200 mm inside `wall`; start the robot elsewhere \(--spawn, Spawn\)", note)
 
 
 def test_below_the_ground() -> None:
     (note,) = deep("empty", Spawn(z=-0.05))
-    assert " starts 50 mm deep in `ground_plane`" in note
+    assert " starts 50 mm inside `ground_plane`" in note
 
 
 def test_nothing_is_said_of_a_robot_that_stands_or_touches(world: Path) -> None:
@@ -65,7 +65,7 @@ def spawned(height: float) -> list[str]:
 
 def test_a_body_that_is_put_into_the_ground() -> None:
     (note,) = spawned(-0.2)
-    assert re.fullmatch(r"`box` starts 200 mm deep in `ground_plane`; put `box` elsewhere", note)
+    assert re.fullmatch(r"`box` starts 200 mm inside `ground_plane`; place `box` elsewhere", note)
 
 
 def test_a_body_that_is_put_on_the_ground() -> None:
@@ -77,4 +77,4 @@ def test_a_robot_that_is_put_into_another(world: Path) -> None:
     simulator = Simulator("simpleton", world=world, note=notes.append)
     simulator.world.spawn("simpleton", Spawn(x=2.0), name="other")
     (note,) = [note for note in notes if "deep" in note]
-    assert re.fullmatch(r"`other::\w+` starts 200 mm deep in `wall`; put `other` elsewhere", note)
+    assert re.fullmatch(r"`other::\w+` starts 200 mm inside `wall`; place `other` elsewhere", note)

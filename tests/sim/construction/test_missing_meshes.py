@@ -31,7 +31,7 @@ def test_the_shape_is_left_out_by_name_and_the_rest_stands_on_the_ground(tmp_pat
     (note,) = [each for each in notes if mesh in each]
     assert said in note
     assert note.startswith(f"{file}:1:")
-    assert note.endswith("shape `base/collision/hull` is left out: nothing touches it there")
+    assert note.endswith("shape `base/collision/hull` is left out: it has no contacts")
 
 
 def test_a_robot_of_which_nothing_is_left_to_touch_is_refused(tmp_path: Path) -> None:
@@ -76,7 +76,7 @@ def test_so_is_one_of_a_worlds_models(tmp_path: Path, mesh: str, said: str, stat
     (note,) = [each for each in notes if mesh in each]
     assert note.startswith(f"{world}:1:")
     assert said in note
-    assert note.endswith("collision `hull` is left out: nothing touches it there")
+    assert note.endswith("collision `hull` is left out: it has no contacts")
 
 
 def test_a_static_model_may_have_nothing_left_and_a_free_one_may_not(tmp_path: Path) -> None:
@@ -85,7 +85,7 @@ def test_a_static_model_may_have_nothing_left_and_a_free_one_may_not(tmp_path: P
         lost = collision("hull", sdf_mesh(mesh))
         Simulator(robot, world=world_with(tmp_path, lost, static=True), note=lambda _: None).run(0.01)
         free = world_with(tmp_path, lost, static=False)
-        with pytest.raises(SimulationError, match=r"no collision of model `rock` has a mesh that can be read"):
+        with pytest.raises(SimulationError, match=r"model `rock` has no collision with a readable mesh"):
             Simulator(robot, world=free, note=lambda _: None)
 
 
@@ -97,7 +97,7 @@ def test_a_broken_visual_of_a_world_is_not_seen_and_the_rest_is(tmp_path: Path) 
     assert simulator.world.body_shapes() == ()
     (note,) = [each for each in notes if "coat" in each]
     assert note.startswith(f"{world}:1:")
-    assert "visual `coat` is not seen: mesh broken.stl is cut off" in note
+    assert "visual `coat` is invisible: mesh broken.stl is cut off" in note
 
 
 def test_a_misspelt_material_of_a_world_is_told_with_the_nearest(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import pytest
 from urdfkit.description.sdf import load_world
 from urdfkit.errors import SimulationError
 from urdfkit.sim import Simulator, Spawn
-from urdfkit.sim.construction.rigid_bodies import bodies_of, looks_of
+from urdfkit.sim.construction.rigid_bodies import bodies_of, visuals_of
 
 WORLD = """<sdf version="1.7"><world name="probe"><gravity>0 0 -9.81</gravity>
 <model name="ground_plane"><static>true</static><link name="link"><collision name="c"><geometry><plane>
@@ -149,7 +149,7 @@ def test_a_robot_pushes_what_slides(world) -> None:
 
 def test_what_a_world_looks_like_hangs_on_its_bodies() -> None:
     world = load_world("house")
-    looks = looks_of(world)
+    looks = visuals_of(world)
     bodies = {body.name for body in bodies_of(world)}
     assert {shape.body for shape in looks} <= bodies
     assert len({shape.body for shape in looks}) > 5

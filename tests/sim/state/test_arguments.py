@@ -60,7 +60,7 @@ def test_names_are_a_mapping_all_the_same(town: Simulator) -> None:
         (lambda: Simulator("simpleton", gravity=-9.81), r"gravity is -9\.81; it must be three finite numbers \[m/s²\]"),  # type: ignore[arg-type]
         (lambda: Simulator("simpleton", gravity=(0, 0)), r"gravity is \(0, 0\); it must be three"),
         (lambda: Simulator("simpleton", dt="fast"), r"the step is 'fast'; it must be a number \[s\]"),  # type: ignore[arg-type]
-        (lambda: Simulator("simpleton", seed=-1), r"`-1` is no seed"),
+        (lambda: Simulator("simpleton", seed=-1), r"`-1` is not a valid seed"),
         (lambda: Simulator("simpleton", spawn=(0, 0, 1)), r"`spawn` is \(0, 0, 1\); it must be a Spawn"),  # type: ignore[arg-type]
         (lambda: Simulator("simpleton", spawn=Spawn(x="here")), r"where a robot starts is \('here', "),  # type: ignore[arg-type]
         (lambda: Simulator("simpleton", spawn=Spawn(twist=3)), r"the velocity a robot starts with is 3; "),  # type: ignore[arg-type]

@@ -105,7 +105,7 @@ def test_the_worlds_models_are_turned_too_and_stay_so(box) -> None:
     [
         (lambda t: t.set_mass("box", 0.0, "body"), "at least 1e-06 kg"),
         (lambda t: t.set_mass("box", 1.0, "bodi"), "did you mean `body`"),
-        (lambda t: t.set_mass("ground_plane", 1.0), "makes no difference"),
+        (lambda t: t.set_mass("ground_plane", 1.0), "has no effect"),
         (lambda t: t.set_mu("box", -1.0, "body"), "not negative"),
         (lambda t: t.set_mu("crate", 1.0), "no model `crate`"),
         (lambda t: t.set_gains("box/a/b", Gains(1.0)), "no gains `box/a/b`"),

@@ -224,12 +224,12 @@ def test_what_is_not_there_is_said_with_what_is_near() -> None:
         simulator.world.spawn("coke_cn")
     with pytest.raises(SimulationError, match="no body or link `chasis`"):
         simulator.world.push("chasis", (1.0, 0.0, 0.0))
-    with pytest.raises(SimulationError, match="is the robot that is simulated"):
+    with pytest.raises(SimulationError, match="is the simulation's own robot"):
         simulator.world.remove("simpleton")
     with pytest.raises(SimulationError, match="a pose is x y z"):
         simulator.world.spawn("ball", (1.0, 2.0))
     simulator.world.spawn("ball", FAR, name="egg")
-    with pytest.raises(SimulationError, match="has a `egg` already; call it `egg_1`"):
+    with pytest.raises(SimulationError, match="has a `egg`; use `egg_1`"):
         simulator.world.spawn("ball", FAR, name="egg")
 
 

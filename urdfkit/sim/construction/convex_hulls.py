@@ -1,8 +1,8 @@
-"""Ellipsoids and cones as the convex hulls that the engine and the page know.
+"""Convex hulls of ellipsoids and cones, which the engine and the viewer do not support as primitives.
 
-An ellipsoid is an icosphere of 642 corners, stretched, whose corners lie as far outside as its faces lie inside: along
-every ray from the centre it is within `TOLERANCE` of the true surface. A cone has 48 corners round its base, which lie
-on a circle larger than the base by the same rule: within 0.11 % of the radius.
+An ellipsoid is a scaled icosphere of 642 vertices, whose vertices are as far outside the surface as its faces are
+inside: along every ray from the centre, the deviation is at most `TOLERANCE`. The base of a cone has 48 vertices on a
+circle that is larger than the base by the same rule; the deviation is at most 0.11 % of the radius.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from urdfkit.description.sdf import Cone, Ellipsoid
 from urdfkit.scene import TriMesh
 
 LEVEL = 3
-"""How often the icosahedron's faces are parted in four."""
+"""Number of subdivisions of the icosahedron's faces."""
 TOLERANCE = 0.0023
-"""How far an ellipsoid's hull may be from it, as a part of the distance to the centre."""
+"""Maximum deviation of an ellipsoid's hull, relative to the distance from the centre."""
 CORNERS = 48
-"""Corners round the base of a cone."""
+"""Number of vertices of a cone's base."""
 
 
 def hull_of(geometry: Ellipsoid | Cone) -> TriMesh:
-    """Return an ellipsoid, or a cone with its apex up and its origin half way up (gz-math, Cone.hh)."""
+    """Return the hull of an ellipsoid, or of a cone with its apex up and its origin at half its height (gz-math)."""
     if isinstance(geometry, Ellipsoid):
         points, faces = _unit_sphere()
         return TriMesh((points * np.array(geometry.radii)).astype(np.float32), faces)

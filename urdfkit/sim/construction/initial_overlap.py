@@ -1,4 +1,4 @@
-"""Whether something starts inside something else: no push out would be what the user had in mind, so they are told."""
+"""Warnings about robots that start inside other bodies, because no separating push restores the intended pose."""
 
 from __future__ import annotations
 
@@ -13,48 +13,48 @@ if TYPE_CHECKING:
     from urdfkit.sim.engine import Contact, Engine
 
 DEEP = 0.005
-"""How deep a link may be in something without a word [m]; models that are put down by hand are a little."""
+"""Overlap without a warning [m]; models that are placed manually overlap slightly."""
 PART = 1 << 15
-"""Entries of a block that are looked at together."""
+"""Number of entries of a block that are saved together."""
 
 
 def note_overlaps(engine: Engine, links: Collection[str], note: Callable[[str], None], *, newcomer: str = "") -> None:
-    """Note what a robot starts inside of, the deepest of its links for each thing.
+    """Warn of the bodies that a robot overlaps at the start, with its most deeply overlapping link.
 
     Args:
-        engine: at the start; left as it was.
-        links: the robot's; or names of bodies.
-        note: tells the user something.
-        newcomer: what they are of, where that has come into a running world; the robot it is about otherwise.
+        engine: the engine at the start; its state is preserved.
+        links: links of the robot, or names of bodies.
+        note: reports a warning to the user.
+        newcomer: name of the entity if it was spawned into a running world; empty for the first robot.
     """
     deepest: dict[str, tuple[float, str]] = {}
     for contact in touching(engine):
         if contact.depth > DEEP and (contact.a in links) is not (contact.b in links):
-            link, thing = (contact.a, contact.b) if contact.a in links else (contact.b, contact.a)
-            deepest[thing] = max(deepest.get(thing, (0.0, "")), (contact.depth, link))
-    for thing, (depth, link) in deepest.items():
-        what, where = f"link `{link}`", "start the robot elsewhere (--spawn, Spawn)"
+            link, body = (contact.a, contact.b) if contact.a in links else (contact.b, contact.a)
+            deepest[body] = max(deepest.get(body, (0.0, "")), (contact.depth, link))
+    for body, (depth, link) in deepest.items():
+        subject, advice = f"link `{link}`", "start the robot elsewhere (--spawn, Spawn)"
         if newcomer:
-            what, where = f"`{link}`", f"put `{newcomer}` elsewhere"
-        note(f"{what} starts {1000 * depth:.0f} mm deep in `{thing}`; {where}")
+            subject, advice = f"`{link}`", f"place `{newcomer}` elsewhere"
+        note(f"{subject} starts {1000 * depth:.0f} mm inside `{body}`; {advice}")
 
 
 def touching(engine: Engine) -> tuple[Contact, ...]:
-    """Return what touches at present, which a step finds out; what the step did is undone."""
+    """Return the present contacts, which are computed by a step; the effects of the step are reverted."""
     blocks = engine.arrays.floats, engine.arrays.integers
     kept = [_in_use(block) for block in blocks]
     try:
         engine.step()
         return engine.contacts()
     except SimulationError:
-        return ()  # whoever steps on is told
+        return ()  # the next step of the user reports the error
     finally:
         for block, before in zip(blocks, kept, strict=True):
             _restore(block, before)
 
 
 def _in_use(block: NDArray[Any]) -> dict[int, NDArray[Any]]:
-    """Return copies of the parts of a block that are not zero: most of it never is, and takes no memory until then."""
+    """Return copies of the parts of a block that are not zero; most parts are, and occupy no memory."""
     parts = {start: block[start : start + PART] for start in range(0, len(block), PART)}
     return {start: part.copy() for start, part in parts.items() if part.any()}
 

@@ -1,4 +1,4 @@
-"""Which links gravity leaves alone and which touch the robot's others, as ``<gazebo reference="LINK">`` says."""
+"""Links without gravity and links with self-collision, from ``<gazebo reference="LINK">``."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ TRUTHS = {"true": True, "1": True, "false": False, "0": False}
 
 
 def weightless_links(robot: Robot) -> frozenset[str]:
-    """Return the links with ``<gravity>false</gravity>``, or ``<turnGravityOff>true</turnGravityOff>`` as of old.
+    """Return the links with ``<gravity>false</gravity>``, or the older ``<turnGravityOff>true</turnGravityOff>``.
 
     Raises:
         SimulationError: a value is neither true nor false, with its place.
@@ -21,7 +21,7 @@ def weightless_links(robot: Robot) -> frozenset[str]:
 
 
 def self_colliding(robot: Robot) -> frozenset[str]:
-    """Return the links with ``<selfCollide>`` or ``<self_collide>``; a block without reference is about all links.
+    """Return the links with ``<selfCollide>`` or ``<self_collide>``; a block without reference applies to all links.
 
     Raises:
         SimulationError: a value is neither true nor false, with its place.
@@ -32,7 +32,7 @@ def self_colliding(robot: Robot) -> frozenset[str]:
 
 
 def _truths(robot: Robot, tag: str) -> dict[str, bool]:
-    """Return what a tag says, by link; of all under the empty name."""
+    """Return the value of a tag by link; the value for all links has an empty key."""
     found = {}
     for block in robot.gazebo:
         element = block.element.find(tag)

@@ -1,4 +1,4 @@
-"""What is simulated: a MODEL, loaded, and whether it can move."""
+"""Loading of robots and worlds for a simulation, and validation of its arguments."""
 
 from __future__ import annotations
 
@@ -16,88 +16,91 @@ from urdfkit.errors import SimulationError
 from urdfkit.kinematics import Kinematics
 from urdfkit.linear_algebra import matmul
 from urdfkit.sim.construction.spawn import Spawn
-from urdfkit.sim.construction.validation import require_sound
+from urdfkit.sim.construction.validation import require_valid
 from urdfkit.sim.state.arguments import vector
 
-STRONGEST = 1e4
-"""Gravity beyond any that robots stand in [m/s²]: the Sun's is 274, and in a step of 1 ms it gives 10 m/s."""
+MAX_GRAVITY = 1e4
+"""Maximum gravity [m/s²]: the Sun's is 274, and this value adds 10 m/s in a step of 1 ms."""
 
 SINGULAR = 1e-9
-"""Least eigenvalue of a mass matrix, scaled to ones on its diagonal, of a robot that can be simulated."""
+"""Minimum eigenvalue of a mass matrix, scaled to a diagonal of ones, that can be simulated."""
 
 
-def require_sense(seed: int, spawn: Spawn | None) -> None:
-    """Refuse arguments of a simulation that are nothing of the kind.
+def require_valid_arguments(seed: int, spawn: Spawn | None) -> None:
+    """Check the arguments of a simulation.
 
     Raises:
-        SimulationError: the first of them.
+        SimulationError: an argument is invalid.
     """
     if not isinstance(seed, int) or seed < 0:
-        raise SimulationError(f"`{seed}` is no seed; it must be a whole number, zero or more")
+        raise SimulationError(f"`{seed}` is not a valid seed; use an integer, zero or greater")
     if not isinstance(spawn, Spawn | None):
         raise SimulationError(f"`spawn` is {spawn!r}; it must be a Spawn, such as Spawn(x=1.0, yaw=1.57)")
 
 
-def the_world(world: World | str | Path, gravity: Sequence[float] | None, package_path: Sequence[str | Path]) -> World:
-    """Return a world, loaded by name or file where it is not, with another gravity [m/s²] where that is given.
+def world_with_gravity(
+    world: World | str | Path, gravity: Sequence[float] | None, package_path: Sequence[str | Path]
+) -> World:
+    """Return a world, loaded from a file or by name if necessary, with gravity [m/s²] replaced unless None.
 
     Raises:
-        UrdfkitError: there is none, it is broken, or the gravity is no vector.
+        UrdfkitError: the world does not exist or is invalid, or gravity is not a valid vector.
     """
-    found = world if isinstance(world, World) else load_world(world, package_path=package_path)
+    loaded = world if isinstance(world, World) else load_world(world, package_path=package_path)
     if gravity is None:
-        return found
-    return replace(found, gravity=sound_gravity(gravity))
+        return loaded
+    return replace(loaded, gravity=valid_gravity(gravity))
 
 
-def sound_gravity(gravity: Sequence[float]) -> tuple[float, float, float]:
-    """Return gravity [m/s²] that can be simulated.
+def valid_gravity(gravity: Sequence[float]) -> tuple[float, float, float]:
+    """Return a validated gravity vector [m/s²].
 
     Raises:
-        SimulationError: it is not three finite numbers, or stronger than any that robots stand in.
+        SimulationError: the vector does not have three finite numbers, or a component exceeds `MAX_GRAVITY`.
     """
     x, y, z = vector(gravity, 3, "gravity", "m/s²")
-    if max(abs(x), abs(y), abs(z)) > STRONGEST:
-        raise SimulationError(f"gravity of {max(x, y, z, key=abs):g} m/s² makes no sense; the Earth's is 0,0,-9.81")
+    if max(abs(x), abs(y), abs(z)) > MAX_GRAVITY:
+        raise SimulationError(
+            f"gravity is {max(x, y, z, key=abs):g} m/s²; it must be at most {MAX_GRAVITY:g} m/s² (Earth: 0,0,-9.81)"
+        )
     return x, y, z
 
 
 def require_masses(kinematics: Kinematics, q: NDArray[np.float64], note: Callable[[str], None]) -> None:
-    """Check that everything is a body or a joint, and that everything that moves has something to move.
+    """Check that all bodies and joints are possible, and that everything that moves has mass.
 
-    A link without mass between two joints can do with the mass of the links it carries, if their axes differ; that is
-    seen from the mass matrix. Gazebo drops such links, so they are noted.
+    A link without mass between two joints moves with the mass of the links that it carries if the axes of the joints
+    differ, which the mass matrix shows. Gazebo removes such links, so they are reported.
 
     Args:
-        kinematics: the robot's model.
-        q: where it starts.
-        note: tells the user something.
+        kinematics: model of the robot.
+        q: initial configuration.
+        note: reports a warning to the user.
 
     Raises:
-        SimulationError: a mass, an inertia, a shape or a limit cannot be, or a link must move but has no mass; with its
-            place and what to write.
+        SimulationError: a mass, inertia, shape or limit is impossible, or a movable link has no mass; with its place.
     """
-    require_sound(kinematics.robot)
+    require_valid(kinematics.robot)
     found = massless(kinematics.robot, floating=kinematics.floating_base)
     if not found:
         return
     if _is_regular(kinematics, q):
         for link, _ in found:
-            note(f"{link.element.origin.position}: link `{link.name}` has no mass: it moves with what it carries")
+            note(f"{link.element.origin.position}: link `{link.name}` has no mass; it moves with the links it carries")
         return
-    # What carries nothing is at fault, not what carries it.
+    # Report the last link of a chain without mass, because the others carry it.
     link, joint = found[-1]
     why = f"joint `{joint.name}` moves it" if joint is not None else "the robot is free to move"
-    instead = "or fix it to a link that has them" if joint is not None else "or hold it still with --fixed-base"
+    advice = "or fix it to a link that has them" if joint is not None else "or fix the robot with --fixed-base"
     problem = "has no <inertial>" if link.inertial is None else "has no mass or no moment of inertia"
     raise SimulationError(
-        f"link `{link.name}` {problem}, but {why}: write <inertial> with <mass> and <inertia> into it, {instead}",
+        f"link `{link.name}` {problem}, but {why}: add <inertial> with <mass> and <inertia>, {advice}",
         position=link.element.origin.position,
     )
 
 
 def _is_regular(kinematics: Kinematics, q: NDArray[np.float64]) -> bool:
-    """Whether every joint moves a mass, and the mass matrix can be inverted."""
+    """Return whether every joint moves a mass, and the mass matrix is invertible."""
     import pinocchio
 
     pin: Any = pinocchio

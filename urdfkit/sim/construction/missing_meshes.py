@@ -1,4 +1,4 @@
-"""What to do with shapes whose mesh is missing or broken, and what to say of them."""
+"""Omission of shapes with missing or invalid meshes, with a warning for each."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ from urdfkit.errors import ResourceError, SimulationError
 from urdfkit.scene import MeshLoader, Scene
 
 
-def remark_left_out(scene: Scene, note: Callable[[str], None]) -> None:
-    """Note every shape of a robot that is left out, by name.
+def warn_of_omitted_shapes(scene: Scene, note: Callable[[str], None]) -> None:
+    """Report every omitted shape of a robot by name.
 
     Raises:
-        ResourceError: that of the first collision, where no other is left: such a robot would fall through the floor.
+        ResourceError: the robot has no collision shape left, so it would fall through the ground.
     """
     touched = [each for each in scene.problems if each.role == "collision"]
     if touched and not scene.with_role("collision"):
         raise touched[0].error
     for each in scene.problems:
-        what = "nothing touches it there" if each.role == "collision" else "what it would look like is not seen"
-        note(f"{each.error}; shape `{each.name}` is left out: {what}")
+        effect = "it has no contacts" if each.role == "collision" else "it is invisible"
+        note(f"{each.error}; shape `{each.name}` is left out: {effect}")
 
 
 def without_broken(model: WorldModel, meshes: MeshLoader, note: Callable[[str], None]) -> WorldModel:
-    """Return a model of a world without the shapes whose mesh is broken, each noted by name.
+    """Return a model of a world without the shapes whose mesh is invalid, with a warning for each.
 
     Args:
-        model: as read; a shape whose mesh is not there names no file, and was noted then.
-        meshes: reads the mesh files.
-        note: tells the user something.
+        model: the model; a shape with a missing mesh has no file, and was reported when the model was read.
+        meshes: loads the mesh files.
+        note: reports a warning to the user.
 
     Raises:
-        SimulationError: no collision is left of what is free to move: it would fall through the floor.
+        SimulationError: a movable model has no collision shape left, so it would fall through the ground.
     """
     found = _without(model, meshes, note)
 
@@ -44,17 +44,17 @@ def without_broken(model: WorldModel, meshes: MeshLoader, note: Callable[[str], 
 
     if touched(model) and not touched(found) and not model.static:
         raise SimulationError(
-            f"no collision of model `{model.name}` has a mesh that can be read: it would fall through the floor; mend "
-            "one, or make the model <static>",
+            f"model `{model.name}` has no collision with a readable mesh, so it would fall through the ground; repair "
+            "a mesh, or make the model <static>",
             position=model.position,
         )
     return found
 
 
 def _without(model: WorldModel, meshes: MeshLoader, note: Callable[[str], None]) -> WorldModel:
-    """Return a model with the shapes that can be had; the very same where these are all."""
+    """Return a model without unreadable shapes; the same object if no shape is omitted."""
 
-    def is_had(shape: WorldShape, *, seen: bool) -> bool:
+    def is_readable(shape: WorldShape, *, visual: bool) -> bool:
         if not isinstance(shape.geometry, Mesh):
             return True
         if not shape.file:
@@ -62,19 +62,19 @@ def _without(model: WorldModel, meshes: MeshLoader, note: Callable[[str], None])
         try:
             meshes.load(Path(shape.file), shape.geometry.scale)
         except ResourceError as error:
-            touched = f"{error}; collision `{shape.name}` is left out: nothing touches it there"
-            told = f"visual `{shape.name}` is not seen: {error}" if seen else touched
-            note(f"{shape.position or model.name}: {told}")
+            omitted = f"{error}; collision `{shape.name}` is left out: it has no contacts"
+            message = f"visual `{shape.name}` is invisible: {error}" if visual else omitted
+            note(f"{shape.position or model.name}: {message}")
             return False
         return True
 
-    def sound(link: WorldLink) -> WorldLink:
-        visuals = tuple([shape for shape in link.visuals if is_had(shape, seen=True)])
-        collisions = tuple([shape for shape in link.collisions if is_had(shape, seen=False)])
+    def readable(link: WorldLink) -> WorldLink:
+        visuals = tuple([shape for shape in link.visuals if is_readable(shape, visual=True)])
+        collisions = tuple([shape for shape in link.collisions if is_readable(shape, visual=False)])
         same = visuals == link.visuals and collisions == link.collisions
         return link if same else replace(link, visuals=visuals, collisions=collisions)
 
-    links = tuple([sound(link) for link in model.links])
+    links = tuple([readable(link) for link in model.links])
     models = tuple([_without(each, meshes, note) for each in model.models])
     same = all(a is b for a, b in zip((*links, *models), (*model.links, *model.models), strict=True))
     return model if same else replace(model, links=links, models=models)

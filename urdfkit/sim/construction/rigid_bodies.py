@@ -1,4 +1,4 @@
-"""What a world holds besides robots: bodies of the engine, and trees of links and joints."""
+"""Bodies and joint trees of a world, for the engine."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ from urdfkit.sim.state.poses import seven
 
 Array = NDArray[np.float64]
 Placed = tuple[str, Pose, WorldLink]
-"""Name in the model, pose in it, and link."""
+"""Name in the model, pose in the model, and link."""
 
 
 def bodies_of(world: World) -> tuple[Body, ...]:
-    """Return the bodies of a world; what joints move, and what has plugins, is no body but a tree.
+    """Return the bodies of a world, without links that are simulated as trees because of joints or plugins.
 
     Raises:
-        SimulationError: something in it cannot be simulated, with its place.
+        SimulationError: a model cannot be simulated; with its place.
     """
     require_no_joints(world)
     meshes = MeshLoader()
@@ -46,22 +46,22 @@ def bodies_of(world: World) -> tuple[Body, ...]:
 
 
 def require_no_joints(world: World) -> None:
-    """Refuse joints between models.
+    """Check that no joint connects two models.
 
     Raises:
-        SimulationError: there is one, with its place.
+        SimulationError: a joint connects two models; with its place.
     """
     for joint in world.joints:
         raise SimulationError(
-            f"joint `{joint.name}` of the world cannot be simulated: joints join links of one model",
+            f"joint `{joint.name}` of the world cannot be simulated: joints must connect links of the same model",
             position=joint.position,
         )
 
 
 def parts_of(model: WorldModel) -> Iterator[tuple[str, bool, list[Placed]]]:
-    """Yield name, whether it is static, and the links of each body of a model; the first link's frame is the body's.
+    """Yield the name, whether it is static, and the links of each body of a model; its frame is that of the first link.
 
-    A body has the name of its model, with ``::`` and the name of the link where there are several.
+    A body has the name of its model; if the model has several bodies, ``::`` and the name of the link are appended.
     """
     if model.static:
         links = list(model.all_links())
@@ -79,10 +79,10 @@ def parts_of(model: WorldModel) -> Iterator[tuple[str, bool, list[Placed]]]:
 
 
 def trees_of(model: WorldModel) -> tuple[Tree, ...]:
-    """Return what of a model is simulated as a robot is: what joints move, and what has plugins or sensors.
+    """Return the trees of a model that are simulated like robots: with movable joints, plugins or sensors.
 
     Raises:
-        SimulationError: a joint cannot be simulated, with its place.
+        SimulationError: a joint cannot be simulated; with its place.
     """
     if model.static:
         return ()
@@ -90,22 +90,22 @@ def trees_of(model: WorldModel) -> tuple[Tree, ...]:
 
 
 def is_tree(model: WorldModel, group: Group) -> bool:
-    """Whether links are simulated as a robot is, not as a body."""
+    """Return whether links are simulated like a robot instead of a body."""
     return group.moves or (not group.bolted and has_plugins(model, group))
 
 
 def has_plugins(model: WorldModel, group: Group) -> bool:
-    """Whether plugins that we know, or sensors, are about these links."""
+    """Return whether these links have sensors or supported plugins."""
     if any(kept.element.tag == "sensor" for _, _, link in group.links for kept in link.kept):
         return True
     return group.first and any(match(plugin) is not None for plugin in plugins_of(tuple(all_kept(model))))
 
 
 def bodies_of_model(model: WorldModel, meshes: MeshLoader, *, is_ground: bool) -> Iterator[Body]:
-    """Yield the bodies of a model. The plane that is the world's ground is left to the engine.
+    """Yield the bodies of a model. The plane that is the world's ground is omitted: the engine has its own.
 
     Raises:
-        SimulationError: something in it cannot be simulated, with its place.
+        SimulationError: a link cannot be simulated; with its place.
     """
     for name, static, links in parts_of(model):
         if not static:
@@ -122,29 +122,29 @@ def bodies_of_model(model: WorldModel, meshes: MeshLoader, *, is_ground: bool) -
 
 
 def scene_of_tree(tree: Tree, meshes: MeshLoader) -> Scene:
-    """Return the shapes of a tree, under the names that its links have in `Tree.robot`.
+    """Return the shapes of a tree, by the names of its links in `Tree.robot`.
 
     Raises:
-        SimulationError: something in it cannot be simulated, with its place.
-        ResourceError: a mesh is broken.
+        SimulationError: a link cannot be simulated; with its place.
+        ResourceError: a mesh is invalid.
     """
     shapes: list[Shape] = []
     for name, link in tree.links.items():
         _require_ordinary(link, tree.name)
         for shape in touchable(link):
             if isinstance(shape.geometry, Plane):
-                raise _endless(tree.name, shape)
+                raise _infinite_plane_error(tree.name, shape)
             shapes.append(_shape(shape, f"{name}/collision/{shape.name}", name, "collision", np.eye(4), meshes))
-        shapes += _looks(name, link, np.eye(4), meshes, len(shapes))
+        shapes += _visuals(name, link, np.eye(4), meshes, len(shapes))
     return Scene(tuple(link.name for link in tree.robot.links), tuple(shapes))
 
 
 def surfaces_of_tree(tree: Tree, note: Callable[[str], None]) -> dict[str, Surface]:
-    """Return link → how it rubs: all collisions of a link alike, as the smoothest where they are written to differ.
+    """Return the surface of each link: all its collisions get the lowest friction coefficient of any of them.
 
     Args:
-        tree: of a world.
-        note: tells the user something.
+        tree: a tree of a world.
+        note: reports a warning to the user.
     """
     found = {}
     for name, link in tree.links.items():
@@ -154,19 +154,19 @@ def surfaces_of_tree(tree: Tree, note: Callable[[str], None]) -> dict[str, Surfa
         found[name] = min(surfaces, key=lambda surface: surface.mu)
         if any(each.mu != found[name].mu for each in surfaces):
             note(
-                f"{link.position}: the collisions of link `{link.name}` rub differently, which links on joints cannot: "
-                f"all have mu {found[name].mu:g}"
+                f"{link.position}: the collisions of link `{link.name}` have different friction, which is not "
+                f"supported for links with joints: all have mu {found[name].mu:g}"
             )
     return found
 
 
-def looks_of(world: World) -> tuple[Shape, ...]:
-    """Return what the bodies of a world look like, each shape under the name that its body has in `bodies_of`.
+def visuals_of(world: World) -> tuple[Shape, ...]:
+    """Return the visuals of the bodies of a world, by the names that bodies have in `bodies_of`.
 
-    Planes, and visuals whose mesh is not there, are left out.
+    Planes, and visuals with a missing mesh, are omitted.
 
     Raises:
-        ResourceError: a mesh is broken.
+        ResourceError: a mesh is invalid.
     """
     meshes = MeshLoader()
     found: list[Shape] = []
@@ -174,11 +174,11 @@ def looks_of(world: World) -> tuple[Shape, ...]:
         for body, _, links in parts_of(model):
             into = inverse_placement(pose_matrix(links[0][1]))
             for _, pose, link in links:
-                found += _looks(body, link, matmul(into, pose_matrix(pose)), meshes, len(found))
+                found += _visuals(body, link, matmul(into, pose_matrix(pose)), meshes, len(found))
     return tuple(found)
 
 
-def _looks(body: str, link: WorldLink, frame: Array, meshes: MeshLoader, number: int) -> list[Shape]:
+def _visuals(body: str, link: WorldLink, frame: Array, meshes: MeshLoader, number: int) -> list[Shape]:
     shown = [s for s in link.visuals if not isinstance(s.geometry, Plane) and (s.file or type(s.geometry) is not Mesh)]
     return [
         _shape(shape, f"{body}/visual/{number + k}", body, "visual", frame, meshes) for k, shape in enumerate(shown)
@@ -186,7 +186,7 @@ def _looks(body: str, link: WorldLink, frame: Array, meshes: MeshLoader, number:
 
 
 def _merged(name: str, around: Pose, links: Sequence[Placed], meshes: MeshLoader) -> Body:
-    """Return one free body of links that hold together, in the frame of the first."""
+    """Return one movable body of rigidly connected links, in the frame of the first."""
     frame = pose_matrix(links[0][1])
     masses, centres, tensors, pieces = [], [], [], []
     for _, pose, link in links:
@@ -203,7 +203,7 @@ def _merged(name: str, around: Pose, links: Sequence[Placed], meshes: MeshLoader
         tensors.append(matmul(matmul(axes[:3, :3], tensor), axes[:3, :3].T))
         for shape in touchable(link):
             if isinstance(shape.geometry, Plane):
-                raise _endless(name, shape)
+                raise _infinite_plane_error(name, shape)
             pieces.append(_piece(shape, inside, name, meshes))
     mass = float(sum(masses))
     weights = np.array(masses) / mass if mass > 0.0 else np.full(len(masses), 1.0 / len(masses))
@@ -234,19 +234,17 @@ def _require_ordinary(link: WorldLink, name: str) -> None:
         )
     if link.kinematic:
         raise SimulationError(
-            f"link `{link.name}` of `{name}` asks to be moved by command only, which cannot be simulated yet",
+            f"link `{link.name}` of `{name}` is kinematic, which is not supported",
             position=link.position,
         )
 
 
-def _endless(name: str, shape: WorldShape) -> SimulationError:
-    return SimulationError(
-        f"`{name}` is free to move and holds a plane without end: make it static", position=shape.position
-    )
+def _infinite_plane_error(name: str, shape: WorldShape) -> SimulationError:
+    return SimulationError(f"`{name}` is movable and has an infinite plane; make it static", position=shape.position)
 
 
 def touchable(link: WorldLink) -> Iterator[WorldShape]:
-    """Yield the collisions of a link that push back."""
+    """Yield the collision shapes of a link that generate contacts."""
     for shape in link.collisions:
         if shape.surface.collide_bitmask and not shape.surface.collide_without_contact:
             yield shape
@@ -266,7 +264,7 @@ def _surface(shape: WorldShape) -> Surface:
 
 
 def _shape(shape: WorldShape, name: str, body: str, role: Role, frame: Array, meshes: MeshLoader) -> Shape:
-    """Return a shape of a world as viewer and engine know it; `frame` is that of its link."""
+    """Return a shape of a world as a shape of the scene; `frame` is the pose of its link."""
     geometry: Any = shape.geometry
     placement = matmul(frame, pose_matrix(shape.pose))
     mesh = None

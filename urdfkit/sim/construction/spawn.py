@@ -1,4 +1,4 @@
-"""Where a robot starts: pose of its root link, joints, velocities; set down on the ground where no height is given."""
+"""Start pose of a robot: root link, joints and velocities; on the ground if no height is given."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Spawn:
-    """Where and how a robot starts.
+    """Start pose and velocity of a robot.
 
     Attributes:
-        x: of the root link [m].
+        x: position of the root link [m].
         y: [m].
-        z: [m]; None sets the robot down so that its lowest collision point touches the ground.
+        z: [m]; None: the lowest collision point is on the ground.
         roll: fixed-axis angles [rad].
         pitch: [rad].
         yaw: [rad].
-        twist: velocity of the root link [m/s] and its angular velocity [rad/s], along the world's axes.
+        twist: linear [m/s] and angular velocity [rad/s] of the root link, in world axes.
         joints: joint → position [rad] or [m].
         velocities: joint → velocity [rad/s] or [m/s].
     """
@@ -47,17 +47,17 @@ class Spawn:
         """Return the pose of the root link: x y z [m] and quaternion x y z w; shape (7,).
 
         Args:
-            kinematics: the robot's model.
-            scene: its shapes.
-            ground: height of what is below [m]; None for nothing.
+            kinematics: model of the robot.
+            scene: shapes of the robot.
+            ground: height of the ground below [m]; None without ground.
 
         Raises:
-            SimulationError: not a finite number.
-            KinematicsError: an unknown joint.
+            SimulationError: a value is not a finite number.
+            KinematicsError: a joint is unknown.
         """
         pose = (self.x, self.y, 0.0 if self.z is None else self.z, self.roll, self.pitch, self.yaw)
-        vector(pose, 6, "where a robot starts", "m, rad")
-        vector(self.twist, 6, "the velocity a robot starts with", "m/s, rad/s")
+        vector(pose, 6, "the start pose", "m, rad")
+        vector(self.twist, 6, "the initial velocity", "m/s, rad/s")
         quaternion = from_rpy(self.roll, self.pitch, self.yaw)
         height = self.z
         if height is None:
@@ -75,17 +75,17 @@ class Spawn:
         return lowest_point(scene, link_poses(kinematics, kinematics.configuration(self.joints), upright))
 
     def configuration(self, kinematics: Kinematics, pose: Array) -> tuple[Array, Array]:
-        """Return q and v at the start.
+        """Return the initial q and v.
 
         Raises:
-            KinematicsError: an unknown joint, or a value that is no finite number.
-            JointLimitError: a joint outside its limits.
-            SimulationError: a twist for a robot that is bolted down.
+            KinematicsError: a joint is unknown, or a value is not a finite number.
+            JointLimitError: a joint is outside its limits.
+            SimulationError: a robot with a fixed base has a twist.
         """
         floats = kinematics.floating_base
         q = kinematics.configuration(self.joints, base=pose if floats else None, check_limits=bool(self.joints))
         if not floats and any(self.twist):
-            raise SimulationError("a robot with a fixed base cannot start with a velocity of its root link")
+            raise SimulationError("a robot with a fixed base cannot have an initial velocity of its root link")
         inverse = np.array([-pose[3], -pose[4], -pose[5], pose[6]])
         twist = np.array([*rotate(inverse, self.twist[:3]), *rotate(inverse, self.twist[3:])])
         return q, kinematics.velocity(self.velocities, base=twist if floats else None, q=q)

@@ -1,4 +1,4 @@
-"""How links rub: ``<mu1>``, ``<mu2>``, ``<fdir1>`` of ``<gazebo reference="LINK">``."""
+"""Friction of links: ``<mu1>``, ``<mu2>``, ``<fdir1>`` of ``<gazebo reference="LINK">``."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from urdfkit.sim.engine import Surface
 
 
 def surfaces_of(robot: Robot) -> dict[str, Surface]:
-    """Return link name → surface for the links that have one written; ``<mu1>`` alone is ``<mu2>`` as well.
+    """Return the surfaces of links that define one; without ``<mu2>``, ``<mu1>`` applies to both directions.
 
     Raises:
-        SimulationError: a coefficient is no number or negative, or a direction's frame no link, with its place.
+        SimulationError: a coefficient is negative or not a number, or a frame is not a link; with its place.
     """
     found: dict[str, Surface] = {}
     across: set[str | None] = set()
@@ -41,13 +41,13 @@ def surfaces_of(robot: Robot) -> dict[str, Surface]:
 
 
 def _frame(robot: Robot, element: Element | None) -> str:
-    """Return the link named by ``expressed_in`` (Gazebo has it with the prefix ``gz:`` or ``ignition:``)."""
+    """Return the link in ``expressed_in`` (in Gazebo with the prefix ``gz:`` or ``ignition:``)."""
     for name in ("gz:expressed_in", "ignition:expressed_in", "expressed_in"):
         link = element.get(name) if element is not None else None
         if element is not None and link:
             if link not in robot.link_by_name:
                 raise SimulationError(
-                    f"<fdir1> is expressed in `{link}`, which is no link{did_you_mean(link, robot.link_by_name)}",
+                    f"<fdir1> is expressed in `{link}`, which is not a link{did_you_mean(link, robot.link_by_name)}",
                     position=element.origin.position,
                 )
             return link
@@ -64,6 +64,6 @@ def _numbers(element: Element | None, count: int) -> tuple[float, ...] | None:
     except ValueError:
         numbers = ()
     if len(numbers) != count or not all(isfinite(number) for number in numbers) or (count == 1 and numbers[0] < 0):
-        wanted = "a number, zero or greater" if count == 1 else f"{count} numbers"
-        raise SimulationError(f"<{element.tag}> is `{text}`; it must be {wanted}", position=element.origin.position)
+        expected = "a number, zero or greater" if count == 1 else f"{count} numbers"
+        raise SimulationError(f"<{element.tag}> is `{text}`; it must be {expected}", position=element.origin.position)
     return numbers

@@ -1,4 +1,4 @@
-"""What no body and no joint can be, said with its place before anything is computed with it."""
+"""Validation of masses, inertias, sizes and limits before anything is computed with them."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from urdfkit.description.xml.element import Element
 from urdfkit.errors import SimulationError
 
 IMPOSSIBLE = 1e-3
-"""How far moments of inertia may be from those of a body, relative to the largest: rounded numbers are (I502, I503)."""
+"""Tolerance for impossible moments of inertia, relative to the largest, for rounded numbers (I502, I503)."""
 
-Wrong = tuple[str, Element]
-"""What is wrong, and where."""
+Problem = tuple[str, Element]
+"""Message, and the element that it refers to."""
 
 
 class Tensor(Protocol):
@@ -37,18 +37,18 @@ class Tensor(Protocol):
     def izz(self) -> float: ...  # noqa: D102
 
 
-def require_sound(robot: Robot) -> None:
-    """Refuse bodies and joints that cannot be.
+def require_valid(robot: Robot) -> None:
+    """Check that all bodies and joints are physically possible.
 
     Raises:
-        SimulationError: the first of them, with its place.
+        SimulationError: the first that is not; with its place.
     """
-    for message, element in unsound(robot):
+    for message, element in problems(robot):
         raise SimulationError(message + chain_words(element.origin.expansions), position=element.origin.position)
 
 
-def unsound(robot: Robot) -> Iterator[Wrong]:
-    """Yield whatever no body and no joint can be, and where it is written."""
+def problems(robot: Robot) -> Iterator[Problem]:
+    """Yield a message and an element for every property that is physically impossible."""
     for link in robot.links:
         yield from _masses(link)
         for collision in link.collisions:
@@ -57,7 +57,7 @@ def unsound(robot: Robot) -> Iterator[Wrong]:
         yield from _joint(joint)
 
 
-def _masses(link: Link) -> Iterator[Wrong]:
+def _masses(link: Link) -> Iterator[Problem]:
     inertial = link.inertial
     if inertial is None:
         return
@@ -71,7 +71,7 @@ def _masses(link: Link) -> Iterator[Wrong]:
 
 
 def impossible(i: Tensor) -> str:
-    """Return why no body has a tensor of inertia; empty where one may."""
+    """Return why a tensor of inertia is impossible for a body; empty if it is possible."""
     tensor = np.array([[i.ixx, i.ixy, i.ixz], [i.ixy, i.iyy, i.iyz], [i.ixz, i.iyz, i.izz]])
     a, b, c = np.linalg.eigvalsh(tensor).tolist()
     if a < -IMPOSSIBLE * max(abs(a), abs(c)):
@@ -83,7 +83,7 @@ def impossible(i: Tensor) -> str:
     return f"of its principal moments {a:.6g}, {b:.6g} and {c:.6g} kg·m² {why}"
 
 
-def _sizes(link: Link, collision: Collision) -> Iterator[Wrong]:
+def _sizes(link: Link, collision: Collision) -> Iterator[Problem]:
     shape = collision.geometry
     if shape is None or isinstance(shape, Mesh):
         return
@@ -97,7 +97,7 @@ def _sizes(link: Link, collision: Collision) -> Iterator[Wrong]:
                 yield f"the {kind} of link `{link.name}` has a {name} of {length:g} m; it must be positive", written
 
 
-def _joint(joint: Joint) -> Iterator[Wrong]:
+def _joint(joint: Joint) -> Iterator[Problem]:
     if not joint.is_movable:
         return
     unit, force = ("m", "N") if joint.type == "prismatic" else ("rad", "N·m")

@@ -24,7 +24,7 @@ AT_REST = (0.0,) * 6
 
 
 def pose_of(builder: WorldBuilder, name: str) -> Pose:
-    """Return where the frame of a model, or the root link of a robot, is in the world."""
+    """Return the pose of a model's frame, or of a robot's root link, in the world."""
     entity = builder.entity(name)
     if is_static(builder, entity):
         assert entity.source is not None
@@ -34,16 +34,13 @@ def pose_of(builder: WorldBuilder, name: str) -> Pose:
 
 
 def twist_of(builder: WorldBuilder, name: str) -> tuple[float, ...]:
-    """Return velocity [m/s] of the origin of a model's frame, or a robot's root link, and angular velocity [rad/s].
-
-    They are along the world's axes.
-    """
+    """Return the linear [m/s] and angular velocity [rad/s] of a model's frame or a robot's root link, in world axes."""
     entity = builder.entity(name)
     if is_static(builder, entity):
         return AT_REST
     part, offset = next(iter(entity.offsets.items()))
     robot = next((each for each in entity.robots if each.name == part), None)
-    found = np.array(
+    velocity = np.array(
         robot.state.base_velocity
         if robot
         else builder.free_bodies[part].twist
@@ -52,21 +49,21 @@ def twist_of(builder: WorldBuilder, name: str) -> tuple[float, ...]:
     )
     if offset != IDENTITY:
         back = np.array(pose_of(builder, name).xyz) - np.array(_part_pose(builder, entity, part).xyz)
-        found[:3] += np.cross(found[3:], back)
-    return tuple(found.tolist())
+        velocity[:3] += np.cross(velocity[3:], back)
+    return tuple(velocity.tolist())
 
 
 def move(builder: WorldBuilder, name: str, pose: Pose, twist: Sequence[float] = AT_REST) -> None:
-    """Put a model or robot somewhere, its parts as they are to each other, moving as one.
+    """Place a model or robot, with the relative poses of its parts unchanged.
 
     Args:
-        builder: the world's.
-        name: of a model, robot or body.
-        pose: of the model's frame, or of a robot's root link.
-        twist: velocity of that frame's origin [m/s] and angular velocity [rad/s], along the world's axes.
+        builder: builder of the world.
+        name: name of the model, robot or body.
+        pose: pose of the model's frame, or of the robot's root link.
+        twist: linear [m/s] and angular velocity [rad/s] of that frame, in world axes.
 
     Raises:
-        SimulationError: there is none, or a robot that is bolted down is to move.
+        SimulationError: unknown name, or a robot with a fixed base is moved.
     """
     speed = np.array(vector(twist, 6, "the velocity", "m/s, rad/s"))
     if name not in builder.entities and name in builder.body_names:
@@ -76,7 +73,7 @@ def move(builder: WorldBuilder, name: str, pose: Pose, twist: Sequence[float] = 
     shift = compose(pose, inverse(pose_of(builder, name)))
     if is_static(builder, entity):
         if speed.any():
-            raise SimulationError(f"`{name}` is static: it can be put elsewhere, but not be given a velocity")
+            raise SimulationError(f"`{name}` is static: it can be placed, but it cannot have a velocity")
         _move_static(builder, name, entity, pose, shift)
         return
     for part in entity.offsets:
@@ -84,16 +81,16 @@ def move(builder: WorldBuilder, name: str, pose: Pose, twist: Sequence[float] = 
 
 
 def move_body(builder: WorldBuilder, name: str, pose: Pose, twist: Sequence[float] = AT_REST) -> None:
-    """Put one body somewhere.
+    """Place one body.
 
     Args:
-        builder: the world's.
-        name: of the body.
-        pose: in the world.
+        builder: builder of the world.
+        name: name of the body.
+        pose: pose in the world.
         twist: see `move`.
 
     Raises:
-        SimulationError: there is none, or it is part of a model that does not move.
+        SimulationError: unknown name, or the body belongs to a static model.
     """
     builder.body(name)
     if name in builder.free_bodies:
@@ -101,11 +98,11 @@ def move_body(builder: WorldBuilder, name: str, pose: Pose, twist: Sequence[floa
     elif name in builder.entities:
         move(builder, name, compose(pose, inverse(builder.entities[name].offsets[name])), twist)
     else:
-        raise SimulationError(f"body `{name}` does not move; place the model that it belongs to")
+        raise SimulationError(f"body `{name}` is static; place its model instead")
 
 
 def is_static(builder: WorldBuilder, entity: WorldEntity) -> bool:
-    """Whether a model is made of nothing but what does not move."""
+    """Return whether no part of a model can move."""
     return not entity.robots and not any(part in builder.free_bodies for part in entity.offsets)
 
 
@@ -127,7 +124,7 @@ def _put(
             builder.free_bodies[part].place(seven(pose), moving.tolist())
         return
     if not robot.kinematics.floating_base:
-        raise SimulationError(f"robot `{part}` is bolted down; it cannot be put elsewhere")
+        raise SimulationError(f"robot `{part}` has a fixed base and cannot be placed")
     q, v = robot.articulation.q, robot.articulation.v.copy()
     q[:7] = seven(pose)
     R = _matrix(q[3:7])

@@ -1,8 +1,8 @@
-"""Forces and torques from outside, on bodies and on links of robots, along the world's axes.
+"""External forces and torques on bodies and on links of robots, in world axes.
 
-They are what Gazebo's ``apply_body_wrench`` and gz's ``ApplyLinkWrench`` do: given in the world's axes, at a point that
-moves with the link, its origin unless said otherwise; several add up. A push acts on where the step is half way, as all
-else in the engine does, so that a constant force on a spinning body is constant in the world.
+They correspond to Gazebo's ``apply_body_wrench`` and gz's ``ApplyLinkWrench``: a force in world axes acts at a point
+that moves with the link, by default its origin; several forces add up. A force is evaluated at the middle of a step,
+like all other quantities of the engine, so that a constant force on a rotating body is constant in the world.
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ ZERO = (0.0, 0.0, 0.0)
 
 @dataclass(frozen=True, eq=False)
 class Push:
-    """A force and a torque that act on something.
+    """A force and a torque that act on a body or link.
 
     Attributes:
-        target: what they act on.
-        force: [N], along the world's axes.
-        torque: [N·m], along the world's axes.
-        at: where the force acts, in the link's frame [m].
-        until: the step before which it ends; infinite where it is to last.
+        target: the body or link.
+        force: force in world axes [N].
+        torque: torque in world axes [N·m].
+        at: point of attack in the link's frame [m].
+        until: step before which the force ends; infinite without an end.
     """
 
     target: Target
@@ -55,10 +55,10 @@ class Push:
 
 
 class ExternalForces:
-    """Forces and torques that act on the bodies and links of a world at present.
+    """Forces and torques that act on the bodies and links of a world.
 
     Args:
-        builder: the world's.
+        builder: builder of the world.
     """
 
     def __init__(self, builder: WorldBuilder) -> None:
@@ -91,49 +91,49 @@ class ExternalForces:
 
     def forget(self, entity: WorldEntity) -> None:
         """End all pushes on an entity that is removed."""
-        gone = {id(robot) for robot in entity.robots}
+        removed = {id(robot) for robot in entity.robots}
         self.acting = [
             push
             for push in self.acting
-            if not ((id(push.target[0]) in gone) if push.target[0] else push.target[1] in entity.offsets)
+            if not ((id(push.target[0]) in removed) if push.target[0] else push.target[1] in entity.offsets)
         ]
 
     def on(self, robot: SimulatedRobot, links: Sequence[str]) -> tuple[tuple[Array, Array, Array], ...]:
-        """Return force [N], torque [N·m] and point of attack [m], in the world, of what pushes links of a robot."""
-        found = []
+        """Return force [N], torque [N·m] and point of attack [m], in world axes, of each push on links of a robot."""
+        pushes = []
         for push in self.acting:
             if push.target[0] is robot and push.target[1] in links:
                 pose = robot.state.link_poses()[robot.kinematics.link_names.index(push.target[1])]
                 at = pose[:3] + np.array(rotate(pose[3:], push.at))
-                found.append((np.array(push.force), np.array(push.torque), at))
-        return tuple(found)
+                pushes.append((np.array(push.force), np.array(push.torque), at))
+        return tuple(pushes)
 
     def step(self, engine: Engine) -> None:
-        """Advance an engine by one step while what pushes pushes.
+        """Advance an engine by one step with the acting forces.
 
         Raises:
             SimulationError: the simulation diverged.
         """
         self.acting = [push for push in self.acting if push.until > engine.steps]
-        touched: list[tuple[Any, Array]] = []
-        loose: dict[str, Array] = {}
+        efforts: list[tuple[Any, Array]] = []
+        wrenches: dict[str, Array] = {}
         for push in self.acting:
             robot, name = push.target
             if robot is None:
-                loose[name] = loose.get(name, np.zeros(6)) + _on_body(engine.bodies[name], push, engine.dt)
+                wrenches[name] = wrenches.get(name, np.zeros(6)) + _on_body(engine.bodies[name], push, engine.dt)
             else:
-                touched.append((robot, _on_link(robot, name, push, engine.dt)))
-        before = [(robot.articulation.applied, robot.articulation.applied.copy()) for robot, _ in touched]
-        for robot, effort in touched:
+                efforts.append((robot, _on_link(robot, name, push, engine.dt)))
+        before = [(robot.articulation.applied, robot.articulation.applied.copy()) for robot, _ in efforts]
+        for robot, effort in efforts:
             robot.articulation.applied += effort
-        for name, wrench in loose.items():
+        for name, wrench in wrenches.items():
             engine.bodies[name].push(wrench.tolist())
         try:
             engine.step(1)
         finally:
             for applied, values in reversed(before):
                 applied[:] = values
-            for name in loose:
+            for name in wrenches:
                 engine.bodies[name].push(NO_WRENCH)
 
 
@@ -159,14 +159,14 @@ def target_of(builder: WorldBuilder, name: str) -> Target:
     if body in builder.free_bodies:
         return None, body
     if name in builder.static_poses or body in builder.static_poses:
-        raise SimulationError(f"body `{name}` does not move; nothing can push it")
-    known = [*builder.free_bodies, *first.kinematics.link_names]
-    known += [f"{each.name}::{link}" for each in robots.values() for link in each.kinematics.link_names]
-    raise UnknownNameError(f"no body or link `{name}` in the simulation{nearest(name, known)}")
+        raise SimulationError(f"body `{name}` is static; it cannot be pushed")
+    names = [*builder.free_bodies, *first.kinematics.link_names]
+    names += [f"{each.name}::{link}" for each in robots.values() for link in each.kinematics.link_names]
+    raise UnknownNameError(f"no body or link `{name}` in the simulation{nearest(name, names)}")
 
 
 def _body_of(builder: WorldBuilder, scoped: str) -> str:
-    """Return the body that a link of a model in the world, ``MODEL::LINK``, is part of; "" if there is none."""
+    """Return the body that contains a link of a model, ``MODEL::LINK``; empty if there is no such link."""
     name, _, link = scoped.partition("::")
     for model in builder.description.models:
         if link and model.name == name:
@@ -177,20 +177,20 @@ def _body_of(builder: WorldBuilder, scoped: str) -> str:
 
 
 def _steps(seconds: float | None, dt: float) -> float:
-    """Return for how many steps a push lasts; None is for ever, and what is shorter than a step is a step.
+    """Return the number of steps that a push lasts: infinite for None, and at least one step if not zero.
 
     Raises:
-        SimulationError: it is negative or no number.
+        SimulationError: the duration is negative or not finite.
     """
     if seconds is None:
         return inf
     if not (isfinite(seconds) and seconds >= 0):
-        raise SimulationError(f"a push cannot last {seconds:g} s; leave it out to push until told otherwise")
+        raise SimulationError(f"a push cannot last {seconds:g} s; omit the duration to push until released")
     return max(1, round(seconds / dt)) if seconds > 0 else 0
 
 
 def _on_body(body: FreeBody, push: Push, dt: float) -> Array:
-    """Return the wrench at the origin of a free body, along its own axes half a step ahead."""
+    """Return the wrench at the origin of a free body, in its own axes at the middle of the step."""
     pose, twist = body.pose, body.twist
     turned = _half_a_step_later(pose[3:], twist[3:], dt)
     inverse = (-turned[0], -turned[1], -turned[2], turned[3])
@@ -199,7 +199,7 @@ def _on_body(body: FreeBody, push: Push, dt: float) -> Array:
 
 
 def _half_a_step_later(quaternion: Sequence[float], rate: Sequence[float], dt: float) -> tuple[float, ...]:
-    """Return where an orientation is after half a step of turning at a rate along the world's axes [rad/s]."""
+    """Return an orientation after half a step with a constant angular velocity in world axes [rad/s]."""
     angle = vector_norm(rate) * dt / 2
     scale = 0.5 * dt / 2 * float(np.sinc(angle / 2 / np.pi))
     x, y, z = (scale * part for part in rate)
@@ -207,7 +207,7 @@ def _half_a_step_later(quaternion: Sequence[float], rate: Sequence[float], dt: f
 
 
 def _on_link(robot: SimulatedRobot, link: str, push: Push, dt: float) -> Array:
-    """Return the efforts of a robot's dofs that are as good as a push, half a step ahead: Jᵀ·wrench; shape (nv,)."""
+    """Return the generalised forces of a push on a robot at the middle of the step: Jᵀ·wrench; shape (nv,)."""
     import pinocchio
 
     pin: Any = pinocchio
@@ -221,8 +221,8 @@ def _on_link(robot: SimulatedRobot, link: str, push: Push, dt: float) -> Array:
     frame = kinematics.frame(link)
     jacobian = pin.computeFrameJacobian(model, data, q, frame, pin.LOCAL_WORLD_ALIGNED)
     arm = matmul(data.oMf[frame].rotation, np.array(push.at))
-    found: Array = matmul(jacobian.T, np.concatenate([force, np.array(torque) + np.cross(arm, force)]))
-    return found
+    efforts: Array = matmul(jacobian.T, np.concatenate([force, np.array(torque) + np.cross(arm, force)]))
+    return efforts
 
 
 def _three(what: str, values: Sequence[float]) -> tuple[float, ...]:

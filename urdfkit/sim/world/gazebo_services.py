@@ -1,7 +1,7 @@
-"""The world on the bus: Gazebo's services and topics for spawning, removing, placing and pushing, as topics.
+"""Gazebo's services and topics for spawning, removing, placing and pushing entities, as topics of the bus.
 
-The bus has no services, so the request of each is what its topic carries, under the service's own name. What fails is
-noted, and nothing else happens, as when a service answers with an error.
+The bus has no services: the topic with the name of a service carries its requests. A request that fails is reported to
+the user and has no other effect, like a service that returns an error.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 Note = Callable[[str], None]
 
 MODEL_STATES_RATE = 100.0
-"""[Hz]; Gazebo publishes them every step."""
+"""Publication rate [Hz]; Gazebo publishes in every step."""
 
 
 def listen(bus: Bus, world: LiveWorld, call_at: Callable[[float, Callable[[], None]], None], note: Note) -> None:
@@ -82,7 +82,7 @@ class _Services:
         self._world, self._call_at = world, call_at
 
     def set_model_state(self, message: Any) -> None:
-        """Put a model somewhere, with a velocity; in the frame of a model or link where one is named."""
+        """Place a model with a velocity, in the frame of a model or link if one is named."""
         pose, twist = _seven(message.pose), _six(message.twist)
         frame = message.reference_frame
         if frame not in ("", "world", "map"):
@@ -93,19 +93,19 @@ class _Services:
         self._world.place(message.model_name, pose_from(pose), twist)
 
     def spawn_model(self, message: Any) -> None:
-        """Spawn what a document describes."""
-        found = spawn_request_of_text(message.model_xml, self._world.package_path)
+        """Spawn the model of a document."""
+        request = spawn_request_of_text(message.model_xml, self._world.package_path)
         pose = _seven(message.initial_pose)
         if message.reference_frame not in ("", "world", "map"):
             pose = _composed(self._pose(message.reference_frame), pose)
-        self._spawn(found, message.model_name, pose)
+        self._spawn(request, message.model_name, pose)
 
     def delete_model(self, message: Any) -> None:
         """Remove a model."""
         self._world.remove(message.model_name)
 
     def apply_body_wrench(self, message: Any) -> None:
-        """Push a body at a time, for a time; in the axes and at a point of another where one is named."""
+        """Push a body from a given time for a given duration, in the axes and at a point of a named frame."""
         world, frame = self._world, message.reference_frame
         force, torque, point = (
             _three(message.wrench.force),
@@ -116,19 +116,19 @@ class _Services:
         if frame not in ("", "world", "map"):
             around = self._pose(frame)
             force, torque = rotate(around[3:], force), rotate(around[3:], torque)
-            there = _composed(around, (*point, 0.0, 0.0, 0.0, 1.0))
-            point = _inverted(body, there[:3])
+            point_in_world = _composed(around, (*point, 0.0, 0.0, 0.0, 1.0))
+            point = _inverted(body, point_in_world[:3])
         elif any(point):
-            # gazebo_ros takes the point from the body's origin, along the world's axes, where no frame is named.
+            # Without a frame, gazebo_ros interprets the point relative to the body's origin, in world axes.
             point = rotate((-body[3], -body[4], -body[5], body[6]), point)
         seconds = message.duration.sec + 1e-9 * message.duration.nanosec
         if seconds == 0:
             return
         start = message.start_time.sec + 1e-9 * message.start_time.nanosec
-        lasts = None if seconds < 0 else seconds
+        duration = None if seconds < 0 else seconds
 
         def push() -> None:
-            world.push(message.body_name, force, torque, at=point, for_seconds=lasts)
+            world.push(message.body_name, force, torque, at=point, for_seconds=duration)
 
         if start > world.builder.engine.t:
             self._call_at(start, push)
@@ -140,24 +140,26 @@ class _Services:
         self._world.release(message.body_name)
 
     def create(self, message: Any) -> None:
-        """Spawn an SDF or URDF, by text or file."""
+        """Spawn an SDF or URDF model from text or a file."""
         if message.relative_to not in ("", "world"):
-            raise SimulationError("`relative_to` is not read; give the pose in the world")
+            raise SimulationError("`relative_to` is not supported; use a pose in the world")
         if not (message.sdf or message.sdf_filename):
-            raise SimulationError("neither `sdf` nor `sdf_filename` says what to create (clones are not made)")
-        where = self._world.package_path
-        found = spawn_request_of_text(message.sdf, where) if message.sdf else spawn_request(message.sdf_filename, where)
-        name = message.name or found.source.name
+            raise SimulationError("`sdf` and `sdf_filename` are empty; cloning is not supported")
+        folders = self._world.package_path
+        request = (
+            spawn_request_of_text(message.sdf, folders) if message.sdf else spawn_request(message.sdf_filename, folders)
+        )
+        name = message.name or request.source.name
         if message.allow_renaming:
             name = self._world.free_name(name)
-        self._spawn(found, name, _seven(message.pose))
+        self._spawn(request, name, _seven(message.pose))
 
     def remove(self, message: Any) -> None:
         """Remove a model."""
         self._world.remove(message.name)
 
     def set_pose(self, message: Any) -> None:
-        """Put a model somewhere; its velocity stays, as in gz."""
+        """Place a model; its velocity is unchanged, as in gz."""
         self._world.place(message.entity.name, pose_from(_seven(message.pose)))
 
     def wrench(self, message: Any) -> None:
@@ -165,7 +167,7 @@ class _Services:
         self._push(message, self._world.builder.engine.dt)
 
     def persistent_wrench(self, message: Any) -> None:
-        """Push a link until told otherwise."""
+        """Push a link until the wrench is cleared."""
         self._push(message, None)
 
     def clear_wrench(self, message: Any) -> None:
@@ -176,16 +178,16 @@ class _Services:
         force, torque = _three(message.wrench.force), _three(message.wrench.torque)
         self._world.push(message.entity.name, force, torque, for_seconds=seconds)
 
-    def _spawn(self, found: SpawnRequest, name: str, pose: Sequence[float]) -> None:
-        self._world.spawn(found, pose_from(pose), name=name or None)
+    def _spawn(self, request: SpawnRequest, name: str, pose: Sequence[float]) -> None:
+        self._world.spawn(request, pose_from(pose), name=name or None)
 
     def _pose(self, name: str) -> Sequence[float]:
-        """Return where a model, robot, body or link is."""
+        """Return the pose of a model, robot, body or link."""
         return self._world.pose(name) if name in self._world.names else self._world.link_pose(name)
 
 
 class ModelStates(Publication):
-    """``/gazebo/model_states``: where every model and robot is, and how it moves; only while somebody listens."""
+    """``/gazebo/model_states``: pose and velocity of every model and robot, if the topic has subscribers."""
 
     def __init__(self, bus: Bus, dt: float, world: LiveWorld) -> None:
         super().__init__(bus.advertise("/gazebo/model_states", MODEL_STATES), MODEL_STATES_RATE, dt)
@@ -202,12 +204,12 @@ class ModelStates(Publication):
         """Return what builds the message of this moment, also later."""
         world = self._world
         names = world.names
-        found = [(world.pose(name), world.twist(name)) for name in names]
+        states = [(world.pose(name), world.twist(name)) for name in names]
 
         def build() -> Any:
-            poses = [_pose_message(pose) for pose, _ in found]
+            poses = [_pose_message(pose) for pose, _ in states]
             twist = message_type("geometry_msgs/msg/Twist")
-            twists = [twist(vector(each[:3]), vector(each[3:])) for _, each in found]
+            twists = [twist(vector(each[:3]), vector(each[3:])) for _, each in states]
             return message_type(MODEL_STATES)(list(names), poses, twists)
 
         return build
@@ -228,7 +230,7 @@ def _six(twist: Any) -> tuple[float, ...]:
 
 
 def _seven(pose: Any) -> tuple[float, ...]:
-    """Return a pose; a quaternion of zeros, as messages are born with, is no turn."""
+    """Return a pose; a quaternion of zeros, the default of messages, is the identity."""
     q = pose.orientation
     turn = (float(q.x), float(q.y), float(q.z), float(q.w))
     return (*_three(pose.position), *(turn if any(turn) else (0.0, 0.0, 0.0, 1.0)))

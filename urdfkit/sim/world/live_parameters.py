@@ -1,7 +1,7 @@
-"""Live parameters of a running simulation: friction, masses, gravity, gains of controllers.
+"""Live parameters of a running simulation: friction, masses, gravity, controller gains.
 
-What is written stays as it is; only the simulation changes. Masses and friction make the engine anew, of the same
-things where they are, as spawning does: what moves goes on. They stay through a reset.
+Only the simulation changes; the description does not. A change of mass or friction builds the engine again and
+transfers its state, as for a spawned entity. Changes persist after a reset.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from urdfkit.description.sdf import World, WorldModel
 from urdfkit.errors import SimulationError, UnknownNameError
 from urdfkit.kinematics.pinocchio_model import spatial_inertia
-from urdfkit.sim.construction.loading import sound_gravity
+from urdfkit.sim.construction.loading import valid_gravity
 from urdfkit.sim.engine import Surface
 from urdfkit.sim.state.arguments import nearest, number
 from urdfkit.sim.state.pid import Gains
@@ -25,17 +25,17 @@ if TYPE_CHECKING:
     from urdfkit.sim.world.simulated_robot import SimulatedRobot
 
 LEAST_MASS = 1e-6
-"""[kg]"""
+"""Minimum mass [kg]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Tuned:
-    """What of a link, or of a model of the world, can be changed.
+    """Live parameters of a link or a model.
 
     Attributes:
-        name: of the link, or of the model.
-        mass: [kg]; None where it makes no difference or cannot be changed.
-        mu: the smaller friction coefficient; None where nothing touches.
+        name: name of the link or model.
+        mass: mass [kg]; None if it has no effect or cannot be changed.
+        mu: smaller friction coefficient; None without contacts.
     """
 
     name: str
@@ -47,7 +47,7 @@ class Tuning:
     """Live parameters of a simulation.
 
     Args:
-        world: whose parameters.
+        world: the world of the simulation.
     """
 
     def __init__(self, world: LiveWorld) -> None:
@@ -58,17 +58,17 @@ class Tuning:
 
     @property
     def gravity(self) -> tuple[float, float, float]:
-        """What pulls at everything [m/s²]."""
+        """Gravity [m/s²]."""
         x, y, z = self._world.description.gravity
         return x, y, z
 
     def set_gravity(self, gravity: Sequence[float]) -> None:
-        """Change gravity [m/s²]; what sleeps wakes.
+        """Change gravity [m/s²]; sleeping bodies wake.
 
         Raises:
-            SimulationError: these are not three finite numbers, or too large: see `sound_gravity`.
+            SimulationError: the vector is invalid, see `valid_gravity`.
         """
-        x, y, z = sound_gravity(gravity)
+        x, y, z = valid_gravity(gravity)
         builder = self._world.builder
         builder.description = replace(builder.description, gravity=(x, y, z))
         builder.engine.arrays["gravity"][:] = x, y, z
@@ -76,10 +76,10 @@ class Tuning:
     # Links and models
 
     def links(self, robot: str) -> tuple[Tuned, ...]:
-        """Return what can be changed of a robot's links.
+        """Return the parameters of a robot's links.
 
         Raises:
-            SimulationError: there is no such robot.
+            SimulationError: unknown robot.
         """
         found = self._world.robots[robot]
         touches = {shape.body for shape in found.shapes}
@@ -96,7 +96,7 @@ class Tuning:
 
     @property
     def models(self) -> tuple[Tuned, ...]:
-        """What can be changed of the world's models."""
+        """Parameters of the world's models."""
         builder = self._world.builder
         found = []
         for model in builder.description.models:
@@ -108,28 +108,28 @@ class Tuning:
         return tuple(found)
 
     def set_mass(self, name: str, mass: float, link: str = "") -> None:
-        """Change the mass of a robot's link, or of a model of the world; inertia grows with it.
+        """Change the mass of a robot's link or of a model; inertia changes in proportion.
 
         Args:
-            name: of the robot or model.
-            mass: [kg].
-            link: of the robot; "" for a model.
+            name: name of the robot or model.
+            mass: mass [kg].
+            link: link of the robot; empty for a model.
 
         Raises:
-            SimulationError: there is none, it makes no difference, or the mass makes no sense.
+            SimulationError: unknown name, the mass has no effect, or the value is invalid.
         """
         mass = number(mass, "the mass", "kg")
         if not (isfinite(mass) and mass >= LEAST_MASS):
             raise SimulationError(f"a mass of {mass:g} kg cannot be simulated; it must be at least {LEAST_MASS:g} kg")
         if not link:
-            factor = mass / self._known(self._model(name).mass, f"the mass of `{name}`")
+            factor = mass / self._existing(self._model(name).mass, f"the mass of `{name}`")
             self._change(name, lambda model: _heavier(model, factor))
             return
         robot = self._world.robots[name]
-        before = self._known(self._link(name, link).mass, f"the mass of link `{link}`")
+        before = self._existing(self._link(name, link).mass, f"the mass of link `{link}`")
         model, own = robot.kinematics.model, spatial_inertia(robot.robot.link_by_name[link])
         frame = model.frames[robot.kinematics.frame(link)]
-        # Dynamic parameters (mass, first moments, second moments) add up; Pinocchio, FromDynamicParameters.
+        # Dynamic parameters (mass, first and second moments) are additive; see Pinocchio's FromDynamicParameters.
         part = frame.placement.act(own).toDynamicParameters() * ((mass - before) / own.mass)
         joint = frame.parentJoint
         model.inertias[joint] = type(own).FromDynamicParameters(model.inertias[joint].toDynamicParameters() + part)
@@ -137,29 +137,27 @@ class Tuning:
         self._world.builder.rebuild()
 
     def set_mu(self, name: str, mu: float, link: str = "") -> None:
-        """Change how a robot's link, or a model of the world, rubs: alike in all directions of the surface.
+        """Change the friction of a robot's link or of a model, in all directions.
 
         Args:
-            name: of the robot or model.
-            mu: the friction coefficient.
-            link: of the robot; "" for a model.
+            name: name of the robot or model.
+            mu: friction coefficient.
+            link: link of the robot; empty for a model.
 
         Raises:
-            SimulationError: there is none, nothing touches it, or the coefficient is negative or not finite.
+            SimulationError: unknown name, no contacts, or the coefficient is negative or not finite.
         """
         mu = number(mu, "the friction coefficient", "")
         if not (isfinite(mu) and mu >= 0):
-            raise SimulationError(
-                f"a friction coefficient of {mu:g} makes no sense; it must be finite and not negative"
-            )
+            raise SimulationError(f"the friction coefficient is {mu:g}; it must be finite and not negative")
         if not link:
-            self._known(self._model(name).mu, f"the friction of `{name}`")
+            self._existing(self._model(name).mu, f"the friction of `{name}`")
             self._change(name, lambda model: _rougher(model, mu))
             return
-        self._known(self._link(name, link).mu, f"the friction of link `{link}`")
+        self._existing(self._link(name, link).mu, f"the friction of link `{link}`")
         robot = self._world.robots[name]
         surface = robot.surfaces.get(link, Surface())
-        # Wheels with rollers keep that they slip one way.
+        # Wheels with rollers keep the ratio of their coefficients.
         scale = surface.mu2 / surface.mu1 if surface.mu1 > 0 and surface.fdir1 is not None else 1.0
         robot.surfaces = {**robot.surfaces, link: replace(surface, mu1=mu, mu2=mu * scale)}
         self._world.builder.rebuild()
@@ -168,22 +166,22 @@ class Tuning:
 
     @property
     def gains(self) -> dict[str, Gains]:
-        """``ROBOT/CONTROLLER/JOINT`` → gains, of every loaded controller that has any."""
+        """``ROBOT/CONTROLLER/JOINT`` → gains, for every loaded controller with gains."""
         return {path: followers[0].gains for path, followers in self._followers().items()}
 
     def set_gains(self, path: str, gains: Gains) -> None:
-        """Change the gains of a controller at one of its joints; its integral begins anew.
+        """Change the gains of a controller for one of its joints; its integral is reset.
 
         Raises:
-            SimulationError: there is none, or a gain makes no sense.
+            SimulationError: unknown path, or a gain is invalid.
         """
-        known = self._followers()
-        if path not in known:
-            raise UnknownNameError(f"no gains `{path}`{nearest(path, known)}")
+        followers = self._followers()
+        if path not in followers:
+            raise UnknownNameError(f"no gains `{path}`{nearest(path, followers)}")
         for letter, gain in (("p", gains.p), ("i", gains.i), ("d", gains.d)):
             if not (isfinite(gain) and gain >= 0):
                 raise SimulationError(f"gain `{letter}` is {gain:g}; it must be finite and not negative")
-        for follower in known[path]:
+        for follower in followers[path]:
             follower.gains = follower.integral.gains = gains
             follower.integral.reset()
         for robot in self._world.robots.values():
@@ -198,8 +196,6 @@ class Tuning:
                 for path, follower in controller.followers():
                     found.setdefault(f"{robot.name}/{path}", []).append(follower)
         return found
-
-    # Inside
 
     def _mass(self, robot: SimulatedRobot, link: str) -> float | None:
         written = robot.robot.link_by_name[link].inertial
@@ -219,17 +215,17 @@ class Tuning:
             raise UnknownNameError(f"no model `{name}` in the world{nearest(name, found)}")
         return found[name]
 
-    def _known(self, value: float | None, what: str) -> float:
+    def _existing(self, value: float | None, what: str) -> float:
         if value is None:
-            raise SimulationError(f"{what} makes no difference in this simulation, or cannot be changed while it runs")
+            raise SimulationError(f"{what} has no effect in this simulation, or cannot be changed while it runs")
         return value
 
     def _change(self, name: str, change: Any) -> None:
-        """Replace a model by what `change` makes of it."""
+        """Replace the description of a model by `change(model)`."""
         builder = self._world.builder
         entity = builder.entity(name)
         if entity.robots:
-            raise SimulationError(f"`{name}` has joints that move: it cannot be changed while it runs")
+            raise SimulationError(f"`{name}` has movable joints and cannot be changed while it runs")
         description: World = builder.description
         changed = {model.name: change(model) for model in description.models if model.name == name}
         builder.description = replace(

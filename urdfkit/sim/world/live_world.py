@@ -15,7 +15,7 @@ from urdfkit.description.urdf.robot import Pose, Robot
 from urdfkit.errors import SimulationError
 from urdfkit.scene import Scene, Shape
 from urdfkit.sim.construction.initial_overlap import note_overlaps
-from urdfkit.sim.construction.rigid_bodies import looks_of
+from urdfkit.sim.construction.rigid_bodies import visuals_of
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.plugins.setup import Setup
 from urdfkit.sim.state.arguments import ByName
@@ -69,7 +69,7 @@ class LiveWorld:
 
     @property
     def description(self) -> World:
-        """The world as it was read, with what was spawned and without what was removed."""
+        """The loaded world, including spawned and excluding removed entities."""
         return self.builder.description
 
     @property
@@ -126,7 +126,7 @@ class LiveWorld:
 
     def body_shapes(self) -> tuple[Shape, ...]:
         """Return the visual shapes of all bodies that `body_poses` names, each on the body of that name."""
-        shapes = list(looks_of(self.description))
+        shapes = list(visuals_of(self.description))
         scenes = [*((robot.name, robot.scene) for robot in self.builder.robot_list[1:]), *self.static_robots]
         for name, scene in scenes:
             for shape in scene.shapes:

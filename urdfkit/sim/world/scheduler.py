@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 
 
 class Scheduler:
-    """Calls at a time, drives and controllers before a step; sensors, drives and publications after it.
+    """Calls, drives and controllers before a step; sensors, drives and publications after it.
 
-    The next due steps are computed once and kept, so that a step without anything due costs the engine's step alone.
-    `invalidate` discards them, when something may be due sooner: a message to a plugin, a started controller, a spawn.
+    The next due steps are computed once and stored, so that a step without due work costs only the engine's step.
+    `invalidate` discards them when work may become due earlier, as after a message to a plugin or a spawn.
 
     Args:
         builder: the robots.

@@ -1,4 +1,4 @@
-"""A robot in the simulation: its model, where it starts, its state and motors, and its plugins at work."""
+"""Robot in the simulation: its model, initial pose, state, motors and plugins."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from urdfkit.kinematics import Kinematics
 from urdfkit.scene import Scene, scene_of
 from urdfkit.sim.construction.link_options import self_colliding, weightless_links
 from urdfkit.sim.construction.loading import require_masses
-from urdfkit.sim.construction.missing_meshes import remark_left_out
+from urdfkit.sim.construction.missing_meshes import warn_of_omitted_shapes
 from urdfkit.sim.construction.spawn import Spawn
 from urdfkit.sim.construction.surface_parameters import surfaces_of
 from urdfkit.sim.engine import Engine, Ground, Member, Surface
@@ -35,42 +35,42 @@ SERVO_ARRAYS = (
     "position_target", "velocity_target", "kp", "kd", "servo_effort",
     "ki", "i_min", "i_max", "antiwindup", "feedforward", "integral",
 )  # fmt: skip
-"""The engine's arrays of `Servos`, in its order."""
+"""Arrays of the engine for `Servos`, in the order of its fields."""
 
 APPROACH_RATE = 100.0
-"""How often joints on their way to a position target are told how fast to go [Hz]."""
+"""Rate at which the velocity of joints with position goals is updated [Hz]."""
 
 
 class SimulatedRobot:
-    """A robot in the simulation.
+    """Robot in the simulation.
 
     Args:
-        robot: as written.
-        name: what it is called here.
-        spawn: where and how it starts.
-        ground: height of what is below it [m]; None for nothing.
-        note: tells the user something.
-        fixed_base: its root link is fixed to the world. A root link called ``world`` always is.
-        scene: its shapes; those written when None.
-        surfaces: how its links rub; as written when None.
-        self_collide: names of its links that touch its others; as written when None.
-        weightless: names of its links that gravity does not pull; as written when None.
-        is_robot: whether it publishes joint states and transforms; a door does not.
+        robot: the loaded robot.
+        name: name in the simulation.
+        spawn: initial pose and velocity.
+        ground: height of the ground below [m]; None without ground.
+        note: reports a warning to the user.
+        fixed_base: whether the root link is fixed to the world; a root link named ``world`` always is.
+        scene: its shapes; None: those of the description.
+        surfaces: friction of its links; None: as in the description.
+        self_collide: links that collide with other links of the robot; None: as in the description.
+        weightless: links without gravity; None: as in the description.
+        is_robot: whether it publishes joint states and transforms, unlike a model with joints such as a door.
 
     Raises:
-        UrdfkitError: it cannot be simulated; says why and where.
+        UrdfkitError: the robot cannot be simulated; with the reason and the place.
 
     Attributes:
-        robot: as written.
-        name: what it is called here.
-        kinematics: its model.
+        robot: the loaded robot.
+        name: name in the simulation.
+        kinematics: kinematic model.
         scene: its shapes.
-        state: where it is and how it moves, read only; from `attach` on.
-        motors: velocity and position targets by joint name; from `attach` on.
-        plugins: its drives, sensors and controllers; from `install` on.
-        controllers: to list, load, start, stop and switch; from `install` on.
-        articulation: which of the engine's robots it is; from `attach` on.
-        writes: work before a step: drives, controllers, joints on their way to a position.
+        state: positions and velocities, read-only; after `attach`.
+        motors: velocity and position targets by joint; after `attach`.
+        plugins: its drives, sensors and controllers; after `install`.
+        controllers: lists, loads, starts, stops and switches controllers; after `install`.
+        articulation: the engine's handle of the robot; after `attach`.
+        writes: work before a step: drives, controllers, joints with position goals.
         reads: work after a step: drives, sensors, publishers; then the publishers of each control loop.
     """
 
@@ -99,7 +99,7 @@ class SimulatedRobot:
         on_world = robot.roots()[0].name == "world"
         self.kinematics = Kinematics(robot, floating_base=not (fixed_base or on_world))
         self.scene = scene_of(robot, strict=False) if scene is None else scene
-        remark_left_out(self.scene, note)
+        warn_of_omitted_shapes(self.scene, note)
         self.spawn = spawn or Spawn(z=0.0 if on_world else None)
         self.base = self.spawn.place(self.kinematics, self.scene, ground)
         require_masses(self.kinematics, self.spawn.configuration(self.kinematics, self.base)[0], note)
@@ -120,22 +120,22 @@ class SimulatedRobot:
 
     @property
     def has_plugins(self) -> bool:
-        """Whether it is a robot rather than a thing with joints: it has plugins or sensors, or came as a robot."""
+        """Whether it has plugins or sensors or was spawned as a robot, unlike a model with joints."""
         return self._is_robot
 
     @property
     def shapes(self) -> tuple[Any, ...]:
-        """Its collision shapes."""
+        """Collision shapes."""
         return self.scene.with_role("collision")
 
     @property
     def member(self) -> Member:
-        """What the engine makes one of its robots of."""
+        """Description of the robot for the engine."""
         base = self.base.tolist()
         return Member(self.kinematics, self.shapes, self.surfaces, base, self.self_collide, self.name, self.weightless)
 
     def attach(self, engine: Engine, articulation: Articulation) -> None:
-        """Be one of an engine's robots from now on."""
+        """Connect the robot to an engine."""
         self.articulation = articulation
         floats = self.kinematics.floating_base
         handles = (
@@ -156,15 +156,15 @@ class SimulatedRobot:
             self.writes = [Timed(ticks, lambda state: motors.approach(state.position), lambda: not motors.has_goals)]
 
     def install(self, setup: Setup, *, seed: int, invalidate: Callable[[], None]) -> None:
-        """Set its plugins to work, and publish what nobody has to ask for.
+        """Install its plugins, and the publications that every robot has.
 
         Args:
-            setup: what they may use.
-            seed: of what is random.
-            invalidate: called when something of it may be due sooner than it has said.
+            setup: interfaces for plugins.
+            seed: seed of random numbers.
+            invalidate: called when work may become due earlier than reported.
 
         Raises:
-            SimulationError: a parameter makes no sense, with its place.
+            SimulationError: a parameter is invalid; with its place.
         """
         bus = self._bus = OwnBus(setup.bus, invalidate)
         setup = self._setup = replace(setup, bus=bus)
@@ -191,22 +191,20 @@ class SimulatedRobot:
     def _publishers(self) -> Sequence[Publisher]:
         return [*self._own_publishers, *self.controllers.publications]
 
-    # The loop
-
     def begin(self) -> None:
-        """Stand where it starts, at the engine's present step."""
+        """Set the initial pose and velocity, at the present step of the engine."""
         self.articulation.put(*self.spawn.configuration(self.kinematics, self.base))
         self.state.advance(0)
         for controller in self.plugins.controllers:
             controller.begin(self.state)
 
     def publish_fixed(self) -> None:
-        """Publish the transforms of links that are fixed to each other, once."""
+        """Publish the transforms of fixed joints, once."""
         if self._setup is not None:
             publish_fixed(self._setup.bus, self.state, self.kinematics, self._setup.namespace)
 
     def reset(self) -> None:
-        """Forget commands, targets and odometry; `begin` puts it back."""
+        """Discard commands, targets and odometry; `begin` restores the initial state."""
         self.motors.release_all()
         for drive in self.plugins.drives:
             drive.reset()
@@ -216,11 +214,11 @@ class SimulatedRobot:
             publisher.reset()
 
     def retire(self) -> None:
-        """Stop listening: it is removed from the world."""
+        """Close its subscriptions, because it is removed from the world."""
         if self._bus is not None:
             self._bus.close()
 
 
 def ground_height(ground: Ground | None) -> float | None:
-    """Return the height of a ground [m]; None where there is none."""
+    """Return the height of the ground [m]; None without ground."""
     return None if ground is None else ground.height

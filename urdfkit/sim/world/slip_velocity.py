@@ -1,4 +1,4 @@
-"""How fast what touches slides: the velocity of a robot's contact points across what they touch."""
+"""Slip velocity: tangential velocity of a robot's contact points relative to the other body."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ class Slip:
     """A contact of a robot's link.
 
     Attributes:
-        link: ``ROBOT::LINK``; the link alone for the simulation's own robot.
-        position: in the world [m].
-        velocity: of the link there, across the contact's normal and against what it touches [m/s].
+        link: ``ROBOT::LINK``; only the link for the simulation's own robot.
+        position: position in the world [m].
+        velocity: tangential velocity of the link, relative to the other body [m/s].
     """
 
     link: str
@@ -35,16 +35,16 @@ class Slip:
 
     @property
     def speed(self) -> float:
-        """How fast it slides [m/s]."""
+        """Magnitude of the velocity [m/s]."""
         return vector_norm(self.velocity)
 
 
 def slips(world: LiveWorld, contacts: tuple[Contact, ...]) -> list[Slip]:
-    """Return how each contact of a robot's links slides.
+    """Return the slip of each contact of a robot's links.
 
     Args:
-        world: of the simulation.
-        contacts: of its last step.
+        world: world of the simulation.
+        contacts: contacts of the last step.
     """
     motions = _Motions(world)
     found = []
@@ -61,7 +61,7 @@ def slips(world: LiveWorld, contacts: tuple[Contact, ...]) -> list[Slip]:
 
 
 class _Motions:
-    """How the links of robots move, each worked out once."""
+    """Motions of links, each computed once."""
 
     def __init__(self, world: LiveWorld) -> None:
         self._links: dict[str, tuple[SimulatedRobot, str]] = {}
@@ -69,21 +69,21 @@ class _Motions:
             for link in robot.kinematics.link_names:
                 self._links[f"{robot.name}::{link}" if k else link] = robot, link
         self._free = world.builder.free_bodies
-        self._known: dict[str, Motion | tuple[Array, Array]] = {}
+        self._computed: dict[str, Motion | tuple[Array, Array]] = {}
 
     def of(self, name: str) -> Motion | tuple[Array, Array] | None:
-        if name not in self._known:
+        if name not in self._computed:
             if name in self._links:
                 from urdfkit.sim.plugins.sensors.point_motion import Moment
 
                 robot, link = self._links[name]
-                self._known[name] = Moment(robot.kinematics, robot.state).motion(link, np.eye(4))
+                self._computed[name] = Moment(robot.kinematics, robot.state).motion(link, np.eye(4))
             elif name in self._free:
                 body = self._free[name]
-                self._known[name] = np.array(body.pose[:3]), np.array(body.twist)
+                self._computed[name] = np.array(body.pose[:3]), np.array(body.twist)
             else:
                 return None
-        return self._known[name]
+        return self._computed[name]
 
 
 def _at(motion: Motion | tuple[Array, Array], point: Array) -> Array:

@@ -1,8 +1,8 @@
-"""A running world as one that can be written: everything where it is now.
+"""Description of a running world that can be saved: all entities at their present poses.
 
-SDF has no joint positions: a model's links are saved where they are, which is where its joints are at zero when the
-file is read, so their limits are shifted by as much. A robot, which has plugins that count on its zero, is saved with
-its joints at zero. Velocities are lost.
+SDF has no joint positions: the links of a model are saved at their present poses, where its joints are zero when the
+file is loaded, and joint limits are shifted accordingly. A robot, whose plugins depend on its zero position, is saved
+with its joints at zero. Velocities are not saved.
 """
 
 from __future__ import annotations
@@ -23,15 +23,15 @@ if TYPE_CHECKING:
     from urdfkit.sim.world.world_entity import WorldEntity
 
 SMALL = 1e-12
-"""A pose that differs less from the written one is the written one [m, rad]."""
+"""Difference below which a pose is saved as in the original description [m, rad]."""
 
 
 def current_description(builder: WorldBuilder, note: Callable[[str], None]) -> World:
-    """Return the world as it is now, without the robot that the simulation is about.
+    """Return a description of the present world, without the simulation's own robot.
 
     Args:
-        builder: what is in it.
-        note: told about what cannot be saved.
+        builder: builder of the world.
+        note: reports entities that cannot be saved.
     """
     world = builder.description
     models = [_model(builder, builder.entity(model.name), model, note) for model in world.models]
@@ -75,7 +75,7 @@ def _model(builder: WorldBuilder, entity: WorldEntity, model: WorldModel, note: 
 def _moved(
     model: WorldModel, prefix: str, around: Pose, where: dict[str, Pose], turned: dict[str, float]
 ) -> WorldModel:
-    """Return a model with its links where they are; `around` is the pose of its frame in the whole model."""
+    """Return a model with its links at their present poses; `around` is the pose of its frame in the outer model."""
     links = [
         replace(link, pose=_unless_near(between(around, where[prefix + link.name]), link.pose))
         if prefix + link.name in where
@@ -90,7 +90,7 @@ def _moved(
 
 
 def _shifted(joint: WorldJoint, prefix: str, turned: Mapping[str, float]) -> WorldJoint:
-    """Return a joint whose zero is where it stands now, as is that of a joint that it follows."""
+    """Return a joint whose zero is its present position; the offset of a mimic joint is shifted accordingly."""
     if not joint.axes:
         return joint
     by, first = turned.get(prefix + joint.name, 0.0), joint.axes[0]
@@ -102,6 +102,6 @@ def _shifted(joint: WorldJoint, prefix: str, turned: Mapping[str, float]) -> Wor
     return replace(joint, axes=(first, *joint.axes[1:]))
 
 
-def _unless_near(found: Pose, written: Pose) -> Pose:
-    near = all(abs(a - b) < SMALL for a, b in zip((*found.xyz, *found.rpy), (*written.xyz, *written.rpy), strict=True))
-    return written if near else found
+def _unless_near(pose: Pose, original: Pose) -> Pose:
+    pairs = zip((*pose.xyz, *pose.rpy), (*original.xyz, *original.rpy), strict=True)
+    return original if all(abs(a - b) < SMALL for a, b in pairs) else pose

@@ -1,4 +1,4 @@
-"""Requests to spawn: a model or robot by name, by file, as text, or loaded already."""
+"""Requests to spawn a model or robot: by name, from a file, from text, or already loaded."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ def spawn_request(
 
     Args:
         model: see `LiveWorld.spawn`.
-        package_path: folders to look for models and packages in first.
+        package_path: folders that are searched first for models and packages.
 
     Raises:
-        UrdfkitError: there is none, or it is broken; says why, where, and what is near.
+        UrdfkitError: the model does not exist or is invalid; with the place and the nearest name.
     """
     if isinstance(model, SpawnRequest):
         return model
@@ -55,7 +55,7 @@ def spawn_request(
     if path.suffix in (".sdf", ".world") or text.startswith("model://"):
         return SpawnRequest(load_model(text, package_path=package_path))
     if path.suffix or "/" in text:
-        raise ResourceError(f"`{text}` is no model: an .sdf, .urdf or .xacro file, or the name of one we ship")
+        raise ResourceError(f"`{text}` is not a model: use an .sdf, .urdf or .xacro file, or the name of a bundled one")
     try:
         return SpawnRequest(load_model(text, package_path=package_path))
     except ResourceError as error:
@@ -72,10 +72,10 @@ def spawn_request(
 
 
 def spawn_request_of_text(text: str, package_path: Sequence[str | Path] = ()) -> SpawnRequest:
-    """Return what an SDF or URDF document describes.
+    """Return the model or robot of an SDF or URDF document.
 
     Raises:
-        UrdfkitError: it is broken, or neither.
+        UrdfkitError: the document is invalid.
     """
     from tempfile import TemporaryDirectory
 
@@ -86,12 +86,12 @@ def spawn_request_of_text(text: str, package_path: Sequence[str | Path] = ()) ->
         path = Path(folder) / f"spawned{suffix}"
         path.write_text(text, encoding="utf-8")
         try:
-            found = spawn_request(path, package_path)
+            request = spawn_request(path, package_path)
         except UrdfkitError as error:
             raise DescriptionError(str(error).replace(f"{folder}/", "")) from None
-    if isinstance(found.source, WorldRobot):
-        return replace(found, source=replace(found.source, uri="", file=""))
-    return found
+    if isinstance(request.source, WorldRobot):
+        return replace(request, source=replace(request.source, uri="", file=""))
+    return request
 
 
 def _robot(robot: Robot) -> SpawnRequest:

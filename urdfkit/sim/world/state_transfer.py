@@ -1,8 +1,8 @@
-"""State from one engine to another, when what is in the world changes: nothing that stays feels it.
+"""Transfer of the state from one engine to the next when the entities of a world change.
 
-Trees are robots and free bodies. Carried over are where they are and how they move, their targets, and the impulses
-that the contact solver starts from: those of joints and of shapes on the ground by their place, those of pairs of
-shapes where both are still there. What sleeps wakes, with the impulses it rested on, and may sleep again soon.
+Transferred are the positions and velocities of trees (robots and free bodies), their targets, and the impulses for the
+warm start of the contact solver: those of joints and ground contacts, and those of pairs of shapes that both remain.
+Sleeping trees wake with the impulses of their contacts, and may sleep again soon.
 """
 
 from __future__ import annotations
@@ -44,8 +44,8 @@ class EngineLayout:
     """Names of the trees and shapes of an engine, in its order.
 
     Attributes:
-        trees: robots, then free bodies.
-        owners: of shapes: robots, then all bodies.
+        trees: names of robots, then of free bodies.
+        owners: names of the owners of shapes: robots, then all bodies.
     """
 
     trees: Sequence[str]
@@ -53,13 +53,13 @@ class EngineLayout:
 
 
 def transfer_state(before: Engine, old: EngineLayout, after: Engine, new: EngineLayout) -> None:
-    """Copy the state of one engine to another, for the trees and shapes of both. New ones stay where they were put.
+    """Copy the state of one engine to another, for trees and shapes of both. New ones keep their initial poses.
 
     Args:
-        before: the engine so far.
-        old: what it is made of.
-        after: the engine to go on with.
-        new: what that is made of; what both have comes in the same order in both.
+        before: the previous engine.
+        old: layout of the previous engine.
+        after: the new engine.
+        new: layout of the new engine; common entries are in the same order in both.
     """
     a, b = before.arrays, after.arrays
     trees = [(old.trees.index(name), k) for k, name in enumerate(new.trees) if name in old.trees]
@@ -82,13 +82,13 @@ def _span(arrays: Arrays, starts: str, k: int) -> slice:
 
 
 def _shapes(before: Engine, old: EngineLayout, after: Engine, new: EngineLayout) -> dict[int, int]:
-    """Return number before → number after of the shapes that stay."""
-    known, wanted = _by_owner(before, old), _by_owner(after, new)
-    return {k: j for key, was in known.items() for k, j in zip(was, wanted.get(key, ()), strict=False)}
+    """Return the index of each remaining shape in the new engine, by its index in the previous one."""
+    previous, present = _by_owner(before, old), _by_owner(after, new)
+    return {k: j for key, was in previous.items() for k, j in zip(was, present.get(key, ()), strict=False)}
 
 
 def _by_owner(engine: Engine, part: EngineLayout) -> dict[tuple[str, bool], list[int]]:
-    """Return owner, and whether the shape stays where it is → numbers of shapes in their order."""
+    """Return the indices of shapes in order, by owner and whether they are static."""
     found: dict[tuple[str, bool], list[int]] = {}
     for k, touch in enumerate(engine.collision_shapes):
         found.setdefault((part.owners[touch.owner], touch.body < 0), []).append(k)
@@ -96,7 +96,7 @@ def _by_owner(engine: Engine, part: EngineLayout) -> dict[tuple[str, bool], list
 
 
 def _transfer_impulses(a: Arrays, b: Arrays, trees: Sequence[tuple[int, int]], shapes: dict[int, int]) -> None:
-    """Carry over the impulses of motors, limits, mimic joints and contacts with the ground."""
+    """Transfer the impulses of motors, limits, mimic joints and ground contacts."""
     n, m = int(a["tree_dof"][-1]), int(b["tree_dof"][-1])
     for i, j in trees:
         was, now = _span(a, "tree_dof", i), _span(b, "tree_dof", j)
@@ -113,31 +113,31 @@ def _transfer_impulses(a: Arrays, b: Arrays, trees: Sequence[tuple[int, int]], s
 
 
 def _feature_ends(arrays: Arrays) -> list[int]:
-    """Return where the features of each shape end."""
+    """Return the end index of each shape's features."""
     slots = len(arrays["memory"]) - 2 * int(arrays["tree_dof"][-1]) - int(arrays["tree_mimic"][-1])
     last = slots // 3 - len(arrays["contact_gap"])
     return [*arrays["shape_feature"][1:].tolist(), last]
 
 
 def _transfer_pair_impulses(a: Arrays, b: Arrays, shapes: dict[int, int]) -> None:
-    """Carry over the impulses of contacts of pairs, those of sleepers too, in the order of their pairs."""
+    """Transfer the impulses of contacts between pairs, including those of sleeping trees, in the order of the pairs."""
     room = len(b["contact_gap"])
-    known = [
+    pairs = [
         (shapes[one], shapes[other], feature, impulse, point)
         for one, other, feature, impulse, point in (*_last_pairs(a), *_sleeping_pairs(a))
         if one in shapes and other in shapes and feature >= 0
     ]
-    known = sorted(known, key=lambda each: each[:2])[:room]  # stable: features keep their order
+    pairs = sorted(pairs, key=lambda each: each[:2])[:room]  # stable: features keep their order
     first = len(b["memory"]) - 3 * room
-    for k, (one, other, feature, impulse, point) in enumerate(known):
+    for k, (one, other, feature, impulse, point) in enumerate(pairs):
         b["last_a"][k], b["last_b"][k], b["last_feature"][k], b["last_at"][k] = one, other, feature, k
         b["memory"][first + 3 * k : first + 3 * k + 3] = impulse
         b["last_point"][k] = point
-    b["counts"][LAST_PAIRS] = len(known)
+    b["counts"][LAST_PAIRS] = len(pairs)
 
 
 Pair = tuple[int, int, int, Array, Array]
-"""Two shapes, the feature at which they touch, the impulse, normal first, and where."""
+"""Two shapes, the feature of the contact, the impulse with the normal component first, and the contact point."""
 
 
 def _last_pairs(arrays: Arrays) -> Iterator[Pair]:
@@ -149,7 +149,7 @@ def _last_pairs(arrays: Arrays) -> Iterator[Pair]:
 
 
 def _sleeping_pairs(arrays: Arrays) -> Iterator[Pair]:
-    """Yield what is kept of the contacts of sleepers, from the end of their room on."""
+    """Yield the stored contacts of sleeping trees, from the end of the array."""
     room = len(arrays["contact_gap"])
     for k in range(room - 1, room - 1 - int(arrays["counts"][SLEEPING]), -1):
         one, other, feature = (int(arrays[name][k]) for name in ("contact_shape", "contact_against", "contact_feature"))

@@ -26,21 +26,21 @@ class WorldBuilder:
     """Entities of a world, and the engine built from them; built again after every spawn or removal.
 
     Args:
-        first: the robot that the simulation is about.
-        world: where it is.
+        first: the simulation's own robot.
+        world: description of the world.
         dt: length of a step [s].
-        sleep: whether what is at rest may sleep.
-        note: tells the user something.
-        package_path: folders to look for packages in.
+        sleep: whether bodies at rest may sleep.
+        note: reports a warning to the user.
+        package_path: folders that are searched first for packages.
 
     Raises:
-        UrdfkitError: something in the world cannot be simulated.
+        UrdfkitError: an entity cannot be simulated.
 
     Attributes:
-        description: the world as it was read, with what was added and without what was removed.
-        engine: what moves everything.
-        revision: how often it was made anew.
-        static_poses: name → pose of the bodies that do not move.
+        description: the loaded world, including spawned and excluding removed entities.
+        engine: the engine.
+        revision: number of builds after a change of the entities.
+        static_poses: name → pose of the static bodies.
     """
 
     engine: Engine
@@ -70,13 +70,11 @@ class WorldBuilder:
         for source in sources:
             if source.name == first.name:
                 raise SimulationError(
-                    f"the world has a model `{source.name}` already; give the robot another name",
+                    f"the world already has a model `{source.name}`; use another name for the robot",
                     position=source.position,
                 )
             self.entities[source.name] = self._make(source)
         self.build()
-
-    # What there is
 
     @property
     def robots(self) -> dict[str, SimulatedRobot]:
@@ -90,32 +88,32 @@ class WorldBuilder:
 
     @property
     def static_robots(self) -> tuple[tuple[str, Scene], ...]:
-        """Name and scene of each robot that does not move; its links are bodies called ``NAME::LINK``."""
+        """Name and scene of each static robot; its links are bodies named ``NAME::LINK``."""
         return tuple(
             (name, entity.static_scene) for name, entity in self.entities.items() if entity.static_scene is not None
         )
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The models and robots, the first robot first."""
+        """Names of the models and robots, the simulation's own robot first."""
         return tuple(self.entities)
 
     @property
     def ground(self) -> Ground | None:
-        """What the engine stands on."""
+        """Ground plane of the engine; None without ground."""
         found = self.description.ground
         return None if found is None else Ground(found.height, found.mu, found.name)
 
     @property
     def free_bodies(self) -> dict[str, FreeBody]:
-        """The bodies that are free to move."""
+        """Free bodies by name."""
         return self.engine.bodies
 
     def body(self, name: str) -> Body:
-        """Return a body as the engine was given it.
+        """Return the description of a body.
 
         Raises:
-            SimulationError: there is none.
+            SimulationError: unknown body.
         """
         found = next((body for body in self._bodies if body.name == name), None)
         if found is None:
@@ -124,21 +122,19 @@ class WorldBuilder:
 
     @property
     def body_names(self) -> tuple[str, ...]:
-        """The bodies, free ones or not."""
+        """Names of all bodies."""
         return tuple(body.name for body in self._bodies)
 
     def entity(self, name: str) -> WorldEntity:
         """Return a model or robot.
 
         Raises:
-            SimulationError: there is none.
+            SimulationError: unknown entity.
         """
         if name not in self.entities:
             hint = nearest(name, self.entities)
             raise UnknownNameError(f"no model or robot `{name}` in world `{self.description.name}`{hint}")
         return self.entities[name]
-
-    # Coming and going
 
     def add(
         self,
@@ -148,20 +144,20 @@ class WorldBuilder:
         *,
         fixed_base: bool = False,
     ) -> WorldEntity:
-        """Put a model or robot into the world, where it says.
+        """Add a model or robot at the pose of its description.
 
         Args:
-            source: what to add; its name must be free.
-            robot: as loaded; from the file of `source` when None.
-            spawn: how a robot starts; at rest where `source` says when None.
-            fixed_base: fix a robot's root link to the world.
+            source: the entity; its name must be unused.
+            robot: the loaded robot; None: loaded from the file of `source`.
+            spawn: initial pose and velocity of a robot; None: at rest at the pose of `source`.
+            fixed_base: whether a robot's root link is fixed to the world.
 
         Raises:
-            UrdfkitError: the name is taken, or it cannot be simulated.
+            UrdfkitError: the name is in use, or the entity cannot be simulated.
         """
         if source.name in self.entities:
             free = next(n for k in range(1, 10_000) if (n := f"{source.name}_{k}") not in self.entities)
-            raise SimulationError(f"world `{self.description.name}` has a `{source.name}` already; call it `{free}`")
+            raise SimulationError(f"world `{self.description.name}` already has a `{source.name}`; use `{free}`")
         world = self.description
         if isinstance(source, WorldModel):
             source = without_broken(source, self._factory.meshes, self._note)
@@ -178,14 +174,14 @@ class WorldBuilder:
         return self.entities[source.name]
 
     def remove(self, name: str) -> None:
-        """Take a model or robot out of the world.
+        """Remove a model or robot.
 
         Raises:
-            SimulationError: there is none, or it is the robot that the simulation is about.
+            SimulationError: unknown entity, or the simulation's own robot.
         """
         entity = self.entity(name)
         if entity.source is None:
-            raise SimulationError(f"`{name}` is the robot that is simulated; it cannot be removed")
+            raise SimulationError(f"`{name}` is the simulation's own robot; it cannot be removed")
         self.description = remove_model(self.description, name)
         del self.entities[name]
         for robot in entity.robots:
@@ -202,13 +198,13 @@ class WorldBuilder:
         return self._factory.make(source, robot, spawn, ground=ground_height(self.ground), fixed_base=fixed_base)
 
     def rebuild(self) -> None:
-        """Make the engine anew of the same sources, whose properties have changed."""
+        """Build the engine again after a change of properties."""
         revision = self.revision
         self.build()
-        self.revision = revision  # nobody who looks has to look anew
+        self.revision = revision  # the set of entities is the same
 
     def build(self) -> None:
-        """Make the engine anew, and bring it to where the last one was."""
+        """Build the engine and transfer the state of the previous one."""
         ground = self.ground
         robots = [robot for entity in self.entities.values() for robot in entity.robots]
         bodies: list[Body] = []
@@ -241,9 +237,9 @@ class WorldBuilder:
             [*names, *(f"body {name}" for name in free)], [*names, *(f"body {each.name}" for each in bodies)]
         )
         for robot, articulation in zip(robots, engine.robots, strict=True):
-            known = hasattr(robot, "articulation")
+            is_new = not hasattr(robot, "articulation")
             robot.attach(engine, articulation)
-            if not known:
+            if is_new:
                 articulation.put(*robot.spawn.configuration(robot.kinematics, robot.base))
         if self.revision:
             transfer_state(self.engine, self._layout, engine, made)

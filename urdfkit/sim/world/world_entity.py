@@ -1,4 +1,4 @@
-"""Entities of a world, models and robots, as the bodies and robots that the engine simulates."""
+"""Entities of a world, models and robots, with the bodies and robots that the engine simulates."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ class WorldEntity:
     """A model or robot of the world.
 
     Attributes:
-        source: as written; None for the robot that the simulation is about.
-        robots: what of it is simulated as robots are.
+        source: its description; None for the simulation's own robot.
+        robots: its parts that are simulated as robots.
         offsets: body or robot → pose of its frame in the model.
-        static_bodies: shapes of a robot that does not move, as bodies.
-        static_scene: the scene of a robot that does not move.
+        static_bodies: bodies of a static robot.
+        static_scene: scene of a static robot.
     """
 
     source: WorldModel | WorldRobot | None
@@ -39,14 +39,14 @@ class WorldEntity:
 
 
 class EntityFactory:
-    """Makes the entities of a world.
+    """Creates the entities of a world.
 
     Args:
-        note: tells the user something.
-        package_path: folders to look for packages in.
+        note: reports a warning to the user.
+        package_path: folders that are searched first for packages.
 
     Attributes:
-        meshes: what has been read so far.
+        meshes: cache of loaded meshes.
     """
 
     def __init__(self, note: Callable[[str], None], package_path: Sequence[str | Path]) -> None:
@@ -62,17 +62,17 @@ class EntityFactory:
         ground: float | None = None,
         fixed_base: bool = False,
     ) -> WorldEntity:
-        """Return what a model or robot of the world is simulated as.
+        """Return the entity for a model or robot.
 
         Args:
-            source: as written.
-            robot: as loaded; from its file when None.
-            spawn: how a robot starts; at rest where `source` says when None.
-            ground: height of what is below it [m]; None for nothing.
-            fixed_base: fix a robot's root link to the world.
+            source: its description.
+            robot: the loaded robot; None: loaded from its file.
+            spawn: initial pose and velocity of a robot; None: at rest at the pose of `source`.
+            ground: height of the ground below [m]; None without ground.
+            fixed_base: whether a robot's root link is fixed to the world.
 
         Raises:
-            UrdfkitError: it cannot be simulated; says why and where.
+            UrdfkitError: the entity cannot be simulated; with the reason and the place.
         """
         if isinstance(source, WorldRobot):
             return self._robot_entry(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from urdfkit.app.simulation.features.feature import Done, Feature, Takes
-from urdfkit.sim.construction.loading import STRONGEST
+from urdfkit.sim.construction.loading import MAX_GRAVITY
 from urdfkit.sim.state.pid import Gains
 from urdfkit.sim.world.live_parameters import LEAST_MASS, Tuning
 from urdfkit.view.protocol.page_requests import Order, Schema, number, numbers, text
@@ -30,7 +30,7 @@ class LiveParameters(Feature):
         link = {"link": text()}
         gains = Schema({"path": text(), "p": number(0), "i": number(0), "d": number(0)}, {"clamp": number(0)})
         return {
-            "gravity": (Schema({"gravity": numbers(3, bound=STRONGEST, unit="m/s²")}), self._gravity),
+            "gravity": (Schema({"gravity": numbers(3, bound=MAX_GRAVITY, unit="m/s²")}), self._gravity),
             "mass": (Schema({"name": text(), "mass": number(LEAST_MASS, 1e6, unit="kg")}, link), self._mass),
             "mu": (Schema({"name": text(), "mu": number(0, 1e4)}, link), self._mu),
             "gains": (gains, self._gains),

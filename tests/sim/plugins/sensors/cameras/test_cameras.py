@@ -67,7 +67,7 @@ def test_what_is_written_about_intrinsics_is_told(post) -> None:
 def test_nobody_looks_for_camera_info(post) -> None:
     simulator = post(eye(ros1()), room=ROOM)
     heard(simulator, "/cam/camera_info", 0.5)
-    assert not simulator.surroundings.was_looked_at
+    assert not simulator.surroundings.is_used
 
 
 @pytest.mark.parametrize("form", ["L8", "L16", "R16G16B16", "B8G8R8", "BAYER_RGGB8", "BAYER_GRBG8"])
@@ -230,7 +230,7 @@ def test_edges_are_smooth_where_that_is_asked_for(post) -> None:
     assert (np.isnan(edge) | (np.abs(edge - 3.0) < 0.2)).all()
 
 
-@pytest.mark.parametrize(("content", "why"), [(None, "is not there"), (b"?", "is no picture that can be read")])
+@pytest.mark.parametrize(("content", "why"), [(None, "does not exist"), (b"?", "is not a readable picture")])
 def test_a_texture_that_is_not_there_is_named_once(post, tmp_path, content, why: str) -> None:
     if content is not None:
         (tmp_path / "gone.png").write_bytes(content)
@@ -245,7 +245,7 @@ def test_a_texture_that_is_not_there_is_named_once(post, tmp_path, content, why:
     (picture,) = heard(simulator, "/cam/image_raw")
     heard(simulator, "/cam/image_raw")
     (note,) = [note for note in notes if "gone.png" in note]
-    said = f"`world/walls/visual/v` is seen without its texture: `gone.png` {why}"
+    said = f"`world/walls/visual/v` is shown without its texture: `gone.png` {why}"
     assert re.fullmatch(rf"\S+\.\w+:\d+:\d+: {re.escape(said)}", note)
     assert len(np.unique(pixels(picture).reshape(-1, 3), axis=0)) == 2
 
@@ -307,7 +307,7 @@ def test_a_visual_of_the_world_that_is_broken_is_missed_by_eyes_alone(post, tmp_
     (picture,) = heard(post(eye(ros1()), room=room, note=notes.append), "/cam/image_raw")
     assert (pixels(picture) == round(255 * 0.4 * 0.7)).all()  # the walls, in ambient light
     (note,) = [each for each in notes if "broken.stl" in each]
-    assert "visual `v` is not seen: mesh broken.stl is cut off" in note
+    assert "visual `v` is invisible: mesh broken.stl is cut off" in note
 
 
 @pytest.mark.parametrize("role", ["visual", "collision"])
@@ -326,5 +326,5 @@ def test_a_mesh_that_is_not_there_is_missed_by_eyes_alone(tmp_path, role: str) -
     simulator = Simulator(tmp_path / "r.urdf", fixed_base=True, note=notes.append)
     assert heard(simulator, "/cam/image_raw")
     (note,) = [each for each in notes if "gone.stl" in each]
-    assert note.endswith("what it would look like is not seen")
+    assert note.endswith("it is invisible")
     assert "r.urdf:1:" in note

@@ -82,9 +82,9 @@ def test_nothing_is_done_for_nobody_but_the_last_one_can_be_had(post) -> None:
     topic = simulator.bus.advertise("/scan", "sensor_msgs/msg/LaserScan")
     assert topic.count == 10
     surroundings = simulator.surroundings
-    assert not surroundings.was_looked_at
+    assert not surroundings.is_used
     assert np.allclose(topic.latest.ranges, distances(np.linspace(-0.5, 1.5, 181)), rtol=1e-6)
-    assert surroundings.was_looked_at
+    assert surroundings.is_used
 
 
 def test_noise_is_drawn_from_the_seed_whoever_listens(post) -> None:
