@@ -18,6 +18,19 @@ REVISED = (
     "urdfkit/cli",
     "urdfkit/kinematics",
     "urdfkit/messages",
+    "urdfkit/compilation",
+    "urdfkit/scaffold",
+    "urdfkit/sim/construction",
+    "urdfkit/sim/engine/collision",
+    "urdfkit/sim/engine/constraints",
+    "urdfkit/sim/engine/contacts",
+    "urdfkit/sim/engine/dynamics",
+    "urdfkit/sim/engine/layout",
+    "urdfkit/sim/engine/math",
+    "urdfkit/sim/engine/solver",
+    "urdfkit/sim/engine/stepping",
+    "urdfkit/sim/scene_view.py",
+    "urdfkit/sim/world",
 )
 """Where every name and sentence has been revised; the rest follows."""
 

@@ -22,7 +22,7 @@ class LevelCodegen(JITCPUCodegen):  # type: ignore[misc]
         return TUNED.get(level(), (level(), ""))[0]
 
     def _get_host_cpu_features(self) -> str:
-        """Return what that processor has and the level does not."""
+        """Return the features of that processor that are not in the level."""
         return TUNED.get(level(), (level(), ""))[1]
 
 

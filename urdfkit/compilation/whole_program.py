@@ -1,8 +1,8 @@
 """Compile a function and all it calls as one program.
 
 numba optimises a function and turns it into machine code as soon as it has been typed, then links it into each of its
-callers, which are optimised with it once more: what lies five calls deep is optimised five times, and emitted as often.
-Here the functions that are called wait, and only the outermost is optimised and emitted, together with all of them.
+callers, which are optimised with it again: a function five calls deep is optimised and emitted five times. Here, called
+functions are only linked, and the outermost one is optimised and emitted once, together with all of them.
 
 In addition, the signature of an operator or a numba function is resolved once per types instead of at each of its
 thousands of calls, and garbage collection is off: most objects live as long as the compilation.

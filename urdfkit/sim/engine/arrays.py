@@ -67,7 +67,7 @@ FLOATS: dict[str, Size] = {
     "v": ("d",),
     "memory": ("a",),
     "last": ("a",),
-    # what a step found
+    # results of a step
     "effort": ("d",),
     "tau": ("d",),
     "R": ("b", "9"),
@@ -281,7 +281,7 @@ def allocate(sizes: Sequence[int], *, width: int) -> Arrays:
     def shape(size: Size) -> tuple[int, ...]:
         return tuple(number(one) for one in size)
 
-    # What is taken `LANES` at a time may be read and written beyond its end.
+    # Fields that are accessed `LANES` entries at a time may be read and written beyond their end.
     lanes: dict[Size, int] = {("r",): LANES, ("q",): LANES * counts["r"], ("y",): LANES * width}
     float_starts = np.cumsum([0, *(int(np.prod(shape(size))) + lanes.get(size, 0) for size in FLOATS.values())])
     integer_starts = FIRST_INTEGER + np.cumsum([0, *(int(np.prod(shape(size))) for size in INTEGERS.values())])

@@ -31,17 +31,17 @@ class Articulation:
         arrays: the engine's, of all robots and bodies.
         tree: its number among the engine's robots.
         motor_velocity: target of the velocity motor of each dof [rad/s or m/s]; shape (nv,).
-        motor_effort: what that motor can do [N·m or N]; 0 is no motor; shape (nv,).
+        motor_effort: maximum effort of that motor [N·m or N]; 0: no motor; shape (nv,).
         applied: effort added to each dof [N·m or N]; shape (nv,).
         position_target: target of the position servo of each dof [rad or m]; shape (nv,).
-        kp: its stiffness, [N·m/rad] or [N/m]; 0 is none; shape (nv,).
-        kd: its damping towards `velocity_target`, [N·m·s/rad] or [N·s/m]; 0 is none; shape (nv,).
+        kp: stiffness of the servo [N·m/rad or N/m]; 0: no stiffness; shape (nv,).
+        kd: damping towards `velocity_target` [N·m·s/rad or N·s/m]; 0: no damping; shape (nv,).
         velocity_target: [rad/s or m/s]; shape (nv,).
-        servo_effort: what the servo can do [N·m or N]; infinite at the start; shape (nv,).
+        servo_effort: maximum effort of the servo [N·m or N]; initially infinite; shape (nv,).
         ki: gain of the integral of the servo's error, of velocity where `kp` is 0 and `kd` is not; shape (nv,).
-        i_min: least effort of the integral [N·m or N]; shape (nv,).
-        i_max: most effort of the integral; both are 0 at the start, so that it has none; shape (nv,).
-        antiwindup: 1 where the integral stops growing there, 0 where only its effort does; shape (nv,).
+        i_min: minimum effort of the integral [N·m or N]; shape (nv,).
+        i_max: maximum effort of the integral; both are initially 0, so the integral has no effect; shape (nv,).
+        antiwindup: 1 if the integral itself is limited, 0 if only its effort is; shape (nv,).
         feedforward: effort added to the servo's, within its limit [N·m or N]; shape (nv,).
         integral: of the error [rad·s, m·s, rad or m]; shape (nv,).
     """
@@ -59,7 +59,7 @@ class Articulation:
         self.feedforward, self.integral = a["feedforward"], a["integral"]
         self._own_v, self._own_effort, self._own_tau = a["v"], a["effort"], a["tau"]
         self._v, self._effort, self._tau = _read_only(a["v"]), _read_only(a["effort"]), _read_only(a["tau"])
-        self._given: tuple[int, Array] | None = None
+        self._set_twist: tuple[int, Array] | None = None
         self._counts, self._against = numbers(arrays["counts"]), numbers(arrays["contact_against"])
 
     @property
@@ -85,7 +85,7 @@ class Articulation:
 
     @property
     def asleep(self) -> bool:
-        """Whether it is at rest and left alone until something happens to it or is asked of it."""
+        """Whether the robot is at rest and not simulated until a contact or a new target wakes it."""
         return bool(self.arrays["asleep"][self.tree])
 
     @property
@@ -99,10 +99,10 @@ class Articulation:
         return self._tau
 
     def set_base_velocity(self, twist: Sequence[float]) -> None:
-        """Set the floating base's twist, in its own axes and linear first; what it meets in the step may change it.
+        """Set the floating base's twist in its own axes, linear part first; contacts in the step may change it.
 
-        Where a wall, say, took from the velocity that the step before was given, the base is taken back by what the
-        first half of this step would go into it.
+        If a contact reduced the velocity that was set for the last step, the base is moved back by the distance that
+        the first half of this step would move it into the other body.
 
         Raises:
             SimulationError: the robot has no floating base, or a value is not finite.
@@ -112,15 +112,15 @@ class Articulation:
         if len(twist) != 6 or not all(math.isfinite(part) for part in twist):
             raise SimulationError(f"a twist is six finite numbers, not {tuple(twist)}")
         v = np.array(twist, dtype=float)
-        step, given = self._counts[STEPS], self._given
-        if given is not None and given[0] == step - 1 and self._met_something():
+        step, previous = self._counts[STEPS], self._set_twist
+        if previous is not None and previous[0] == step - 1 and self._met_something():
             dt = float(self.arrays["numbers"][DT])
             # Linear velocities stay constant in space while the base turns.
-            linear = matmul(pin.exp3(-dt * given[1][3:]), given[1][:3])
-            taken = np.concatenate([linear, given[1][3:]]) - self._own_v[:6]
+            linear = matmul(pin.exp3(-dt * previous[1][3:]), previous[1][:3])
+            taken = np.concatenate([linear, previous[1][3:]]) - self._own_v[:6]
             self._shift_base(-0.5 * dt * taken)
         self._own_v[:6] = v
-        self._given = step, v
+        self._set_twist = step, v
 
     def _met_something(self) -> bool:
         """Return whether the robot touched anything but the ground in the last step."""
@@ -141,7 +141,7 @@ class Articulation:
         s[3:] = (rotation * pin.Quaternion(pin.exp3_quat(by[3:]))).normalized().coeffs()
 
     def put(self, q: Array | None = None, v: Array | None = None) -> None:
-        """Put the robot at `q`, `v` (neutral, zero); targets stay.
+        """Set `q` and `v` of the robot (neutral and zero by default); targets are unchanged.
 
         Raises:
             SimulationError: wrong shape, or not finite.

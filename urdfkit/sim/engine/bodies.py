@@ -1,4 +1,4 @@
-"""What an engine is made of: robots, and bodies that are free or do not move."""
+"""Members of an engine: robots, free bodies and static bodies."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from urdfkit.sim.engine.contact_surface import Surface
 
 Array = NDArray[np.float64]
 SMOOTHNESS = Surface()
-"""Of what has no surface written."""
+"""Surface of a shape without a defined surface."""
 AT_ORIGIN = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
@@ -23,8 +23,8 @@ class Piece:
     """A collision shape of a body.
 
     Attributes:
-        shape: its geometry, its placement in the body, and its mesh if it is one; `Shape.body` names the link.
-        surface: how it rubs.
+        shape: geometry, placement in the body, and mesh if it has one; `Shape.body` names the link.
+        surface: friction of the shape.
     """
 
     shape: Shape
@@ -33,17 +33,17 @@ class Piece:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Body:
-    """A rigid body that is free, or that does not move.
+    """A free or static rigid body.
 
     Attributes:
-        name: what contacts call it, unless a piece has a name of its own.
+        name: its name in contacts, unless a piece has its own name.
         pose: x y z [m] and quaternion x y z w in the world.
         pieces: its collision shapes.
-        static: whether it stays where it is.
-        mass: [kg]; of one that moves.
-        centre: of mass, in the body [m].
-        inertia: about the centre of mass, along the body's axes [kg·m²]; shape (3, 3).
-        weightless: mass of it that gravity does not pull [kg].
+        static: whether it cannot move.
+        mass: mass of a free body [kg].
+        centre: centre of mass, in the body [m].
+        inertia: inertia about the centre of mass, in the body's axes [kg·m²]; shape (3, 3).
+        weightless: part of the mass without gravity [kg].
         weightless_centre: centre of that mass, in the body [m].
     """
 
@@ -63,13 +63,13 @@ class Member:
     """A robot.
 
     Attributes:
-        kinematics: with a floating base it is free, without it is bolted to `base`.
-        shapes: its shapes; those that are no collisions are ignored.
-        surfaces: link name → `Surface`; a link that is not named has mu 1.
-        base: pose of a bolted root link, x y z [m] and quaternion x y z w.
-        self_collide: the links that touch its others, or True for all; those with a joint between them never do.
-        name: put before its links' names in contacts, with ``::``, unless empty.
-        weightless: links that gravity does not pull.
+        kinematics: kinematic model; without a floating base, the root link is fixed at `base`.
+        shapes: its shapes; only collision shapes are used.
+        surfaces: link name → `Surface`; other links have mu 1.
+        base: pose of a fixed root link, x y z [m] and quaternion x y z w.
+        self_collide: links that collide with other links of the robot, True for all; adjacent links never collide.
+        name: prefix of its links' names in contacts, followed by ``::``; empty for none.
+        weightless: links without gravity.
     """
 
     kinematics: Kinematics
@@ -81,5 +81,5 @@ class Member:
     weightless: Collection[str] = ()
 
     def meets(self, link: str) -> bool:
-        """Return whether a link touches the robot's others."""
+        """Return whether a link collides with other links of the robot."""
         return self.self_collide if isinstance(self.self_collide, bool) else link in self.self_collide

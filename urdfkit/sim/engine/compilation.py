@@ -1,4 +1,4 @@
-"""How the kernel's functions are compiled."""
+"""Compilation of the kernel's functions, and the numba type of their fields."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from numba.np.arrayobj import make_array
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-# No references are counted: whoever calls the kernel holds the two blocks, all else are views of them. Counting, atomic
-# as it is, for some two hundred views would take longer than a step.
+# Reference counting is off: the caller of the kernel holds the two blocks, and all arrays are views of them. Atomic
+# counting for some two hundred views would take longer than a step.
 # Contraction lets a·b + c be one instruction, rounded once; nothing else of IEEE 754 is given up, so NaN stays NaN.
 # Where that is done depends on the level that kernels are compiled for, not on the processor that runs them.
 OPTIONS: dict[str, Any] = {"fastmath": {"contract"}, "error_model": "numpy", "nogil": True, "_nrt": False}
@@ -31,16 +31,16 @@ def inlined(function: Function) -> Function:
 def compiled(function: Function) -> Function:
     """Compile a function that kernels call.
 
-    Unless told, numba makes it part of its callers where it is first called by one that is `inlined`.
+    Without `forceinline=False`, numba inlines a function whose first caller is `inlined`.
     """
     return cast(Function, numba.njit(function, forceinline=False, **OPTIONS))
 
 
 class Field(types.Type):
-    """The type of a field in compiled code: where its first entry is.
+    """Type of a field in compiled code: a pointer to its first entry.
 
-    Entries are read and written without asking whether the index is negative, as for an array, which costs more than
-    the arithmetic does; and a store to a float is known not to change an integer.
+    Unlike for arrays, negative indices are not supported, because checking them costs more than the arithmetic. The
+    compiler may assume that a store to a float does not change an integer.
     """
 
     def __init__(self, dtype: Any) -> None:
@@ -81,7 +81,7 @@ class WriteField(AbstractTemplate):  # type: ignore[misc]
 
 
 def of_kind(builder: Any, access: Any, dtype: Any) -> Any:
-    """Tell the compiler that floats and integers are different places."""
+    """Mark an access so that the compiler knows that floats and integers do not alias."""
     module = builder.module
     root = module.add_metadata(["urdfkit"])
     kind = module.add_metadata([str(dtype), root, _zero()])
@@ -112,7 +112,7 @@ def _field(typing: Any, block: Any, integers: Any, at: Any) -> Any:
         whole = make_array(signature.args[0])(context, builder, arguments[0])
         starts = make_array(signature.args[1])(context, builder, arguments[1])
         start = builder.load(builder.gep(starts.data, [arguments[2]]))
-        # Nobody moves a field: the compiler need not read its place again after every store.
+        # Fields do not move, so the compiler need not read the start again after every store.
         start.set_metadata("invariant.load", builder.module.add_metadata([]))
         return builder.gep(whole.data, [start])
 

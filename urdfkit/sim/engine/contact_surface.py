@@ -1,4 +1,4 @@
-"""What bodies touch with: the ground, their surfaces, and the contacts that come of it."""
+"""Ground plane, friction of surfaces, and contacts."""
 
 from __future__ import annotations
 
@@ -55,17 +55,17 @@ class Surface:
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """A point where a link touched something in the last step.
+    """A contact of a link in the last step.
 
     Attributes:
         a: the link.
-        b: what it touched.
-        position: in the world [m].
+        b: the other body.
+        position: position in the world [m].
         normal: unit vector in the world from `b` to `a`.
-        depth: how deep `a` is in `b` [m]; negative while there is still a gap.
-        force: on `a`, in the world [N].
-        a_shape: which of the collisions of `a` it is, in their order.
-        b_shape: which of those of `b`; -1 for the ground.
+        depth: penetration [m]; negative for a gap.
+        force: force on `a` in world axes [N].
+        a_shape: index of the collision shape of `a`.
+        b_shape: index of the collision shape of `b`; -1 for the ground.
     """
 
     a: str
@@ -80,14 +80,14 @@ class Contact:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Touching:
-    """A collision shape, as the kernel knows it.
+    """A collision shape in the form that the kernel uses.
 
     Attributes:
-        link: what contacts call what it is on.
-        number: of the shape among those of its link, in their order.
-        body: number of the body it is on; -1 when it does not move, and then it is placed in the world.
-        owner: number of the robot or body it belongs to.
-        meets: whether it touches others of its owner.
+        link: name of its link or body in contacts.
+        number: index of the shape in its link.
+        body: index of its body; -1 for a static shape, whose placement is in the world.
+        owner: index of the robot or body it belongs to.
+        meets: whether it collides with other shapes of its owner.
         kind: of shape.
         size: [m], see `ground_contacts`.
         R: axes in the body.

@@ -27,7 +27,7 @@ from urdfkit.sim.engine.state_conversion import contacts, turning
 Array = NDArray[np.float64]
 
 FLAT = Ground()
-"""The ground where nothing else is said: at z = 0."""
+"""Default ground, at z = 0."""
 
 
 class Engine(Articulation):
@@ -38,7 +38,7 @@ class Engine(Articulation):
     and `kd` in place (``engine.motor_velocity[3] = 1.0``); they hold until written again.
 
     Args:
-        kinematics: the robot; with a floating base it is free, without it is bolted to `base`.
+        kinematics: the robot; with a floating base it is free; without one, the root link is fixed at `base`.
         shapes: its collision shapes; shapes of another role are ignored.
         dt: length of a step [s].
         gravity: [m/s²].
@@ -48,8 +48,9 @@ class Engine(Articulation):
         self_collide: the robot's links that touch its others, True for all; those with a joint between them never do.
         weightless: the robot's links that gravity does not pull.
         others: more robots.
-        bodies: what else is there, free or not.
-        sleep: whether what is at rest may sleep, see `sleep.sleep`: it costs nothing then. One robot alone never does.
+        bodies: free and static bodies.
+        sleep: whether trees at rest may sleep, see `sleep.sleep`; sleeping trees cost no time. A single robot never
+            sleeps.
 
     Raises:
         SimulationError: the robot or a body cannot be simulated, e.g. a link that must move has no mass.
@@ -81,8 +82,8 @@ class Engine(Articulation):
             raise SimulationError(f"a step of {dt:g} s is no step; it must be positive")
         self.ground = ground
         self.dt = float(dt)
-        bolted_at = AT_ORIGIN if base is None else base
-        own = Member(kinematics, shapes, surfaces or {}, bolted_at, self_collide, weightless=weightless)
+        root_pose = AT_ORIGIN if base is None else base
+        own = Member(kinematics, shapes, surfaces or {}, root_pose, self_collide, weightless=weightless)
         self._members = (own, *others)
         self._free = tuple(body for body in bodies if not body.static)
         if len({body.name for body in self._free}) < len(self._free):
@@ -90,7 +91,7 @@ class Engine(Articulation):
             twice = next(name for name in names if names.count(name) > 1)
             raise SimulationError(f"there are two bodies called `{twice}`; give each a name of its own")
         alone = not (others or bodies or self_collide)
-        # What does not move meets only what moves: nothing does where there is but one robot.
+        # Static shapes collide with other trees only, so a single robot on the ground has no pairs.
         self.collision_shapes = [each for each in touching(self._members, bodies) if each.body >= 0 or not alone]
         self.arrays = fill(
             self._members,
@@ -118,7 +119,7 @@ class Engine(Articulation):
     @property
     def steps(self) -> int:
         """How many steps it made since the last `reset`."""
-        # Counted by the kernel: where each step is a call, Python's own counting would be felt.
+        # Counted by the kernel, because counting in Python would be noticeable if each step is a call.
         return int(self._counts[STEPS])
 
     @property
@@ -157,9 +158,9 @@ class Engine(Articulation):
             raise SimulationError(self._divergence())
 
     def wake(self) -> None:
-        """Wake all that sleeps, as must be done when what they lie on is taken away."""
+        """Wake all sleeping trees, as required when their support is removed."""
         a = self.arrays
-        # What they asked for was nothing: this is something else.
+        # The stored targets at sleep are no longer valid.
         a["asked"][np.repeat(a["asleep"], np.diff(a["tree_dof"])) != 0] = np.nan
 
     def contacts(self) -> tuple[Contact, ...]:
@@ -208,13 +209,13 @@ class Engine(Articulation):
         a = self.arrays
         when = f"at t = {self.t + self.dt:.6g} s"
         if a["counts"][OVERFULL]:
-            return f"{when} more touches at once than there is room for: too much in one heap"
+            return f"{when} there are more contacts than the engine can store; use fewer bodies in one heap"
         wrong = int(np.flatnonzero(~np.isfinite(a["v"]))[0])
         tree = int(np.searchsorted(a["tree_dof"], wrong, side="right")) - 1
         if tree >= len(self._members):
             return (
-                f"the simulation diverged {when}: body `{self._free[tree - len(self._members)].name}` has no finite "
-                "velocity any more; try a smaller step, or look at its inertia"
+                f"the simulation diverged {when}: body `{self._free[tree - len(self._members)].name}` no longer has "
+                "a finite velocity; use a smaller step, or check its inertia"
             )
         model = self._members[tree].kinematics.model
         wrong -= int(a["tree_dof"][tree])
@@ -225,5 +226,5 @@ class Engine(Articulation):
             what = f"root link `{kinematics.robot.roots()[0].name}`"
         return (
             f"the simulation diverged {when}: {what} "
-            "has no finite velocity any more; try a smaller step, or look at its inertia and gains"
+            "no longer has a finite velocity; use a smaller step, or check its inertia and gains"
         )

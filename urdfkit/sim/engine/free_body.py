@@ -60,7 +60,7 @@ class FreeBody:
         speed = _six(twist)
         R = self._rotation()
         self._v[:3], self._v[3:] = matmul(R.T, speed[:3]), matmul(R.T, speed[3:])
-        # What somebody moves is not at rest.
+        # A body that is placed is not at rest.
         self._arrays["still"][self._tree] = 0.0
 
     def put_back(self) -> None:
@@ -69,7 +69,7 @@ class FreeBody:
         self._applied[:] = 0.0
 
     def push(self, wrench: Sequence[float]) -> None:
-        """Push it with a force at its origin [N] and a torque [N·m], along its own axes, until told otherwise.
+        """Apply a force at the origin [N] and a torque [N·m], in the body's axes, until they are changed.
 
         Raises:
             SimulationError: a number is not finite.

@@ -33,11 +33,11 @@ KERNEL_MODULES = (
 )
 """Modules of this package with compiled functions, for one robot on its plane."""
 WORLD_FOLDERS = ("collision", "contacts", "dynamics", "island_solver", "sleep", "stepping")
-"""Packages in this one with the compiled functions that a world of several bodies needs besides."""
+"""Sub-packages with the compiled functions that worlds of several bodies need in addition."""
 
 Kernel = Callable[..., int]
 Progress = Callable[[int], None]
-"""Told how many functions have been compiled so far; first with 0, only when there is something to compile."""
+"""Called with the number of functions compiled so far, beginning with 0, if any function must be compiled."""
 
 
 @lru_cache(maxsize=1)
@@ -57,7 +57,7 @@ def world_kernel() -> Kernel:
 
 
 def announcement(*, world: bool = False) -> str:
-    """Return what to say before a compilation: which kernel, and about how long it takes [CPU s, measured]."""
+    """Return the message before a compilation, with the kernel and its approximate duration [CPU s, measured]."""
     what, seconds = (" for worlds that hold bodies", 50) if world else ("", 22)
     return f"compiling the physics kernel{what}, once, about {seconds} s …"
 
@@ -73,7 +73,7 @@ def warmup(progress: Progress | None = None, *, world: bool = False) -> bool:
 
     compiled: list[str] = []
 
-    class Listener(event.Listener):  # type: ignore[misc]
+    class CompilationListener(event.Listener):  # type: ignore[misc]
         def on_start(self, event: Any) -> None:
             if progress is not None:
                 progress(len(compiled))
@@ -82,7 +82,7 @@ def warmup(progress: Progress | None = None, *, world: bool = False) -> bool:
         def on_end(self, event: Any) -> None:
             pass
 
-    with event.install_listener("numba:compile", Listener()):
+    with event.install_listener("numba:compile", CompilationListener()):
         (world_kernel if world else kernel)()
     return bool(compiled)
 
@@ -108,10 +108,10 @@ def world_digest() -> str:
 
 @lru_cache
 def load_compiled(function: Callable[..., int], arguments: tuple[str, ...], *, digest: str | None = None) -> Kernel:
-    """Compile a function for these types of arguments, or load what was compiled before.
+    """Compile a function for these types of arguments, or load it from the cache.
 
-    What is returned is the compiled function itself, not numba's dispatcher before it, which looks at the types of all
-    arguments in each call and takes longer over it than over the call. Arrays of other types are not noticed.
+    Returns the compiled function instead of numba's dispatcher, which checks the types of all arguments in each call
+    and takes longer than the call. Therefore, arrays of other types are not detected.
     """
     import numba
 

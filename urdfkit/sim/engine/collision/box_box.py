@@ -14,11 +14,11 @@ from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, Vector, add, dot, scale, sub
 
 FAR, FOUND, UNSURE = range(3)
-"""Further apart than asked for, found, and not to be found by these axes alone."""
+"""Results: farther apart than the limit, found, and not decidable by these axes alone."""
 PARALLEL = 1e-14
 """One minus the cosine of the angle below which faces count as parallel."""
 BESIDE = 1e-9
-"""How far [m] beside a face a corner still counts as over it, and by how much an edge must be better than a face."""
+"""Tolerance [m] for a corner to be over a face, and by which an edge must be better than a face."""
 SAME_EDGE = 1e-8
 """Square of the sine between two edges below which they have no axis of their own."""
 
@@ -127,7 +127,7 @@ def box_and_box(a: Any, b: Any, limit: float) -> tuple[int, Vector, float, Vecto
         between = sub(corner, scale(0.5 * gap, normal))
         is_over = gap <= 0.0 or over_face(b, best - 3, corner)
     if not is_over:
-        # Faces that are parallel may cover each other in part, the corner being beside.
+        # Parallel faces may overlap partly, with the corner outside the overlap.
         count = 0
         for k in range(3):
             count += (on_a[0] if k == 0 else (on_a[1] if k == 1 else on_a[2])) > 0.0

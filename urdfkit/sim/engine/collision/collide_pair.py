@@ -1,4 +1,4 @@
-"""The contacts of a pair of shapes, whatever they are."""
+"""Contacts of a pair of shapes of any kind."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from urdfkit.sim.engine.math.spatial_algebra import Vector
 
 MOST = 8
 """Most contacts of one pair; the outputs have room for so many."""
-APART = 0.1
-"""Distance [m] that counts, between contacts with a mesh, as much as a difference of one between their normals."""
+NORMAL_WEIGHT = 0.1
+"""Distance [m] between contacts with a mesh that weighs as much as a difference of one between their normals."""
 WORK, WORK_INDICES = workspace.WORK, workspace.WORK_INDICES
 """Floats and integers of working memory, which the caller allocates once."""
 
@@ -86,7 +86,7 @@ def collide_pair(
             count = collide_meshes(a, b, numbers, indices, margin, work, work_indices)
         else:
             count = collide_mesh(NONE, a, b, numbers, indices, margin, NONE, work, work_indices)
-        count = keep_few(count, np.int64(MOST), APART, work, work_indices)
+        count = keep_few(count, np.int64(MOST), NORMAL_WEIGHT, work, work_indices)
     else:
         count = collide_convex(NONE, a, b, numbers, indices, margin, NONE, work, work_indices)
     write(count, sign, work, work_indices, out_point, out_normal, out_gap, out_feature)

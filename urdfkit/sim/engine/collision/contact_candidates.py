@@ -1,11 +1,11 @@
-"""Contacts that have been found, before the few that hold the bodies are chosen."""
+"""Contact candidates, and the reduction to the few that support the bodies."""
 
 from __future__ import annotations
 
 import math
 from typing import Any
 
-from urdfkit.sim.engine.collision.gjk import put
+from urdfkit.sim.engine.collision.gjk import store_vector_at
 from urdfkit.sim.engine.collision.support_points import vertex_at
 from urdfkit.sim.engine.collision.workspace import FEATURE, GAP, MOST_CANDIDATES, NONE, NORMAL, POINT
 from urdfkit.sim.engine.compilation import compiled, inlined
@@ -20,25 +20,27 @@ SAME = 1e-3
 
 
 @inlined
-def note(count: int, point: Vector, normal: Vector, gap: float, feature: int, work: Any, work_indices: Any) -> int:
+def add_candidate(
+    count: int, point: Vector, normal: Vector, gap: float, feature: int, work: Any, work_indices: Any
+) -> int:
     """Note a contact where there is room; return how many there are."""
     if count >= MOST_CANDIDATES:
         return count
-    put(work, POINT, count, point)
-    put(work, NORMAL, count, normal)
+    store_vector_at(work, POINT, count, point)
+    store_vector_at(work, NORMAL, count, normal)
     work[GAP + count] = gap
     work_indices[FEATURE + count] = feature
     return count + 1
 
 
 @inlined
-def move(k: int, to: int, work: Any, work_indices: Any) -> None:
+def swap_candidates(k: int, to: int, work: Any, work_indices: Any) -> None:
     """Exchange two candidates."""
     point, normal, gap = vertex_at(work, POINT, k), vertex_at(work, NORMAL, k), work[GAP + k]
-    put(work, POINT, k, vertex_at(work, POINT, to))
-    put(work, NORMAL, k, vertex_at(work, NORMAL, to))
-    put(work, POINT, to, point)
-    put(work, NORMAL, to, normal)
+    store_vector_at(work, POINT, k, vertex_at(work, POINT, to))
+    store_vector_at(work, NORMAL, k, vertex_at(work, NORMAL, to))
+    store_vector_at(work, POINT, to, point)
+    store_vector_at(work, NORMAL, to, normal)
     work[GAP + k], work[GAP + to] = work[GAP + to], gap
     at, other = FEATURE + k, FEATURE + to
     work_indices[at], work_indices[other] = work_indices[other], work_indices[at]
@@ -58,7 +60,7 @@ def keep_widest(first: int, count: int, work: Any, work_indices: Any) -> int:
         if work[GAP + k] < work[GAP + deepest]:
             deepest = k
     if deepest != first:
-        move(deepest, first, work, work_indices)
+        swap_candidates(deepest, first, work, work_indices)
     # The deepest is first now, and the three after it are chosen so that they span, with it, the widest area.
     p = vertex_at(work, POINT, first)
     best, most = first + 1, -1.0
@@ -66,7 +68,7 @@ def keep_widest(first: int, count: int, work: Any, work_indices: Any) -> int:
         offset = sub(vertex_at(work, POINT, k), p)
         if dot(offset, offset) > most + 1e-12:
             best, most = k, dot(offset, offset)
-    move(best, first + 1, work, work_indices)
+    swap_candidates(best, first + 1, work, work_indices)
     along = sub(vertex_at(work, POINT, first + 1), p)
     side = cross(normal, along)
     area = 0.0
@@ -77,7 +79,7 @@ def keep_widest(first: int, count: int, work: Any, work_indices: Any) -> int:
             reach = sign * dot(side, sub(vertex_at(work, POINT, k), p))
             if reach > most + 1e-12:
                 best, most = k, reach
-        move(best, first + j, work, work_indices)
+        swap_candidates(best, first + j, work, work_indices)
         area += max(0.0, most)
     # The deepest may lie inside the widest area: then the corner it stands for comes back.
     left = first + 4
@@ -88,7 +90,7 @@ def keep_widest(first: int, count: int, work: Any, work_indices: Any) -> int:
         if gained > most:
             best, most = k, gained
     if best >= 0:
-        move(best, left, work, work_indices)
+        swap_candidates(best, left, work, work_indices)
         left += 1
     return left
 
@@ -107,7 +109,7 @@ def uncovered(first: int, q: Vector, normal: Vector, work: Any) -> float:
 
 
 @compiled
-def keep_apart(count: int, most: int, reach: float, work: Any, work_indices: Any) -> int:
+def keep_spread(count: int, most: int, reach: float, work: Any, work_indices: Any) -> int:
     """Keep the deepest candidate and those furthest from all kept, by place and by normal.
 
     Args:
@@ -126,7 +128,7 @@ def keep_apart(count: int, most: int, reach: float, work: Any, work_indices: Any
     for k in range(1, count):
         if work[GAP + k] < work[GAP + deepest]:
             deepest = k
-    move(deepest, 0, work, work_indices)
+    swap_candidates(deepest, 0, work, work_indices)
     kept = 1
     while kept < min(count, most):
         best, furthest = kept, -1.0
@@ -139,9 +141,9 @@ def keep_apart(count: int, most: int, reach: float, work: Any, work_indices: Any
             if nearest > furthest + 1e-12:
                 best, furthest = k, nearest
         if furthest < SAME * SAME * reach * reach:
-            # The rest repeats what is kept.
+            # All other candidates repeat selected ones.
             break
-        move(best, kept, work, work_indices)
+        swap_candidates(best, kept, work, work_indices)
         kept += 1
     return kept
 
@@ -149,10 +151,10 @@ def keep_apart(count: int, most: int, reach: float, work: Any, work_indices: Any
 @compiled
 def keep_few(count: int, most: int, reach: float, work: Any, work_indices: Any) -> int:
     """Keep the contacts with a mesh that hold a body: few where all have one normal; return how many."""
-    count = keep_apart(count, count, reach, work, work_indices)
+    count = keep_spread(count, count, reach, work, work_indices)
     for k in range(1, count):
         if dot(vertex_at(work, NORMAL, 0), vertex_at(work, NORMAL, k)) < 1.0 - COMMON:
-            return keep_apart(count, most, reach, work, work_indices)
+            return keep_spread(count, most, reach, work, work_indices)
     return keep_widest(NONE, count, work, work_indices)
 
 

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from urdfkit.sim.engine.collision.contact_candidates import keep_widest, note
-from urdfkit.sim.engine.collision.gjk import put
+from urdfkit.sim.engine.collision.contact_candidates import add_candidate, keep_widest
+from urdfkit.sim.engine.collision.gjk import store_vector_at
 from urdfkit.sim.engine.collision.support_faces import column, touching_face
 from urdfkit.sim.engine.collision.support_points import WHEEL, radius_of, vertex_at
 from urdfkit.sim.engine.collision.workspace import (
@@ -60,11 +60,11 @@ def clip_edge(count: int, start: Vector, outward: Vector, plane: int, work: Any,
         p, q = vertex_at(work, CLIPPED, k), vertex_at(work, CLIPPED, j)
         p_out, q_out = dot(outward, sub(p, start)) - INSIDE, dot(outward, sub(q, start)) - INSIDE
         if p_out <= 0.0 and left < MOST_CLIPPED:
-            put(work, CLIPPED_NEXT, left, p)
+            store_vector_at(work, CLIPPED_NEXT, left, p)
             ids[CLIPPED_ID_NEXT + left] = ids[CLIPPED_ID + k]
             left += 1
         if (p_out <= 0.0) != (q_out <= 0.0) and left < MOST_CLIPPED:
-            put(work, CLIPPED_NEXT, left, add(p, scale(p_out / (p_out - q_out), sub(q, p))))
+            store_vector_at(work, CLIPPED_NEXT, left, add(p, scale(p_out / (p_out - q_out), sub(q, p))))
             # The corner that stays, of the two the edge had, is numbered by the edge.
             edge = ids[CLIPPED_ID + k]
             ids[CLIPPED_ID_NEXT + left] = (
@@ -72,26 +72,26 @@ def clip_edge(count: int, start: Vector, outward: Vector, plane: int, work: Any,
             )
             left += 1
         if count == 2 and q_out <= 0.0:
-            put(work, CLIPPED_NEXT, left, q)
+            store_vector_at(work, CLIPPED_NEXT, left, q)
             ids[CLIPPED_ID_NEXT + left] = ids[CLIPPED_ID + j]
             left += 1
     for k in range(left):
-        put(work, CLIPPED, k, vertex_at(work, CLIPPED_NEXT, k))
+        store_vector_at(work, CLIPPED, k, vertex_at(work, CLIPPED_NEXT, k))
         ids[CLIPPED_ID + k] = ids[CLIPPED_ID_NEXT + k]
     return left
 
 
 @inlined
-def take(count: int, polygon: int, id_at: int, work: Any, ids: Any) -> None:
-    """Make a polygon the one that is clipped."""
+def load_polygon(count: int, polygon: int, id_at: int, work: Any, ids: Any) -> None:
+    """Copy a polygon into the buffer for clipping."""
     for k in range(count):
-        put(work, CLIPPED, k, vertex_at(work, polygon, k))
+        store_vector_at(work, CLIPPED, k, vertex_at(work, polygon, k))
         ids[CLIPPED_ID + k] = ids[id_at + k]
 
 
 @inlined
 def clip_to_face(count: int, polygon: int, corners: int, normal: Vector, work: Any, ids: Any) -> int:
-    """Clip what was taken to the sides of a face, along the normal; return how many corners are left."""
+    """Clip the loaded polygon to the sides of a face, along the normal; return how many corners are left."""
     centre = (0.0, 0.0, 0.0)
     for k in range(corners):
         centre = add(centre, scale(1.0 / corners, vertex_at(work, polygon, k)))
@@ -140,7 +140,7 @@ def leaning(shape: Any, corners: int, normal: Vector) -> float:
 
 
 @compiled
-def spread(
+def face_contacts(
     count: int,
     a: Any,
     b: Any,
@@ -190,17 +190,17 @@ def spread(
     clips_b = not clips_a and level_a > LEVEL
     start, facing = vertex_at(work, POLYGON_B, 0), face_b
     if clips_a:
-        take(corners_a, POLYGON_A, ID_A, work, work_indices)
+        load_polygon(corners_a, POLYGON_A, ID_A, work, work_indices)
         clipped = clip_to_face(corners_a, POLYGON_B, corners_b, normal, work, work_indices)
     elif clips_b:
         start, facing = vertex_at(work, POLYGON_A, 0), face_a
-        take(corners_b, POLYGON_B, ID_B, work, work_indices)
+        load_polygon(corners_b, POLYGON_B, ID_B, work, work_indices)
         clipped = clip_to_face(corners_b, POLYGON_A, corners_a, normal, work, work_indices)
     elif corners_a == 2 and corners_b == 2 and are_parallel(work):
         clips_a = True
-        take(corners_a, POLYGON_A, ID_A, work, work_indices)
+        load_polygon(corners_a, POLYGON_A, ID_A, work, work_indices)
         clipped = clip_to_line(POLYGON_B, work, work_indices)
-        # The line of b and what is square to it and most nearly to the normal stand for its face.
+        # The face of b is the plane through its line that is most nearly perpendicular to the normal.
         along = sub(vertex_at(work, POLYGON_B, 1), start)
         facing = sub(normal, scale(dot(normal, along) / dot(along, along), along))
     least = math.inf
@@ -214,11 +214,11 @@ def spread(
             if count < MOST_CANDIDATES:
                 middle = add(sub(point, scale(0.5 * height, normal)), shift)
                 number = feature + work_indices[CLIPPED_ID + k] + (0 if clips_a else B_IS_CLIPPED)
-                count = note(count, middle, normal, here - radius_a - radius_b, number, work, work_indices)
+                count = add_candidate(count, middle, normal, here - radius_a - radius_b, number, work, work_indices)
     # The lower edge of a leaning wheel is left out for the middle of its rim.
     reached = least <= gap + REACHED + leaning(a, corners_a, normal) + leaning(b, corners_b, normal)
     if has_nearest and gap < limit and not reached and count < MOST_CANDIDATES:
-        count = note(
+        count = add_candidate(
             count, add(between, shift), normal, gap - radius_a - radius_b, feature + NEAREST, work, work_indices
         )
     return keep_widest(first, count, work, work_indices)

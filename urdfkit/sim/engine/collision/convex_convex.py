@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 from urdfkit.sim.engine.collision.box_box import FOUND, UNSURE, box_and_box
-from urdfkit.sim.engine.collision.contact_manifold import spread
+from urdfkit.sim.engine.collision.contact_manifold import face_contacts
 from urdfkit.sim.engine.collision.epa import across, depth
-from urdfkit.sim.engine.collision.gjk import APART, FAR, distance, support_of_difference
+from urdfkit.sim.engine.collision.gjk import FAR, SEPARATED, distance, support_of_difference
 from urdfkit.sim.engine.collision.support_faces import column
 from urdfkit.sim.engine.collision.support_points import BOX, CAPSULE, CYLINDER, SPHERE, WHEEL, radius_of, unrotate
 from urdfkit.sim.engine.compilation import compiled, inlined
@@ -19,7 +19,7 @@ from urdfkit.sim.engine.math.spatial_algebra import Vector, add, cross, dot, rot
 def point_and_cylinder(a: Any, b: Any) -> tuple[Vector, float, Vector]:
     """Return normal, gap and point half-way of a point and a cylinder.
 
-    Inside a cylinder every direction may be as good as any other: a polytope has no end there.
+    Inside a cylinder all directions may be equally good, and EPA does not converge.
     """
     sign = 1.0 if a[0] == SPHERE else -1.0
     point, size, R, p = (a[3], b[1], b[2], b[3]) if a[0] == SPHERE else (b[3], a[1], a[2], a[3])
@@ -40,10 +40,12 @@ def point_and_cylinder(a: Any, b: Any) -> tuple[Vector, float, Vector]:
 
 
 @inlined
-def side_by_side(a: Any, b: Any, normal: Vector, apart: Vector, numbers: Any, indices: Any) -> tuple[Vector, Vector]:
-    """Return the better of what was found of two overlapping round shapes and the way apart of their sides.
+def side_by_side(
+    a: Any, b: Any, normal: Vector, separation: Vector, numbers: Any, indices: Any
+) -> tuple[Vector, Vector]:
+    """Return the better separation of two overlapping round shapes: the given one, or the one across their sides.
 
-    Shapes round one axis come apart in all directions across it alike, and a polytope has no end there either.
+    Shapes around a common axis separate equally well in all directions across it, where EPA does not converge.
     """
     axis_a, axis_b = column(a[2], 2), column(b[2], 2)
     offset = sub(a[3], b[3])
@@ -56,9 +58,9 @@ def side_by_side(a: Any, b: Any, normal: Vector, apart: Vector, numbers: Any, in
     sideways = scale((1.0 if dot(across_both, offset) >= 0.0 else -1.0) / length, across_both)
     w, _ = support_of_difference(a, b, numbers, indices, scale(-1.0, sideways))
     gap = dot(sideways, w)
-    if gap > dot(normal, apart):
+    if gap > dot(normal, separation):
         return sideways, scale(gap, sideways)
-    return normal, apart
+    return normal, separation
 
 
 @compiled
@@ -84,21 +86,21 @@ def nearest(
         return gap < limit, normal, gap, between
     if a[0] == BOX and b[0] == BOX:
         # Boxes mostly lie on each other with a face.
-        known, normal, gap, between = box_and_box(a, b, limit)
-        if known != UNSURE:
-            return known == FOUND and gap < limit, normal, gap, between
-    state, count, apart, on_a = distance(a, b, numbers, indices, limit, work)
+        result, normal, gap, between = box_and_box(a, b, limit)
+        if result != UNSURE:
+            return result == FOUND and gap < limit, normal, gap, between
+    state, count, separation, on_a = distance(a, b, numbers, indices, limit, work)
     if state == FAR:
-        return False, apart, limit, on_a
-    if state == APART:
-        gap = math.sqrt(dot(apart, apart))
-        normal = scale(1.0 / gap, apart)
+        return False, separation, limit, on_a
+    if state == SEPARATED:
+        gap = math.sqrt(dot(separation, separation))
+        normal = scale(1.0 / gap, separation)
     else:
-        normal, apart, on_a = depth(count, a, b, numbers, indices, work, work_indices)
+        normal, separation, on_a = depth(count, a, b, numbers, indices, work, work_indices)
         if a[0] in (CYLINDER, WHEEL, CAPSULE) and b[0] in (CYLINDER, WHEEL, CAPSULE):
-            normal, apart = side_by_side(a, b, normal, apart, numbers, indices)
-        gap = dot(normal, apart)
-    return gap < limit, normal, gap, sub(on_a, scale(0.5, apart))
+            normal, separation = side_by_side(a, b, normal, separation, numbers, indices)
+        gap = dot(normal, separation)
+    return gap < limit, normal, gap, sub(on_a, scale(0.5, separation))
 
 
 @compiled
@@ -110,4 +112,4 @@ def collide_convex(
     near, normal, gap, between = nearest(a, b, numbers, indices, limit, work, work_indices)
     if not near:
         return count
-    return spread(count, a, b, numbers, indices, normal, gap, between, near, margin, feature, work, work_indices)
+    return face_contacts(count, a, b, numbers, indices, normal, gap, between, near, margin, feature, work, work_indices)

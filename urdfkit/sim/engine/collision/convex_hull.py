@@ -59,15 +59,15 @@ def first_corners(points: Array, tolerance: float) -> list[int]:
     """Return up to four points that span as much as the points do: a point, a line, a triangle or a tetrahedron."""
     corners = [int(np.argmin(points[:, 0]))]
     offset = points - points[corners[0]]
-    apart = np.linalg.norm(offset, axis=1)
+    distances = np.linalg.norm(offset, axis=1)
     for _ in range(3):
-        furthest = int(np.argmax(apart))
-        if apart[furthest] <= tolerance:
+        furthest = int(np.argmax(distances))
+        if distances[furthest] <= tolerance:
             break
         corners.append(furthest)
         along = offset[furthest] / vector_norm(offset[furthest])
         offset = offset - np.outer(matmul(offset, along), along)
-        apart = np.linalg.norm(offset, axis=1)
+        distances = np.linalg.norm(offset, axis=1)
     return corners
 
 
@@ -144,7 +144,7 @@ def loop_normal(corners: Array) -> Array:
 def merge_faces(
     points: Array, faces: list[tuple[int, ...]], planes: list[tuple[Array, float]], tolerance: float
 ) -> list[tuple[int, ...]]:
-    """Join neighbouring triangles that lie on one plane; what does not make one loop stays apart."""
+    """Merge neighbouring coplanar triangles into faces; patches without a single boundary loop are not merged."""
     face_of = {(f[k], f[(k + 1) % 3]): n for n, f in enumerate(faces) for k in range(3)}
     areas = [vector_norm(np.cross(points[f[1]] - points[f[0]], points[f[2]] - points[f[0]])) for f in faces]
     free = set(range(len(faces)))

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from urdfkit.sim.engine.collision.contact_candidates import keep_apart
-from urdfkit.sim.engine.collision.contact_manifold import spread
+from urdfkit.sim.engine.collision.contact_candidates import keep_spread
+from urdfkit.sim.engine.collision.contact_manifold import face_contacts
 from urdfkit.sim.engine.collision.convex_convex import nearest
 from urdfkit.sim.engine.collision.support_faces import column
 from urdfkit.sim.engine.collision.support_points import (
@@ -155,7 +155,7 @@ def collide_triangle(
             has_nearest = False
             if gap >= limit:
                 return count
-    return spread(
+    return face_contacts(
         count,
         a,
         triangle,
@@ -198,7 +198,7 @@ def collide_mesh(
         for k in range(leaf, min(leaf + LEAF, triangles)):
             if near_triangle(box, numbers, first + 9 * k):
                 if count > MOST_CANDIDATES - MOST_OF_ONE:
-                    count = keep_apart(count, KEPT, reach, work, work_indices)
+                    count = keep_spread(count, KEPT, reach, work, work_indices)
                 triangle = (A_TRIANGLE, mesh[1], R, p, first + 9 * k)
                 number = feature + TRIANGLE_FEATURES * k
                 count = collide_triangle(

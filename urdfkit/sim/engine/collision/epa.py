@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.collision.gjk import put, support_of_difference, triangle_weights
+from urdfkit.sim.engine.collision.gjk import store_vector_at, support_of_difference, triangle_weights
 from urdfkit.sim.engine.collision.support_points import vertex_at
 from urdfkit.sim.engine.collision.workspace import (
     DIFFERENCE,
@@ -108,8 +108,8 @@ def fill_simplex(count: int, a: Any, b: Any, numbers: Any, indices: Any, work: A
                 most, best, best_on_a = off, w, on_a
         if most <= FLAT * extent:
             return count, normal
-        put(work, DIFFERENCE, count, best)
-        put(work, ON_A, count, best_on_a)
+        store_vector_at(work, DIFFERENCE, count, best)
+        store_vector_at(work, ON_A, count, best_on_a)
         count += 1
     return count, normal
 
@@ -127,7 +127,7 @@ def add_face(count: int, i: int, j: int, k: int, work: Any, work_indices: Any) -
     if length > 0.0:
         normal = scale(1.0 / length, normal)
         work[FACE_DISTANCE + count] = dot(normal, p)
-    put(work, FACE_NORMAL, count, normal)
+    store_vector_at(work, FACE_NORMAL, count, normal)
     return count + 1
 
 
@@ -221,14 +221,14 @@ def depth(
             else:
                 to = FACE_POINT + 3 * kept
                 work_indices[to], work_indices[to + 1], work_indices[to + 2] = i, j, k
-                put(work, FACE_NORMAL, kept, outward)
+                store_vector_at(work, FACE_NORMAL, kept, outward)
                 work[FACE_DISTANCE + kept] = work[FACE_DISTANCE + face]
                 kept += 1
         faces = kept
         if edges == 0 or faces + edges > MOST_FACES:
             break
-        put(work, DIFFERENCE, count, w)
-        put(work, ON_A, count, on_a)
+        store_vector_at(work, DIFFERENCE, count, w)
+        store_vector_at(work, ON_A, count, on_a)
         for edge in range(edges):
             i, j = work_indices[HORIZON + 2 * edge], work_indices[HORIZON + 2 * edge + 1]
             faces = add_face(faces, i, j, count, work, work_indices)

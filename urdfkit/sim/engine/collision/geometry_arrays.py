@@ -19,7 +19,7 @@ CONCAVE = 1e-6
 class Geometry:
     """Hulls and meshes, added one by one.
 
-    What is added is found by the number that `add_hull` and `add_mesh` return: the `data` of its shape.
+    `add_hull` and `add_mesh` return the `data` of the shape, by which compiled functions find it.
     """
 
     def __init__(self) -> None:

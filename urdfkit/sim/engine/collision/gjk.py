@@ -15,8 +15,8 @@ from urdfkit.sim.engine.collision.workspace import DIFFERENCE, ON_A
 from urdfkit.sim.engine.compilation import compiled, inlined
 from urdfkit.sim.engine.math.spatial_algebra import Vector, add, cross, dot, scale, sub
 
-FAR, APART, OVERLAPPING = range(3)
-"""Further apart than asked for, apart, and overlapping or touching."""
+FAR, SEPARATED, OVERLAPPING = range(3)
+"""Results: farther apart than the limit, separated, and overlapping or touching."""
 
 ITERATIONS = 100
 TOUCHING = 1e-9
@@ -26,7 +26,7 @@ EXACT = 1e-11
 
 
 @inlined
-def put(work: Any, start: int, k: int, x: Vector) -> None:
+def store_vector_at(work: Any, start: int, k: int, x: Vector) -> None:
     """Write the k-th of the vectors that start at `start`."""
     work[start + 3 * k], work[start + 3 * k + 1], work[start + 3 * k + 2] = x
 
@@ -125,14 +125,15 @@ def distance(a: Any, b: Any, numbers: Any, indices: Any, limit: float, work: Any
         work: working memory; the simplex is left there.
 
     Returns:
-        `FAR`, `APART` or `OVERLAPPING`; how many points the simplex has; from the point on b to that on a; the latter.
+        `FAR`, `SEPARATED` or `OVERLAPPING`; number of points of the simplex; vector from the point on b to that on a;
+        the point on a.
     """
     away = sub(a[3], b[3])
     if dot(away, away) == 0.0:
         away = (1.0, 0.0, 0.0)
     v, on_a = support_of_difference(a, b, numbers, indices, scale(-1.0, away))
-    put(work, DIFFERENCE, 0, v)
-    put(work, ON_A, 0, on_a)
+    store_vector_at(work, DIFFERENCE, 0, v)
+    store_vector_at(work, ON_A, 0, on_a)
     count = 1
     largest = dot(v, v)
     for _ in range(ITERATIONS):
@@ -145,9 +146,9 @@ def distance(a: Any, b: Any, numbers: Any, indices: Any, limit: float, work: Any
             return FAR, count, v, on_a
         largest = max(largest, dot(w, w))
         if square - reach <= EXACT * math.sqrt(square * largest):
-            return APART, count, v, on_a
-        put(work, DIFFERENCE, count, w)
-        put(work, ON_A, count, new_on_a)
+            return SEPARATED, count, v, on_a
+        store_vector_at(work, DIFFERENCE, count, w)
+        store_vector_at(work, ON_A, count, new_on_a)
         count += 1
         weights = nearest_weights(count, work)
         kept = 0
@@ -157,14 +158,14 @@ def distance(a: Any, b: Any, numbers: Any, indices: Any, limit: float, work: Any
                 w, from_a = vertex_at(work, DIFFERENCE, k), vertex_at(work, ON_A, k)
                 new_v = add(new_v, scale(weights[k], w))
                 new_on_a = add(new_on_a, scale(weights[k], from_a))
-                put(work, DIFFERENCE, kept, w)
-                put(work, ON_A, kept, from_a)
+                store_vector_at(work, DIFFERENCE, kept, w)
+                store_vector_at(work, ON_A, kept, from_a)
                 kept += 1
         count = kept
         if count == 4:
             return OVERLAPPING, count, new_v, new_on_a
         if dot(new_v, new_v) >= square:
             # As near as rounding allows.
-            return APART, count, v, on_a
+            return SEPARATED, count, v, on_a
         v, on_a = new_v, new_on_a
-    return APART, count, v, on_a
+    return SEPARATED, count, v, on_a

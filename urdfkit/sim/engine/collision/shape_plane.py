@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from urdfkit.sim.engine.collision.contact_candidates import keep_apart, keep_widest, note
+from urdfkit.sim.engine.collision.contact_candidates import add_candidate, keep_spread, keep_widest
 from urdfkit.sim.engine.collision.contact_manifold import NEAREST, REACHED
 from urdfkit.sim.engine.collision.support_faces import column, touching_face
 from urdfkit.sim.engine.collision.support_points import (
@@ -47,8 +47,10 @@ def collide_plane(a: Any, b: Any, numbers: Any, indices: Any, margin: float, wor
             height = dot(normal, sub(point, b[3]))
             if height < margin:
                 if count == MOST_CANDIDATES:
-                    count = keep_apart(count, HALF, 1.0, work, work_indices)
-                count = note(count, sub(point, scale(0.5 * height, normal)), normal, height, k, work, work_indices)
+                    count = keep_spread(count, HALF, 1.0, work, work_indices)
+                count = add_candidate(
+                    count, sub(point, scale(0.5 * height, normal)), normal, height, k, work, work_indices
+                )
         return keep_widest(NONE, count, work, work_indices)
     lowest = support(kind, size, R, p, data, numbers, indices, down)
     gap = dot(normal, sub(lowest, b[3])) - radius
@@ -61,9 +63,9 @@ def collide_plane(a: Any, b: Any, numbers: Any, indices: Any, margin: float, wor
         height = dot(normal, sub(point, b[3]))
         if height - radius < margin:
             middle = sub(point, scale(0.5 * (height + radius), normal))
-            count = note(count, middle, normal, height - radius, work_indices[ID_A + k], work, work_indices)
+            count = add_candidate(count, middle, normal, height - radius, work_indices[ID_A + k], work, work_indices)
             reached = reached or height - radius <= gap + REACHED
     if not reached:
         middle = sub(lowest, scale(0.5 * gap + radius, normal))
-        count = note(count, middle, normal, gap, NEAREST, work, work_indices)
+        count = add_candidate(count, middle, normal, gap, NEAREST, work, work_indices)
     return keep_widest(NONE, count, work, work_indices)

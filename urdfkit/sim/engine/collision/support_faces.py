@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from urdfkit.sim.engine.collision.gjk import put
+from urdfkit.sim.engine.collision.gjk import store_vector_at
 from urdfkit.sim.engine.collision.support_points import (
     BOX,
     CAPSULE,
@@ -60,7 +60,7 @@ def box_face(size: Vector, R: Any, p: Vector, d: Vector, work: Any, at: int, ids
     for corner in range(4):
         right = 1.0 if corner in (0, 3) else -1.0
         up = 1.0 if corner < 2 else -1.0
-        put(work, at, corner, add(centre, add(scale(right, u), scale(up, v))))
+        store_vector_at(work, at, corner, add(centre, add(scale(right, u), scale(up, v))))
         ids[id_at + corner] = (
             ((1 if right > 0.0 else 0) << i) | ((1 if up > 0.0 else 0) << j) | ((1 if sign > 0.0 else 0) << k)
         )
@@ -78,7 +78,7 @@ def rim(size: Vector, R: Any, p: Vector, d: Vector, work: Any, at: int, ids: Any
     for corner in range(RIM):
         s, c = sine_cosine(2.0 * math.pi * corner / RIM)
         s, c = size[0] * s, size[0] * c
-        put(work, at, corner, add(p, rotate(R, (c * x - s * y, s * x + c * y, sign * size[1]))))
+        store_vector_at(work, at, corner, add(p, rotate(R, (c * x - s * y, s * x + c * y, sign * size[1]))))
         ids[id_at + corner] = corner + (RIM if sign > 0.0 else 0)
     return scale(sign, column(R, 2))
 
@@ -87,8 +87,8 @@ def rim(size: Vector, R: Any, p: Vector, d: Vector, work: Any, at: int, ids: Any
 def line(size: Vector, R: Any, p: Vector, outward: Vector, work: Any, at: int, ids: Any, id_at: int) -> None:
     """Write the two ends of a line along the z axis of a shape, first the lower, moved outward."""
     axis = scale(size[1], column(R, 2))
-    put(work, at, 0, add(p, sub(outward, axis)))
-    put(work, at, 1, add(p, add(outward, axis)))
+    store_vector_at(work, at, 0, add(p, sub(outward, axis)))
+    store_vector_at(work, at, 1, add(p, add(outward, axis)))
     ids[id_at], ids[id_at + 1] = 0, 1
 
 
@@ -108,7 +108,7 @@ def hull_face(
     count = min(MOST_CORNERS, indices[loop + 1] - indices[loop])
     for k in range(count):
         vertex = indices[corners + indices[loop] + k]
-        put(work, at, k, add(p, rotate(R, vertex_at(numbers, indices[data + FIRST_VERTEX], vertex))))
+        store_vector_at(work, at, k, add(p, rotate(R, vertex_at(numbers, indices[data + FIRST_VERTEX], vertex))))
         ids[id_at + k] = vertex
     return count, rotate(R, vertex_at(numbers, first, best))
 
@@ -140,7 +140,7 @@ def touching_face(
         return hull_face(R, p, data, numbers, indices, d, work, at, ids, id_at)
     if kind == TRIANGLE:
         for k in range(3):
-            put(work, at, k, add(p, rotate(R, vertex_at(numbers, data, k))))
+            store_vector_at(work, at, k, add(p, rotate(R, vertex_at(numbers, data, k))))
             ids[id_at + k] = k
         first = vertex_at(work, at, 0)
         normal = cross(sub(vertex_at(work, at, 1), first), sub(vertex_at(work, at, 2), first))
@@ -158,11 +158,11 @@ def touching_face(
         outward = rotate(R, (size[0] * d[0] / level, size[0] * d[1] / level, 0.0))
         if kind == WHEEL:
             along = size[1] * min(1.0, max(-1.0, d[2] / LEANING))
-            put(work, at, 0, add(p, add(outward, scale(along, column(R, 2)))))
+            store_vector_at(work, at, 0, add(p, add(outward, scale(along, column(R, 2)))))
             ids[id_at] = 0
             return 1, direction
         line(size, R, p, outward, work, at, ids, id_at)
         return 2, direction
-    put(work, at, 0, support(kind, size, R, p, data, numbers, indices, direction))
+    store_vector_at(work, at, 0, support(kind, size, R, p, data, numbers, indices, direction))
     ids[id_at] = 0
     return 1, direction

@@ -1,8 +1,8 @@
 """The convex shapes and their support points, for the compiled kernel.
 
 A shape is a core and a radius round it: a sphere is a point, a capsule a segment, each with its radius; box, cylinder,
-hull and triangle are their own cores with radius zero. What is found out of the cores holds for the shapes when the
-radii are taken off the gap.
+hull and triangle are their own cores with radius zero. Results for the cores are valid for the shapes after the radii
+are subtracted from the gap.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Where what is kept in the working memory of a pair: starts of fields in the two arrays the caller brings."""
+"""Layout of the working memory for a pair: starts of fields in the two arrays of the caller."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ MOST_POINTS, MOST_FACES, MOST_CORNERS, MOST_CANDIDATES = 128, 256, 64, 64
 NONE = np.int64(0)
 MOST_CLIPPED = 2 * MOST_CORNERS
 
-# Floats. The first points are also the simplex. All are of numpy's kind of integer: numba compiles a function anew for
-# each plain constant it is called with.
+# Floats. The first points are also the simplex. All are numpy integers, because numba compiles a function again for
+# each Python constant that it is called with.
 DIFFERENCE = np.int64(0)
 ON_A = DIFFERENCE + 3 * MOST_POINTS
 FACE_NORMAL = ON_A + 3 * MOST_POINTS

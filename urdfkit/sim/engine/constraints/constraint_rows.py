@@ -1,7 +1,7 @@
-"""What constrains the next velocity, as rows: each asks for J·v + bias and has an impulse between two bounds.
+"""Constraint rows on the next velocity: each has a Jacobian row J, a bias, and bounds of its impulse.
 
 Order: mimic joints, motors and dry friction, joint limits; then contacts without friction, and with friction in threes
-(normal and two tangents), see `contact_rows`. A slot tells where the impulse of the last step is remembered.
+(normal and two tangents), see `contact_rows`. A slot is the index of the impulse of the last step, for the warm start.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
 
 RECOVERY = 0.2
-"""Part of a penetration, or of another violation, that is taken back in a step."""
+"""Part of a penetration, or of another violation, that is corrected in a step."""
 FASTEST_JOINT = 1.0
-"""Fastest that joints far beyond a limit, or off the position that they mimic, are taken back [rad/s or m/s]."""
+"""Maximum correction velocity of joints beyond a limit, or off the position that they mimic [rad/s or m/s]."""
 
 
 @inlined
@@ -86,7 +86,7 @@ def joint_rows(floats: Any, integers: Any, rows: int, tree: int, dofs: int, widt
             hold = effort
             b = -motor_velocity[d]
         elif rub > 0.0:
-            # Where a motor holds still, or is too weak to move the joint, motor and friction pull at one rope.
+            # If a motor holds the joint, or is too weak to move it, motor and friction act as one row.
             hold = rub + effort if motor_velocity[d] == 0.0 else rub
             b = 0.0
         else:
@@ -111,8 +111,8 @@ def joint_rows(floats: Any, integers: Any, rows: int, tree: int, dofs: int, widt
 
 
 @inlined
-def friction_beside_motor(floats: Any, integers: Any, d: int, v: Any) -> float:
-    """Return the effort [N·m] beside the row that `joint_rows` writes for a dof with motor and dry friction."""
+def friction_with_motor(floats: Any, integers: Any, d: int, v: Any) -> float:
+    """Return the effort [N·m] in addition to the row that `joint_rows` writes for a dof with motor and friction."""
     friction = field(floats, integers, At.friction)
     motor_velocity = field(floats, integers, At.motor_velocity)
     motor_effort = field(floats, integers, At.motor_effort)
@@ -120,6 +120,6 @@ def friction_beside_motor(floats: Any, integers: Any, d: int, v: Any) -> float:
     if effort == 0.0 or rub == 0.0 or target == 0.0:
         return 0.0
     if effort > rub:
-        # The motor wins: friction acts against the motion, or against the one about to begin.
+        # The motor is stronger: friction opposes the motion, or the motion that is about to begin.
         return -math.copysign(rub, v[d] if abs(v[d]) > 1e-9 else target)
     return math.copysign(effort, target - v[d])

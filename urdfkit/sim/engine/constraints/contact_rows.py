@@ -1,4 +1,4 @@
-"""The rows of contacts, see `rows`: velocities of the place where two bodies touch, along its normal and across it."""
+"""Constraint rows of contacts: relative velocity at the contact point along the normal and the tangents."""
 
 from __future__ import annotations
 
@@ -8,20 +8,24 @@ from typing import Any
 from urdfkit.sim.engine.arrays import WIDTH, At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.constraints.constraint_rows import open_row, recovery_speed
-from urdfkit.sim.engine.contacts.contact_point_correction import exchange, first_of_pair, wandering
+from urdfkit.sim.engine.contacts.contact_point_correction import (
+    contact_point_velocity,
+    correct_contact_point,
+    first_of_pair,
+)
 from urdfkit.sim.engine.dynamics.mass_matrix import FREE
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, add, cross, dot, load_spatial, load_vector, scale, sub
 
 FASTEST_RECOVERY = 0.1
 """Fastest that bodies found in each other are pushed apart [m/s]: what starts in the ground rises, it does not jump.
 
-Gazebo's counterpart is ``<max_vel>``, 0.01 m/s where nothing is said.
+Gazebo's counterpart is ``<max_vel>``, with a default of 0.01 m/s.
 """
 MOBILITY = 1e-18
 """Square of the share of a point's velocities along the normal below which nothing can move it that way.
 
-A wheel of a bolted robot that touches the ground is such a case: no impulse along the normal changes anything, so the
-contact is left out, and with it its friction.
+An example is a wheel on the ground of a robot with a fixed base: no impulse along the normal has an effect, so the
+contact and its friction are left out.
 """
 
 
@@ -76,10 +80,10 @@ def write_free(
 
 @compiled
 def free_rows(floats: Any, integers: Any, k: int, row: int, width: int, dt: float) -> bool:
-    """Write the rows of a contact of a free body with what does not move, or with another; return whether it was one.
+    """Write the rows of a contact of a free body with a static shape or another free body; return whether it is one.
 
-    They are what `contact_rows` and `contact_point_correction` find from the motion subspaces, read off the axes
-    of the bodies.
+    The rows are those of `contact_rows` and `contact_point_correction`, computed from the axes of the bodies instead of
+    the motion subspaces.
     """
     contact_body = field(integers, integers, At.contact_body)
     contact_other = field(integers, integers, At.contact_other)
@@ -106,7 +110,7 @@ def free_rows(floats: Any, integers: Any, k: int, row: int, width: int, dt: floa
         shift = sub(load_vector(contact_origin, tree), load_vector(contact_origin, one))
         # Both have the impulse where it is halfway through the step: see `contact_point_correction`.
         first = load_vector(contact_point, first_of_pair(integers, k))
-        way = scale(0.5 * dt, wandering(floats, integers, k, first, add(first, shift)))
+        way = scale(0.5 * dt, contact_point_velocity(floats, integers, k, first, add(first, shift)))
         for j in range(3 if rubs else 1):
             row_b[row + j] = one
         lag = sub(way, load_vector(r, body))
@@ -230,6 +234,6 @@ def contact_rows(
             # The gap was taken at the end of the step, if the velocity stays; its half is where the velocity changes.
             bias[rows] = max(recovery_speed(contact_gap[here] - 0.5 * dt * speed, dt), -FASTEST_RECOVERY)
             if other >= 0 and body_tree[other] != tree:
-                exchange(floats, integers, here, rows, rubbing == 1, width, dt)
+                correct_contact_point(floats, integers, here, rows, rubbing == 1, width, dt)
             rows += 3 if rubbing == 1 else 1
     return rows

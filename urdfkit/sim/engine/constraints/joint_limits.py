@@ -10,7 +10,7 @@ from urdfkit.sim.engine.compilation import field, inlined
 PASSING = 1e-9
 """How far beyond a limit a joint has passed it [rad or m]."""
 WHIRLING = 0.05
-"""How far a joint turns in a step from which on its speed is looked at in the middle of it [rad or m]."""
+"""Motion of a joint in a step from which on its velocity is evaluated at the middle of the step [rad or m]."""
 
 
 @inlined
@@ -38,7 +38,7 @@ def passes_limits(floats: Any, integers: Any, first: int, beyond: int, dt: float
 
 @inlined
 def whirls(floats: Any, integers: Any, first: int, beyond: int, dt: float) -> bool:
-    """Return whether a joint turns so far in a step that what its speed brings about is to be looked at twice."""
+    """Return whether a joint moves so far in a step that velocity-dependent forces must be evaluated twice."""
     v = field(floats, integers, At.v_start)
     for d in range(first, beyond):  # noqa: SIM110
         if dt * abs(v[d]) > WHIRLING:

@@ -6,7 +6,7 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
-from urdfkit.sim.engine.constraints.constraint_rows import friction_beside_motor
+from urdfkit.sim.engine.constraints.constraint_rows import friction_with_motor
 from urdfkit.sim.engine.dynamics.mass_matrix import factor, solve_transposed
 from urdfkit.sim.engine.math.elementary_functions import exponential
 
@@ -16,7 +16,7 @@ SERVO_ATTEMPTS = 8
 
 @inlined
 def servo_effort_at(floats: Any, integers: Any, d: int, position: float, velocity: float, dt: float) -> float:
-    """Return what the servo of a dof exerts when the step ends at `velocity` [N·m or N]."""
+    """Return the effort of a dof's servo if the step ends with `velocity` [N·m or N]."""
     position_target = field(floats, integers, At.position_target)
     velocity_target = field(floats, integers, At.velocity_target)
     kp = field(floats, integers, At.kp)
@@ -38,7 +38,7 @@ def is_servo(floats: Any, integers: Any, d: int) -> bool:
 
 @inlined
 def servo_error(floats: Any, integers: Any, d: int, velocity: float) -> float:
-    """Return what a servo integrates: the error of position [rad or m], or of velocity where it has no stiffness."""
+    """Return the error that a servo integrates: of position [rad or m], or of velocity without stiffness."""
     dof_s = field(integers, integers, At.dof_s)
     s = field(floats, integers, At.s)
     kp = field(floats, integers, At.kp)
@@ -53,7 +53,7 @@ def servo_error(floats: Any, integers: Any, d: int, velocity: float) -> float:
 
 @inlined
 def set_integral_part(floats: Any, integers: Any, d: int, dt: float) -> None:
-    """Find the effort of a servo's integral halfway through the step, and what is fed forward [N·m or N]."""
+    """Compute the effort of a servo's integral at the middle of the step, and its feed-forward effort [N·m or N]."""
     v = field(floats, integers, At.v_start)
     ki = field(floats, integers, At.ki)
     i_min = field(floats, integers, At.i_min)
@@ -124,7 +124,7 @@ def smooth_motion(floats: Any, integers: Any, first: int, beyond: int, dt: float
         row = dof_row[d]
         for e in range(first, d + 1):
             L[row + e] = M[row + e]
-        effort = applied[d] - bias[d] + friction_beside_motor(floats, integers, d, v)
+        effort = applied[d] - bias[d] + friction_with_motor(floats, integers, d, v)
         softness = 0.0
         if damping[d] != 0.0:
             effort -= damping[d] * v[d]
@@ -158,7 +158,7 @@ def limited(floats: Any, integers: Any, rows: int, dofs: int) -> bool:
 def overloaded(floats: Any, integers: Any, first: int, beyond: int, dt: float, release: bool) -> bool:
     """Mark the servos that would exert more than they can; return whether that changed anything.
 
-    What a servo exerts falls with the velocity the step ends at, so repeating this is Newton's method on a monotone
+    The effort of a servo decreases with the velocity at the end of the step, so this is Newton's method on a monotone
     law. Without `release`, servos once marked stay so, and repeating it comes to an end.
     """
     dof_s = field(integers, integers, At.dof_s)
@@ -200,7 +200,7 @@ def account(floats: Any, integers: Any, first: int, beyond: int, dt: float) -> N
     for d in range(first, beyond):
         row = memory[d] / dt
         most = motor_effort[d]
-        beside = friction_beside_motor(floats, integers, d, v)
+        beside = friction_with_motor(floats, integers, d, v)
         if most == 0.0:
             motor = 0.0
         elif friction[d] > 0.0 and most <= friction[d] and motor_velocity[d] != 0.0:

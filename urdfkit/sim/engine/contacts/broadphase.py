@@ -1,7 +1,7 @@
-"""Which shapes may meet within a step: boxes along the axes of the world, trees swept along x.
+"""Broad phase: pairs of shapes that may touch within a step, by axis-aligned boxes and sweep-and-prune along x.
 
-Shapes of trees meet those of other trees, what does not move, and, where asked, their own tree's; never those of the
-same body or of bodies with a joint between them. Pairs come in the order of their numbers, so contacts do too.
+Shapes of a tree are paired with those of other trees, static shapes and, with self-collision, shapes of the same tree,
+but not with those of the same body or of adjacent bodies. Pairs are in the order of their numbers, and so are contacts.
 """
 
 from __future__ import annotations
@@ -52,8 +52,8 @@ def reach_of(floats: Any, integers: Any, k: int, axes: Any) -> Any:
 
 
 @compiled
-def bound(floats: Any, integers: Any, tree: int, dt: float) -> None:
-    """Find where the shapes of a tree can be within a step, each in a box, and a box round all of them."""
+def update_bounds(floats: Any, integers: Any, tree: int, dt: float) -> None:
+    """Compute the boxes that contain the shapes of a tree during a step, and the box around all of them."""
     tree_shape = field(integers, integers, At.tree_shape)
     shape_body = field(integers, integers, At.shape_body)
     shape_p = field(floats, integers, At.shape_p)
@@ -174,8 +174,8 @@ def trees_that_meet(floats: Any, integers: Any, trees: int, room: int) -> int:
 
 
 @inlined
-def still_shapes(floats: Any, integers: Any, tree: int, first: int, shapes: int) -> int:
-    """List the shapes that do not move and meet the box of a tree; return how many there are."""
+def static_shapes_near(floats: Any, integers: Any, tree: int, first: int, shapes: int) -> int:
+    """List the static shapes that overlap the box of a tree; return their number."""
     shape_at = field(floats, integers, At.shape_at)
     shape_reach = field(floats, integers, At.shape_reach)
     low = field(floats, integers, At.tree_low)
@@ -215,7 +215,7 @@ def find_pairs(floats: Any, integers: Any, trees: int, shapes: int, room: int) -
     for i in range(trees):
         first, beyond = tree_shape[i], tree_shape[i + 1]
         alone = tree_meets[i] == 0
-        around = still_shapes(floats, integers, i, tree_shape[trees], shapes) if asleep[i] == 0 else 0
+        around = static_shapes_near(floats, integers, i, tree_shape[trees], shapes) if asleep[i] == 0 else 0
         if (alone or asleep[i] != 0) and around == 0 and tree_meet[i] == tree_meet[i + 1]:
             continue
         for a in range(first, beyond):
@@ -246,7 +246,7 @@ def find_pairs(floats: Any, integers: Any, trees: int, shapes: int, room: int) -
                         count += 1
             for k in range(around):
                 b = still_near[k]
-                # What is bolted to the world and carries a joint does not meet what hangs on it.
+                # A body that is fixed to the world does not collide with the bodies on its joints.
                 if owner == shape_owner[b] and ((meets[a] == 0 and meets[b] == 0) or parent[one] < 0):
                     continue
                 if overlap(floats, integers, a, b):

@@ -1,10 +1,10 @@
-"""What two trees swap where they touch, they swap at one place, so that nothing of it is lost.
+"""Correction of contact points, so that impulses between two trees conserve angular momentum.
 
-Contacts are those of where the step is expected to end, and so are a tree's arms to them; but impulses act halfway
-through it. Two trees that pass by each other would have the impulse at places that are half a step's way apart, and
-together gain an angular momentum of that way times the impulse. Therefore both have it where the contact is halfway
-through the step; the velocities that it is to bring about stay those at its end, by the bias of its rows, which is
-right to second order as the rest is.
+Contacts, and the lever arms of the trees to them, are those at the expected end of the step, but impulses act at its
+middle. For two trees that pass each other, the impulse would act at two points that are half a step's motion apart, and
+the trees would gain the angular momentum of that distance times the impulse. Therefore, both impulses act at the
+contact point in the middle of the step. The constrained velocities remain those at the end of the step, by the bias of
+the rows, which is accurate to second order like the rest of the step.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def point_velocity(floats: Any, integers: Any, body: int, point: Any) -> Any:
 
 @inlined
 def is_round(kind: int) -> bool:
-    """Return whether a place where a shape touches goes where the shape goes, not with what is there."""
+    """Return whether the contact point of a shape follows the shape's centre instead of a material point."""
     return kind in (SPHERE, CYLINDER, WHEEL, CAPSULE)
 
 
@@ -60,12 +60,12 @@ def first_of_pair(integers: Any, k: int) -> int:
 
 
 @inlined
-def wandering(floats: Any, integers: Any, k: int, point: Any, other_point: Any) -> Any:
-    """Return how fast the place where two shapes touch moves through the world [m/s].
+def contact_point_velocity(floats: Any, integers: Any, k: int, point: Any, other_point: Any) -> Any:
+    """Return the velocity of the contact point of two shapes in the world [m/s].
 
-    Under a ball it goes with the ball, between two with what is nearer its middle; at a corner with the corner. Where
-    it is halfway a load on it has no arm to a ball that rolls, which would brake it. Where they touch at several
-    points, all go with the first: rows of more points than it takes would contradict each other otherwise.
+    The contact point of a ball follows the ball, between two balls the nearer centre; that of a corner follows the
+    corner. At the middle of the step, the load then has no lever arm to a rolling ball, which would brake it. If two
+    shapes have several contacts, all follow the first one; otherwise redundant rows would contradict each other.
 
     Args:
         floats: block of the arrays.
@@ -97,18 +97,18 @@ def wandering(floats: Any, integers: Any, k: int, point: Any, other_point: Any) 
 
 
 @compiled
-def exchange(floats: Any, integers: Any, k: int, row: int, rubs: bool, width: int, dt: float) -> None:
-    """Let both trees of a contact, if they are free, have its impulse at one place.
+def correct_contact_point(floats: Any, integers: Any, k: int, row: int, rubs: bool, width: int, dt: float) -> None:
+    """Apply the impulse of a contact at the same point of both trees, if they have floating bases.
 
-    Changes the entries of the floating bases in its rows, and their biases by as much as that changes their velocities
-    of now. What joints have of the impulse stays.
+    Changes the entries of the floating bases in the contact's rows, and the biases by the change of the present
+    velocities. Entries of joints are unchanged.
 
     Args:
         floats: block of the arrays.
         integers: block of the arrays.
         k: number of the contact, between bodies of two trees.
         row: of its normal.
-        rubs: whether two more, of its tangents, follow.
+        rubs: whether two rows for its tangents follow.
         width: entries of a row.
         dt: length of the step [s].
     """
@@ -132,7 +132,7 @@ def exchange(floats: Any, integers: Any, k: int, row: int, rubs: bool, width: in
     point = load_vector(contact_point, first_of_pair(integers, k))
     other_point = add(point, sub(load_vector(contact_origin, tree), load_vector(contact_origin, other)))
     # How far the place goes in the second half of the step; a base is placed where it will be by then.
-    way = scale(0.5 * dt, wandering(floats, integers, k, point, other_point))
+    way = scale(0.5 * dt, contact_point_velocity(floats, integers, k, point, other_point))
     at = row * width
     sign = 1.0
     for side in range(2):

@@ -1,4 +1,4 @@
-"""The search for contacts: which trees and shapes may touch, then what does."""
+"""Contact search: broad phase, then narrow phase for the trees that may touch."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from urdfkit.sim.engine.arrays import (
     At,
 )
 from urdfkit.sim.engine.compilation import compiled, field
-from urdfkit.sim.engine.contacts.broadphase import bound, find_pairs
-from urdfkit.sim.engine.contacts.friction_directions import rub
+from urdfkit.sim.engine.contacts.broadphase import find_pairs, update_bounds
+from urdfkit.sim.engine.contacts.friction_directions import orient_friction
 from urdfkit.sim.engine.contacts.ground_contacts import collide_with_plane, near_plane
-from urdfkit.sim.engine.contacts.narrowphase import collide_pairs, find_again
+from urdfkit.sim.engine.contacts.narrowphase import collide_pairs, match_contacts
 
 
 @compiled
-def candidates(floats: Any, integers: Any) -> int:
+def find_candidate_pairs(floats: Any, integers: Any) -> int:
     """List the pairs of shapes that may meet within a step, and mark the trees that may touch something.
 
     Returns:
@@ -54,7 +54,7 @@ def candidates(floats: Any, integers: Any) -> int:
         ):
             near[tree] = 1
         if has_pairs:
-            bound(floats, integers, tree, dt)
+            update_bounds(floats, integers, tree, dt)
     if has_pairs:
         pairs = find_pairs(floats, integers, trees, shapes, most_pairs)
         if pairs < 0:
@@ -64,10 +64,10 @@ def candidates(floats: Any, integers: Any) -> int:
 
 
 @compiled
-def touching(floats: Any, integers: Any, pairs: int) -> int:
+def find_contacts(floats: Any, integers: Any, pairs: int) -> int:
     """Find the contacts of the trees that have been marked and placed where the step will take them.
 
-    What is remembered of pairs moves, in ``last``, to where their contacts are now.
+    The stored impulses of pairs are moved, in ``last``, to the indices of their present contacts.
 
     Returns:
         How many contacts; -1 if there are more than there is room for.
@@ -83,7 +83,7 @@ def touching(floats: Any, integers: Any, pairs: int) -> int:
     floor, has_floor, has_pairs = numbers[FLOOR], numbers[HAS_FLOOR] != 0.0, numbers[HAS_PAIRS] != 0.0
     dt = numbers[DT]
     first_pair_slot = slots - 3 * most_contacts
-    # The end of the room is for the contacts of those who sleep.
+    # Contacts of sleeping trees are stored at the end of the arrays.
     room = most_contacts - counts[SLEEPING]
     contacts = 0
     for tree in range(trees):
@@ -108,7 +108,7 @@ def touching(floats: Any, integers: Any, pairs: int) -> int:
         if contacts < 0:
             counts[OVERFULL] = 1
             return -1
-        counts[LAST_PAIRS] = find_again(floats, integers, on_ground, contacts, counts[LAST_PAIRS], first_pair_slot)
+        counts[LAST_PAIRS] = match_contacts(floats, integers, on_ground, contacts, counts[LAST_PAIRS], first_pair_slot)
     last = field(floats, integers, At.last)
-    rub(floats, integers, contacts, 2 * integers[DOFS] + integers[MIMICS], first_pair_slot, last, dt)
+    orient_friction(floats, integers, contacts, 2 * integers[DOFS] + integers[MIMICS], first_pair_slot, last, dt)
     return contacts

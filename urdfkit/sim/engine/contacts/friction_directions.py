@@ -1,8 +1,8 @@
-"""Friction that differs along and across a direction, and friction remembered from the last step.
+"""Anisotropic friction, and the warm start of friction impulses.
 
-With coefficients mu1 along one tangent and mu2 across it, the tangents of a contact's frame are written mu1 and mu2
-long: the ellipse of friction is then a circle of radius 1, and the impulses along those tangents have the right size.
-The law is that of most dissipation: friction lies on the ellipse where it takes most power from the slip.
+With coefficients mu1 along one tangent and mu2 along the other, the tangents of a contact's frame have the lengths mu1
+and mu2: the friction ellipse becomes a circle of radius 1, and impulses along these tangents have the right magnitude.
+Friction obeys the principle of maximum dissipation: it is the point of the ellipse that dissipates most power.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from urdfkit.sim.engine.math.spatial_algebra import (
 
 
 @inlined
-def rub(
+def orient_friction(
     floats: Any, integers: Any, contacts: int, first_slot: int, first_pair_slot: int, memory: Any, dt: float
 ) -> None:
-    """Give contacts with two coefficients their frame; turn the friction remembered at the others with their bodies.
+    """Set the frames of contacts with two coefficients; rotate the stored friction of other contacts with their bodies.
 
-    Where robots drive curves, slip turns with them, and the solver starts where it will be. Frames along a direction of
-    a body turn with it as they are.
+    When a robot drives a curve, slip rotates with it, so the rotated impulse is the better warm start. Frames along a
+    direction of a body rotate with the body.
     """
     shape_mu2 = field(floats, integers, At.shape_mu2)
     floor_mu2 = field(floats, integers, At.floor_mu2)

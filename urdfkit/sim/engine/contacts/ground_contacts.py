@@ -37,7 +37,7 @@ MOST = (1, 4, 6, 5, 2, 9)
 """Most contacts each kind can have at once."""
 
 DIRECTIONS = 8
-"""A hull touches with its lowest vertex and those that reach furthest in so many directions, of all that can touch."""
+"""Number of directions in which the farthest touching vertices of a hull are contacts, in addition to the lowest."""
 LOWEST = 1e-7
 """How much lower a vertex must be to count as the lowest [m]."""
 LEANING = 0.02
@@ -123,7 +123,7 @@ def has_feature(floats: Any, integers: Any, count: int, feature: int) -> bool:
 
 
 @inlined
-def touch(
+def add_contact(
     floats: Any,
     integers: Any,
     count: int,
@@ -146,7 +146,7 @@ def touch(
     contact_gap = field(floats, integers, At.contact_gap)
     contact_mu = field(floats, integers, At.contact_mu)
     gap = point[2] - floor
-    # In this order: with `count` asked first, LLVM makes a step of a robot on wheels a third slower.
+    # This order matters: if `count` is tested first, LLVM's code for a step of a wheeled robot is a third slower.
     if not can_close(gap, point, load_spatial(twist, body), dt) or count >= most:
         return count
     contact_body[count] = body
@@ -236,7 +236,7 @@ def collide_with_plane(
                 if not valid:
                     continue
                 point = add(centre, offset)
-            found_now = touch(floats, integers, count, most, body, feature + part, point, floor, mu, dt)
+            found_now = add_contact(floats, integers, count, most, body, feature + part, point, floor, mu, dt)
             if found_now > count:
                 contact_shape[count] = k
             count = found_now

@@ -1,4 +1,4 @@
-"""The contacts of the shapes that meet, and last step's forces found again."""
+"""Narrow phase: contacts of candidate pairs, and their impulses of the last step for the warm start."""
 
 from __future__ import annotations
 
@@ -88,8 +88,8 @@ def collide_pairs(floats: Any, integers: Any, count: int, room: int, pairs: int,
         p_b = add(add(p_b, rotate(R_b, load_vector(shape_p, b))), shift)
         velocity = load_spatial(twist, body)
         # No two points of them close in faster than this.
-        apart = sub(add(velocity[0], cross(velocity[1], p_a)), add(moving[0], cross(moving[1], sub(p_b, shift))))
-        fastest = abs(apart[0]) + abs(apart[1]) + abs(apart[2])
+        relative = sub(add(velocity[0], cross(velocity[1], p_a)), add(moving[0], cross(moving[1], sub(p_b, shift))))
+        fastest = abs(relative[0]) + abs(relative[1]) + abs(relative[2])
         for k in range(3):
             fastest += 2.0 * shape_size[3 * a + k] * dot(velocity[1], velocity[1]) ** 0.5
             fastest += 2.0 * shape_size[3 * b + k] * dot(moving[1], moving[1]) ** 0.5
@@ -150,8 +150,8 @@ def collide_pairs(floats: Any, integers: Any, count: int, room: int, pairs: int,
 
 
 @inlined
-def take(floats: Any, integers: Any, k: int, j: int, first_slot: int) -> None:
-    """Give a contact what the j-th of the last step's exerted, and nobody else."""
+def transfer_impulse(floats: Any, integers: Any, k: int, j: int, first_slot: int) -> None:
+    """Move the impulse of the j-th contact of the last step to a contact, so that no other contact gets it."""
     memory = field(floats, integers, At.last)
     slot = first_slot + 3 * field(integers, integers, At.last_at)[j]
     store_vector(field(floats, integers, At.pair_before), k, (memory[slot], memory[slot + 1], memory[slot + 2]))
@@ -159,11 +159,11 @@ def take(floats: Any, integers: Any, k: int, j: int, first_slot: int) -> None:
 
 
 @inlined
-def find_again(floats: Any, integers: Any, first: int, count: int, last: int, first_slot: int) -> int:
-    """Move what is remembered of the contacts of pairs to where their like is now; return how many to remember.
+def match_contacts(floats: Any, integers: Any, first: int, count: int, last: int, first_slot: int) -> int:
+    """Match the contacts of pairs with those of the last step and move their impulses; return the number to store.
 
-    Both lists are in the order of their pairs, so one walk through them does. What touches in another way than before,
-    as a corner on a face that was on its edge, gets the impulse of the nearest of its pair that nobody else has.
+    Both lists are sorted by pair, so one pass is sufficient. A contact with a new feature, such as a corner that moved
+    from an edge to a face, gets the impulse of the nearest unmatched contact of its pair.
     """
     memory = field(floats, integers, At.last)
     last_a = field(integers, integers, At.last_a)
@@ -191,7 +191,7 @@ def find_again(floats: Any, integers: Any, first: int, count: int, last: int, fi
             unknown += 1
             for j in range(at, end):
                 if last_feature[j] == contact_feature[k]:
-                    take(floats, integers, k, j, first_slot)
+                    transfer_impulse(floats, integers, k, j, first_slot)
                     left, unknown = left - 1, unknown - 1
                     break
             k += 1
@@ -201,11 +201,11 @@ def find_again(floats: Any, integers: Any, first: int, count: int, last: int, fi
             nearest, way = -1, math.inf
             for j in range(at, end):
                 if left > 0 and last_feature[j] >= 0:
-                    apart = sub(load_vector(contact_point, new), load_vector(last_point, j))
-                    if dot(apart, apart) < way:
-                        nearest, way = j, dot(apart, apart)
+                    offset = sub(load_vector(contact_point, new), load_vector(last_point, j))
+                    if dot(offset, offset) < way:
+                        nearest, way = j, dot(offset, offset)
             if nearest >= 0:
-                take(floats, integers, new, nearest, first_slot)
+                transfer_impulse(floats, integers, new, nearest, first_slot)
                 left -= 1
             else:
                 store_vector(pair_before, new, ZERO)

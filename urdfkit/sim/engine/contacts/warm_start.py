@@ -1,4 +1,4 @@
-"""What the contacts and rows of the last step exerted: kept for the next, and of those who sleep until they wake."""
+"""Warm start: impulses of contacts and rows, stored for the next step, and for sleeping trees until they wake."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from urdfkit.sim.engine.math.spatial_algebra import load_rotation, load_vector, 
 
 
 @inlined
-def remember(floats: Any, integers: Any, tree: int) -> None:
-    """Make what a tree's rows exerted in the last step what `last` holds, and forget it in `memory`."""
+def store_impulses(floats: Any, integers: Any, tree: int) -> None:
+    """Move the impulses of a tree's rows of the last step from ``memory`` to ``last``."""
     dofs, mimics, shapes = integers[DOFS], integers[MIMICS], integers[SHAPES]
     memory = field(floats, integers, At.memory)
     last = field(floats, integers, At.last)
@@ -34,8 +34,8 @@ def remember(floats: Any, integers: Any, tree: int) -> None:
 
 
 @inlined
-def remember_pairs(floats: Any, integers: Any) -> None:
-    """Do the same for the contacts of pairs."""
+def store_pair_impulses(floats: Any, integers: Any) -> None:
+    """Move the impulses of contacts between pairs from ``memory`` to ``last``."""
     memory = field(floats, integers, At.memory)
     last = field(floats, integers, At.last)
     last_at = field(integers, integers, At.last_at)
@@ -49,7 +49,7 @@ def remember_pairs(floats: Any, integers: Any) -> None:
 
 @inlined
 def insert_pair(floats: Any, integers: Any, k: int) -> None:
-    """Put a kept contact of a pair among those of the last step, which are in order."""
+    """Insert a stored contact of a pair into the sorted contacts of the last step."""
     last = field(floats, integers, At.last)
     last_a = field(integers, integers, At.last_a)
     last_b = field(integers, integers, At.last_b)

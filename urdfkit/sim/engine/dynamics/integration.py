@@ -1,4 +1,4 @@
-"""Configurations moved by velocities."""
+"""Integration of configurations."""
 
 from __future__ import annotations
 
@@ -37,10 +37,10 @@ def turned_by(x: float, y: float, z: float, w: float, turn: Any) -> Any:
 
 @inlined
 def move(floats: Any, integers: Any, first: int, beyond: int, s: Any, v: Any, dt: float) -> None:
-    """Let the coordinates `s` of some bodies go on for `dt` at the velocities `v`.
+    """Integrate the coordinates `s` of some bodies for `dt` with the velocities `v`.
 
-    A free body goes straight on while it turns, as it does when nothing acts on it: its linear velocity stays the same
-    in the axes of what it moves in, so its coordinates in the body's own axes, in `v`, turn back.
+    A free body moves straight while it rotates: its linear velocity is constant in the axes of its parent, so the
+    components in the body's own axes, in `v`, rotate in the opposite direction.
     """
     kind = field(integers, integers, At.kind)
     first_s = field(integers, integers, At.first_s)

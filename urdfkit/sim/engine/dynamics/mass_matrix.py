@@ -17,7 +17,7 @@ from typing import Any
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.math.elementary_functions import sine_cosine
-from urdfkit.sim.engine.math.simd import LANES, put, sixteen
+from urdfkit.sim.engine.math.simd import LANES, load16, store
 from urdfkit.sim.engine.math.spatial_algebra import (
     IDENTITY,
     ZERO,
@@ -55,9 +55,9 @@ REVOLUTE, PRISMATIC, PLANAR, FREE = range(4)
 def place(floats: Any, integers: Any, tree: int, s: Any, ahead: bool) -> None:
     """Place the bodies of a tree and their motion subspaces at the coordinates `s`.
 
-    With `ahead`, `s` is where things will be but the velocities are of now: the axes in which a free body's velocity is
-    written stay where they are, so that an impulse there gives it just the momentum that it takes from others. That is
-    a little further than where they were placed before, which saves sines and cosines.
+    With `ahead`, `s` is the predicted configuration, but velocities are the present ones: the axes of a free body's
+    velocity are unchanged, so that an impulse adds exactly the momentum that it removes from other bodies. The
+    predicted configuration is near the last one, which saves the evaluation of sines and cosines.
     """
     tree_body = field(integers, integers, At.tree_body)
     kind = field(integers, integers, At.kind)
@@ -150,7 +150,7 @@ def forward_sweep(floats: Any, integers: Any, tree: int) -> None:
         velocity = spatial_add(velocity, joint)
         acceleration = spatial_add(acceleration, motion_cross(velocity, joint))
         if kind[i] >= PLANAR:
-            # What is not accelerated goes straight on, but its velocity in its own turning axes changes.
+            # Without acceleration, a body moves straight, but its velocity in its own rotating axes changes.
             turning = (0.0, 0.0, v[dof + 2]) if kind[i] == PLANAR else (v[dof + 3], v[dof + 4], v[dof + 5])
             linear = (v[dof], v[dof + 1], 0.0 if kind[i] == PLANAR else v[dof + 2])
             acceleration = (sub(acceleration[0], rotate(R0, cross(turning, linear))), acceleration[1])
@@ -293,13 +293,13 @@ def solve_transposed_rows(floats: Any, integers: Any, first: int, beyond: int, x
     inverse_diagonal = field(floats, integers, At.inverse_diagonal)
     for i in range(beyond - 1, first - 1, -1):
         at = start + (i - first) * LANES
-        xi = inverse_diagonal[i] * sixteen(x, at)
-        put(x, at, xi)
+        xi = inverse_diagonal[i] * load16(x, at)
+        store(x, at, xi)
         row = dof_row[i]
         j = dof_parent[i]
         while j >= 0:
             at = start + (j - first) * LANES
-            put(x, at, sixteen(x, at) - L[row + j] * xi)
+            store(x, at, load16(x, at) - L[row + j] * xi)
             j = dof_parent[j]
 
 

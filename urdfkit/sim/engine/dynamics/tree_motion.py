@@ -1,4 +1,4 @@
-"""A tree through a step: its terms at the start, its place ahead of the contacts, its motion."""
+"""Motion of a tree during a step: terms at the start, predicted poses for the contacts, integration."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def evaluate(floats: Any, integers: Any, tree: int) -> None:
 
 
 @compiled
-def begin(floats: Any, integers: Any, tree: int) -> None:
+def begin_step(floats: Any, integers: Any, tree: int) -> None:
     """Start a step of a tree from its coordinates and velocities."""
     base = field(floats, integers, At.base)
     s = field(floats, integers, At.s)
@@ -40,16 +40,16 @@ def begin(floats: Any, integers: Any, tree: int) -> None:
 
 
 @compiled
-def drift(floats: Any, integers: Any, tree: int, dt: float) -> None:
-    """Let a tree's coordinates go on for `dt` at its velocities."""
+def integrate_tree(floats: Any, integers: Any, tree: int, dt: float) -> None:
+    """Integrate a tree's coordinates for `dt` with its velocities."""
     tree_body = field(integers, integers, At.tree_body)
     s, v = field(floats, integers, At.s), field(floats, integers, At.v)
     move(floats, integers, tree_body[tree], tree_body[tree + 1], s, v, dt)
 
 
 @compiled
-def look_ahead(floats: Any, integers: Any, tree: int, dt: float) -> None:
-    """Place a tree's bodies where they will be after `dt` at the velocities of now."""
+def predict_poses(floats: Any, integers: Any, tree: int, dt: float) -> None:
+    """Compute the poses of a tree's bodies after `dt` at the present velocities."""
     tree_body = field(integers, integers, At.tree_body)
     tree_dof = field(integers, integers, At.tree_dof)
     tree_s = field(integers, integers, At.tree_s)

@@ -7,18 +7,18 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import WIDTH, At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
-from urdfkit.sim.engine.math.simd import put, six
+from urdfkit.sim.engine.math.simd import load6, store
 from urdfkit.sim.engine.solver.row_states import HOLDS, SLIDES
 
 
 @inlined
 def add_three(K: Any, n: int, i: int, j: int, Y: Any, at: int, to: int, width: int, d: Any) -> None:
     """Add what the three rows of a contact add, aᵀ·D·b, to a block of K of six by six."""
-    first, second, third = six(Y, to), six(Y, to + width), six(Y, to + 2 * width)
+    first, second, third = load6(Y, to), load6(Y, to + width), load6(Y, to + 2 * width)
     for k in range(6):
         a, b, c = d[0] * Y[at + k], d[1] * Y[at + width + k], d[2] * Y[at + 2 * width + k]
         here = (i + k) * n + j
-        put(K, here, six(K, here) + a * first + b * second + c * third)
+        store(K, here, load6(K, here) + a * first + b * second + c * third)
 
 
 @inlined
@@ -42,10 +42,10 @@ def add_contact(floats: Any, integers: Any, k: int, n: int, d: Any) -> None:
 def add_block(K: Any, n: int, i: int, j: int, ni: int, nj: int, Y: Any, at: int, to: int, d: float) -> None:
     """Add d·aᵀ·b to a block of K, a and b parts of a row."""
     if nj == 6:
-        b = six(Y, to)
+        b = load6(Y, to)
         for k in range(ni):
             here = (i + k) * n + j
-            put(K, here, six(K, here) + d * Y[at + k] * b)
+            store(K, here, load6(K, here) + d * Y[at + k] * b)
         return
     for k in range(ni):
         c = d * Y[at + k]

@@ -12,7 +12,7 @@ from typing import Any
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.island_solver.block_products import load_six, times_six
-from urdfkit.sim.engine.math.simd import put, six
+from urdfkit.sim.engine.math.simd import load6, store
 
 MOST_TREES = 62
 """Most trees of an island: as many as a number has bits."""
@@ -101,9 +101,9 @@ def arrange(floats: Any, integers: Any, root: int, rows: int) -> int:
 def take_six(K: Any, n: int, i: int, first: int, start: int) -> None:
     """Take off six numbers of row i what six eliminated rows have there."""
     here, at, to = i * n + start, first * n + i, first * n + start
-    rest = six(K, here) - K[at] * six(K, to) - K[at + n] * six(K, to + n) - K[at + 2 * n] * six(K, to + 2 * n)
+    rest = load6(K, here) - K[at] * load6(K, to) - K[at + n] * load6(K, to + n) - K[at + 2 * n] * load6(K, to + 2 * n)
     at, to = at + 3 * n, to + 3 * n
-    put(K, here, rest - K[at] * six(K, to) - K[at + n] * six(K, to + n) - K[at + 2 * n] * six(K, to + 2 * n))
+    store(K, here, rest - K[at] * load6(K, to) - K[at + n] * load6(K, to + n) - K[at + 2 * n] * load6(K, to + 2 * n))
 
 
 @compiled
@@ -136,11 +136,11 @@ def eliminate(floats: Any, integers: Any, n: int) -> bool:
                 left &= left - 1
                 start, size = block_first[b], block_first[b + 1] - block_first[b]
                 if size == 6:
-                    own = inverse * six(K, d * n + start)
-                    put(K, d * n + start, own)
+                    own = inverse * load6(K, d * n + start)
+                    store(K, d * n + start, own)
                     for i in range(d + 1, beyond):
                         here = i * n + start
-                        put(K, here, six(K, here) - K[d * n + i] * own)
+                        store(K, here, load6(K, here) - K[d * n + i] * own)
                     continue
                 for j in range(start, start + size):
                     K[d * n + j] *= inverse
@@ -241,9 +241,9 @@ def substitute(floats: Any, integers: Any, n: int, x: Any) -> None:
             start, size = block_first[b], block_first[b + 1] - block_first[b]
             if sixes and size == 6:
                 at = first * n + start
-                rest = six(x, start) - x[first] * six(K, at) - x[first + 1] * six(K, at + n)
-                rest = rest - x[first + 2] * six(K, at + 2 * n) - x[first + 3] * six(K, at + 3 * n)
-                put(x, start, rest - x[first + 4] * six(K, at + 4 * n) - x[first + 5] * six(K, at + 5 * n))
+                rest = load6(x, start) - x[first] * load6(K, at) - x[first + 1] * load6(K, at + n)
+                rest = rest - x[first + 2] * load6(K, at + 2 * n) - x[first + 3] * load6(K, at + 3 * n)
+                store(x, start, rest - x[first + 4] * load6(K, at + 4 * n) - x[first + 5] * load6(K, at + 5 * n))
                 continue
             for d in range(first, beyond):
                 for j in range(start, start + size):

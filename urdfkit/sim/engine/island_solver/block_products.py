@@ -10,7 +10,7 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import WIDTH, At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
-from urdfkit.sim.engine.math.simd import put, six
+from urdfkit.sim.engine.math.simd import load6, store
 
 
 @inlined
@@ -86,7 +86,7 @@ def push_row(floats: Any, integers: Any, k: int, c: float, x: Any) -> None:
 @inlined
 def push_six(Y: Any, at: int, width: int, a: float, b: float, c: float, x: Any, first: int) -> None:
     """Add what three rows exert to six numbers."""
-    put(x, first, six(x, first) + (a * six(Y, at) + b * six(Y, at + width) + c * six(Y, at + 2 * width)))
+    store(x, first, load6(x, first) + (a * load6(Y, at) + b * load6(Y, at + width) + c * load6(Y, at + 2 * width)))
 
 
 @compiled

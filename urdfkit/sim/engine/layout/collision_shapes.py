@@ -1,4 +1,4 @@
-"""Collision shapes of robots and bodies, as the kernel knows them."""
+"""Collision shapes of robots and bodies in the form that the kernel uses."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ BOUNDLESS = 1e9
 
 
 def touching(members: Sequence[Member], bodies: Sequence[Body]) -> list[Touching]:
-    """Return what can touch: the shapes of what moves in the order of their trees, then what does not move."""
+    """Return the collision shapes: those of trees in the order of the trees, then static ones."""
     moving, still = [], []
     first = 0
     for owner, member in enumerate(members):
@@ -44,16 +44,16 @@ def touching(members: Sequence[Member], bodies: Sequence[Body]) -> list[Touching
             surface, link = member.surfaces.get(shape.body, Surface()), prefix + shape.body
             number = numbers[shape.body]
             numbers[shape.body] += 1
-            bolted = frame.parentJoint == 0
-            at = -1 if bolted else first + frame.parentJoint - 1
-            touch = _touch(shape, surface, link, at, owner, matmul(base, placement) if bolted else placement)
+            is_fixed = frame.parentJoint == 0
+            at = -1 if is_fixed else first + frame.parentJoint - 1
+            touch = _touch(shape, surface, link, at, owner, matmul(base, placement) if is_fixed else placement)
             touch = replace(touch, number=number, meets=member.meets(shape.body))
             if surface.frame:
                 other = model.frames[member.kinematics.frame(surface.frame)]
                 axes = matmul((base if other.parentJoint == 0 else np.eye(4))[:3, :3], other.placement.rotation)
                 on = -1 if other.parentJoint == 0 else first + other.parentJoint - 1
                 touch = replace(touch, along=matmul(axes, np.array(surface.fdir1 or (0.0, 0.0, 0.0))), along_body=on)
-            if bolted:
+            if is_fixed:
                 still.append(touch)
                 continue
             moving.append(as_wheel(touch, member.kinematics, frame.parentJoint))
@@ -72,7 +72,7 @@ def _touch(shape: Shape, surface: Surface, link: str, body: int, owner: int, pla
     kind, size, vertices = _solid(shape)
     triangles = np.zeros((0, 3, 3))
     if kind == HULL and body < 0 and shape.mesh is not None:
-        # What does not move is taken as it is; what moves for its convex hull.
+        # Static meshes are used as they are, moving ones as their convex hull.
         kind, triangles = MESH, np.asarray(shape.mesh.vertices, dtype=np.float64)[shape.mesh.faces]
     radius = vector_norm(size) if kind != ground_contacts.CAPSULE else size[0] + size[1]
     if kind == ground_contacts.SPHERE:

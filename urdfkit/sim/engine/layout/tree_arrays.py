@@ -26,7 +26,7 @@ def pose_matrix(pose: Sequence[float]) -> Array:
     """Return x y z and a quaternion x y z w as a homogeneous matrix.
 
     Raises:
-        SimulationError: it is none.
+        SimulationError: the pose is invalid.
     """
     import pinocchio as pin
 

@@ -1,4 +1,4 @@
-"""What cannot be simulated, said before the first step."""
+"""Validation of robots before the first step."""
 
 from __future__ import annotations
 

@@ -109,7 +109,7 @@ def fill(
 
 
 def _add(geometry: Geometry, touch: Touching) -> int:
-    """Add a hull or mesh to those that pairs know; return its place."""
+    """Add a hull or mesh to the geometry for pairs; return its `data`."""
     if touch.kind == HULL:
         return geometry.add_hull(convex_hull(touch.vertices))
     return geometry.add_mesh(touch.triangles) if touch.kind == MESH else 0

@@ -1,4 +1,4 @@
 """Small linear algebra for the compiled kernel: spatial vectors on tuples, linear systems in place, SIMD loads.
 
-Numbers in, numbers out; nothing knows the arrays of the engine.
+Numbers go in and come out; the functions are independent of the engine's arrays.
 """

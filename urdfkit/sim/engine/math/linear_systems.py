@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from urdfkit.sim.engine.compilation import inlined
-from urdfkit.sim.engine.math.simd import LANES, padded, put, sixteen
+from urdfkit.sim.engine.math.simd import LANES, load16, padded, store
 
 
 @inlined
@@ -22,11 +22,11 @@ def factor_and_solve(n: int, B: Any, x: Any) -> bool:
             return False
         inverse = 1.0 / pivot
         for first in range(k & -LANES, width, LANES):
-            row = sixteen(B, k * width + first)
+            row = load16(B, k * width + first)
             at, i = (k + 1) * width + first, k + 1
             last = min(n, first + LANES) * width
             while at < last:
-                put(B, at, sixteen(B, at) - (B[k * width + i] * inverse) * row)
+                store(B, at, load16(B, at) - (B[k * width + i] * inverse) * row)
                 at += width
                 i += 1
         B[k * width + k] = inverse

@@ -1,7 +1,7 @@
-"""Several numbers at once: ``six(x, at)`` and ``sixteen(x, at)`` of a field, sums and multiples, ``put`` into one.
+"""SIMD operations on fields: ``load6(x, at)``, ``load16(x, at)``, sums, multiples, and ``store``.
 
-Free bodies have six; of rows, as many as there may be, sixteen are taken at a time. The compiler does for each of these
-with one or two instructions what it does for six numbers with six; by itself it does not see that.
+Free bodies have six dofs, and rows are processed sixteen at a time. Each operation compiles to one or two instructions,
+where the compiler would otherwise emit one per number, because it does not vectorise these loops itself.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ FLAGS = ("contract",)
 
 @inlined
 def padded(n: int) -> int:
-    """Return n, or what is more up to the next multiple of `LANES`."""
+    """Return n rounded up to a multiple of `LANES`."""
     return (n + LANES - 1) & -LANES
 
 
@@ -123,9 +123,9 @@ def _put(typing: Any, x: Any, at: Any, numbers: Any) -> Any:
     return types.none(x, types.int64, numbers), codegen
 
 
-six: Any = _reading(SIX)
-"""Return six numbers of a field, from a place on: ``six(x, at)``."""
-sixteen: Any = _reading(SIXTEEN)
-"""Return sixteen numbers of a field, from a place on: ``sixteen(x, at)``."""
-put: Any = intrinsic(_put)
-"""Write numbers into a field, from a place on: ``put(x, at, numbers)``."""
+load6: Any = _reading(SIX)
+"""Load six numbers of a field: ``load6(x, at)``."""
+load16: Any = _reading(SIXTEEN)
+"""Load sixteen numbers of a field: ``load16(x, at)``."""
+store: Any = intrinsic(_put)
+"""Write numbers into a field: ``store(x, at, numbers)``."""

@@ -11,7 +11,7 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import CONTACTS, DT, LAST_PAIRS, OBSERVED, SLEEPING, TREES, At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
-from urdfkit.sim.engine.contacts.broadphase import bound
+from urdfkit.sim.engine.contacts.broadphase import update_bounds
 from urdfkit.sim.engine.contacts.warm_start import copy_contact
 from urdfkit.sim.engine.dynamics.mass_matrix import place
 from urdfkit.sim.engine.math.spatial_algebra import ZERO, store_spatial, store_vector
@@ -130,4 +130,4 @@ def stop(floats: Any, integers: Any, tree: int) -> None:
     place(floats, integers, tree, s, False)
     for b in range(tree_body[tree], tree_body[tree + 1]):
         store_spatial(twist, b, (ZERO, ZERO))
-    bound(floats, integers, tree, field(floats, integers, At.numbers)[DT])
+    update_bounds(floats, integers, tree, field(floats, integers, At.numbers)[DT])

@@ -10,8 +10,8 @@ from typing import Any
 
 from urdfkit.sim.engine.arrays import CONTACTS, OBSERVED, SLEEPING, TREES, At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
-from urdfkit.sim.engine.contacts.warm_start import copy_contact, insert_pair, remember
-from urdfkit.sim.engine.dynamics.tree_motion import begin
+from urdfkit.sim.engine.contacts.warm_start import copy_contact, insert_pair, store_impulses
+from urdfkit.sim.engine.dynamics.tree_motion import begin_step
 from urdfkit.sim.engine.sleep.sleep_criteria import ASKED, asked_of
 
 
@@ -75,7 +75,7 @@ def wake(floats: Any, integers: Any, label: int) -> None:
             asleep[tree] = 0
             for k in range(OBSERVED):
                 still[OBSERVED * tree + k] = 0.0
-            remember(floats, integers, tree)
+            store_impulses(floats, integers, tree)
 
 
 @compiled
@@ -95,6 +95,6 @@ def rouse_touched(floats: Any, integers: Any, contacts: int) -> bool:
         any_woken = True
         for tree in range(integers[TREES]):
             if asleep[tree] == label:
-                begin(floats, integers, tree)
+                begin_step(floats, integers, tree)
         wake(floats, integers, label)
     return any_woken

@@ -1,13 +1,13 @@
-"""Impulses of all rows, directly: guess which rows hold, and where contacts slide to; solve; mend the guess.
+"""Direct solver for the impulses of all rows: Newton's method on the active set of rows and the slip directions.
 
 The law: with w = A·x + g, a row has low ≤ x ≤ high, and w is zero unless x is at a bound, w ≥ 0 at the lower and w ≤ 0
 at the upper one. A contact with friction has x ≥ 0 along its normal and tangential impulses inside the circle of radius
 mu·x; where it slips they lie on the circle, against the slip (Coulomb). Impacts are perfectly inelastic.
 
-For given rows that hold and contacts that slide, the law is a system of equations, linear but for the directions of
-slip; each guess is one step of Newton's method for them, and the last step's impulses are where it starts. Where the
-guesses go round in circles, a sequence of softer problems is solved, each softness measured from the impulses of the
-one before (the proximal point method); where even that fails, projected Gauss-Seidel sweeps say where to begin.
+For a given active set, that is the rows that hold and the contacts that slide, the law is a system of equations that is
+linear except for the slip directions. Each iteration is one step of Newton's method, with a warm start from the
+impulses of the last step. If the active sets cycle, a sequence of regularised problems is solved, each relative to the
+impulses of the previous one (proximal point method). If that fails, projected Gauss-Seidel provides the initial guess.
 
 Sources: P. Alart and A. Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353-375: contact with friction as one
 system of equations for Newton's method. R. T. Rockafellar, SIAM J. Control Optim. 14 (1976) 877-898: proximal point.
@@ -21,18 +21,18 @@ from typing import Any
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import compiled, field, inlined
 from urdfkit.sim.engine.math.linear_systems import factor_and_solve
-from urdfkit.sim.engine.math.simd import LANES, padded, put, sixteen
+from urdfkit.sim.engine.math.simd import LANES, load16, padded, store
 from urdfkit.sim.engine.solver.row_states import (
     AT_LOW,
     HOLDS,
     SLIDES,
-    first_guess,
-    guess_from,
+    active_set_from_impulses,
+    initial_active_set,
     result,
-    revise_guess,
-    turn_slips,
+    revise_active_set,
+    rotate_slip_directions,
 )
-from urdfkit.sim.engine.solver.sliding_contacts import CONTRADICTION, slide, slide_softly
+from urdfkit.sim.engine.solver.sliding_contacts import CONTRADICTION, newton_step, regularised_newton_step
 
 SOFTNESS = 1e-9
 """Diagonal added to A, relative to it: it shares a load among redundant contacts."""
@@ -45,15 +45,15 @@ MEMORY = 0.999
 POLISHES = 6
 """Most steps of Newton's method from the result of softer problems to what redundant contacts share their load as."""
 EXACTLY = -2
-"""What `try_guess` returns for contacts that slide without softness."""
+"""What `solve_active_set` returns for contacts that slide without softness."""
 ATTEMPTS = 12
-"""Most guesses for one softness."""
+"""Maximum number of active sets for one softness."""
 SOFTEST = 1e-2
-"""Softness of the first of the softer problems."""
+"""Softness of the first regularised problem."""
 HARDENING = 0.1
 """Ratio of the softness of a problem to the one solved before."""
 SOFTENING = 100.0
-"""The same after one that was not solved."""
+"""Factor of the softness after a problem that was not solved."""
 SOFTENINGS = 3
 """Problems not solved before sweeps help."""
 SWEEPS = 400
@@ -61,16 +61,16 @@ SWEEPS = 400
 STRAYING = 10.0
 """Ratio of a row's velocity after the impulses to the largest before that is taken for a mistake."""
 MANY = 6
-"""Guesses beyond which their result is looked at twice."""
+"""Number of iterations beyond which the result is checked."""
 NEARLY = 100.0
-"""Ratio of what the last sweep changed to what counts as nothing, up to which sweeps have met the law."""
+"""Ratio of the last sweep's change to the tolerance up to which sweeps count as converged."""
 LARGE = 60
 """Rows beyond which sweeps cost less than softer problems, each a matrix to eliminate several times."""
 
 
 @inlined
-def try_guess(floats: Any, integers: Any, rows: int, rest: Any, softness: float) -> int:
-    """Find the impulses at which all rows do what ``state`` says, the softness measured from the impulses `rest`.
+def solve_active_set(floats: Any, integers: Any, rows: int, rest: Any, softness: float) -> int:
+    """Compute the impulses for the active set in ``state``, with softness relative to the impulses `rest`.
 
     Returns:
         1, or -1 where contacts slide, `EXACTLY` where they do without softness, and 0 if there are no such impulses.
@@ -106,10 +106,10 @@ def try_guess(floats: Any, integers: Any, rows: int, rest: Any, softness: float)
             pushed = True
         k += 1
     if sliding:
-        if softness == SOFTNESS and slide(floats, integers, rows, n, rest):
+        if softness == SOFTNESS and newton_step(floats, integers, rows, n, rest):
             return EXACTLY
         soft = max(softness, SLIDING_SOFTNESS)
-        return -1 if slide_softly(floats, integers, rows, n, rest, soft) else 0
+        return -1 if regularised_newton_step(floats, integers, rows, n, rest, soft) else 0
     width = padded(n + 1)
     for a in range(n):
         i = index[a]
@@ -120,7 +120,7 @@ def try_guess(floats: Any, integers: Any, rows: int, rest: Any, softness: float)
                     total -= A[i * rows + j] * x[j]
         if n == rows:
             for first in range(a & -LANES, width, LANES):
-                put(B, a * width + first, sixteen(A, a * rows + first))
+                store(B, a * width + first, load16(A, a * rows + first))
         else:
             for b in range(a, n):
                 B[a * width + b] = A[i * rows + index[b]]
@@ -134,22 +134,22 @@ def try_guess(floats: Any, integers: Any, rows: int, rest: Any, softness: float)
 
 
 @inlined
-def attempts(floats: Any, integers: Any, rows: int, rest: Any, softness: float, tiny: float) -> int:
-    """Guess until nothing is wrong; return how many guesses were."""
+def iterate_active_set(floats: Any, integers: Any, rows: int, rest: Any, softness: float, tiny: float) -> int:
+    """Revise the active set until it is consistent; return the number of iterations."""
     x = field(floats, integers, At.x)
     for tried in range(ATTEMPTS):
-        found = try_guess(floats, integers, rows, rest, softness)
+        found = solve_active_set(floats, integers, rows, rest, softness)
         if found == 0:
             break
-        there = found > 0 or turn_slips(floats, integers, rows, x, tiny)
-        if revise_guess(floats, integers, rows, x, tiny) and there:
+        there = found > 0 or rotate_slip_directions(floats, integers, rows, x, tiny)
+        if revise_active_set(floats, integers, rows, x, tiny) and there:
             return tried
     return ATTEMPTS
 
 
 @inlined
-def sweep(floats: Any, integers: Any, rows: int, x: Any, sweeps: int, tiny: float) -> float:
-    """Improve x by projected Gauss-Seidel sweeps with circular friction cones, until nothing moves.
+def gauss_seidel(floats: Any, integers: Any, rows: int, x: Any, sweeps: int, tiny: float) -> float:
+    """Improve x by projected Gauss-Seidel sweeps with circular friction cones, until it converges.
 
     Returns:
         The greatest change of velocity that the last sweep still made.
@@ -187,11 +187,11 @@ def sweep(floats: Any, integers: Any, rows: int, x: Any, sweeps: int, tiny: floa
 
 
 @inlined
-def strays(floats: Any, integers: Any, rows: int, x: Any, largest: float) -> bool:
-    """Return whether impulses make rows far faster than any was, as no impact without restitution does.
+def is_implausible(floats: Any, integers: Any, rows: int, x: Any, largest: float) -> bool:
+    """Return whether impulses make rows far faster than any row was, which inelastic impacts cannot do.
 
-    What is wedged where there is no room is pushed both ways by rows that contradict each other, harder with every
-    step, and what comes out when one of them lets go is no solution.
+    A body that is wedged in too little space gets contradictory rows whose impulses grow with every step, and the
+    result when one of them is released is not a solution.
     """
     A = field(floats, integers, At.A)
     g = field(floats, integers, At.g)
@@ -213,8 +213,8 @@ def gains_energy(floats: Any, integers: Any, rows: int, x: Any) -> bool:
 
 
 @compiled
-def approach(floats: Any, integers: Any, rows: int, tiny: float) -> int:
-    """Find the impulses by way of softer problems, where guesses from the last step's have failed.
+def proximal_point(floats: Any, integers: Any, rows: int, tiny: float) -> int:
+    """Compute the impulses by the proximal point method, if the warm start failed.
 
     Returns:
         How many guesses it took, negative if it took sweeps too; 0 if x only comes near the law.
@@ -230,17 +230,17 @@ def approach(floats: Any, integers: Any, rows: int, tiny: float) -> int:
     moved = math.inf
     if rows > LARGE:
         sweeps = SWEEPS + 1
-        moved = sweep(floats, integers, rows, near, sweeps, tiny)
+        moved = gauss_seidel(floats, integers, rows, near, sweeps, tiny)
     while sweeps <= SWEEPS:
         softness, failed = SOFTEST, 0
-        guess_from(floats, integers, rows, near)
+        active_set_from_impulses(floats, integers, rows, near)
         while failed < SOFTENINGS:
-            wrong = attempts(floats, integers, rows, near, softness, tiny)
+            wrong = iterate_active_set(floats, integers, rows, near, softness, tiny)
             tried += wrong + 1
             if wrong == ATTEMPTS:
                 failed += 1
                 softness = min(1.0, SOFTENING * softness)
-                guess_from(floats, integers, rows, near)
+                active_set_from_impulses(floats, integers, rows, near)
                 continue
             off = 0.0
             for k in range(rows):
@@ -250,19 +250,19 @@ def approach(floats: Any, integers: Any, rows: int, tiny: float) -> int:
                 return tried if sweeps == 0 else -tried
             softness = max(SLIDING_SOFTNESS, HARDENING * softness)
         sweeps = max(10, 3 * sweeps)
-        moved = sweep(floats, integers, rows, near, sweeps, tiny)
+        moved = gauss_seidel(floats, integers, rows, near, sweeps, tiny)
     if gains_energy(floats, integers, rows, near):
         # From nothing, sweeps only ever take energy away.
         for k in range(rows):
             near[k] = 0.0
-        moved = sweep(floats, integers, rows, near, SWEEPS, tiny)
+        moved = gauss_seidel(floats, integers, rows, near, SWEEPS, tiny)
     for k in range(rows):
         x[k] = near[k]
     return -max(1, tried) if moved <= NEARLY * tiny else 0
 
 
 @inlined
-def left_over(floats: Any, integers: Any, rows: int) -> float:
+def residual_slip(floats: Any, integers: Any, rows: int) -> float:
     """Return how much velocity the softness of sliding guesses lets through [m/s or rad/s], 0 where nothing slides."""
     A = field(floats, integers, At.A)
     g = field(floats, integers, At.g)
@@ -281,26 +281,26 @@ def left_over(floats: Any, integers: Any, rows: int) -> float:
 
 
 @inlined
-def determine(floats: Any, integers: Any, rows: int, tiny: float) -> None:
-    """Share the load of redundant contacts that slide, after softer problems, as without them."""
+def distribute_redundant_loads(floats: Any, integers: Any, rows: int, tiny: float) -> None:
+    """Distribute the load of redundant sliding contacts uniquely, after the proximal point method."""
     x = field(floats, integers, At.x)
     near = field(floats, integers, At.near_x)
     before = field(floats, integers, At.before)
     for k in range(rows):
         near[k] = x[k]
     for _ in range(POLISHES):
-        if try_guess(floats, integers, rows, before, SOFTNESS) != EXACTLY:
+        if solve_active_set(floats, integers, rows, before, SOFTNESS) != EXACTLY:
             break
-        there = turn_slips(floats, integers, rows, x, tiny)
-        if revise_guess(floats, integers, rows, x, tiny) and there:
+        there = rotate_slip_directions(floats, integers, rows, x, tiny)
+        if revise_active_set(floats, integers, rows, x, tiny) and there:
             return
     for k in range(rows):
         x[k] = near[k]
 
 
 @inlined
-def soften(floats: Any, integers: Any, rows: int) -> None:
-    """Let tangents along which nothing can move the bodies, as at a wheel of a bolted robot, yield a little.
+def regularise_tangents(floats: Any, integers: Any, rows: int) -> None:
+    """Regularise tangents along which the bodies cannot move, as at a wheel of a robot with a fixed base.
 
     Their velocity is zero whatever the impulse; the softness keeps A regular and the impulse at zero.
     """
@@ -328,29 +328,29 @@ def solve(floats: Any, integers: Any, rows: int) -> int:
     for k in range(rows):
         largest = max(largest, abs(g[k]))
     tiny = 1e-11 * largest + 1e-14
-    soften(floats, integers, rows)
-    first_guess(floats, integers, rows, tiny)
+    regularise_tangents(floats, integers, rows)
+    initial_active_set(floats, integers, rows, tiny)
     for k in range(rows):
         before[k] *= MEMORY
     rest = before
     tried = 0
     for _ in range(ROUNDS):
-        wrong = attempts(floats, integers, rows, rest, SOFTNESS, tiny)
+        wrong = iterate_active_set(floats, integers, rows, rest, SOFTNESS, tiny)
         tried += wrong + 1
         if wrong == ATTEMPTS:
-            tried = approach(floats, integers, rows, tiny)
+            tried = proximal_point(floats, integers, rows, tiny)
             if tried != 0:
-                determine(floats, integers, rows, tiny)
+                distribute_redundant_loads(floats, integers, rows, tiny)
             break
-        if left_over(floats, integers, rows) <= CONTRADICTION + tiny:
+        if residual_slip(floats, integers, rows) <= CONTRADICTION + tiny:
             break
         rest = near
         for k in range(rows):
             near[k] = x[k]
-    if (tried <= 0 or tried > MANY) and strays(floats, integers, rows, x, largest):
+    if (tried <= 0 or tried > MANY) and is_implausible(floats, integers, rows, x, largest):
         for k in range(rows):
             near[k] = 0.0
-        sweep(floats, integers, rows, near, SWEEPS, tiny)
+        gauss_seidel(floats, integers, rows, near, SWEEPS, tiny)
         for k in range(rows):
             x[k] = near[k]
         return 0

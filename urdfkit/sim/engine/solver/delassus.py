@@ -1,4 +1,4 @@
-"""Rows whitened by the mass matrices, and what comes of their impulses: A = J·M⁻¹·Jᵀ, see `active_set_newton`."""
+"""Delassus matrix A = J·M⁻¹·Jᵀ from rows whitened by the mass matrices, and the effect of impulses."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
 from urdfkit.sim.engine.dynamics.mass_matrix import solve_transposed, solve_transposed_rows
-from urdfkit.sim.engine.math.simd import LANES, put, sixteen
+from urdfkit.sim.engine.math.simd import LANES, load16, store
 
 
 @inlined
@@ -50,9 +50,9 @@ def column_of(k: int, dofs: int) -> int:
 
 @inlined
 def whiten_columns(floats: Any, integers: Any, rows: int, first: int, beyond: int, width: int) -> None:
-    """Do what `whiten` does for the rows of a single tree, `LANES` rows at once, see `column_of`.
+    """Do what `build_delassus` does for the rows of a single tree, `LANES` rows at once, see `column_of`.
 
-    What ``columns`` holds beside the last row is never looked at.
+    Entries of ``columns`` after the last row are not used.
     """
     v = field(floats, integers, At.v_start)
     u = field(floats, integers, At.u)
@@ -68,26 +68,26 @@ def whiten_columns(floats: Any, integers: Any, rows: int, first: int, beyond: in
             columns[at + d * LANES] = Y[k * width + d]
     for start in range(0, rows, LANES):
         at = column_of(start, n)
-        free = sixteen(bias, start)
+        free = load16(bias, start)
         for d in range(n):
-            free = free + v[first + d] * sixteen(columns, at + d * LANES)
+            free = free + v[first + d] * load16(columns, at + d * LANES)
         solve_transposed_rows(floats, integers, first, beyond, columns, at)
         for d in range(n):
-            free = free + u[first + d] * sixteen(columns, at + d * LANES)
-        put(g, start, free)
+            free = free + u[first + d] * load16(columns, at + d * LANES)
+        store(g, start, free)
     for k in range(rows):
         one = column_of(k, n)
         for start in range(0, rows, LANES):
             at = column_of(start, n)
-            products = columns[one] * sixteen(columns, at)
+            products = columns[one] * load16(columns, at)
             for d in range(1, n):
-                products = products + columns[one + d * LANES] * sixteen(columns, at + d * LANES)
+                products = products + columns[one + d * LANES] * load16(columns, at + d * LANES)
             # What this writes beyond the row is the next one's, which comes later.
-            put(A, k * rows + start, products)
+            store(A, k * rows + start, products)
 
 
 @inlined
-def whiten(floats: Any, integers: Any, rows: int, single: int, width: int, alone: bool) -> None:
+def build_delassus(floats: Any, integers: Any, rows: int, single: int, width: int, alone: bool) -> None:
     """Turn rows J into Y = J·L⁻¹, their biases into velocities g with no impulse, and get A = J·M⁻¹·Jᵀ.
 
     The velocity with no impulse is v + L⁻¹·u. Most islands are a `single` tree, whose number this is; otherwise it is
@@ -131,8 +131,8 @@ def whiten(floats: Any, integers: Any, rows: int, single: int, width: int, alone
 
 
 @inlined
-def push(floats: Any, integers: Any, rows: int, single: int, width: int, alone: bool) -> None:
-    """Add what the impulses x do to u."""
+def apply_impulses(floats: Any, integers: Any, rows: int, single: int, width: int, alone: bool) -> None:
+    """Add the effect of the impulses x to u."""
     tree_dof = field(integers, integers, At.tree_dof)
     row_a = field(integers, integers, At.row_a)
     row_b = field(integers, integers, At.row_b)

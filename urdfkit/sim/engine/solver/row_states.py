@@ -1,8 +1,8 @@
-"""What every row is taken to do, and what the impulses that follow say about that.
+"""Active set: the assumed state of every row, and its revision from the resulting impulses.
 
-A contact that slides is written by the direction of its slip, a unit vector d in the tangents' coordinates: friction is
--mu·x·d. In ``slip`` it stands at the two tangent rows; at the normal's row stands how much slip across d an impulse
-across d brings about, because it turns d.
+A sliding contact is described by the direction of its slip, a unit vector d in the tangent plane: friction is -mu·x·d.
+``slip`` contains d at the two tangent rows, and at the normal's row the slip across d per impulse across d, which
+rotates d.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from urdfkit.sim.engine.arrays import At
 from urdfkit.sim.engine.compilation import field, inlined
 
 HOLDS, AT_LOW, AT_HIGH, SLIDES = range(4)
-"""What a row, or a contact by its normal row, is taken to do."""
+"""Assumed state of a row, or of a contact at its normal row."""
 
 
 @inlined
@@ -27,7 +27,7 @@ def result(rows: int, A: Any, g: Any, x: Any, k: int) -> float:
 
 
 @inlined
-def turning(speed: float, friction: float, stiffness: float) -> float:
+def slip_stiffness(speed: float, friction: float, stiffness: float) -> float:
     """Return the slip across its direction that comes with an impulse across it [m/s per N·s].
 
     An impulse there turns friction, and the slip, whose `speed` stays, turns with it. Where there is no friction to
@@ -38,8 +38,8 @@ def turning(speed: float, friction: float, stiffness: float) -> float:
 
 
 @inlined
-def guess_strike(floats: Any, integers: Any, rows: int, k: int, normal: float, first: float, second: float) -> None:
-    """Guess, from the velocities with which an open contact closes, whether it slides then."""
+def classify_impact(floats: Any, integers: Any, rows: int, k: int, normal: float, first: float, second: float) -> None:
+    """Choose from the closing velocities of an open contact whether it will slide."""
     A = field(floats, integers, At.A)
     mu = field(floats, integers, At.mu)
     slip = field(floats, integers, At.slip)
@@ -50,12 +50,16 @@ def guess_strike(floats: Any, integers: Any, rows: int, k: int, normal: float, f
     state[k] = HOLDS
     if left > 0.0:
         state[k] = SLIDES
-        slip[k], slip[k + 1], slip[k + 2] = turning(left, friction, A[k * rows + k]), first / speed, second / speed
+        slip[k], slip[k + 1], slip[k + 2] = (
+            slip_stiffness(left, friction, A[k * rows + k]),
+            first / speed,
+            second / speed,
+        )
 
 
 @inlined
-def first_guess(floats: Any, integers: Any, rows: int, tiny: float) -> None:
-    """Guess from the last step's impulses what every row does."""
+def initial_active_set(floats: Any, integers: Any, rows: int, tiny: float) -> None:
+    """Choose the state of every row from the impulses of the last step."""
     A = field(floats, integers, At.A)
     g = field(floats, integers, At.g)
     low = field(floats, integers, At.low)
@@ -73,9 +77,9 @@ def first_guess(floats: Any, integers: Any, rows: int, tiny: float) -> None:
                 state[k] = SLIDES
                 a, b = -before[k + 1] / size, -before[k + 2] / size
                 speed = a * result(rows, A, g, before, k + 1) + b * result(rows, A, g, before, k + 2)
-                slip[k], slip[k + 1], slip[k + 2] = turning(speed, size, A[k * rows + k]), a, b
+                slip[k], slip[k + 1], slip[k + 2] = slip_stiffness(speed, size, A[k * rows + k]), a, b
             elif state[k] == HOLDS and before[k] == 0.0:
-                guess_strike(floats, integers, rows, k, g[k], g[k + 1], g[k + 2])
+                classify_impact(floats, integers, rows, k, g[k], g[k + 1], g[k + 2])
             state[k + 1] = state[k + 2] = state[k]
             k += 3
             continue
@@ -91,8 +95,8 @@ def first_guess(floats: Any, integers: Any, rows: int, tiny: float) -> None:
 
 
 @inlined
-def guess_from(floats: Any, integers: Any, rows: int, x: Any) -> None:
-    """Guess what every row does from impulses that are about right."""
+def active_set_from_impulses(floats: Any, integers: Any, rows: int, x: Any) -> None:
+    """Choose the state of every row from approximate impulses."""
     A = field(floats, integers, At.A)
     g = field(floats, integers, At.g)
     low = field(floats, integers, At.low)
@@ -115,7 +119,11 @@ def guess_from(floats: Any, integers: Any, rows: int, x: Any) -> None:
                 if size > stiffness * most:
                     state[k] = SLIDES
                     a, b = a / size, b / size
-                    slip[k], slip[k + 1], slip[k + 2] = turning(first * a + second * b, most, A[k * rows + k]), a, b
+                    slip[k], slip[k + 1], slip[k + 2] = (
+                        slip_stiffness(first * a + second * b, most, A[k * rows + k]),
+                        a,
+                        b,
+                    )
             state[k + 1] = state[k + 2] = state[k]
             k += 3
             continue
@@ -127,8 +135,8 @@ def guess_from(floats: Any, integers: Any, rows: int, x: Any) -> None:
 
 
 @inlined
-def turn_slips(floats: Any, integers: Any, rows: int, x: Any, tiny: float) -> bool:
-    """Turn the directions of slip by the impulses across them; return whether that left no velocity off.
+def rotate_slip_directions(floats: Any, integers: Any, rows: int, x: Any, tiny: float) -> bool:
+    """Rotate the slip directions by the impulses across them; return whether all velocities satisfy the law.
 
     Before, x has the impulse across at the first tangent's row; afterwards, it has friction along the new direction.
     """
@@ -158,8 +166,8 @@ def turn_slips(floats: Any, integers: Any, rows: int, x: Any, tiny: float) -> bo
 
 
 @inlined
-def revise_guess(floats: Any, integers: Any, rows: int, x: Any, tiny: float) -> bool:
-    """Change what the law forbids in the guess; return whether nothing had to change."""
+def revise_active_set(floats: Any, integers: Any, rows: int, x: Any, tiny: float) -> bool:
+    """Change the rows whose state contradicts the law; return whether none had to change."""
     A = field(floats, integers, At.A)
     g = field(floats, integers, At.g)
     low = field(floats, integers, At.low)
@@ -176,7 +184,7 @@ def revise_guess(floats: Any, integers: Any, rows: int, x: Any, tiny: float) -> 
                 normal = result(rows, A, g, x, k)
                 if normal < -tiny:
                     first, second = result(rows, A, g, x, k + 1), result(rows, A, g, x, k + 2)
-                    guess_strike(floats, integers, rows, k, normal, first, second)
+                    classify_impact(floats, integers, rows, k, normal, first, second)
             elif x[k] < 0.0:
                 state[k] = AT_LOW
             elif doing == HOLDS:
@@ -192,7 +200,7 @@ def revise_guess(floats: Any, integers: Any, rows: int, x: Any, tiny: float) -> 
                     state[k] = HOLDS
                 elif abs(second * a - first * b) > 1e-9 * speed + 1e-3 * tiny:
                     right = False
-                slip[k] = turning(speed, mu[k] * x[k], A[k * rows + k])
+                slip[k] = slip_stiffness(speed, mu[k] * x[k], A[k * rows + k])
             if state[k] != doing:
                 right = False
             state[k + 1] = state[k + 2] = state[k]

@@ -1,13 +1,13 @@
-"""Impulses of given contacts that slide and rows that hold: one step of Newton's method for the law of Coulomb.
+"""Impulses for a given active set with sliding contacts: one step of Newton's method for Coulomb's law.
 
 The unknowns of a sliding contact are the impulse along its normal, with which friction grows, and the one across its
 friction, which turns it.
 
-Where more rows hold or slide than the bodies can move, some say what others say already, and how these share their load
-is open; yet it matters, for friction makes motion of it. Then, of all impulses that obey the law, those are taken that
-change the last step's in no way that the bodies would not feel: where Z·A = 0, there Z·D·(x - rest) = 0, with D the
-diagonal of A. These equations stand in the places of the redundant rows, so that the load is determined as well as the
-motion is. It is what an ever smaller softness leads to.
+If more rows hold or slide than the bodies have dofs, some rows are redundant, and the distribution of their load is
+undetermined; yet it matters, because friction depends on it. Of all impulses that satisfy the law, the solution is the
+one whose change since the last step has no component without effect on the motion: where Z·A = 0, Z·D·(x - rest) = 0,
+with D the diagonal of A. These equations replace the redundant rows, so that the load is determined as well as the
+motion. The solution is the limit of vanishing softness.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from urdfkit.sim.engine.math.linear_systems import eliminate_and_solve
 from urdfkit.sim.engine.solver.row_states import SLIDES
 
 REDUNDANT = 1e-9
-"""Square of the share of a row that the rows before it do not say, below which it says nothing new."""
+"""Squared relative distance of a row from the span of previous rows, below which it is redundant."""
 CONTRADICTION = 5e-9
 """Velocity by which redundant rows may contradict the others [m/s or rad/s].
 
@@ -30,7 +30,7 @@ Four wheels stand on the ground at once, though their radii as written put one o
 
 
 @inlined
-def turns(floats: Any, integers: Any, i: int) -> bool:
+def is_slip_unknown(floats: Any, integers: Any, i: int) -> bool:
     """Return whether an unknown is the impulse across a contact's slip."""
     mu = field(floats, integers, At.mu)
     state = field(integers, integers, At.state)
@@ -43,7 +43,7 @@ def velocity_row(floats: Any, integers: Any, rows: int, i: int) -> None:
     A = field(floats, integers, At.A)
     slip = field(floats, integers, At.slip)
     velocity = field(floats, integers, At.velocity)
-    if turns(floats, integers, i):
+    if is_slip_unknown(floats, integers, i):
         # From the direction of slip a quarter turn back, so that what pushes there turns friction on.
         first, second = slip[i + 1], -slip[i]
         for j in range(rows):
@@ -54,15 +54,15 @@ def velocity_row(floats: Any, integers: Any, rows: int, i: int) -> None:
 
 
 @inlined
-def wanted(floats: Any, integers: Any, rows: int, i: int) -> float:
-    """Return what the unknowns have to bring about in the velocity of one of them, while their impulses are zero."""
+def right_hand_side(floats: Any, integers: Any, rows: int, i: int) -> float:
+    """Return the velocity that the unknown impulses must cause in one of them."""
     g = field(floats, integers, At.g)
     slip = field(floats, integers, At.slip)
     x = field(floats, integers, At.x)
     velocity = field(floats, integers, At.velocity)
     velocity_row(floats, integers, rows, i)
     total: float = -g[i]
-    if turns(floats, integers, i):
+    if is_slip_unknown(floats, integers, i):
         total = slip[i] * g[i + 1] - slip[i + 1] * g[i]
     for j in range(rows):
         total -= velocity[j] * x[j]
@@ -71,7 +71,7 @@ def wanted(floats: Any, integers: Any, rows: int, i: int) -> float:
 
 @inlined
 def equation(floats: Any, integers: Any, rows: int, n: int, a: int, to: int) -> None:
-    """Write into B from `to` on what the unknowns do to the velocity of one of them."""
+    """Write the effect of the unknowns on the velocity of one of them into B, starting at `to`."""
     B = field(floats, integers, At.B)
     mu = field(floats, integers, At.mu)
     slip = field(floats, integers, At.slip)
@@ -90,12 +90,12 @@ def equation(floats: Any, integers: Any, rows: int, n: int, a: int, to: int) -> 
         else:
             B[to + b] = velocity[j]
             b += 1
-    if turns(floats, integers, index[a]):
+    if is_slip_unknown(floats, integers, index[a]):
         B[to + a] += slip[index[a] - 1]
 
 
 @compiled
-def slide_softly(floats: Any, integers: Any, rows: int, n: int, rest: Any, softness: float) -> bool:
+def regularised_newton_step(floats: Any, integers: Any, rows: int, n: int, rest: Any, softness: float) -> bool:
     """Find the impulses of a step of Newton's method; return whether there are any.
 
     Args:
@@ -113,11 +113,11 @@ def slide_softly(floats: Any, integers: Any, rows: int, n: int, rest: Any, softn
     index = field(integers, integers, At.index)
     for a in range(n):
         i = index[a]
-        y[a] = wanted(floats, integers, rows, i)
+        y[a] = right_hand_side(floats, integers, rows, i)
         equation(floats, integers, rows, n, a, a * n)
         soft = softness * A[i * rows + i]
         B[a * n + a] += soft
-        if not turns(floats, integers, i):
+        if not is_slip_unknown(floats, integers, i):
             y[a] += soft * rest[i]
     if not eliminate_and_solve(n, B, y):
         return False
@@ -128,9 +128,9 @@ def slide_softly(floats: Any, integers: Any, rows: int, n: int, rest: Any, softn
 
 @inlined
 def find_redundant(floats: Any, integers: Any, rows: int, n: int) -> None:
-    """Mark the unknowns whose rows say nothing new, and write into B how they share their load with others.
+    """Mark the unknowns with redundant rows, and write the equations that determine their load into B.
 
-    What the rows have in common is factored (Cholesky), inverses on the diagonal, 0 where nothing new is left.
+    The Gram matrix of the rows is factored (Cholesky), with inverses on the diagonal, and 0 for redundant rows.
     """
     A = field(floats, integers, At.A)
     B = field(floats, integers, At.B)
@@ -144,7 +144,7 @@ def find_redundant(floats: Any, integers: Any, rows: int, n: int) -> None:
         for b in range(a + 1):
             j = index[b]
             total = velocity[j]
-            if turns(floats, integers, j):
+            if is_slip_unknown(floats, integers, j):
                 total = velocity[j] * slip[j + 1] - velocity[j + 1] * slip[j]
                 if a == b:
                     total += slip[j - 1]
@@ -182,7 +182,7 @@ def equations(floats: Any, integers: Any, rows: int, n: int) -> None:
 
 
 @compiled
-def slide(floats: Any, integers: Any, rows: int, n: int, rest: Any) -> bool:
+def newton_step(floats: Any, integers: Any, rows: int, n: int, rest: Any) -> bool:
     """Find the impulses of a step of Newton's method without softness; return whether there are any.
 
     Where redundant rows contradict the others, no impulses will do. Those found are then so far from `rest`, the way
@@ -195,14 +195,14 @@ def slide(floats: Any, integers: Any, rows: int, n: int, rest: Any) -> bool:
     index = field(integers, integers, At.index)
     redundant = field(integers, integers, At.redundant)
     for a in range(n):
-        ahead[a] = wanted(floats, integers, rows, index[a])
+        ahead[a] = right_hand_side(floats, integers, rows, index[a])
     equations(floats, integers, rows, n)
     for a in range(n):
         y[a] = ahead[a]
         if redundant[a] == 1:
             y[a] = 0.0
             for b in range(n):
-                if not turns(floats, integers, index[b]):
+                if not is_slip_unknown(floats, integers, index[b]):
                     y[a] += B[a * n + b] * rest[index[b]]
     if not eliminate_and_solve(n, B, y):
         return False
@@ -217,7 +217,7 @@ def slide(floats: Any, integers: Any, rows: int, n: int, rest: Any) -> bool:
             ahead[a] = 0.0
     if contradiction > CONTRADICTION:
         equations(floats, integers, rows, n)
-        if not eliminate_and_solve(n, B, ahead) or not let_go(floats, integers, n):
+        if not eliminate_and_solve(n, B, ahead) or not move_past_bound(floats, integers, n):
             return False
     for a in range(n):
         x[index[a]] = y[a]
@@ -225,7 +225,7 @@ def slide(floats: Any, integers: Any, rows: int, n: int, rest: Any) -> bool:
 
 
 @inlined
-def let_go(floats: Any, integers: Any, n: int) -> bool:
+def move_past_bound(floats: Any, integers: Any, n: int) -> bool:
     """Change y along ``ahead`` until an impulse has just passed its bound; return whether one does."""
     low = field(floats, integers, At.low)
     high = field(floats, integers, At.high)

@@ -1,9 +1,9 @@
-"""The step of a tree that nothing holds: no contact, limit, motor, servo, effort, dry friction or damping.
+"""Step of a ballistic tree: no contact, limit, motor, servo, effort, dry friction or damping.
 
-There energy shows every error, so the step is the classical Runge-Kutta method of fourth order. A floating joint's
-rotation is R = R₀·exp(θ), and θ is what is integrated: θ̇ = ω + θ×ω/2 + θ×(θ×ω)/12 up to the order that counts
-(H. Munthe-Kaas, High order Runge-Kutta methods on manifolds, 1999); its linear velocity is that along the axes of what
-it moves in.
+The step uses the classical Runge-Kutta method of fourth order, because the energy of such a tree shows every error.
+The rotation of a floating joint is R = R₀·exp(θ), and θ is integrated: θ̇ = ω + θ×ω/2 + θ×(θ×ω)/12 to sufficient
+order (H. Munthe-Kaas, High order Runge-Kutta methods on manifolds, 1999). Its linear velocity is in the axes of the
+parent.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from urdfkit.sim.engine.math.spatial_algebra import add, cross, rotate, scale, t
 
 
 @inlined
-def flies(floats: Any, integers: Any, first: int, beyond: int, rows: int) -> bool:
-    """Return whether nothing holds or pushes the dofs of a tree that has so many rows, no contact and no servo."""
+def is_ballistic(floats: Any, integers: Any, first: int, beyond: int, rows: int) -> bool:
+    """Return whether no row, effort, friction or damping acts on a tree without contacts and servos."""
     damping = field(floats, integers, At.damping)
     applied = field(floats, integers, At.applied)
     if rows > 0:
@@ -33,7 +33,7 @@ def flies(floats: Any, integers: Any, first: int, beyond: int, rows: int) -> boo
 
 
 @compiled
-def fly(floats: Any, integers: Any, tree: int, dt: float) -> None:
+def rk4_step(floats: Any, integers: Any, tree: int, dt: float) -> None:
     """Advance a tree by a step.
 
     Half of it, at the velocities of the start, has been gone already; and half, at those of the end, is left to go.
@@ -56,16 +56,16 @@ def fly(floats: Any, integers: Any, tree: int, dt: float) -> None:
     move(floats, integers, tree_body[tree], tree_body[tree + 1], s, v, -0.5 * dt)
     for k in range(tree_s[tree], tree_s[tree + 1]):
         s_first[k] = s[k]
-    remember_velocities(floats, integers, tree)
+    store_velocities(floats, integers, tree)
     for d in range(first, beyond):
         sum_s[d] = sum_v[d] = slope_s[d] = slope_v[d] = 0.0
-    for stage in range(4):
+    for evaluation in range(4):
         ahead = 0.5 * dt
-        if stage == 0:
+        if evaluation == 0:
             ahead = 0.0
-        elif stage == 3:
+        elif evaluation == 3:
             ahead = dt
-        go(floats, integers, tree, slope_s, slope_v, ahead)
+        set_ahead(floats, integers, tree, slope_s, slope_v, ahead)
         for k in range(3):
             P[3 * tree + k] = s[tree_s[tree] + k] if tree_floats[tree] != 0 else base[3 * tree + k]
         for d in range(first, beyond):
@@ -74,18 +74,18 @@ def fly(floats: Any, integers: Any, tree: int, dt: float) -> None:
         terms(floats, integers, tree)
         smooth_motion(floats, integers, first, beyond, dt)
         solve_forward(floats, integers, first, beyond)
-        find_slopes(floats, integers, tree, ahead, dt)
-        weight = 1.0 / 6.0 if stage in (0, 3) else 1.0 / 3.0
+        time_derivatives(floats, integers, tree, ahead, dt)
+        weight = 1.0 / 6.0 if evaluation in (0, 3) else 1.0 / 3.0
         for d in range(first, beyond):
             sum_s[d] += weight * slope_s[d]
             sum_v[d] += weight * slope_v[d]
-    go(floats, integers, tree, sum_s, sum_v, dt)
+    set_ahead(floats, integers, tree, sum_s, sum_v, dt)
     move(floats, integers, tree_body[tree], tree_body[tree + 1], s, v, -0.5 * dt)
 
 
 @inlined
-def remember_velocities(floats: Any, integers: Any, tree: int) -> None:
-    """Note the velocities in ``v_ahead``, linear ones along the axes of what the joint moves in."""
+def store_velocities(floats: Any, integers: Any, tree: int) -> None:
+    """Store the velocities in ``v_ahead``, linear ones in the axes of the joint's parent."""
     tree_body = field(integers, integers, At.tree_body)
     kind = field(integers, integers, At.kind)
     first_s = field(integers, integers, At.first_s)
@@ -105,7 +105,7 @@ def remember_velocities(floats: Any, integers: Any, tree: int) -> None:
 
 
 @compiled
-def go(floats: Any, integers: Any, tree: int, slope_s: Any, slope_v: Any, ahead: float) -> None:
+def set_ahead(floats: Any, integers: Any, tree: int, slope_s: Any, slope_v: Any, ahead: float) -> None:
     """Set coordinates and velocities to those at the start plus `ahead` times the slopes."""
     tree_body = field(integers, integers, At.tree_body)
     kind = field(integers, integers, At.kind)
@@ -130,7 +130,7 @@ def go(floats: Any, integers: Any, tree: int, slope_s: Any, slope_v: Any, ahead:
 
 
 @inlined
-def find_slopes(floats: Any, integers: Any, tree: int, ahead: float, dt: float) -> None:
+def time_derivatives(floats: Any, integers: Any, tree: int, ahead: float, dt: float) -> None:
     """Find how coordinates and velocities change, from v and from what they gain in a step, in u."""
     tree_body = field(integers, integers, At.tree_body)
     kind = field(integers, integers, At.kind)

@@ -1,4 +1,4 @@
-"""Islands: trees that touch each other, directly or through others, and so must be solved together."""
+"""Islands: trees that are connected by contacts and must be solved together."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def root_of(floats: Any, integers: Any, tree: int) -> int:
 
 
 @compiled
-def join(floats: Any, integers: Any, trees: int, contacts: int) -> None:
+def build_islands(floats: Any, integers: Any, trees: int, contacts: int) -> None:
     """Sort trees and contacts into islands.
 
     Afterwards ``island[t] == t`` for the first tree of each island; ``island_next`` links its trees and
@@ -51,7 +51,7 @@ def join(floats: Any, integers: Any, trees: int, contacts: int) -> None:
 
 
 @inlined
-def contacts_of(floats: Any, integers: Any, first: int) -> int:
+def contact_count(floats: Any, integers: Any, first: int) -> int:
     """Return how many contacts follow each other from the first on."""
     contact_next = field(integers, integers, At.contact_next)
     count = 0

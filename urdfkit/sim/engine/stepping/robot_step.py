@@ -1,7 +1,7 @@
 """The step of one robot on its plane: from one configuration and velocity to the next, all in one compiled call.
 
-`world_step` does the same for several robots, bodies and what they meet; this one knows that there is but one tree and
-is half as fast again.
+`world_step` does the same for several robots and bodies; this version is specialised for one tree and is 1.5 times as
+fast.
 """
 
 from __future__ import annotations
@@ -32,27 +32,27 @@ from urdfkit.sim.engine.constraints.constraint_rows import joint_rows
 from urdfkit.sim.engine.constraints.contact_rows import contact_rows
 from urdfkit.sim.engine.constraints.joint_limits import passes_limits, whirls
 from urdfkit.sim.engine.constraints.joint_servos import SERVO_ATTEMPTS, account, limited, overloaded, smooth_motion
-from urdfkit.sim.engine.contacts.friction_directions import rub
+from urdfkit.sim.engine.contacts.friction_directions import orient_friction
 from urdfkit.sim.engine.contacts.ground_contacts import collide_with_plane, near_plane
 from urdfkit.sim.engine.dynamics.integration import move
 from urdfkit.sim.engine.dynamics.mass_matrix import place, solve_forward, terms
 from urdfkit.sim.engine.solver.active_set_newton import solve
-from urdfkit.sim.engine.solver.delassus import push, whiten
-from urdfkit.sim.engine.stepping.ballistic import flies, fly
+from urdfkit.sim.engine.solver.delassus import apply_impulses, build_delassus
+from urdfkit.sim.engine.stepping.ballistic import is_ballistic, rk4_step
 
 ALONE = True
-"""There is but one tree: what is asked for others falls away when the kernel is compiled."""
+"""Compile-time constant: there is one tree, so code for several trees is removed by the compiler."""
 
 
 def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     """Advance by `steps`; return how many were done: fewer only if the state stopped being finite.
 
-    A step moves half its way with the old velocity, finds there the new one, and moves the other half with that
-    (Moreau's scheme; without contacts, the leapfrog): positions are right to second order, at the cost of one
-    evaluation. Contacts are those of where the step is expected to end, so that a wheel's velocity points where the
-    wheel then does.
+    A step integrates the first half with the old velocity, computes the new velocity there, and integrates the second
+    half with it (Moreau's midpoint scheme; leapfrog without contacts): positions are accurate to second order with one
+    evaluation. Contacts are those at the expected end of the step, so that the velocity of a wheel has the direction
+    that the wheel has then.
 
-    With `only_terms`, compute poses, M and bias of the state as it is, and advance nothing.
+    With `only_terms`, compute poses, M and bias of the present state without advancing.
     """
     bodies, dofs, coordinates = integers[BODIES], integers[DOFS], integers[COORDINATES]
     shapes, mimics, most_contacts = integers[SHAPES], integers[MIMICS], integers[CONTACTS]
@@ -83,9 +83,9 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
             v_start[d] = v[d]
             saturated[d] = pressed[d] = 0
         contacts = rows = 0
-        # What touches nothing and has no servo is done twice, the second time with the velocity half a step on, unless
-        # a limit is near and all is slow; what nothing holds at all flies. Where servos turn out too weak, or limits
-        # near, the second part is done again.
+        # Without contacts and servos, the velocity is computed twice, the second time from the velocity at half the
+        # step, unless a limit is near and all joints are slow; ballistic trees use RK4. If servos saturate, or limits
+        # are near, the second part is repeated.
         halfway = False
         attempt = 0
         while True:
@@ -110,22 +110,22 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
                     for k in range(3):
                         contact_origin[k] = P[k]
                     contacts = collide_with_plane(floats, integers, 0, 0, shapes, most_contacts, floor - P[2], dt)
-                    rub(floats, integers, contacts, first_contact_slot, 0, memory, dt)
+                    orient_friction(floats, integers, contacts, first_contact_slot, 0, memory, dt)
             has_servo = smooth_motion(floats, integers, 0, dofs, dt)
             rows = joint_rows(floats, integers, 0, 0, dofs, dofs, dt, ALONE)
             free = not halfway and contacts == 0 and not has_servo
             if free and limited(floats, integers, rows, dofs):
                 free = whirls(floats, integers, 0, dofs, dt)
-            if free and flies(floats, integers, 0, dofs, rows):
-                fly(floats, integers, 0, dt)
+            if free and is_ballistic(floats, integers, 0, dofs, rows):
+                rk4_step(floats, integers, 0, dt)
                 break
             rows = contact_rows(floats, integers, rows, 0, contacts, dofs, first_contact_slot, 0, dt, ALONE)
             if rows > 0:
-                whiten(floats, integers, rows, 0, dofs, ALONE)
+                build_delassus(floats, integers, rows, 0, dofs, ALONE)
                 for k in range(rows):
                     before[k] = memory[slot[k]]
                 guesses = solve(floats, integers, rows)
-                push(floats, integers, rows, 0, dofs, ALONE)
+                apply_impulses(floats, integers, rows, 0, dofs, ALONE)
                 counts[GUESSES] = guesses
                 counts[ITERATED] += guesses <= 0
             solve_forward(floats, integers, 0, dofs)

@@ -1,4 +1,4 @@
-"""One island through one step: smooth motion, rows, impulses, and the velocities that come of them."""
+"""Step of one island: smooth motion, rows, impulses, and new velocities."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ from urdfkit.sim.engine.island_solver.gauss_seidel import sweep
 from urdfkit.sim.engine.island_solver.velocity_blocks import hold
 from urdfkit.sim.engine.sleep.rolling_resistance import resist_rolling
 from urdfkit.sim.engine.solver.active_set_newton import solve
-from urdfkit.sim.engine.solver.delassus import push, whiten
-from urdfkit.sim.engine.stepping.ballistic import flies, fly
-from urdfkit.sim.engine.stepping.islands import contacts_of
+from urdfkit.sim.engine.solver.delassus import apply_impulses, build_delassus
+from urdfkit.sim.engine.stepping.ballistic import is_ballistic, rk4_step
+from urdfkit.sim.engine.stepping.islands import contact_count
 
 FEW = 8
 """Rows more than dofs up to which the matrix of the rows is the faster one for a single tree."""
 
 
 @compiled
-def settle(floats: Any, integers: Any, root: int) -> int:
-    """Find the velocities at the end of the step of the trees of an island, and their impulses.
+def solve_island(floats: Any, integers: Any, root: int) -> int:
+    """Compute the impulses of an island and the velocities of its trees at the end of the step.
 
     Args:
         floats: block of the arrays.
@@ -72,12 +72,12 @@ def settle(floats: Any, integers: Any, root: int) -> int:
     first_contact_slot, first_pair_slot = 2 * dofs + mimics, slots - 3 * most_contacts
     single = root if island_next[root] < 0 else -1
     rows = 0
-    # What touches nothing and has no servo is done twice, the second time with the velocity half a step on, unless a
-    # limit is near and all is slow; what nothing holds at all flies. Where servos turn out too weak, or limits near,
-    # the second part is done again.
+    # Without contacts and servos, the velocity is computed twice, the second time from the velocity at half the step,
+    # unless a limit is near and all joints are slow; ballistic trees use RK4. If servos saturate, or limits are near,
+    # the second part is repeated.
     halfway = False
     attempt = 0
-    # What `velocity_blocks` gives up, for more trees than blocks are for or too many rows, is swept.
+    # Islands with too many trees or rows for `velocity_blocks` are solved by Gauss-Seidel sweeps.
     swept = False
     resist_rolling(floats, integers, root, dt)
     while True:
@@ -91,14 +91,14 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             island_dofs += beyond - first
             rows = joint_rows(floats, integers, rows, tree, dofs, width, dt, False)
             tree = island_next[tree]
-        # What touches nothing is one tree.
+        # An island without contacts is one tree.
         free = not halfway and island_contact[root] < 0 and not has_servo
         if free and limited(floats, integers, rows, dofs):
             free = whirls(floats, integers, tree_dof[root], tree_dof[root + 1], dt)
-        if free and flies(floats, integers, tree_dof[root], tree_dof[root + 1], rows):
-            fly(floats, integers, root, dt)
+        if free and is_ballistic(floats, integers, tree_dof[root], tree_dof[root + 1], rows):
+            rk4_step(floats, integers, root, dt)
             break
-        if rows + 3 * contacts_of(floats, integers, island_contact[root]) > most_rows:
+        if rows + 3 * contact_count(floats, integers, island_contact[root]) > most_rows:
             counts[OVERFULL] = 1
             return -1
         rows = contact_rows(
@@ -106,7 +106,7 @@ def settle(floats: Any, integers: Any, root: int) -> int:
         )
         for k in range(rows):
             before[k] = last[slot[k]]
-        # What has no room for its matrix is swept too, where it comes to that.
+        # Islands without room for their matrix are solved by Gauss-Seidel sweeps, too.
         dense = rows * rows <= integers[MATRIX]
         held = False
         if rows > 0 and not swept and (single < 0 or rows > island_dofs + FEW):
@@ -122,9 +122,9 @@ def settle(floats: Any, integers: Any, root: int) -> int:
             counts[GUESSES] = -sweep(floats, integers, root, rows)
             counts[ITERATED] += 1
         elif rows > 0 and not held:
-            whiten(floats, integers, rows, single, width, False)
+            build_delassus(floats, integers, rows, single, width, False)
             guesses = solve(floats, integers, rows)
-            push(floats, integers, rows, single, width, False)
+            apply_impulses(floats, integers, rows, single, width, False)
             counts[GUESSES] = guesses
             counts[ITERATED] += guesses <= 0
         again = False

@@ -8,24 +8,24 @@ from typing import Any
 from urdfkit.sim.engine.arrays import DT, FOUND_CONTACTS, FOUND_PAIRS, FOUND_ROWS, STEPS, TREES, At
 from urdfkit.sim.engine.compilation import field
 from urdfkit.sim.engine.constraints.joint_servos import account
-from urdfkit.sim.engine.contacts.contact_search import candidates, touching
-from urdfkit.sim.engine.contacts.warm_start import remember, remember_pairs
-from urdfkit.sim.engine.dynamics.tree_motion import begin, drift, evaluate, look_ahead
+from urdfkit.sim.engine.contacts.contact_search import find_candidate_pairs, find_contacts
+from urdfkit.sim.engine.contacts.warm_start import store_impulses, store_pair_impulses
+from urdfkit.sim.engine.dynamics.tree_motion import begin_step, evaluate, integrate_tree, predict_poses
 from urdfkit.sim.engine.sleep.sleep import let_sleep
 from urdfkit.sim.engine.sleep.wake import rouse_disturbed, rouse_touched
-from urdfkit.sim.engine.stepping.islands import join
-from urdfkit.sim.engine.stepping.solve_island import settle
+from urdfkit.sim.engine.stepping.islands import build_islands
+from urdfkit.sim.engine.stepping.solve_island import solve_island
 
 
 def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     """Advance by `steps`; return how many were done: fewer only if the state stopped being finite.
 
-    A step moves half its way with the old velocity, finds there the new one, and moves the other half with that
-    (Moreau's scheme; without contacts, the leapfrog): positions are right to second order, at the cost of one
-    evaluation. Contacts are those of where the step is expected to end, so that a wheel's velocity points where the
-    wheel then does.
+    A step integrates the first half with the old velocity, computes the new velocity there, and integrates the second
+    half with it (Moreau's midpoint scheme; leapfrog without contacts): positions are accurate to second order with one
+    evaluation. Contacts are those at the expected end of the step, so that the velocity of a wheel has the direction
+    that the wheel has then.
 
-    With `only_terms`, compute poses, M and bias of the state as it is, and advance nothing.
+    With `only_terms`, compute poses, M and bias of the present state without advancing.
     """
     trees = integers[TREES]
     dt = field(floats, integers, At.numbers)[DT]
@@ -37,38 +37,38 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
     counts = field(integers, integers, At.counts)
     if only_terms:
         for tree in range(trees):
-            begin(floats, integers, tree)
+            begin_step(floats, integers, tree)
         return 0
     for done in range(steps):
         for tree in range(trees):
             if asleep[tree] == 0:
-                remember(floats, integers, tree)
-        remember_pairs(floats, integers)
+                store_impulses(floats, integers, tree)
+        store_pair_impulses(floats, integers)
         if done == 0:
             rouse_disturbed(floats, integers)
         awake = 0
         for tree in range(trees):
             if asleep[tree] == 0:
                 awake += 1
-                drift(floats, integers, tree, 0.5 * dt)
-                begin(floats, integers, tree)
+                integrate_tree(floats, integers, tree, 0.5 * dt)
+                begin_step(floats, integers, tree)
         if awake == 0:
             # Nothing will happen before the next call.
             counts[FOUND_CONTACTS] = counts[FOUND_ROWS] = counts[FOUND_PAIRS] = 0
             counts[STEPS] += steps - done
             return steps
         while True:
-            pairs = candidates(floats, integers)
+            pairs = find_candidate_pairs(floats, integers)
             if pairs < 0:
                 return done
             meeting = False
             for tree in range(trees):
                 if near[tree] != 0 and asleep[tree] == 0:
                     meeting = True
-                    look_ahead(floats, integers, tree, 0.5 * dt)
+                    predict_poses(floats, integers, tree, 0.5 * dt)
             contacts = 0
             if meeting:
-                contacts = touching(floats, integers, pairs)
+                contacts = find_contacts(floats, integers, pairs)
                 if contacts < 0:
                     return done
             if not rouse_touched(floats, integers, contacts):
@@ -76,12 +76,12 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
             for tree in range(trees):
                 if near[tree] != 0 and asleep[tree] == 0:
                     evaluate(floats, integers, tree)
-        join(floats, integers, trees, contacts)
+        build_islands(floats, integers, trees, contacts)
         all_rows = 0
         for root in range(trees):
             if island[root] != root or asleep[root] != 0:
                 continue
-            rows = settle(floats, integers, root)
+            rows = solve_island(floats, integers, root)
             if rows < 0:
                 return done
             all_rows += rows
@@ -93,7 +93,7 @@ def advance(floats: Any, integers: Any, steps: int, only_terms: bool) -> int:
             account(floats, integers, first, beyond, dt)
             for d in range(first, beyond):
                 total += v[d]
-            drift(floats, integers, tree, 0.5 * dt)
+            integrate_tree(floats, integers, tree, 0.5 * dt)
         counts[FOUND_CONTACTS], counts[FOUND_ROWS], counts[FOUND_PAIRS] = contacts, all_rows, pairs
         if not math.isfinite(total):
             return done
