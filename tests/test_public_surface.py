@@ -44,6 +44,7 @@ def test_a_misspelt_name_gets_the_nearest() -> None:
         _ = urdfkit.Simulater
 
 
+@pytest.mark.slow
 def test_functions_stay_callable_when_the_module_of_that_name_is_imported() -> None:
     call = f"print(urdfkit.lint({str(FILE)!r}))"
     assert in_new_process(f"import urdfkit; {call}; {call}") == "[]\n[]"
@@ -63,6 +64,7 @@ def test_editors_see_the_parameters_of_functions_that_are_modules(name: str) -> 
     assert next(iter(inspect.signature(getattr(urdfkit, name)).parameters)) in ("robot", "robots")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robot", ["simpleton", FILE, str(FILE), PACKAGE, urdfkit.load("simpleton")], ids=repr)
 def test_every_entry_point_accepts_a_name_a_file_a_folder_and_a_robot(robot: Any) -> None:
     pytest.importorskip("pinocchio")
@@ -72,6 +74,7 @@ def test_every_entry_point_accepts_a_name_a_file_a_folder_and_a_robot(robot: Any
     assert urdfkit.Kinematics(robot).root == "base_footprint"
 
 
+@pytest.mark.slow
 def test_the_simulator_accepts_a_package_folder_and_a_robot() -> None:
     pytest.importorskip("numba")
     for robot in (PACKAGE, urdfkit.load("simpleton")):

@@ -56,6 +56,7 @@ def frame_of(handle: PageHandle) -> str:
     return handle._repr_html_().split('src="')[1].split('"')[0]
 
 
+@pytest.mark.slow
 def test_view_serves_until_closed(tmp_path: Path) -> None:
     (tmp_path / "arm.urdf").write_text(ARM)
     page = urdfkit.view(urdfkit.load(tmp_path / "arm.urdf"))
@@ -98,6 +99,7 @@ def test_a_frame_needs_the_token_and_may_be_embedded() -> None:
             assert answer.headers["X-Frame-Options"] == "DENY"
 
 
+@pytest.mark.slow
 def test_errors_reach_the_caller_and_leave_no_server(tmp_path: Path) -> None:
     with pytest.raises(urdfkit.UrdfkitError, match="did you mean `simpleton`"):
         urdfkit.view("simpelton")
@@ -122,6 +124,7 @@ def test_an_error_of_the_loop_is_raised_by_wait() -> None:
     assert handle.closed
 
 
+@pytest.mark.slow
 def test_teleop_simulates_in_the_background(until) -> None:
     pytest.importorskip("numba")
     with urdfkit.teleop("simpleton", world="house") as page:
@@ -134,6 +137,7 @@ def test_teleop_simulates_in_the_background(until) -> None:
     assert page.simulator.t == pytest.approx(stopped + page.simulator.dt)
 
 
+@pytest.mark.slow
 def test_a_script_that_does_not_close_its_page_ends(tmp_path: Path) -> None:
     (tmp_path / "arm.urdf").write_text(ARM)
     code = "import urdfkit; page = urdfkit.view('arm.urdf'); print(page.url)"
