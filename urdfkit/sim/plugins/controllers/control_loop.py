@@ -7,7 +7,6 @@ from math import ceil, inf
 from typing import TYPE_CHECKING
 
 from urdfkit.errors import SimulationError, did_you_mean
-from urdfkit.sim.plugins.base import Controller
 from urdfkit.sim.plugins.controllers.controller_types import load_law
 from urdfkit.sim.state.ticks import NEVER, Ticks
 
@@ -223,21 +222,3 @@ class ControlLoop:
                 raise SimulationError(f"controller `{name}` is not loaded")
             raise SimulationError(f"no controller `{name}` in {self.namespace or '/'}{did_you_mean(name, self.known)}")
         return self.laws[name]
-
-
-class ControlLoopPlugin(Controller):
-    """A plugin that runs the controllers of a controller manager."""
-
-    loop: ControlLoop
-
-    def begin(self, state: State) -> None:
-        """Start from the initial state."""
-        self.loop.begin(state)
-
-    def next(self, step: int) -> int:
-        """Return the first step from `step` on before which `write` is due."""
-        return self.loop.next(step)
-
-    def write(self, state: State, motors: Motors) -> None:
-        """Update the controllers."""
-        self.loop.update(state, motors)

@@ -22,7 +22,8 @@ from urdfkit.sim.plugins.controllers.command_output import (
     ProportionalOutput,
     VelocityOutput,
 )
-from urdfkit.sim.plugins.controllers.control_loop import ControlLoop, ControlLoopPlugin
+from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
+from urdfkit.sim.plugins.controllers.control_loop_plugin import ControlLoopPlugin
 from urdfkit.sim.plugins.controllers.controller import Hardware
 from urdfkit.sim.plugins.controllers.controller_manager import serve
 from urdfkit.sim.plugins.controllers.joint_handle import JointHandle

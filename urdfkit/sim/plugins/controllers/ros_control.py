@@ -12,7 +12,8 @@ from urdfkit.description.control.ros1_controllers import controllers
 from urdfkit.errors import SimulationError, did_you_mean
 from urdfkit.messages import BOOL
 from urdfkit.sim.plugins.controllers.command_output import EffortOutput, Output, PositionOutput, VelocityOutput
-from urdfkit.sim.plugins.controllers.control_loop import ControlLoop, ControlLoopPlugin
+from urdfkit.sim.plugins.controllers.control_loop import ControlLoop
+from urdfkit.sim.plugins.controllers.control_loop_plugin import ControlLoopPlugin
 from urdfkit.sim.plugins.controllers.controller import Hardware
 from urdfkit.sim.plugins.controllers.controller_manager import serve
 from urdfkit.sim.plugins.controllers.joint_handle import JointHandle
